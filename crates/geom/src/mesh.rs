@@ -1,0 +1,22 @@
+//! The triangle mesh as data: positions and corners, no adjacency.
+
+use crate::space::{Aabb, Point};
+
+/// Vertices (millimetres) and faces of three vertex numbers each, outward normal by the right hand.
+///
+/// Nothing is promised beyond that: faces may be degenerate, doubled, or name a vertex that does not exist.
+/// What relies on more checks it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// `V` places.
+    pub positions: Vec<Point>,
+    /// `F` triples of indices into `positions`.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Box of all positions, used by a face or not.
+    pub fn bounds(&self) -> Aabb {
+        Aabb::of(&self.positions)
+    }
+}

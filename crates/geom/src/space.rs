@@ -1,0 +1,84 @@
+//! Points, vectors and boxes in space.
+//!
+//! A point is a plain array of three `f64` (millimetres, right-handed), so that a cloud is one flat block of
+//! memory that any caller can hand over without a copy.
+
+/// A place, millimetres.
+pub type Point = [f64; 3];
+/// A direction or difference of two places, millimetres.
+pub type Vector = [f64; 3];
+
+/// Scalar product.
+#[inline(always)]
+pub fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+/// `a - b`.
+#[inline(always)]
+pub fn minus(a: Point, b: Point) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+/// `a + b`.
+#[inline(always)]
+pub fn plus(a: Point, b: Vector) -> Point {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+/// `a` times the number `s`.
+#[inline(always)]
+pub fn times(s: f64, a: Vector) -> Vector {
+    a.map(|x| s * x)
+}
+/// Vector product.
+#[inline(always)]
+pub fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+/// Euclidean length.
+#[inline(always)]
+pub fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+/// Unit vector and length, or `None` where the length is zero, not finite, or too small to invert.
+pub fn unit(a: Vector) -> Option<(Vector, f64)> {
+    let length = norm(a);
+    let inverse = 1.0 / length;
+    (length > 0.0 && inverse.is_finite() && length.is_finite()).then(|| (a.map(|x| x * inverse), length))
+}
+
+/// Axis-parallel box. Empty when `min > max` in some coordinate, as [`Aabb::EMPTY`] is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Least coordinates.
+    pub min: Point,
+    /// Greatest coordinates.
+    pub max: Point,
+}
+
+impl Aabb {
+    /// The box of nothing: the neutral element of [`Aabb::union`].
+    pub const EMPTY: Aabb = Aabb { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
+
+    /// The smallest box around `points`. NaN coordinates are passed over.
+    pub fn of<'a>(points: impl IntoIterator<Item = &'a Point>) -> Aabb {
+        points.into_iter().fold(Aabb::EMPTY, |b, p| b.union(&Aabb { min: *p, max: *p }))
+    }
+    /// The smallest box around both.
+    pub fn union(&self, other: &Aabb) -> Aabb {
+        Aabb {
+            min: std::array::from_fn(|k| self.min[k].min(other.min[k])),
+            max: std::array::from_fn(|k| self.max[k].max(other.max[k])),
+        }
+    }
+    /// Side lengths; negative where empty.
+    pub fn sides(&self) -> Vector {
+        minus(self.max, self.min)
+    }
+    /// Length of the diagonal; 0 for the empty box.
+    pub fn diagonal(&self) -> f64 {
+        if self.is_empty() { 0.0 } else { norm(self.sides()) }
+    }
+    /// True if it holds no point.
+    pub fn is_empty(&self) -> bool {
+        (0..3).any(|k| self.min[k] > self.max[k])
+    }
+}

@@ -1,0 +1,1 @@
+//! The report page and 3D viewer.
