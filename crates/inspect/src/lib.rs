@@ -1,1 +1,11 @@
-//! What measured numbers mean: results, verdicts, reports.
+//! What measured numbers mean: result documents, verdicts, reports.
+//!
+//! | task | where |
+//! |---|---|
+//! | result documents, as JSON and for reports | [`results`] |
+//! | colour scale | [`scale`] |
+//! | tolerance | [`tolerance`] |
+
+pub mod results;
+pub mod scale;
+pub mod tolerance;

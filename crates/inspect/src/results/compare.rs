@@ -1,0 +1,345 @@
+//! `trueness/compare/1`: deviations of measured points from one or several references.
+
+use super::{InputRecord, Verdict};
+use crate::scale::Scale;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/compare/1";
+
+/// The whole document.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct CompareDocument {
+    /// `trueness/compare/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// Files read: the measured one, then the references in the order given.
+    pub inputs: Vec<InputRecord>,
+    /// What was compared.
+    pub measured: Measured,
+    /// How distances were computed: `exact` or `paper`.
+    pub method: String,
+    /// The sign method; with several references, what holds for all of them (see each comparison for its own).
+    pub sign: SignRecord,
+    /// Points farther than this are excluded, millimetres.
+    pub max_distance: Option<f64>,
+    /// Points whose closest place lies on a free edge are excluded.
+    pub skip_boundary: bool,
+    /// One entry a reference, in the order given.
+    pub comparisons: Vec<Comparison>,
+    /// Every pair of references on the same points, the better one first; empty with one reference.
+    pub paired: Vec<Paired>,
+    /// The colour scale that all comparisons share.
+    pub scale: Scale,
+    /// The worst of the comparisons' verdicts; absent without a tolerance.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub verdict: Option<Verdict>,
+    /// How many of the points a report shows.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub sampling: Option<Sampling>,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Measured {
+    /// `points`, `vertices` (of a mesh) or `samples` (of a mesh's surface).
+    pub kind: String,
+    /// Their number.
+    pub count: u64,
+    /// Their box.
+    pub bounds: Option<Bounds>,
+}
+
+/// An axis-parallel box, millimetres.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Bounds {
+    /// Least coordinates.
+    pub min: [f64; 3],
+    /// Greatest coordinates.
+    pub max: [f64; 3],
+}
+
+/// How the sign of the deviations was found.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SignRecord {
+    /// What was asked for: `auto`, `pseudonormal`, `winding` or `none`.
+    pub requested: String,
+    /// What was used: `pseudonormal`, `winding`, `none`, or `several` when references differ.
+    pub method: String,
+    /// Why that one.
+    pub reason: String,
+    /// Share of the sampled points whose sign the two methods disagree on (0 to 1).
+    pub disagreement: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub disagreement_reason: Option<String>,
+    /// Points in that sample.
+    pub sample: u64,
+}
+
+/// Deviations from one reference.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Comparison {
+    /// Path of the reference.
+    pub reference: String,
+    /// 1 for the reference with the least root mean square; equal for equal values.
+    pub rank: u32,
+    /// How the sign was found here.
+    pub sign: SignRecord,
+    /// Whether the statistics rest on a sound mesh.
+    pub soundness: Soundness,
+    /// Statistics of the deviations: all, those above zero, those below zero.
+    pub deviation: BySide,
+    /// Points left out, by reason: `max_distance`, `free_edge`.
+    pub excluded: BTreeMap<String, u64>,
+    /// Shares against the tolerance; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tolerance: Option<ToleranceShares>,
+    /// Pass when the share inside reaches what was asked; absent without a tolerance.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub verdict: Option<Verdict>,
+    /// Counts of the deviations; absent when there are none.
+    pub histogram: Option<Histogram>,
+    /// The worst places, far from one another, highest first, then lowest first.
+    pub worst: Vec<Worst>,
+    /// The same question asked from the reference's vertices to the measured mesh; only with `--both`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub reverse: Option<Reverse>,
+    /// How the paper's method differs from the exact distance; only with `--method paper`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub paper_vs_exact: Option<PaperVsExact>,
+}
+
+/// Statistics of all deviations and of each side.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct BySide {
+    /// All.
+    pub all: Statistics,
+    /// Above zero: outside, too much material.
+    pub positive: Statistics,
+    /// Below zero: inside, missing material.
+    pub negative: Statistics,
+}
+
+/// Declares the statistics document: each number beside the reason why it may be missing.
+macro_rules! statistics {
+    ($($(#[$doc:meta])* $name:ident $reason:ident,)*) => {
+        /// Statistics of a set of deviations, millimetres (skewness and kurtosis have no unit, the variance is in mm²).
+        /// A number that does not exist is `null`, and `<name>_reason` says why.
+        #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+        pub struct Statistics {
+            /// Number of deviations.
+            pub count: u64,
+            $(
+                $(#[$doc])*
+                pub $name: Option<f64>,
+                /// Why the number above is missing.
+                #[serde(skip_serializing_if = "Option::is_none", default)]
+                pub $reason: Option<String>,
+            )*
+            /// Percentiles; all missing when `count` is 0.
+            pub percentiles: Percentiles,
+            /// Largest relative error of median, mad and percentiles; 0 when they are exact.
+            pub percentile_error: f64,
+        }
+    };
+}
+
+statistics! {
+    /// Least.
+    min min_reason,
+    /// Greatest.
+    max max_reason,
+    /// `max - min`.
+    range range_reason,
+    /// Arithmetic mean.
+    mean mean_reason,
+    /// Sample variance, divided by `count - 1`.
+    variance variance_reason,
+    /// Square root of the variance.
+    std_dev std_dev_reason,
+    /// Six standard deviations.
+    six_sigma six_sigma_reason,
+    /// Coefficient of variation: standard deviation over the mean's size.
+    cv cv_reason,
+    /// Root mean square.
+    rms rms_reason,
+    /// Mean of the absolute deviations.
+    mean_abs mean_abs_reason,
+    /// Middle value.
+    median median_reason,
+    /// Median of the distances from the median.
+    mad mad_reason,
+    /// Third standardised moment.
+    skewness skewness_reason,
+    /// Fourth standardised moment less 3.
+    kurtosis kurtosis_reason,
+}
+
+/// Percentiles, linearly interpolated between order statistics (Hyndman & Fan's type 7, as NumPy's default).
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Percentiles {
+    #[serde(rename = "0.1")]
+    pub p0_1: Option<f64>,
+    #[serde(rename = "1")]
+    pub p1: Option<f64>,
+    #[serde(rename = "2.5")]
+    pub p2_5: Option<f64>,
+    #[serde(rename = "5")]
+    pub p5: Option<f64>,
+    #[serde(rename = "25")]
+    pub p25: Option<f64>,
+    #[serde(rename = "50")]
+    pub p50: Option<f64>,
+    #[serde(rename = "75")]
+    pub p75: Option<f64>,
+    #[serde(rename = "95")]
+    pub p95: Option<f64>,
+    #[serde(rename = "97.5")]
+    pub p97_5: Option<f64>,
+    #[serde(rename = "99")]
+    pub p99: Option<f64>,
+    #[serde(rename = "99.9")]
+    pub p99_9: Option<f64>,
+}
+
+/// Whether a reference is a sound mesh: the precondition of the statistics.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Soundness {
+    /// Two facets at every edge, a closed fan at every vertex, no coincident or degenerate facets, one orientation.
+    pub sound: bool,
+    /// No free edge.
+    pub closed: bool,
+    /// Neighbours agree on which side is outside.
+    pub consistently_oriented: bool,
+    /// Facets.
+    pub facets: u64,
+    /// Distinct vertices in use.
+    pub vertices: u64,
+    /// Facets connected through edges.
+    pub shells: u64,
+    /// Edges with one facet.
+    pub boundary_edges: u64,
+    /// Edges with more than two.
+    pub non_manifold_edges: u64,
+    /// Vertices whose facets are no single fan.
+    pub non_manifold_vertices: u64,
+    /// Facets on the same three vertices as an earlier one.
+    pub duplicate_facets: u64,
+    /// Facets with a repeated vertex.
+    pub degenerate_facets: u64,
+    /// Edges that both neighbours pass in the same direction.
+    pub inconsistent_edges: u64,
+}
+
+/// Shares of the points against the tolerance (0 to 1); the limits belong to the zone.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ToleranceShares {
+    /// Lower limit, millimetres.
+    pub lower: f64,
+    /// Upper limit, millimetres.
+    pub upper: f64,
+    /// Share within.
+    pub inside: f64,
+    /// Share above the upper limit.
+    pub above: f64,
+    /// Share below the lower limit.
+    pub below: f64,
+    /// The share inside that was asked for.
+    pub required: f64,
+}
+
+/// Counts of deviations between edges; bin `i` holds `edges[i] <= d < edges[i + 1]`, the last one its upper edge too.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Histogram {
+    /// `n + 1` limits, rising.
+    pub edges: Vec<f64>,
+    /// `n` counts.
+    pub counts: Vec<u64>,
+    /// Deviations below the first edge.
+    pub below: u64,
+    /// Deviations above the last edge.
+    pub above: u64,
+}
+
+/// One of the worst places.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Worst {
+    /// `1` above, `-1` below.
+    pub sign: i8,
+    /// Number of the measured point, from 0 in file order.
+    pub index: u64,
+    /// The measured point.
+    pub point: [f64; 3],
+    /// The nearest place on the reference.
+    pub nearest: [f64; 3],
+    /// Unit normal of the reference there; null on a facet without area.
+    pub normal: Option<[f64; 3]>,
+    /// The deviation, millimetres.
+    pub deviation: f64,
+}
+
+/// From the reference to the measured mesh, and both directions together.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Reverse {
+    /// Unsigned distances of the reference's vertices (or samples) from the measured mesh.
+    pub deviation: Statistics,
+    /// The greater of the two greatest distances.
+    pub hausdorff: Option<f64>,
+    /// Mean of the two mean distances.
+    pub mean: Option<f64>,
+}
+
+/// The paper's method beside the exact distance, over the points that have both.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct PaperVsExact {
+    /// Points compared.
+    pub count: u64,
+    /// Points whose values differ by more than rounding.
+    pub differing: u64,
+    /// Of those, points where the paper's value is too small.
+    pub too_small: u64,
+    /// Largest difference, millimetres.
+    pub max_difference: f64,
+    /// Median difference where they differ, millimetres.
+    pub median_difference: Option<f64>,
+}
+
+/// The difference `|d| to the first − |d| to the second`, point by point.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Paired {
+    /// Number of the better reference (0-based, in the order given).
+    pub better: usize,
+    /// Number of the other.
+    pub other: usize,
+    /// Points compared.
+    pub count: u64,
+    /// Mean difference; negative where the better one is nearer.
+    pub mean_difference: Option<f64>,
+    /// Its 95 % confidence interval, as if the points were independent.
+    pub interval: Option<[f64; 2]>,
+    /// Standard deviation of the differences.
+    pub std_dev: Option<f64>,
+    /// Two-sided p value of the mean difference being zero.
+    pub p_value: Option<f64>,
+    /// Why numbers are missing.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub reason: Option<String>,
+}
+
+/// What a report shows of all points.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Sampling {
+    /// Points drawn.
+    pub shown: u64,
+    /// Points measured; every number is from all of them.
+    pub total: u64,
+}
