@@ -5,9 +5,13 @@
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
+//! | statistics of deviations | [`deviation::statistics`] |
+//! | sums, random numbers | [`num`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod cloud;
+pub mod deviation;
 pub mod mesh;
+pub mod num;
 pub mod progress;
 pub mod space;
