@@ -7,8 +7,10 @@
 //! | point clouds in blocks | [`cloud`] |
 //! | statistics of deviations | [`deviation::statistics`] |
 //! | sums, random numbers | [`num`] |
+//! | closest points, distances, signs | [`closest`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod closest;
 pub mod cloud;
 pub mod deviation;
 pub mod mesh;

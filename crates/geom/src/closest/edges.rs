@@ -1,0 +1,119 @@
+//! Which triangles meet at each edge, in slot order: what signs and free edges are found from.
+
+use crate::closest::tree::{Closest, Tree};
+use crate::closest::triangle::Feature;
+use rayon::prelude::*;
+
+/// What lies across an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Across {
+    /// Nothing: a free edge.
+    Free,
+    /// The triangle in this slot.
+    One(u32),
+    /// Several triangles, or an edge of no length.
+    Unclear,
+}
+
+/// The corners of all triangles, grouped by vertex.
+pub(super) struct Fans<'a> {
+    slots: &'a [[u32; 3]],
+    /// Where the group of each vertex begins.
+    start: Vec<u32>,
+    /// `3 * slot + corner`.
+    corners: Vec<u32>,
+}
+
+impl<'a> Fans<'a> {
+    /// Linear time.
+    pub fn new(tree: &'a Tree) -> Self {
+        let (slots, count) = (&tree.slots[..], tree.corners.len());
+        let mut start = vec![0u32; count + 1];
+        slots.iter().flatten().for_each(|&v| start[v as usize + 1] += 1);
+        for v in 0..count {
+            start[v + 1] += start[v];
+        }
+        let mut corners = vec![0u32; 3 * slots.len()];
+        let mut next = start.clone();
+        for (i, &v) in (0..).zip(slots.iter().flatten()) {
+            corners[next[v as usize] as usize] = i;
+            next[v as usize] += 1;
+        }
+        Fans { slots, start, corners }
+    }
+
+    /// (slot, corner) of every triangle corner at vertex `v`.
+    pub fn around(&self, v: u32) -> impl Iterator<Item = (u32, usize)> {
+        let group = self.start[v as usize] as usize..self.start[v as usize + 1] as usize;
+        self.corners[group].iter().map(|&i| (i / 3, i as usize % 3))
+    }
+
+    /// What lies across each edge (corner `k` to `k + 1`) of each slot.
+    pub fn across(&self) -> Vec<[Across; 3]> {
+        let of_edge = |s: u32, a: u32, b: u32| {
+            let mut others = self.around(a).filter(|&(o, i)| {
+                let t = &self.slots[o as usize];
+                o != s && (t[(i + 1) % 3] == b || t[(i + 2) % 3] == b)
+            });
+            match (others.next(), others.next()) {
+                _ if a == b => Across::Unclear,
+                (None, _) => Across::Free,
+                (Some((o, _)), None) => Across::One(o),
+                _ => Across::Unclear,
+            }
+        };
+        let of_slot =
+            |(s, t): (usize, &[u32; 3])| std::array::from_fn(|k| of_edge(s as u32, t[k], t[(k + 1) % 3]));
+        self.slots.par_iter().enumerate().map(of_slot).collect()
+    }
+}
+
+/// The free edges of a mesh, those of one face only: the rim of a scan or of a hole.
+///
+/// A point whose closest place lies on such an edge is beside the mesh rather than above it, and its distance says more
+/// about where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal
+/// coordinates at their corners, every edge is free. One byte a face.
+pub struct FreeEdges {
+    /// For each face: bit `i` if edge `i` is free, bit `3 + i` if corner `i` lies on a free edge.
+    flags: Vec<u8>,
+    count: usize,
+}
+
+impl FreeEdges {
+    /// Linear time.
+    pub fn new(tree: &Tree) -> Self {
+        let across = Fans::new(tree).across();
+        let mut on_rim = vec![false; tree.corners.len()];
+        let mut count = 0;
+        for (t, edges) in tree.slots.iter().zip(&across) {
+            for k in (0..3).filter(|&k| edges[k] == Across::Free) {
+                on_rim[t[k] as usize] = true;
+                on_rim[t[(k + 1) % 3] as usize] = true;
+                count += 1;
+            }
+        }
+        let mut flags = vec![0; tree.face.len()];
+        for ((t, edges), &face) in tree.slots.iter().zip(&across).zip(&tree.face) {
+            for k in 0..3 {
+                flags[face as usize] |= ((edges[k] == Across::Free) as u8) << k;
+                flags[face as usize] |= (on_rim[t[k] as usize] as u8) << (3 + k);
+            }
+        }
+        FreeEdges { flags, count }
+    }
+
+    /// Number of free edges.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// True if the place lies on a free edge or at its end. False for a place on another mesh's faces.
+    pub fn holds(&self, place: &Closest) -> bool {
+        let flags = self.flags.get(place.face as usize).copied().unwrap_or(0);
+        match place.feature {
+            Feature::Face => false,
+            Feature::Edge(i) => flags >> i & 1 != 0,
+            Feature::Vertex(i) => flags >> (3 + i) & 1 != 0,
+        }
+    }
+}

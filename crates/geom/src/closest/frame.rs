@@ -1,0 +1,108 @@
+//! Filling the leaves: each triangle in a frame of its own (see the module `tree`), and the corners in leaf order.
+
+use crate::closest::tree::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
+use crate::mesh::Mesh;
+use crate::space::{Point, Vector, cross, dot, minus, norm, times, unit};
+
+/// The corners of face `f`, which [`check_mesh`](super::limits::check_mesh) has looked at.
+fn corners(mesh: &Mesh, f: u32) -> [Point; 3] {
+    mesh.faces[f as usize].map(|v| mesh.positions[v as usize])
+}
+
+/// Triangles in slot order, vertices in order of first use.
+pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
+    let mut new = vec![u32::MAX; mesh.positions.len()];
+    let mut used = Vec::with_capacity(mesh.positions.len());
+    let slots = face
+        .iter()
+        .map(|&f| {
+            mesh.faces[f as usize].map(|v| {
+                let n = &mut new[v as usize];
+                if *n == u32::MAX {
+                    *n = used.len() as u32;
+                    used.push(mesh.positions[v as usize]);
+                }
+                *n
+            })
+        })
+        .collect();
+    (slots, used)
+}
+
+/// Fills one leaf with the frames of its triangles.
+pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
+    let mut out = Leaf { field: [[0.0; 8]; FIELDS], origin: [0.0; 3], first, radius: 0.0 };
+    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for v in faces.iter().flat_map(|&f| corners(mesh, f)) {
+        for k in 0..3 {
+            lo[k] = lo[k].min(v[k]);
+            hi[k] = hi[k].max(v[k]);
+        }
+    }
+    out.origin = std::array::from_fn(|k| 0.5 * lo[k] + 0.5 * hi[k]);
+    for j in 0..8 {
+        let Some(&f) = faces.get(j) else {
+            out.field[AXES][j] = 1.0;
+            out.field[AXES + 4][j] = 1.0;
+            out.field[AXES + 8][j] = 1.0;
+            out.field[ORIGIN + 2][j] = -NOWHERE;
+            continue;
+        };
+        let v = corners(mesh, f).map(|v| times(scale, minus(v, out.origin)));
+        for c in v {
+            out.radius = out.radius.max(norm(c) as f32 * 1.000001);
+        }
+        frame(v, |field, x| out.field[field][j] = x as f32);
+    }
+    out
+}
+
+/// `a` without its part along the unit vector `e`.
+fn reject(a: Vector, e: Vector) -> Vector {
+    minus(a, times(dot(a, e), e))
+}
+
+/// Some unit vector perpendicular to the unit vector `x`.
+fn any_perpendicular(x: Vector) -> Vector {
+    let k = (0..3).min_by(|&i, &j| x[i].abs().total_cmp(&x[j].abs())).unwrap_or(0);
+    let mut e = [0.0; 3];
+    e[k] = 1.0;
+    unit(reject(e, x)).map_or([0.0, 1.0, 0.0], |(y, _)| y)
+}
+
+/// The frame of one triangle, field by field.
+fn frame(v: [Point; 3], mut put: impl FnMut(usize, f64)) {
+    let length2 = |i: usize| {
+        let e = minus(v[(i + 1) % 3], v[i]);
+        dot(e, e)
+    };
+    let i = (0..3).max_by(|&i, &j| length2(i).total_cmp(&length2(j))).unwrap_or(0);
+    let (a, b, c) = (v[i], v[(i + 1) % 3], v[(i + 2) % 3]);
+    let (ab, ac) = (minus(b, a), minus(c, a));
+    let (x, base) = unit(ab).unwrap_or(([1.0, 0.0, 0.0], 0.0));
+    // The first rejection of a needle is mostly rounding and not yet perpendicular: do it again.
+    let first = unit(reject(ac, x));
+    let y = if first.is_some_and(|(_, h)| h > 1e-3 * base) {
+        first
+    } else {
+        first.and_then(|(y, _)| unit(reject(y, x)))
+    };
+    let y = y.map_or_else(|| any_perpendicular(x), |(y, _)| y);
+    let z = cross(x, y);
+    let (cx, cy) = (dot(ac, x), dot(ac, y));
+    for (axis, e) in [x, y, z].into_iter().enumerate() {
+        for (k, x) in e.into_iter().enumerate() {
+            put(AXES + 3 * axis + k, x);
+        }
+        put(ORIGIN + axis, dot(a, e));
+    }
+    put(BASE, base);
+    for (at, px) in [(AC, cx), (BC, cx - base)] {
+        let l = (px * px + cy * cy).sqrt();
+        let r = 1.0 / l;
+        let (ux, uy) = if l > 0.0 { (px * r, cy * r) } else { (1.0, 0.0) };
+        put(at, ux);
+        put(at + 1, uy);
+        put(at + 2, l);
+    }
+}

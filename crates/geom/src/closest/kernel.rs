@@ -1,0 +1,153 @@
+//! The inner loops in single precision: points against triangle frames, and blocks against boxes.
+//!
+//! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
+#![expect(unsafe_code, reason = "loads of vector types need their instructions")]
+
+use crate::closest::lanes::Lanes;
+use crate::closest::tree::{AC, AXES, BASE, BC, Leaf, Node, ORIGIN};
+
+/// Squared distance from `(x, y, z)`, given in triangle frames, to the triangles with sides `base`, `ac`, `bc`
+/// (direction x, direction y, length).
+///
+/// For each side: `t` runs along it, `s` is the signed distance from its line, positive outside; the distance to the side
+/// is `s² + (t - clamp t)²`. Inside all three lines only `z` counts. "Inside" is strict, so that a triangle without area,
+/// whose three lines coincide, has no inside.
+#[inline(always)]
+pub unsafe fn frame_distance2<V: Lanes<N>, const N: usize>(
+    [x, y, z]: [V; 3],
+    base: V,
+    ac: [V; 3],
+    bc: [V; 3],
+) -> V {
+    let zero = unsafe { V::splat(0.0) };
+    let e1 = x - x.max(zero).min(base);
+    let d1 = e1.mul_add(e1, y * y);
+    let t2 = x.mul_add(ac[0], y * ac[1]);
+    let s2 = x.neg_mul_add(ac[1], y * ac[0]);
+    let e2 = t2 - t2.max(zero).min(ac[2]);
+    let d2 = e2.mul_add(e2, s2 * s2);
+    let xb = x - base;
+    let t3 = xb.mul_add(bc[0], y * bc[1]);
+    let s3 = y.neg_mul_add(bc[0], xb * bc[1]);
+    let e3 = t3 - t3.max(zero).min(bc[2]);
+    let d3 = e3.mul_add(e3, s3 * s3);
+    let outside = (zero - y).max(s2).max(s3);
+    z.mul_add(z, d1.min(d2).min(d3).zero_where_negative(outside))
+}
+
+/// Field `i` of a leaf's eight triangles.
+#[inline(always)]
+unsafe fn field<V: Lanes<8>>(leaf: &Leaf, i: usize) -> V {
+    unsafe { V::load(&leaf.field[i]) }
+}
+
+/// `q`, relative to the leaf's origin, in the frames of the leaf's eight triangles.
+#[inline(always)]
+pub unsafe fn into_frames<V: Lanes<8>>(leaf: &Leaf, q: [f32; 3]) -> [V; 3] {
+    unsafe {
+        let q = [V::splat(q[0]), V::splat(q[1]), V::splat(q[2])];
+        let mut r = q;
+        for (axis, r) in r.iter_mut().enumerate() {
+            let a = AXES + 3 * axis;
+            let p = q[0].mul_add(field(leaf, a), q[1] * field(leaf, a + 1));
+            *r = q[2].mul_add(field(leaf, a + 2), p - field(leaf, ORIGIN + axis));
+        }
+        r
+    }
+}
+
+/// Squared distances from a point in frame coordinates `c` to the leaf's eight triangles.
+#[inline(always)]
+pub unsafe fn leaf_distance2<V: Lanes<8>>(leaf: &Leaf, c: [V; 3]) -> V {
+    unsafe {
+        let ac = [field(leaf, AC), field(leaf, AC + 1), field(leaf, AC + 2)];
+        let bc = [field(leaf, BC), field(leaf, BC + 1), field(leaf, BC + 2)];
+        frame_distance2(c, field(leaf, BASE), ac, bc)
+    }
+}
+
+/// Field `i` of the leaf's triangle `lane`, sixteen times.
+#[inline(always)]
+unsafe fn spread<V: Lanes<16>>(leaf: &Leaf, lane: usize, i: usize) -> V {
+    unsafe { V::splat(leaf.field[i][lane & 7]) }
+}
+
+/// Squared distances from sixteen points to triangle `lane` of a leaf. `d` holds the points relative to a block
+/// centre, `c` that centre in the triangle's frame.
+#[inline(always)]
+pub unsafe fn triangle_distance2<V: Lanes<16>>(leaf: &Leaf, lane: usize, c: [f32; 3], d: [V; 3]) -> V {
+    unsafe {
+        let mut r = d;
+        for axis in 0..3 {
+            let a = AXES + 3 * axis;
+            let p = d[2].mul_add(spread(leaf, lane, a + 2), V::splat(c[axis]));
+            r[axis] = d[0].mul_add(spread(leaf, lane, a), d[1].mul_add(spread(leaf, lane, a + 1), p));
+        }
+        let ac = [spread(leaf, lane, AC), spread(leaf, lane, AC + 1), spread(leaf, lane, AC + 2)];
+        let bc = [spread(leaf, lane, BC), spread(leaf, lane, BC + 1), spread(leaf, lane, BC + 2)];
+        frame_distance2(r, spread(leaf, lane, BASE), ac, bc)
+    }
+}
+
+/// Squared distances from a point to the boxes of a node's children.
+#[inline(always)]
+pub unsafe fn box_distance2<V: Lanes<8>>(node: &Node, q: [V; 3]) -> V {
+    unsafe {
+        let zero = V::splat(0.0);
+        let mut d = zero;
+        for (k, q) in q.into_iter().enumerate() {
+            let (lo, hi) = (V::load(&node.bounds[k]), V::load(&node.bounds[k + 3]));
+            let e = (lo - q).max(q - hi).max(zero);
+            d = e.mul_add(e, d);
+        }
+        d
+    }
+}
+
+/// A block of points (as a box) and a reference point `x` on the surface, ready for [`advantage`].
+#[derive(Clone, Copy)]
+pub struct Rival<V> {
+    /// Low and high side of the block.
+    side: [[V; 3]; 2],
+    /// Squared distance from that side to `x`, along the axis.
+    to_x: [[V; 3]; 2],
+}
+
+impl<V: Lanes<8>> Rival<V> {
+    /// The block is the box `centre ± half`.
+    #[inline(always)]
+    pub unsafe fn new(centre: [f32; 3], half: [f32; 3], x: [f32; 3]) -> Self {
+        unsafe {
+            let zero = V::splat(0.0);
+            let mut r = Rival { side: [[zero; 3]; 2], to_x: [[zero; 3]; 2] };
+            for k in 0..3 {
+                for (s, p) in [centre[k] - half[k], centre[k] + half[k]].into_iter().enumerate() {
+                    r.side[s][k] = V::splat(p);
+                    r.to_x[s][k] = V::splat((p - x[k]) * (p - x[k]));
+                }
+            }
+            r
+        }
+    }
+}
+
+/// The least of `dist²(p, box) - |p - x|²` over all points `p` of the block, for the boxes of a node's children: where it
+/// is positive, nothing in the box can be closer than `x` to any point of the block.
+///
+/// Along one axis the difference is a concave function of `p`, so its least value is at one of the two sides of the
+/// block: two box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel,
+/// Kröger, Renz & Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
+#[inline(always)]
+pub unsafe fn advantage<V: Lanes<8>>(node: &Node, r: &Rival<V>) -> V {
+    unsafe {
+        let zero = V::splat(0.0);
+        let mut g = zero;
+        for k in 0..3 {
+            let (lo, hi) = (V::load(&node.bounds[k]), V::load(&node.bounds[k + 3]));
+            let e = (lo - r.side[0][k]).max(r.side[0][k] - hi).max(zero);
+            let f = (lo - r.side[1][k]).max(r.side[1][k] - hi).max(zero);
+            g = g + (e * e - r.to_x[0][k]).min(f * f - r.to_x[1][k]);
+        }
+        g
+    }
+}

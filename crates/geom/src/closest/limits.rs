@@ -1,0 +1,85 @@
+//! What the search accepts, and how it refuses the rest.
+
+use crate::mesh::Mesh;
+use crate::progress::Cancelled;
+use crate::space::Point;
+use rayon::prelude::*;
+
+/// Largest coordinate accepted, millimetres: its fourth power, which the distance to a plane needs, is still far from
+/// overflow.
+pub const MAX_COORDINATE: f64 = 1e60;
+/// Most faces accepted: three corners of each must be countable in 32 bits.
+pub const MAX_FACES: usize = 1 << 28;
+
+/// Why no search tree can be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MeshError {
+    /// There is nothing to measure against.
+    #[error("the mesh has no faces")]
+    NoFaces,
+    /// More than [`MAX_FACES`].
+    #[error("{0} faces are more than {MAX_FACES}: cut the mesh in parts")]
+    TooManyFaces(usize),
+    /// A face names a vertex that does not exist.
+    #[error("face {face} names vertex {vertex}, but the vertices end at {vertices}")]
+    BadIndex {
+        /// The face.
+        face: usize,
+        /// The vertex number it names.
+        vertex: u32,
+        /// Number of vertices there are.
+        vertices: usize,
+    },
+    /// A coordinate of a vertex that a face uses is NaN, infinite or beyond [`MAX_COORDINATE`].
+    #[error("vertex {0} is not finite or lies beyond {MAX_COORDINATE:e} mm: repair the mesh first")]
+    BadVertex(usize),
+}
+
+/// Why a question was not answered.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum QueryError {
+    /// A coordinate of this point is NaN, infinite or beyond [`MAX_COORDINATE`].
+    #[error("point {0} is not finite or lies beyond {MAX_COORDINATE:e} mm: leave it out")]
+    BadPoint(usize),
+    /// The greatest distance asked for is NaN or negative.
+    #[error("the greatest distance must be a number from 0 to infinity, not {0}")]
+    BadMaxDistance(f64),
+    /// The computation was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// True if all coordinates are finite and of sane size. (A NaN fails every comparison.)
+pub fn sane(p: &Point) -> bool {
+    p.iter().all(|x| x.abs() <= MAX_COORDINATE)
+}
+
+/// The number of the first point that is not [`sane`], as an error.
+pub fn check_points(points: &[Point]) -> Result<(), QueryError> {
+    match points.par_iter().position_first(|p| !sane(p)) {
+        Some(i) => Err(QueryError::BadPoint(i)),
+        None => Ok(()),
+    }
+}
+
+/// Checks what the tree relies on. Only vertices that a face uses are looked at.
+pub fn check_mesh(mesh: &Mesh) -> Result<(), MeshError> {
+    let count = mesh.faces.len();
+    if count == 0 {
+        return Err(MeshError::NoFaces);
+    }
+    if count > MAX_FACES {
+        return Err(MeshError::TooManyFaces(count));
+    }
+    let fault = |face: usize, f: &[u32; 3]| {
+        f.iter().find_map(|&vertex| match mesh.positions.get(vertex as usize) {
+            None => Some(MeshError::BadIndex { face, vertex, vertices: mesh.positions.len() }),
+            Some(v) if !sane(v) => Some(MeshError::BadVertex(vertex as usize)),
+            Some(_) => None,
+        })
+    };
+    match mesh.faces.par_iter().enumerate().find_map_first(|(i, f)| fault(i, f)) {
+        Some(e) => Err(e),
+        None => Ok(()),
+    }
+}

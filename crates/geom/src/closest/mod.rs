@@ -1,0 +1,54 @@
+//! The point of a triangle mesh closest to each of many points: exactly, and fast.
+//!
+//! | task | where |
+//! |---|---|
+//! | prepare a mesh | [`Tree::build`] |
+//! | closest place of one point | [`Tree::closest`] |
+//! | distance of many points | [`Tree::distances`]; signed: [`Signs::distances`] |
+//! | anything else of many points | [`Tree::for_each_closest`], [`Tree::map_closest`], then [`Tree::place`], [`Signs::sign`] |
+//! | inside or outside of a mesh with holes | [`Winding`] |
+//! | do the two kinds of sign agree? | [`Agreement`] |
+//! | is the closest place on the rim? | [`FreeEdges`] |
+//! | the definition of the answer | [`brute::closest`] |
+//!
+//! "Exact" means: the least, over all faces, of the distance to a face evaluated in double precision; ties go to the
+//! lowest face. The answer is the same bit for bit as trying all faces, whatever the number of threads, the order of the
+//! points, the instruction set and the shape of the triangles. A point farther than `max_distance` has no answer, decided
+//! on the rounded distance.
+//!
+//! How it is fast, in the order in which a point meets it: `order` sorts the points along a space-filling curve, `query`
+//! answers them in blocks of sixteen that share one walk (`walk`) through the tree of `tree` and `build`, `kernel` tests
+//! triangles in single precision, which may only say "cannot be nearer", and `triangle` decides in double.
+//! To answer a stream, call for each block of it; blocks of 100,000 points and more cost nothing extra.
+
+mod block;
+pub mod brute;
+mod build;
+mod dense;
+mod edges;
+mod frame;
+mod kernel;
+mod lanes;
+#[cfg(target_arch = "x86_64")]
+mod lanes_x86;
+mod limits;
+mod order;
+mod query;
+mod settle;
+mod sign;
+mod tree;
+mod triangle;
+mod walk;
+mod wave;
+mod winding;
+
+pub use edges::FreeEdges;
+pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
+pub use query::{Hit, Level, Query};
+pub use sign::{Agreement, Signs};
+pub use tree::{Closest, Tree};
+pub use triangle::Feature;
+pub use winding::Winding;
+
+#[cfg(test)]
+mod tests;

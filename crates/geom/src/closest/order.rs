@@ -1,0 +1,153 @@
+//! Sorting the points along a space-filling curve, so that neighbours in the list are neighbours in space.
+//!
+//! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into
+//! buckets by the high bits of the key, in parallel; each bucket is then sorted in cache by the thread that is about to
+//! answer it ([`sort_bucket`]). The order only decides the speed, never the answer.
+#![expect(unsafe_code, reason = "several threads scatter into one list, each to places of its own")]
+
+use crate::closest::limits::sane;
+use crate::space::Point;
+use rayon::prelude::*;
+
+/// High bits of the key that choose the bucket.
+const BUCKET_BITS: u32 = 12;
+/// Bits of the key below the bucket's.
+const LOW_BITS: u32 = 30 - BUCKET_BITS;
+
+/// `(key << 32 | index)` of each point grouped by bucket, and the limits of the buckets.
+pub struct Buckets {
+    pub items: Vec<u64>,
+    pub limits: Vec<usize>,
+}
+
+/// A pointer that several threads write through, each to its own places.
+pub struct Shared<T>(*mut T);
+// SAFETY: the pointer is only used through `write`, whose caller answers for disjoint places.
+unsafe impl<T: Send> Sync for Shared<T> {}
+
+impl<T: Copy> Shared<T> {
+    /// To the room that `list` has.
+    pub fn new(list: &mut Vec<T>) -> Self {
+        Shared(list.as_mut_ptr())
+    }
+    /// # Safety
+    /// The list still exists, has room for `i`, and no other thread writes to `i`.
+    #[inline(always)]
+    pub unsafe fn write(&self, i: usize, x: T) {
+        unsafe { *self.0.add(i) = x }
+    }
+}
+
+/// Spreads the low 10 bits to every third place.
+#[inline(always)]
+fn spread(x: u32) -> u32 {
+    let x = (x | x << 16) & 0x030000FF;
+    let x = (x | x << 8) & 0x0300F00F;
+    let x = (x | x << 4) & 0x030C30C3;
+    (x | x << 2) & 0x09249249
+}
+
+/// Box of the points, and whether all of them are sane.
+fn survey(points: &[Point], chunk: usize) -> (Point, Point, bool) {
+    let none = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3], true);
+    let of = |part: &[Point]| {
+        let (mut lo, mut hi, mut good) = none;
+        for p in part {
+            good &= sane(p);
+            for k in 0..3 {
+                lo[k] = if p[k] < lo[k] { p[k] } else { lo[k] };
+                hi[k] = if p[k] > hi[k] { p[k] } else { hi[k] };
+            }
+        }
+        (lo, hi, good)
+    };
+    points.par_chunks(chunk).map(of).reduce(
+        || none,
+        |a, b| {
+            (
+                std::array::from_fn(|k| a.0[k].min(b.0[k])),
+                std::array::from_fn(|k| a.1[k].max(b.1[k])),
+                a.2 & b.2,
+            )
+        },
+    )
+}
+
+/// Groups the points by the high bits of their Morton key (Morton 1966): the interleaved bits of their cell in a grid of
+/// 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
+pub fn buckets(points: &[Point]) -> Result<Buckets, usize> {
+    let n = points.len();
+    let chunk = n.div_ceil(4 * rayon::current_num_threads()).max(1 << 14);
+    let (lo, hi, good) = survey(points, chunk);
+    if !good {
+        return Err(points.iter().position(|p| !sane(p)).unwrap_or(0));
+    }
+    let extent = (0..3).map(|k| hi[k] - lo[k]).fold(0.0, f64::max);
+    let factor = if extent > 0.0 { 1023.999 / extent } else { 0.0 };
+    let key = |p: &Point| {
+        let c = |k: usize| ((p[k] - lo[k]) * factor) as u32;
+        spread(c(0)) | spread(c(1)) << 1 | spread(c(2)) << 2
+    };
+    let count = |part: &[Point]| {
+        let mut counts = vec![0; 1 << BUCKET_BITS];
+        part.iter().for_each(|p| counts[(key(p) >> LOW_BITS) as usize] += 1);
+        counts
+    };
+    let mut counts: Vec<Vec<usize>> = points.par_chunks(chunk).map(count).collect();
+    let limits = limits(&mut counts);
+    let mut items: Vec<u64> = Vec::with_capacity(n);
+    let out = Shared::new(&mut items);
+    points.par_chunks(chunk).zip(counts).enumerate().for_each(|(c, (part, mut next))| {
+        for (i, p) in part.iter().enumerate() {
+            let k = key(p);
+            let at = &mut next[(k >> LOW_BITS) as usize];
+            // SAFETY: the counts give every point a place of its own in 0..n.
+            unsafe { out.write(*at, (k as u64) << 32 | (c * chunk + i) as u64) };
+            *at += 1;
+        }
+    });
+    // SAFETY: all n places were written.
+    unsafe { items.set_len(n) };
+    Ok(Buckets { items, limits })
+}
+
+/// Turns the counts of each chunk and bucket into the chunk's first place in the bucket; returns where buckets begin.
+fn limits(counts: &mut [Vec<usize>]) -> Vec<usize> {
+    let mut limits = Vec::with_capacity((1 << BUCKET_BITS) + 1);
+    let mut total = 0;
+    for b in 0..1 << BUCKET_BITS {
+        limits.push(total);
+        for h in counts.iter_mut() {
+            total += std::mem::replace(&mut h[b], total);
+        }
+    }
+    limits.push(total);
+    limits
+}
+
+/// Sorts one bucket by key: two counting passes over the low bits, in cache. `spare` is scratch.
+pub fn sort_bucket(items: &mut [u64], spare: &mut Vec<u64>) {
+    if items.len() < 256 {
+        return items.sort_unstable();
+    }
+    spare.clear();
+    spare.resize(items.len(), 0);
+    let bits = LOW_BITS.div_ceil(2);
+    counting_pass(items, spare, 32, bits);
+    counting_pass(spare, items, 32 + bits, bits);
+}
+
+fn counting_pass(from: &[u64], to: &mut [u64], shift: u32, bits: u32) {
+    let mask = (1usize << bits) - 1;
+    let mut next = [0u32; 2048];
+    from.iter().for_each(|x| next[(x >> shift) as usize & mask] += 1);
+    let mut total = 0;
+    for n in &mut next[..=mask] {
+        total += std::mem::replace(n, total);
+    }
+    for &x in from {
+        let at = &mut next[(x >> shift) as usize & mask];
+        to[*at as usize] = x;
+        *at += 1;
+    }
+}

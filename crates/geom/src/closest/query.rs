@@ -1,0 +1,277 @@
+//! Answering the points: blocks of sixteen neighbours share one walk through the tree.
+//!
+//! For each block (module `walk`):
+//! 1. find the closest surface point `x` to the block's centre, starting from the winner of the block before;
+//! 2. collect the leaves that could hold a triangle closer than `x` to *some* point of the block;
+//! 3. few leaves (points dense compared with triangles): test every triangle that survives against all sixteen points at
+//!    once (`dense`); more: the sixteen points walk the tree in step, each with its own bound (`wave`);
+//! 4. every triangle within the error bound of a point's best is settled in double precision; ties go to the lowest face
+//!    (`settle`).
+//!
+//! Single precision only excludes, so neither the order of the points nor the way they are cut into chunks, nor the
+//! number of threads, nor the instruction set can change a result.
+#![expect(
+    unsafe_code,
+    reason = "choosing the instruction set at run time; answers written to places of their own"
+)]
+
+use crate::closest::block::Scratch;
+use crate::closest::limits::{QueryError, sane};
+use crate::closest::order::{self, Buckets, Shared};
+use crate::closest::tree::{Closest, Tree};
+use crate::closest::walk;
+use crate::progress::{Cancelled, Progress};
+use crate::space::Point;
+use rayon::prelude::*;
+
+/// The answer for one point, as the search finds it. [`Tree::place`] tells the rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Squared distance, the least over all faces: what [`brute::closest`](crate::closest::brute::closest) finds, bit
+    /// for bit.
+    pub distance_squared: f64,
+    /// The lowest face that attains it.
+    pub face: u32,
+    /// Where the tree keeps that face.
+    pub(super) slot: u32,
+    /// Height over that face times the length of its normal, if the closest point is inside it; 0 if on its rim.
+    pub(super) height: f64,
+}
+
+impl Hit {
+    /// No face yet.
+    pub(super) const NONE: Hit =
+        Hit { distance_squared: f64::INFINITY, face: u32::MAX, slot: u32::MAX, height: 0.0 };
+
+    /// Distance, millimetres.
+    #[inline(always)]
+    pub fn distance(&self) -> f64 {
+        self.distance_squared.sqrt()
+    }
+}
+
+/// Instruction set of the inner loops. All give the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// No vector instructions beyond those of every processor of the family.
+    Plain,
+    /// AVX2 with fused multiply-add.
+    Avx2,
+    /// AVX-512 (F, VL, DQ, BW).
+    Avx512,
+}
+
+impl Level {
+    /// The best this processor has.
+    pub fn detect() -> Level {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = is_x86_feature_detected!("avx2")
+                && is_x86_feature_detected!("fma")
+                && is_x86_feature_detected!("bmi1")
+                && is_x86_feature_detected!("bmi2")
+                && is_x86_feature_detected!("lzcnt")
+                && is_x86_feature_detected!("popcnt");
+            let avx512 = is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw");
+            match (avx2, avx512) {
+                (true, true) => return Level::Avx512,
+                (true, false) => return Level::Avx2,
+                _ => {}
+            }
+        }
+        Level::Plain
+    }
+}
+
+/// What is asked of a batch of points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Query {
+    /// Greatest distance that counts, millimetres; a point farther from the mesh has no answer. A small one makes the
+    /// search faster.
+    pub max_distance: f64,
+    /// Instructions to use; more than the processor has means all it has.
+    pub instructions: Level,
+}
+
+impl Default for Query {
+    fn default() -> Self {
+        Query { max_distance: f64::INFINITY, instructions: Level::detect() }
+    }
+}
+
+/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make the blocks smaller
+/// and the answers a little faster.
+const SLICE: usize = 1 << 23;
+/// Points a thread takes at a time, about: buckets are joined until they have this many.
+const CHUNK: usize = 8192;
+
+impl Tree {
+    /// The point of the mesh closest to `p`, or `None` if it is farther than `max_distance` (which may be infinite).
+    ///
+    /// # Errors
+    /// [`QueryError::BadPoint`] and [`QueryError::BadMaxDistance`].
+    pub fn closest(&self, p: &Point, max_distance: f64) -> Result<Option<Closest>, QueryError> {
+        check_distance(max_distance)?;
+        if !sane(p) {
+            return Err(QueryError::BadPoint(0));
+        }
+        let query = Query { max_distance, ..Query::default() };
+        let answer = std::cell::Cell::new(Hit::NONE);
+        answer_items(self, &query, std::slice::from_ref(p), &[0], &mut Scratch::default(), &|_, h| {
+            answer.set(h)
+        });
+        let hit = answer.get();
+        Ok((hit.distance() <= max_distance).then(|| self.place(p, &hit)))
+    }
+
+    /// Calls `sink(index, hit)` exactly once for every point, from several threads and in no particular order; `None`
+    /// for a point farther from the mesh than `query.max_distance`. The answers depend on nothing but mesh and point.
+    ///
+    /// Runs on the current rayon pool and tells `progress` of points answered. Cost: about 0.1 to 0.3 µs a point and
+    /// core for scans, 1 µs for points far away; where very many faces are equally near (the centre of a sphere, a place
+    /// many mesh sizes away), as much as brute force. Memory: 8 bytes a point, 64 MiB at most.
+    ///
+    /// # Errors
+    /// [`QueryError::BadPoint`] names the first bad point of the first 8 million that have one; earlier millions have
+    /// been answered by then. [`QueryError::BadMaxDistance`], [`QueryError::Cancelled`].
+    pub fn for_each_closest(
+        &self,
+        points: &[Point],
+        query: &Query,
+        progress: &dyn Progress,
+        sink: impl Fn(usize, Option<Hit>) + Sync,
+    ) -> Result<(), QueryError> {
+        check_distance(query.max_distance)?;
+        for (n, slice) in points.chunks(SLICE).enumerate() {
+            let base = n * SLICE;
+            let buckets = order::buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
+            self.answer(slice, buckets, query, progress, &|i, hit: Hit| {
+                sink(base + i, (hit.distance() <= query.max_distance).then_some(hit));
+            })?;
+        }
+        Ok(())
+    }
+
+    /// `f(index, hit)` of every point, in the order of `points`: [`Tree::for_each_closest`] with the answers collected.
+    ///
+    /// # Errors
+    /// Those of [`Tree::for_each_closest`].
+    pub fn map_closest<T: Copy + Send>(
+        &self,
+        points: &[Point],
+        query: &Query,
+        progress: &dyn Progress,
+        f: impl Fn(usize, Option<Hit>) -> T + Sync,
+    ) -> Result<Vec<T>, QueryError> {
+        let mut out = Vec::with_capacity(points.len());
+        let places = Shared::new(&mut out);
+        self.for_each_closest(points, query, progress, |i, hit| {
+            let x = f(i, hit);
+            // SAFETY: there is room for all, and each index comes exactly once.
+            unsafe { places.write(i, x) }
+        })?;
+        // SAFETY: no error: every index has come.
+        unsafe { out.set_len(points.len()) };
+        Ok(out)
+    }
+
+    /// Distance of each point to the mesh, millimetres, in the order of `points`; NaN beyond `query.max_distance`.
+    ///
+    /// # Errors
+    /// Those of [`Tree::for_each_closest`].
+    pub fn distances(
+        &self,
+        points: &[Point],
+        query: &Query,
+        progress: &dyn Progress,
+    ) -> Result<Vec<f64>, QueryError> {
+        self.map_closest(points, query, progress, |_, hit| hit.map_or(f64::NAN, |h| h.distance()))
+    }
+
+    /// Answers one slice, whose points lie in buckets.
+    fn answer(
+        &self,
+        points: &[Point],
+        mut buckets: Buckets,
+        query: &Query,
+        progress: &dyn Progress,
+        sink: &(impl Fn(usize, Hit) + Sync),
+    ) -> Result<(), Cancelled> {
+        chunks(&mut buckets).into_par_iter().with_max_len(1).try_for_each_init(
+            || (Scratch::default(), vec![]),
+            |(scratch, spare), chunk| {
+                scratch.warm = None;
+                for items in chunk {
+                    if progress.cancelled() {
+                        return Err(Cancelled);
+                    }
+                    order::sort_bucket(items, spare);
+                    answer_items(self, query, points, items, scratch, sink);
+                    progress.advance(items.len() as u64);
+                }
+                Ok(())
+            },
+        )
+    }
+}
+
+fn check_distance(max_distance: f64) -> Result<(), QueryError> {
+    if max_distance >= 0.0 { Ok(()) } else { Err(QueryError::BadMaxDistance(max_distance)) }
+}
+
+/// Neighbouring buckets joined to portions of about [`CHUNK`] points.
+fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
+    let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
+    let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);
+    for w in buckets.limits.windows(2).filter(|w| w[1] > w[0]) {
+        let (part, tail) = rest.split_at_mut(w[1] - w[0]);
+        rest = tail;
+        if filled.saturating_add(part.len()) > CHUNK {
+            chunks.push(vec![]);
+            filled = 0;
+        }
+        filled += part.len();
+        if let Some(c) = chunks.last_mut() {
+            c.push(part);
+        }
+    }
+    chunks
+}
+
+/// Answers the points named by `items` with the chosen instruction set.
+fn answer_items(
+    tree: &Tree,
+    query: &Query,
+    points: &[Point],
+    items: &[u64],
+    scratch: &mut Scratch,
+    sink: &impl Fn(usize, Hit),
+) {
+    use crate::closest::lanes::Plain;
+    let far = query.max_distance;
+    #[cfg(target_arch = "x86_64")]
+    {
+        use crate::closest::lanes_x86::{A4d, A8, A16, Z8d, Z16};
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+        fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: &impl Fn(usize, Hit)) {
+            // SAFETY: the features above are those of the types.
+            unsafe { walk::all::<A8, A16, A4d>(t, p, i, far, s, f) }
+        }
+        #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+        fn avx512(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: &impl Fn(usize, Hit)) {
+            // SAFETY: the features above are those of the types.
+            unsafe { walk::all::<A8, Z16, Z8d>(t, p, i, far, s, f) }
+        }
+        // SAFETY: `Level::detect` found these features.
+        match query.instructions.min(Level::detect()) {
+            Level::Avx512 => return unsafe { avx512(tree, points, items, far, scratch, sink) },
+            Level::Avx2 => return unsafe { avx2(tree, points, items, far, scratch, sink) },
+            Level::Plain => {}
+        }
+    }
+    // SAFETY: plain Rust needs no special instructions.
+    unsafe { walk::all::<Plain<8>, Plain<16>, f64>(tree, points, items, far, scratch, sink) }
+}

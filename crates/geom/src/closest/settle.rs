@@ -1,0 +1,46 @@
+//! The last word: the few remaining triangles of each point, in double precision.
+#![expect(unsafe_code, reason = "loads of vector types need their instructions")]
+
+use crate::closest::block::{Block, Scratch};
+use crate::closest::lanes::Real;
+use crate::closest::query::Hit;
+use crate::closest::tree::Tree;
+use crate::closest::triangle;
+
+/// Settles `s.pairs` in double precision; the least wins, then the lowest face.
+///
+/// # Safety
+/// The processor has the instructions of `D`.
+#[inline(always)]
+pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [Hit]) {
+    let mut soa = [[0f64; 8]; 12];
+    for part in s.pairs.chunks(D::N) {
+        for (j, &(i, slot)) in part.iter().enumerate() {
+            let (p, t) = (b.points[i as usize], tree.triangle(slot));
+            for k in 0..3 {
+                soa[k][j & 7] = p[k];
+                for v in 0..3 {
+                    soa[3 + 3 * v + k][j & 7] = t[v][k];
+                }
+            }
+        }
+        // SAFETY: the caller's promise.
+        let (d, height) = unsafe {
+            let [p, a, b, c] =
+                [0, 3, 6, 9].map(|i| [D::load(&soa[i]), D::load(&soa[i + 1]), D::load(&soa[i + 2])]);
+            triangle::squared(p, [a, b, c])
+        };
+        let (mut distances, mut heights) = ([0f64; 8], [0f64; 8]);
+        d.store(&mut distances);
+        height.store(&mut heights);
+        for ((&distance_squared, &height), &(i, slot)) in distances.iter().zip(&heights).zip(part) {
+            let h = &mut hits[i as usize];
+            if distance_squared <= h.distance_squared {
+                let face = tree.face[slot as usize];
+                if distance_squared < h.distance_squared || face < h.face {
+                    *h = Hit { distance_squared, face, slot, height };
+                }
+            }
+        }
+    }
+}

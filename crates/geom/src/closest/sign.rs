@@ -1,0 +1,137 @@
+//! Inside or outside a closed mesh, by angle-weighted pseudonormals.
+//!
+//! The sign is that of `(p - c) · n`, where `c` is the closest point and `n` the pseudonormal of the feature that `c` lies
+//! on: the face's normal, the sum of the two unit normals at an edge, the angle-weighted sum at a corner. With the normal
+//! of the closest *face* alone some points near sharp edges and corners get the wrong sign; with the pseudonormal none
+//! does on a closed, consistently oriented mesh without self-intersections (Bærentzen & Aanæs, "Signed distance
+//! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
+
+use crate::closest::edges::{Across, Fans};
+use crate::closest::limits::QueryError;
+use crate::closest::query::{Hit, Query};
+use crate::closest::tree::Tree;
+use crate::closest::triangle::{self, Feature};
+use crate::closest::winding::Winding;
+use crate::progress::Progress;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use rayon::prelude::*;
+
+/// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 48 bytes a face.
+///
+/// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
+/// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to
+/// those of its edges and corners.
+pub struct Signs<'a> {
+    tree: &'a Tree,
+    /// What lies across edge `i` (corner `i` to `i + 1`) of each slot.
+    across: Vec<[Across; 3]>,
+    /// Angle-weighted normal of each vertex of the tree (not of unit length).
+    corner: Vec<Vector>,
+}
+
+/// Unit normal of a triangle, or zero if it has none.
+fn normal(t: &[Point; 3]) -> Vector {
+    unit(cross(minus(t[1], t[0]), minus(t[2], t[0]))).map_or([0.0; 3], |n| n.0)
+}
+
+/// Angle of a triangle at corner `i`.
+fn angle(t: &[Point; 3], i: usize) -> f64 {
+    let (u, v) = (minus(t[(i + 1) % 3], t[i]), minus(t[(i + 2) % 3], t[i]));
+    norm(cross(u, v)).atan2(dot(u, v))
+}
+
+impl<'a> Signs<'a> {
+    /// Finds neighbours and corner normals in linear time. The result does not depend on the number of threads.
+    pub fn new(tree: &'a Tree) -> Self {
+        let fans = Fans::new(tree);
+        let of_vertex = |v: u32| {
+            // Summed in slot order.
+            fans.around(v).fold([0.0; 3], |n, (s, i)| {
+                let t = tree.triangle(s);
+                plus(n, times(angle(&t, i), normal(&t)))
+            })
+        };
+        let corner = (0..tree.corners.len() as u32).into_par_iter().map(of_vertex).collect();
+        Signs { tree, across: fans.across(), corner }
+    }
+
+    /// Number of edges with other than two faces, counted once for each of their faces. Above zero the sign is not to be
+    /// trusted near them.
+    pub fn loose_edges(&self) -> usize {
+        self.across.iter().flatten().filter(|a| !matches!(a, Across::One(_))).count()
+    }
+
+    /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside; +1
+    /// on the surface, and where the pseudonormal is zero.
+    ///
+    /// # Panics
+    /// If `hit` comes from another tree with more faces.
+    #[inline]
+    pub fn sign(&self, p: &Point, hit: &Hit) -> f64 {
+        // Most points of a scan lie over the inside of their face: the search has already found the side.
+        if hit.height != 0.0 { hit.height.signum() } else { self.sign_at_rim(p, hit) }
+    }
+
+    fn sign_at_rim(&self, p: &Point, hit: &Hit) -> f64 {
+        let t = self.tree.triangle(hit.slot);
+        let place = triangle::closest_point(p, &t);
+        let n = match place.feature {
+            Feature::Face => normal(&t),
+            Feature::Edge(i) => match self.across[hit.slot as usize][i as usize] {
+                Across::One(o) => plus(normal(&t), normal(&self.tree.triangle(o))),
+                Across::Free | Across::Unclear => normal(&t),
+            },
+            Feature::Vertex(i) => self.corner[self.tree.slots[hit.slot as usize][i as usize] as usize],
+        };
+        if dot(minus(*p, place.point), n) < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// Signed distance of each point, millimetres, positive outside, in the order of `points`; NaN beyond
+    /// `query.max_distance`. Its size is the one of [`Tree::distances`] in every bit.
+    ///
+    /// # Errors
+    /// Those of [`Tree::for_each_closest`].
+    pub fn distances(
+        &self,
+        points: &[Point],
+        query: &Query,
+        progress: &dyn Progress,
+    ) -> Result<Vec<f64>, QueryError> {
+        self.tree.map_closest(points, query, progress, |i, hit| {
+            hit.map_or(f64::NAN, |h| h.distance() * self.sign(&points[i], &h))
+        })
+    }
+}
+
+/// How two methods of finding the sign agree on some points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Points compared.
+    pub compared: usize,
+    /// Indices, ascending, of the points to which the methods give different signs.
+    pub differing: Vec<usize>,
+    /// Greatest distance from the surface of a differing point, millimetres; 0 if there is none. Differences within
+    /// rounding of the surface mean nothing.
+    pub farthest: f64,
+}
+
+impl Agreement {
+    /// Compares pseudonormals with the winding number (inside above one half), both of one tree.
+    ///
+    /// # Errors
+    /// Those of [`Tree::for_each_closest`].
+    pub fn of(
+        signs: &Signs,
+        winding: &Winding,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Agreement, QueryError> {
+        let distances = signs.distances(points, &Query::default(), progress)?;
+        let numbers = winding.numbers(points, progress)?;
+        let pairs = distances.iter().zip(&numbers).enumerate();
+        let differing: Vec<usize> =
+            pairs.filter(|(_, (d, w))| (**w > 0.5) != (**d < 0.0)).map(|(i, _)| i).collect();
+        let farthest = differing.iter().map(|&i| distances[i].abs()).fold(0.0, f64::max);
+        Ok(Agreement { compared: points.len(), differing, farthest })
+    }
+}

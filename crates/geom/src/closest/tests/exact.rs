@@ -1,0 +1,210 @@
+//! The search against the brute-force twin, bit for bit: least squared distance and lowest face.
+
+use super::*;
+use crate::closest::{Feature, MeshError, QueryError, brute};
+use crate::progress::{Cancelled, Progress};
+use crate::space::{minus, norm, times};
+
+/// Points of every kind around `mesh`: on its corners, edges and faces, near, and far.
+fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
+    let bounds = mesh.bounds();
+    let size = bounds.sides().into_iter().fold(1e-300, f64::max);
+    let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
+    let mut points = vec![centre];
+    for i in 0..n {
+        let c = mesh.faces[d.bits() as usize % mesh.faces.len()].map(|v| mesh.positions[v as usize]);
+        let (s, t) = (d.unit().abs(), d.unit().abs());
+        let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
+        let on = plus(c[0], plus(times(s, minus(c[1], c[0])), times(t, minus(c[2], c[0]))));
+        let far = match i % 128 {
+            7 => 1e6,
+            71 => 1e22,
+            _ => 20.0,
+        };
+        points.push(match i % 8 {
+            0 => c[i % 3],
+            1 => times(0.5, plus(c[0], c[1])),
+            2 => on,
+            3 => plus(on, d.point(1e-9 * size)),
+            4 => plus(on, d.point(1e-4 * size)),
+            5 => plus(on, d.point(0.02 * size)),
+            6 => plus(centre, d.point(0.8 * size)),
+            _ => plus(centre, d.point(far * size)),
+        });
+    }
+    points
+}
+
+fn check(name: &str, mesh: Mesh, d: &mut Dice, n: usize) {
+    let tree = Tree::build(&mesh).unwrap();
+    let points = around(&mesh, d, n);
+    let want: Vec<_> = points.iter().map(|p| brute::closest(&mesh, p)).collect();
+    for level in LEVELS {
+        for (i, (h, w)) in hits(&tree, &points, &with(level)).iter().zip(&want).enumerate() {
+            let h = h.unwrap();
+            assert_eq!(
+                (h.distance_squared.to_bits(), h.face),
+                (w.0.to_bits(), w.1),
+                "{name}, {level:?}, point {i} {:?}: {} in face {}, brute force {} in face {}",
+                points[i],
+                h.distance_squared,
+                h.face,
+                w.0,
+                w.1
+            );
+        }
+    }
+    for (p, w) in points.iter().zip(&want) {
+        place_is_right(&mesh, p, *w, &tree.closest(p, f64::INFINITY).unwrap().unwrap());
+    }
+}
+
+/// The single query gives the same face, and a place on it at the distance it says.
+fn place_is_right(mesh: &Mesh, p: &Point, want: (f64, u32), got: &Closest) {
+    assert_eq!((got.distance.to_bits(), got.face), (want.0.sqrt().to_bits(), want.1), "at {p:?}");
+    let corners = mesh.faces[got.face as usize].map(|v| mesh.positions[v as usize]);
+    let extent = corners.iter().chain([p]).flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    // Rounding of the foot: a needle's plane is known to 1e-16 / 3e-8 of the distance from it.
+    let slack = 1e-14 * extent + 1e-8 * got.distance;
+    assert!((norm(minus(*p, got.point)) - got.distance).abs() <= slack, "{got:?} from {p:?}");
+    let b = got.barycentric;
+    assert!(b.iter().all(|x| (0.0..=1.0).contains(x)) && (b[0] + b[1] + b[2] - 1.0).abs() < 1e-12, "{got:?}");
+    // Weights of a needle are known to 1e-16 over the sine of its angle, at least 3e-8.
+    let longest = (0..3).map(|k| norm(minus(corners[k], corners[(k + 1) % 3]))).fold(0.0, f64::max);
+    let mean = (0..3).fold([0.0; 3], |m, k| plus(m, times(b[k], corners[k])));
+    assert!(norm(minus(mean, got.point)) <= slack + 1e-7 * longest, "{got:?}: mean {mean:?}");
+    match got.feature {
+        Feature::Face => {}
+        Feature::Edge(i) => assert_eq!(b[(i as usize + 2) % 3], 0.0),
+        Feature::Vertex(i) => assert_eq!((b[i as usize], got.point), (1.0, corners[i as usize])),
+    }
+}
+
+#[test]
+fn soups_equal_brute_force() {
+    let d = &mut Dice(1);
+    let large = |d: &mut Dice| std::array::from_fn(|_| d.point(1.0));
+    for (name, faces, points) in
+        [("one", 1, 400), ("eight", 8, 400), ("nine", 9, 400), ("crossing", 700, 1500)]
+    {
+        check(name, soup(d, faces, large), d, points);
+    }
+    let small = |d: &mut Dice| {
+        let c = d.point(10.0);
+        std::array::from_fn(|_| plus(c, d.point(0.2)))
+    };
+    check("small triangles", soup(d, 3000, small), d, 1500);
+}
+
+#[test]
+fn degenerate_triangles_equal_brute_force() {
+    let d = &mut Dice(4);
+    let thin = |d: &mut Dice, width: f64| {
+        let (c, e) = (d.point(10.0), d.point(3.0));
+        [c, plus(c, e), plus(plus(c, times(0.4, e)), d.point(width))]
+    };
+    check("needles", soup(d, 2000, |d| thin(d, 1e-7)), d, 1500);
+    let any_width = |d: &mut Dice| {
+        let width = 10f64.powf(-4.0 + 8.0 * d.unit()).min(1.0);
+        thin(d, width)
+    };
+    check("slivers at the limit of the plane", soup(d, 2000, any_width), d, 3000);
+    let segment = |d: &mut Dice| {
+        let (c, e) = (d.point(10.0), d.point(1.0));
+        [c, plus(c, e), if d.unit() > 0.0 { c } else { plus(c, times(0.5, e)) }]
+    };
+    check("segments", soup(d, 1000, segment), d, 1500);
+    check("points", soup(d, 1000, |d| [d.point(10.0); 3]), d, 1000);
+    check("all in one place", soup(d, 100, |_| [[1.0, 2.0, 3.0]; 3]), d, 200);
+}
+
+#[test]
+fn closed_meshes_equal_brute_force() {
+    let d = &mut Dice(5);
+    let mut tripled = sphere(12, 5.0, [0.0; 3]);
+    tripled.faces = [&tripled.faces[..]; 3].concat();
+    check("each face three times", tripled, d, 1000);
+    let mut mixed = sphere(40, 1.0, [0.0; 3]);
+    let n = mixed.positions.len() as u32;
+    mixed.positions.extend([[-1e4, -1e4, -2.0], [1e4, -1e4, -2.0], [0.0, 1e4, -2.0]]);
+    mixed.faces.push([n, n + 1, n + 2]);
+    check("mixed sizes", mixed, d, 1500);
+    check("sphere", sphere(60, 100.0, [0.0; 3]), d, 3000);
+    let mut flat = cube(1.0);
+    flat.faces.truncate(2);
+    check("flat", flat, d, 500);
+}
+
+#[test]
+fn any_size_and_place_equals_brute_force() {
+    let d = &mut Dice(6);
+    check("at 1e6", sphere(40, 100.0, [1e6, -1e6, 1e6]), d, 2000);
+    check("tiny", sphere(30, 1e-12, [0.0; 3]), d, 1000);
+    check("minute", sphere(30, 1e-40, [0.0; 3]), d, 1000);
+    check("huge", sphere(30, 1e30, [0.0; 3]), d, 1000);
+}
+
+#[test]
+fn same_bytes_whatever_the_threads_and_the_order() {
+    let d = &mut Dice(2);
+    let mesh = sphere(100, 50.0, [3.0; 3]);
+    let near = |d: &mut Dice| plus([3.0; 3], times(50.05, d.direction()));
+    let points: Vec<Point> = (0..60_000).map(|i| if i % 2 == 0 { d.point(80.0) } else { near(d) }).collect();
+    let ask = |threads: usize, points: &[Point]| {
+        in_pool(threads, || hits(&Tree::build(&mesh).unwrap(), points, &Query::default()))
+    };
+    let one = ask(1, &points);
+    assert_eq!(one, ask(2, &points));
+    assert_eq!(one, ask(5, &points));
+    // Another cloud: other blocks, other warm starts.
+    let backwards: Vec<Point> = points.iter().rev().copied().collect();
+    let mut other = ask(3, &backwards[..40_000]);
+    other.extend(ask(2, &backwards[40_000..]));
+    other.reverse();
+    assert_eq!(one, other);
+}
+
+#[test]
+fn refuses_what_cannot_be_measured() {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, f64::NAN]];
+    let build = |faces: Vec<[u32; 3]>| Tree::build(&Mesh { positions: positions.clone(), faces });
+    assert_eq!(build(vec![]).err(), Some(MeshError::NoFaces));
+    let bad = MeshError::BadIndex { face: 1, vertex: 3, vertices: 3 };
+    assert_eq!(build(vec![[0, 1, 1], [0, 1, 3]]).err(), Some(bad));
+    assert_eq!(build(vec![[0, 1, 2]]).err(), Some(MeshError::BadVertex(2)));
+    let tree = build(vec![[0, 1, 1]]).unwrap();
+    let ask = |points: &[Point], max_distance: f64| {
+        tree.distances(points, &Query { max_distance, ..Query::default() }, &Silent)
+    };
+    let far = f64::INFINITY;
+    assert_eq!(ask(&[[0.0; 3], [far, 0.0, 0.0]], far), Err(QueryError::BadPoint(1)));
+    assert_eq!(ask(&[[0.0, 1.1e60, 0.0]], far), Err(QueryError::BadPoint(0)));
+    assert_eq!(ask(&[], far), Ok(vec![]));
+    assert!(matches!(ask(&[], f64::NAN), Err(QueryError::BadMaxDistance(_))));
+    assert_eq!(ask(&[], -1.0), Err(QueryError::BadMaxDistance(-1.0)));
+    assert_eq!(tree.closest(&[f64::NAN; 3], far), Err(QueryError::BadPoint(0)));
+}
+
+struct Stop;
+impl Progress for Stop {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn tells_of_every_point_and_stops_when_asked() {
+    #[derive(Default)]
+    struct Count(std::sync::atomic::AtomicU64);
+    impl Progress for Count {
+        fn advance(&self, items: u64) {
+            self.0.fetch_add(items, std::sync::atomic::Ordering::Relaxed);
+        }
+    }
+    let tree = Tree::build(&cube(1.0)).unwrap();
+    let points = vec![[2.0; 3]; 30_000];
+    let count = Count::default();
+    tree.distances(&points, &Query::default(), &count).unwrap();
+    assert_eq!(count.0.into_inner(), 30_000);
+    assert_eq!(tree.distances(&points, &Query::default(), &Stop), Err(QueryError::Cancelled(Cancelled)));
+}

@@ -1,0 +1,121 @@
+//! Meshes and points for the tests, and what several of them ask.
+
+mod exact;
+mod limit;
+mod sign;
+mod traps;
+mod winding;
+
+use crate::closest::{Closest, Hit, Level, Query, Tree};
+use crate::mesh::Mesh;
+use crate::progress::Silent;
+use crate::space::{Point, plus};
+use std::f64::consts::PI;
+use std::sync::Mutex;
+
+/// Small repeatable generator (SplitMix64).
+pub struct Dice(pub u64);
+
+impl Dice {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E3779B97F4A7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58476D1CE4E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D049BB133111EB);
+        z ^ (z >> 31)
+    }
+    /// In -1..1.
+    pub fn unit(&mut self) -> f64 {
+        self.bits() as f64 / (1u64 << 63) as f64 - 1.0
+    }
+    /// In a cube of half side `size`.
+    pub fn point(&mut self, size: f64) -> Point {
+        std::array::from_fn(|_| self.unit() * size)
+    }
+    /// On the unit sphere.
+    pub fn direction(&mut self) -> Point {
+        loop {
+            if let Some((d, length)) = crate::space::unit(self.point(1.0))
+                && length <= 1.0
+            {
+                return d;
+            }
+        }
+    }
+}
+
+/// A sphere of `n x n` quads, each cut in two.
+pub fn sphere(n: usize, r: f64, at: Point) -> Mesh {
+    let mut positions = vec![];
+    for i in 0..=n {
+        for j in 0..n {
+            let (a, b) = (PI * i as f64 / n as f64, 2.0 * PI * j as f64 / n as f64);
+            let s = if i == 0 || i == n { 0.0 } else { a.sin() };
+            positions.push(plus(at, [r * s * b.cos(), r * s * b.sin(), r * a.cos()]));
+        }
+    }
+    let id = |i: usize, j: usize| match i {
+        0 => 0,
+        _ if i == n => (n * n) as u32,
+        _ => (i * n + j % n) as u32,
+    };
+    let mut faces = vec![];
+    for i in 0..n {
+        for j in 0..n {
+            if i + 1 < n {
+                faces.push([id(i, j), id(i + 1, j), id(i + 1, j + 1)]);
+            }
+            if i > 0 {
+                faces.push([id(i, j), id(i + 1, j + 1), id(i, j + 1)]);
+            }
+        }
+    }
+    Mesh { positions, faces }
+}
+
+/// The cube `[0, size]³`, outward, twelve faces.
+pub fn cube(size: f64) -> Mesh {
+    let positions = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|b| b as f64 * size)).collect();
+    let faces = vec![
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    Mesh { positions, faces }
+}
+
+/// `n` triangles without a common vertex.
+pub fn soup(d: &mut Dice, n: usize, triangle: impl Fn(&mut Dice) -> [Point; 3]) -> Mesh {
+    let positions = (0..n).flat_map(|_| triangle(d)).collect();
+    Mesh { positions, faces: (0..n as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
+}
+
+/// The answers to a query; fails if a point is answered twice or not at all.
+pub fn hits(tree: &Tree, points: &[Point], query: &Query) -> Vec<Option<Hit>> {
+    let out = Mutex::new(vec![None; points.len()]);
+    tree.for_each_closest(points, query, &Silent, |i, h| {
+        assert!(out.lock().unwrap()[i].replace(h).is_none(), "point {i} answered twice");
+    })
+    .unwrap();
+    out.into_inner().unwrap().into_iter().map(|h| h.expect("every point is answered")).collect()
+}
+
+/// A query with the given instructions.
+pub fn with(instructions: Level) -> Query {
+    Query { instructions, ..Query::default() }
+}
+
+pub const LEVELS: [Level; 3] = [Level::Plain, Level::Avx2, Level::Avx512];
+
+/// Runs `f` in a pool of `threads`.
+pub fn in_pool<T: Send>(threads: usize, f: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(f)
+}

@@ -1,0 +1,146 @@
+//! Distance from a point to one triangle, in double precision: the definition of the answer.
+//!
+//! [`squared`] is written once over [`Real`], so the scalar brute-force twin and the vector kernel run the same
+//! operations in the same order and agree bit for bit.
+//!
+//! Method. The distance is the least of the distances to the three edges and, when the foot of the perpendicular falls
+//! inside, the distance to the plane. Testing the edges always (instead of sorting the point into one of seven regions,
+//! Ericson 2005 §5.1.5) costs a few operations and makes every degenerate triangle an ordinary case: a needle, a segment
+//! or a point is answered by its edges. The plane is used only where its normal is well determined ([`PLANE_MIN`]).
+#![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
+
+use crate::closest::lanes::Real;
+use crate::space::Point;
+
+/// The plane counts only if sin² of the angle at the first corner exceeds this; below, the triangle is so thin (width
+/// under 3e-8 of its length) that its edges are the triangle.
+const PLANE_MIN: f64 = 1e-15;
+
+#[inline(always)]
+fn sub<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+#[inline(always)]
+fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+#[inline(always)]
+fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Where between its ends the segment along `v` (squared length `vv`), seen from its tail, is nearest to the head of `w`.
+#[inline(always)]
+fn along<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
+    let t = T::select(vv.above(zero), dot(w, v) / vv, zero);
+    t.most(zero).least(one)
+}
+
+/// Squared distance from the head of `w` to the point at `t` of the segment along `v`.
+#[inline(always)]
+fn aside<T: Real>(w: [T; 3], v: [T; 3], t: T) -> T {
+    let e = sub(w, [t * v[0], t * v[1], t * v[2]]);
+    dot(e, e)
+}
+
+/// Squared distance from the head of `w` to the segment along `v` (squared length `vv`) from its tail.
+///
+/// A function, not a closure: closures over vector types are not reliably inlined into `#[target_feature]` functions.
+#[inline(always)]
+fn edge<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
+    aside(w, v, along(w, v, vv, zero, one))
+}
+
+/// Squared distance from `p` to the triangle `a b c`, any of which may coincide; and, where the closest point lies
+/// inside the triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim).
+///
+/// # Safety
+/// The processor has the instructions of `T` (none for `f64`).
+#[inline(always)]
+pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T) {
+    // SAFETY: the caller's promise.
+    let (zero, one, plane_min) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(PLANE_MIN)) };
+    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+    let (ap, bp) = (sub(p, a), sub(p, b));
+    let (aa, cc) = (dot(ab, ab), dot(ac, ac));
+    let rim = edge(ap, ab, aa, zero, one).least(edge(ap, ac, cc, zero, one));
+    let rim = rim.least(edge(bp, bc, dot(bc, bc), zero, one));
+    let n = cross(ab, ac);
+    let nn = dot(n, n);
+    let left_of_ab = dot(n, cross(ab, ap)).at_least(zero);
+    let left_of_bc = dot(n, cross(bc, bp)).at_least(zero);
+    let left_of_ca = dot(n, cross(ap, ac)).at_least(zero);
+    let flat = nn.above(plane_min * aa * cc);
+    let h = dot(ap, n);
+    let plane = (h * h / nn).least(rim);
+    let inside = T::both(T::both(left_of_ab, left_of_bc), T::both(left_of_ca, flat));
+    (T::select(inside, plane, rim), T::select(inside, h, zero))
+}
+
+/// Squared distance, and height as in [`squared`], of plain points.
+pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
+    // SAFETY: `f64` needs no special instructions.
+    unsafe { squared::<f64>(*p, *t) }
+}
+
+/// The part of a face that a closest point lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The inside.
+    Face,
+    /// Edge `i` runs from corner `i` to corner `i + 1` (mod 3); its ends excluded.
+    Edge(u8),
+    /// Corner `i`.
+    Vertex(u8),
+}
+
+/// A point of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Where.
+    pub point: Point,
+    /// Weights of the corners: the point is their weighted mean.
+    pub barycentric: [f64; 3],
+    /// What it lies on.
+    pub feature: Feature,
+}
+
+/// The point of triangle `t` closest to `p`: the place whose distance [`squared_distance`] reports.
+///
+/// Scalar; called once per answer, not in the search.
+pub fn closest_point(p: &Point, t: &[Point; 3]) -> Place {
+    let [a, b, c] = *t;
+    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+    let (ap, bp) = (sub(*p, a), sub(*p, b));
+    let (mut least, mut place) =
+        (f64::INFINITY, Place { point: a, barycentric: [1.0, 0.0, 0.0], feature: Feature::Vertex(0) });
+    // Edge 2 is measured from corner 0 to corner 2, as in `squared`.
+    for (i, from, to, v, w) in [(0, 0, 1, ab, ap), (2, 0, 2, ac, ap), (1, 1, 2, bc, bp)] {
+        let s = along(w, v, dot(v, v), 0.0, 1.0);
+        let d = aside(w, v, s);
+        if d < least {
+            let mut barycentric = [0.0; 3];
+            (barycentric[from], barycentric[to]) = (1.0 - s, s);
+            (least, place) = match s {
+                0.0 => (d, Place { point: t[from], barycentric, feature: Feature::Vertex(from as u8) }),
+                1.0 => (d, Place { point: t[to], barycentric, feature: Feature::Vertex(to as u8) }),
+                _ => {
+                    let point = std::array::from_fn(|k| t[from][k] + s * v[k]);
+                    (d, Place { point, barycentric, feature: Feature::Edge(i) })
+                }
+            };
+        }
+    }
+    let n = cross(ab, ac);
+    let nn = dot(n, n);
+    let [wc, wa, wb] = [dot(n, cross(ab, ap)), dot(n, cross(bc, bp)), dot(n, cross(ap, ac))];
+    let h = dot(ap, n);
+    let flat = nn > PLANE_MIN * dot(ab, ab) * dot(ac, ac);
+    if flat && wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && h * h / nn < least {
+        let s = h / nn;
+        let point = std::array::from_fn(|k| p[k] - s * n[k]);
+        let sum = wa + wb + wc;
+        place = Place { point, barycentric: [wa / sum, wb / sum, wc / sum], feature: Feature::Face };
+    }
+    place
+}

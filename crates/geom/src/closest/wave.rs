@@ -1,0 +1,138 @@
+//! Many leaves: the sixteen points walk the tree independently but in step.
+//!
+//! A single walk waits most of the time for its own last result; sixteen independent ones, level by level and without
+//! branches that depend on data, keep the processor busy. First every point descends greedily to one leaf, which gives
+//! it a bound. Then a queue of (point, node) pairs is worked off in order; surviving children are appended by a vector
+//! compress, inner nodes to the queue, leaves to a list.
+//!
+//! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
+#![expect(
+    unsafe_code,
+    reason = "loads of vector types need their instructions; growing lists without a branch"
+)]
+
+use crate::closest::block::{BLOCK, Block, ROUNDING, Row, Scratch, norm};
+use crate::closest::kernel;
+use crate::closest::lanes::Lanes;
+use crate::closest::tree::{Node, Tree};
+use crate::space::Point;
+
+/// What is known of a point's distance.
+#[derive(Clone, Copy, Default)]
+struct Known {
+    /// Least distance found.
+    best: f32,
+    /// Bound of the rounding error of the distances found.
+    error: f32,
+}
+
+/// Lists in `s.pairs` the triangles worth settling for each point. `x` is a point of the surface; `limit` the greatest
+/// (scaled) distance that matters.
+#[inline(always)]
+pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s: &mut Scratch) {
+    unsafe {
+        let mut place = [[0f32; 3]; BLOCK];
+        for (i, q) in place.iter_mut().enumerate() {
+            *q = b.place(i);
+        }
+        let here = descend::<V>(tree, &place[..b.len], s.cut);
+        let x: [f32; 3] = std::array::from_fn(|k| ((x[k] - b.centre[k]) * tree.scale) as f32);
+        s.rows.clear();
+        let (mut known, mut bound) = ([Known::default(); BLOCK], [0f32; BLOCK]);
+        for i in 0..b.len {
+            known[i].best = norm(std::array::from_fn(|k| b.offset[k][i] - x[k])) * 1.00001;
+            probe::<V>(tree, b, i, !here[i] as u32, s, &mut known[i]);
+            bound[i] = b.bound(i, known[i].best.min(limit), known[i].error);
+        }
+        // All points start at the deepest node that holds what any of them can need.
+        s.queue.clear();
+        s.found.clear();
+        s.queue.extend((0..b.len).map(|i| [i as i32, s.cut]));
+        let mut next = 0;
+        while let Some(&[i, n]) = s.queue.get(next) {
+            next += 1;
+            let node = &tree.nodes[n as usize];
+            let q = place[i as usize % BLOCK].map(|x| V::splat(x));
+            let mask = kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % BLOCK]));
+            let leaf = V::negative(&node.child);
+            push::<V>(mask & !leaf, i, node, &mut s.queue);
+            push::<V>(mask & leaf, i, node, &mut s.found);
+        }
+        for at in 0..s.found.len() {
+            let [i, c] = s.found[at];
+            let i = i as usize % BLOCK;
+            if c != here[i] {
+                probe::<V>(tree, b, i, !c as u32, s, &mut known[i]);
+            }
+        }
+        settle_rows::<V>(&known, s);
+    }
+}
+
+/// For each point the leaf (as a child number) that a greedy walk down from `from` ends in.
+#[inline(always)]
+unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], from: i32) -> [i32; BLOCK] {
+    let mut here = [from; BLOCK];
+    loop {
+        let mut moved = false;
+        for (h, q) in here.iter_mut().zip(places) {
+            if *h >= 0 {
+                let node = &tree.nodes[*h as usize];
+                // SAFETY: the caller's promise.
+                let nearest = unsafe {
+                    let d = kernel::box_distance2::<V>(node, q.map(|x| V::splat(x)));
+                    d.le(V::splat(d.least()))
+                };
+                *h = node.child[nearest.trailing_zeros() as usize & 7];
+                moved = true;
+            }
+        }
+        if !moved {
+            return here;
+        }
+    }
+}
+
+/// Appends `(i, child)` for the children in `mask`.
+#[inline(always)]
+unsafe fn push<V: Lanes<8>>(mask: u32, i: i32, node: &Node, list: &mut Vec<[i32; 2]>) {
+    list.reserve(8);
+    let n = list.len();
+    // SAFETY: there is room for eight, of which `compress` fills the front; the caller's promise.
+    unsafe {
+        V::compress(mask, i, &node.child, list.as_mut_ptr().add(n));
+        list.set_len(n + mask.count_ones() as usize);
+    }
+}
+
+/// Tests leaf `l` against point `i`: notes the eight squared distances in `s.rows`, and what is `known` of the point.
+#[inline(always)]
+unsafe fn probe<V: Lanes<8>>(tree: &Tree, b: &Block, i: usize, l: u32, s: &mut Scratch, known: &mut Known) {
+    let leaf = &tree.leaves[l as usize];
+    let r = b.relative(tree, leaf.origin);
+    let r: [f32; 3] = std::array::from_fn(|k| r[k] + b.offset[k][i % BLOCK]);
+    // SAFETY: the caller's promise.
+    let d = unsafe { kernel::leaf_distance2(leaf, kernel::into_frames::<V>(leaf, r)) };
+    s.rows.push(Row { distance2: d.array(), first: leaf.first, point: i as u32 });
+    let least = d.least().sqrt();
+    known.best = if least < known.best { least } else { known.best };
+    let e = ROUNDING * (norm(r) + 2.0 * b.reach + leaf.radius);
+    known.error = if e > known.error { e } else { known.error };
+}
+
+/// From the tested leaves to the triangles worth settling.
+#[inline(always)]
+unsafe fn settle_rows<V: Lanes<8>>(known: &[Known; BLOCK], s: &mut Scratch) {
+    let limit = known.map(|k| {
+        let l = k.best + 2.0 * k.error;
+        l * l * 1.00001
+    });
+    for row in &s.rows {
+        // SAFETY: the caller's promise.
+        let mut mask = unsafe { V::load(&row.distance2).le(V::splat(limit[row.point as usize % BLOCK])) };
+        while mask != 0 {
+            s.pairs.push((row.point, row.first + mask.trailing_zeros()));
+            mask &= mask - 1;
+        }
+    }
+}
