@@ -1,7 +1,13 @@
 //! The colour scale: one object that alone colours map, legend, histogram, flags and exports.
 
+pub mod palette;
+
+use palette::Rgb;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Colour of what has no value.
+pub const NO_VALUE: Rgb = [0x9a, 0xa0, 0xa6];
 
 /// `trueness/scale/1`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,4 +42,201 @@ pub enum Mode {
     Continuous,
     /// Below, in, above the tolerance zone.
     GoNoGo,
+}
+
+impl Scale {
+    /// The range that is shown unless the user asks for another.
+    ///
+    /// With a tolerance: twice its wider side, so that the zone is the middle of the picture. Without: the 95th percentile of
+    /// the sizes of the deviations, rounded up to 1, 1.5, 2, 3, 5 or 7 times a power of ten. Symmetric either way.
+    /// `p95_abs` that is zero, negative or not finite gives ±0.001 mm.
+    pub fn for_deviations(p95_abs: f64, tolerance: Option<[f64; 2]>) -> Scale {
+        let wider = tolerance.map(|[l, u]| l.abs().max(u.abs())).filter(|w| *w > 0.0 && w.is_finite());
+        let upper = match wider {
+            Some(w) => 2.0 * w,
+            None => round_up(p95_abs),
+        };
+        Scale {
+            name: "default".into(),
+            mode: Mode::Bands,
+            lower: -upper,
+            upper,
+            tolerance,
+            bands: 9,
+            palette: palette::NAMES[0].into(),
+            decimals: decimals(upper),
+            unit: "mm".into(),
+        }
+    }
+
+    /// Where the colour changes, rising; one more than there are bands, the caps lie beyond.
+    ///
+    /// With a tolerance the middle band is the zone, and the bands beyond it divide `[upper limit, upper]` and
+    /// `[lower, lower limit]` evenly; without, all bands are equal.
+    pub fn limits(&self) -> Vec<f64> {
+        let zone = self.tolerance.filter(|[l, u]| l <= u);
+        if self.mode == Mode::GoNoGo {
+            return zone.map_or(vec![self.lower, self.upper], |z| z.to_vec());
+        }
+        let Some([l, u]) = zone.filter(|[l, u]| self.lower < *l && *u < self.upper) else {
+            let n = self.bands.max(1);
+            return (0..=n).map(|i| between(self.lower, self.upper, i, n)).collect();
+        };
+        let side = (self.bands / 2).max(1);
+        let below = (0..=side).map(|i| between(self.lower, l, i, side));
+        below.chain((0..=side).map(|i| between(u, self.upper, i, side))).collect()
+    }
+
+    /// Number of the colour for a deviation: 0 the low cap, then the bands from low to high, last the high cap. `None` for NaN.
+    ///
+    /// A value on a limit belongs to the band nearer the middle, so both tolerance limits are in the zone. It depends on the
+    /// scale and the value alone, never on the other values.
+    pub fn slot(&self, deviation: f64) -> Option<usize> {
+        (!deviation.is_nan()).then(|| slot(&self.limits(), deviation))
+    }
+
+    /// Colours of all slots, low cap first.
+    pub fn colors(&self) -> Vec<Rgb> {
+        palette::colors(&self.palette, self.limits().len() - 1)
+    }
+
+    /// Colour for a deviation in the scale's own mode; grey for NaN.
+    pub fn color(&self, deviation: f64) -> Rgb {
+        let Some(slot) = self.slot(deviation) else { return NO_VALUE };
+        let colors = self.colors();
+        if self.mode == Mode::Continuous && self.lower <= deviation && deviation <= self.upper {
+            blend(&self.limits(), &colors, deviation)
+        } else {
+            colors[slot]
+        }
+    }
+
+    /// The continuous colours as `n` equal steps from `lower` to `upper`, each taken in its middle.
+    pub fn ramp(&self, n: usize) -> Vec<Rgb> {
+        let (limits, colors) = (self.limits(), self.colors());
+        let at = |i: usize| self.lower + (i as f64 + 0.5) / n as f64 * (self.upper - self.lower);
+        (0..n).map(|i| blend(&limits, &colors, at(i))).collect()
+    }
+}
+
+/// See [`Scale::slot`].
+fn slot(limits: &[f64], deviation: f64) -> usize {
+    let middle = limits.len() / 2;
+    let above = limits[middle..].iter().filter(|l| deviation > **l).count();
+    let below = limits[..middle].iter().filter(|l| deviation < **l).count();
+    middle + above - below
+}
+
+/// Each band has its colour in its middle; between two middles colours are mixed, beyond the last ones they stay.
+fn blend(limits: &[f64], colors: &[Rgb], deviation: f64) -> Rgb {
+    let centers: Vec<f64> = limits.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
+    let next = centers.iter().filter(|c| **c < deviation).count();
+    if next == 0 || next == centers.len() {
+        return colors[next.clamp(1, centers.len())];
+    }
+    let (low, high) = (centers[next - 1], centers[next]);
+    palette::mix(colors[next], colors[next + 1], (deviation - low) / (high - low))
+}
+
+/// The `i`-th of `n` equal steps from `a` to `b`, exact at both ends.
+fn between(a: f64, b: f64, i: u32, n: u32) -> f64 {
+    let t = f64::from(i) / f64::from(n);
+    if i == n { b } else { a + t * (b - a) }
+}
+
+/// The next of 1, 1.5, 2, 3, 5, 7 times a power of ten that is not less.
+fn round_up(x: f64) -> f64 {
+    if !(x > 0.0 && x.is_finite()) {
+        return 0.001;
+    }
+    let exponent = x.log10().floor() as i32;
+    // Decimal text is the one way to the nearest double of a decimal number.
+    let candidates = [(1.0, 0), (1.5, 0), (2.0, 0), (3.0, 0), (5.0, 0), (7.0, 0), (1.0, 1)];
+    let of = |(m, e): (f64, i32)| format!("{m}e{}", exponent + e).parse().unwrap_or(x);
+    candidates.into_iter().map(of).find(|c| *c >= x).unwrap_or(x)
+}
+
+/// Digits after the point so that a hundredth of `upper` still shows; at least 1, at most 6.
+fn decimals(upper: f64) -> u32 {
+    (2.0 - upper.log10().floor()).clamp(1.0, 6.0) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn toleranced() -> Scale {
+        Scale::for_deviations(7.0, Some([-0.1, 0.1]))
+    }
+
+    #[test]
+    fn default_ranges() {
+        assert_eq!((toleranced().lower, toleranced().upper), (-0.2, 0.2));
+        assert_eq!(Scale::for_deviations(9.0, Some([-0.1, 0.3])).upper, 0.6);
+        for (p95, upper) in [
+            (0.32, 0.5),
+            (0.5, 0.5),
+            (0.51, 0.7),
+            (0.71, 1.0),
+            (1.01, 1.5),
+            (3e-4, 3e-4),
+            (0.0, 1e-3),
+            (f64::NAN, 1e-3),
+        ] {
+            assert_eq!(Scale::for_deviations(p95, None).upper, upper, "{p95}");
+        }
+    }
+
+    #[test]
+    fn the_middle_band_is_the_tolerance_zone() {
+        let s = toleranced();
+        let limits = s.limits();
+        assert_eq!(limits.len(), 10);
+        assert_eq!(limits[4..6], [-0.1, 0.1]);
+        let green = [0x2f, 0xa8, 0x4a];
+        for d in [-0.1, 0.0, 0.1] {
+            assert_eq!(s.color(d), green);
+        }
+        for d in [0.1 + 1e-9, -0.1 - 1e-9] {
+            assert_ne!(s.color(d), green);
+        }
+    }
+
+    #[test]
+    fn beyond_the_scale_is_a_cap_and_nothing_is_grey() {
+        let s = toleranced();
+        assert_eq!(
+            (s.slot(0.2), s.slot(0.2 + 1e-12), s.slot(-0.2), s.slot(-0.3)),
+            (Some(9), Some(10), Some(1), Some(0))
+        );
+        assert_eq!((s.slot(f64::INFINITY), s.slot(f64::NAN), s.color(f64::NAN)), (Some(10), None, NO_VALUE));
+    }
+
+    /// The trap: a scale of 0 … 100 that other programs stretch to data of 4 … 100.
+    #[test]
+    fn colours_do_not_depend_on_the_data() {
+        let scale = Scale { lower: 0.0, upper: 100.0, tolerance: None, ..toleranced() };
+        let alone: Vec<Rgb> = (0..=100).map(|d| scale.color(f64::from(d))).collect();
+        let data: Vec<f64> = (4..=100).map(f64::from).collect();
+        for d in data {
+            assert_eq!(scale.color(d), alone[d as usize]);
+        }
+        assert_eq!(scale.slot(4.0), Some(1));
+        assert_eq!(scale.slot(50.0), Some(5));
+    }
+
+    #[test]
+    fn the_ramp_passes_through_the_bands_colours() {
+        let s = Scale { mode: Mode::Continuous, ..toleranced() };
+        let (ramp, colors) = (s.ramp(256), s.colors());
+        assert_eq!((ramp[0], ramp[255]), (colors[1], colors[9]));
+        assert_eq!(s.color(0.0), colors[5]);
+        assert_eq!(s.color(0.25), colors[10]);
+    }
+
+    #[test]
+    fn go_no_go_knows_three_colours() {
+        let s = Scale { mode: Mode::GoNoGo, ..toleranced() };
+        assert_eq!([-0.11, -0.1, 0.1, 0.11].map(|d| s.slot(d)), [Some(0), Some(1), Some(1), Some(2)]);
+    }
 }
