@@ -8,6 +8,7 @@
 //! | statistics of deviations | [`deviation::statistics`] |
 //! | sums, random numbers | [`num`] |
 //! | closest points, distances, signs | [`closest`] |
+//! | welding, edges, shells, soundness | [`topology`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod closest;
@@ -17,3 +18,4 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod space;
+pub mod topology;
