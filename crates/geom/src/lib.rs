@@ -9,11 +9,13 @@
 //! | sums, random numbers | [`num`] |
 //! | closest points, distances, signs | [`closest`] |
 //! | welding, edges, shells, soundness | [`topology`] |
+//! | elements fitted to points | [`fit`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod closest;
 pub mod cloud;
 pub mod deviation;
+pub mod fit;
 pub mod mesh;
 pub mod num;
 pub mod progress;

@@ -1,0 +1,108 @@
+//! Right circular cones.
+
+use super::family::{Element, Family};
+use super::pose::{Local, Pose};
+use super::revolution::{Powers, Profile};
+use super::round::{TINY, least_squares};
+use super::sample::Sample;
+use super::scalar::Scalar;
+use super::scatter::Scatter;
+use super::shape::Shape;
+use crate::space::{Point, plus, times, unit};
+use std::f64::consts::FRAC_PI_2;
+
+/// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the
+/// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane.
+pub(super) struct Cone;
+
+impl Family<6> for Cone {
+    const LOCAL: [Local; 6] = [
+        Local::Shift(0),
+        Local::Shift(1),
+        Local::Tilt(0),
+        Local::Tilt(1),
+        Local::Size(0),
+        Local::Size(1),
+    ];
+
+    #[inline(always)]
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 6])) {
+        let (sin, cos) = size[1].sin_cos();
+        let (sin, cos) = (S::of(sin), S::of(cos));
+        let rho = (x * x + y * y).root();
+        let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
+        let (nu, nv) = (cos * x * inverse, cos * y * inverse);
+        row(
+            rho * cos - z * sin - S::of(size[0]),
+            [
+                -nu,
+                -nv,
+                -(z * nu) - x * sin,
+                -(z * nv) - y * sin,
+                S::of(-1.0),
+                -(rho * sin) - z * cos,
+            ],
+        );
+    }
+    #[inline(always)]
+    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
+        let (sin, cos) = size[1].sin_cos();
+        (x * x + y * y).root() * S::of(cos) - z * S::of(sin) - S::of(size[0])
+    }
+    fn sound(size: [f64; 2]) -> bool {
+        size[0].is_finite() && size[1].abs() < FRAC_PI_2
+    }
+    fn starts(points: &[Point]) -> Vec<Element> {
+        let principal = Scatter::of(points).axes;
+        let powers = Powers::of(points);
+        let mut axes = powers.axes(Profile::Parabola, &principal, 6);
+        axes.extend(powers.axes(Profile::Constant, &principal, 3));
+        axes.into_iter()
+            .filter_map(|axis| {
+                // The generator: a straight line through distance from the axis over height.
+                let line = least_squares(points.iter().map(|&p| {
+                    let [x, y, z] = axis.pose.local(p);
+                    (vec![1.0, z], x.hypot(y))
+                }))?;
+                let angle = line[1].atan();
+                let element = Element { pose: axis.pose, size: [line[0] * angle.cos(), angle] };
+                Some(Cone::settled(refooted(element, [0.0; 3])))
+            })
+            .collect()
+    }
+    fn settled(element: Element) -> Element {
+        if element.size[1] < 0.0 {
+            let mut other = element.reversed(2);
+            other.size[1] = -other.size[1];
+            return other;
+        }
+        element
+    }
+    fn shape(element: &Element, sample: &Sample) -> Shape {
+        let [distance, half_angle] = element.size;
+        let direction = element.pose.axes[2];
+        let apex = plus(element.pose.origin, times(-distance / half_angle.sin(), direction));
+        Shape::Cone {
+            apex: sample.place(apex),
+            direction,
+            half_angle,
+            point: sample.place(element.pose.origin),
+            radius: distance / half_angle.cos() / sample.scale,
+        }
+    }
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
+        let Shape::Cone { direction, half_angle, point, radius, .. } = *shape else { return None };
+        let (w, _) = unit(direction)?;
+        let pose = Pose::along(sample.unit(point), w);
+        let size = [radius * sample.scale * half_angle.cos(), half_angle];
+        Some(refooted(Element { pose, size }, [0.0; 3]))
+    }
+}
+
+/// The same cone with its origin at the foot of `place`.
+fn refooted(element: Element, place: Point) -> Element {
+    let height = element.pose.local(place)[2];
+    let mut moved = element.footed(place);
+    moved.size[0] += height * element.size[1].sin();
+    moved
+}

@@ -1,0 +1,58 @@
+//! Right circular cylinders.
+
+use super::family::{Element, Family};
+use super::pose::{Local, Pose};
+use super::revolution::{Powers, Profile};
+use super::round::TINY;
+use super::sample::Sample;
+use super::scalar::Scalar;
+use super::scatter::Scatter;
+use super::shape::Shape;
+use crate::space::{Point, unit};
+
+/// Cylinder about the third axis of its frame.
+pub(super) struct Cylinder;
+
+impl Family<5> for Cylinder {
+    const LOCAL: [Local; 5] =
+        [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0)];
+
+    #[inline(always)]
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 5])) {
+        let rho = (x * x + y * y).root();
+        let inverse = S::of(-1.0) / rho.at_least(S::of(TINY));
+        let (nu, nv) = (x * inverse, y * inverse);
+        row(rho - S::of(size[0]), [nu, nv, z * nu, z * nv, S::of(-1.0)]);
+    }
+    #[inline(always)]
+    fn distance<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3]) -> S {
+        (x * x + y * y).root() - S::of(size[0])
+    }
+    fn sound(size: [f64; 2]) -> bool {
+        size[0] > 0.0
+    }
+    fn starts(points: &[Point]) -> Vec<Element> {
+        let principal = Scatter::of(points).axes;
+        Powers::of(points)
+            .axes(Profile::Constant, &principal, 6)
+            .into_iter()
+            .filter(|axis| axis.radius_squared > 0.0)
+            .map(|axis| {
+                Element { pose: axis.pose, size: [axis.radius_squared.sqrt(), 0.0] }.footed([0.0; 3])
+            })
+            .collect()
+    }
+    fn shape(element: &Element, sample: &Sample) -> Shape {
+        Shape::Cylinder {
+            point: sample.place(element.pose.origin),
+            direction: element.pose.axes[2],
+            radius: element.size[0] / sample.scale,
+        }
+    }
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
+        let Shape::Cylinder { point, direction, radius } = *shape else { return None };
+        let (w, _) = unit(direction)?;
+        let pose = Pose::along(sample.unit(point), w);
+        Some(Element { pose, size: [radius * sample.scale, 0.0] }.footed([0.0; 3]))
+    }
+}

@@ -1,0 +1,101 @@
+//! What an element is to the solvers: unknowns, rows and distances in its own frame.
+
+use super::pose::{Local, Pose};
+use super::sample::Sample;
+use super::scalar::Scalar;
+use super::shape::Shape;
+use crate::space::{Point, times};
+
+/// A frame and at most two sizes: an element of whatever family, in the unit frame of its sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Element {
+    pub pose: Pose,
+    pub size: [f64; 2],
+}
+
+/// One family of elements with `P` unknowns. The formulas are written in the element's own frame, where they
+/// are short, and about the element as it stands (all unknowns zero).
+pub(super) trait Family<const P: usize>: Sync {
+    /// The unknowns, in the order of the columns of the Jacobian.
+    const LOCAL: [Local; P];
+    /// Whether the distance is signed. The distance to a curve in space is not.
+    const SIGNED: bool = true;
+
+    /// Hands each row of the least-squares problem for the point `q` to `row`: residual and its derivatives.
+    fn rows<S: Scalar>(size: [f64; 2], q: [S; 3], row: impl FnMut(S, [S; P]));
+    /// Orthogonal distance of the point `q`, positive outside.
+    fn distance<S: Scalar>(size: [f64; 2], q: [S; 3]) -> S;
+    /// Whether these sizes make an element.
+    fn sound(size: [f64; 2]) -> bool {
+        size.iter().all(|x| x.is_finite())
+    }
+    /// Elements near which the best one is to be sought. Empty where the points determine none.
+    fn starts(points: &[Point]) -> Vec<Element>;
+    /// The same element, written the way results state it: which of the two directions, which half axis first.
+    fn settled(element: Element) -> Element {
+        element.facing_up(2)
+    }
+    /// The element in the frame of the points.
+    fn shape(element: &Element, sample: &Sample) -> Shape;
+    /// The element of a shape given by the caller; `None` if it is of another family or has no direction.
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element>;
+}
+
+impl Element {
+    /// The element after the step `step` of the unknowns `local`; `None` if a number stops being finite.
+    pub(super) fn moved<const P: usize>(&self, local: &[Local; P], step: &[f64; P]) -> Option<Element> {
+        let (mut shift, mut tilt, mut turn, mut size) = ([0.0; 3], [0.0; 2], 0.0, self.size);
+        for (unknown, &x) in local.iter().zip(step) {
+            match *unknown {
+                Local::Shift(k) => shift[k] += x,
+                Local::Tilt(k) => tilt[k] += x,
+                Local::Turn => turn += x,
+                Local::Size(k) => size[k] += x,
+            }
+        }
+        let pose = self.pose.moved(shift, tilt, turn);
+        let finite = pose.origin.iter().chain(&size).all(|x| x.is_finite());
+        finite.then_some(Element { pose, size })
+    }
+    /// The same frame with axis `k` turned about if its component of largest magnitude is negative.
+    pub(super) fn facing_up(mut self, k: usize) -> Element {
+        let axis = self.pose.axes[k];
+        let greatest = (0..3).max_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs())).unwrap_or(0);
+        if axis[greatest] < 0.0 {
+            self = self.reversed(k);
+        }
+        self
+    }
+    /// The same frame with axis `k` and the next one turned about.
+    pub(super) fn reversed(mut self, k: usize) -> Element {
+        for axis in [k, (k + 1) % 3] {
+            self.pose.axes[axis] = times(-1.0, self.pose.axes[axis]);
+        }
+        self
+    }
+    /// The element with its origin moved along the third axis to the foot of `place`.
+    pub(super) fn footed(mut self, place: Point) -> Element {
+        let along = self.pose.local(place)[2];
+        self.pose = self.pose.moved([0.0, 0.0, along], [0.0; 2], 0.0);
+        self
+    }
+}
+
+/// Distance and its derivatives where the rows are the components of an unsigned distance.
+pub(super) fn joined<const P: usize, F: Family<P>>(size: [f64; 2], q: Point) -> (f64, [f64; P]) {
+    if F::SIGNED {
+        let mut answer = (0.0, [0.0; P]);
+        F::rows(size, q, |d, g| answer = (d, g));
+        return answer;
+    }
+    let (mut square, mut slope) = (0.0, [0.0; P]);
+    F::rows(size, q, |d, g: [f64; P]| {
+        square += d * d;
+        for k in 0..P {
+            slope[k] += d * g[k];
+        }
+    });
+    let distance = square.sqrt();
+    let inverse = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+    (distance, slope.map(|x| x * inverse))
+}

@@ -1,0 +1,107 @@
+//! Least squares of orthogonal distances: Levenberg–Marquardt on streamed normal equations.
+//!
+//! D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963).
+//! Ours differs in three points. The unknowns are small motions about the present element, so the frame is
+//! renewed in every step. Damping starts at zero, as the starts are good. And once the linear model says that
+//! the sum of squares cannot fall by more than its own rounding, steps are taken unseen until they stop
+//! shrinking: the gradient still has digits where the sum has none left.
+
+use super::family::{Element, Family};
+use super::normal::{Sums, Weighing, sums};
+use super::sample::Sample;
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Most steps.
+    pub steps: usize,
+    /// Root mean square change of the distances, in the unit frame, below which a step ends the search.
+    pub enough: f64,
+}
+
+/// To the last digits.
+pub(super) const FULL: Effort = Effort { steps: 300, enough: 1e-17 };
+/// Good enough to choose between starts or to start on more points.
+pub(super) const ROUGH: Effort = Effort { steps: 40, enough: 1e-7 };
+
+/// Where the search ended.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Optimum<const P: usize> {
+    pub element: Element,
+    /// Of the last pass: before the very last step, which changes nothing that shows.
+    pub sums: Sums<P>,
+    pub steps: usize,
+    pub converged: bool,
+}
+
+/// Relative fall of the sum of squares that its rounding still shows.
+const VISIBLE_FALL: f64 = 1e-11;
+/// Steps below this, root mean square in the unit frame, are in the reach of rounding.
+const ROUNDING_REACH: f64 = 1e-10;
+/// Damping below which none is used, and the first damping used once it is needed.
+const DAMPING: (f64, f64) = (1e-7, 1e-3);
+
+/// The local minimum reached from `start`; `None` if `start` has no finite sum of squares or the points leave
+/// some unknown without any influence.
+pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
+    start: &Element,
+    sample: &Sample,
+    weigh: &W,
+    effort: Effort,
+) -> Option<Optimum<P>> {
+    let mut now = Optimum {
+        element: *start,
+        sums: sums::<P, F, W>(start, sample, weigh),
+        steps: 0,
+        converged: false,
+    };
+    let mut damping = 0.0;
+    let mut last_length = f64::INFINITY;
+    while now.steps < effort.steps && now.sums.square.is_finite() {
+        now.steps += 1;
+        let proposal = now.sums.step(damping).and_then(|step| {
+            let element = now.element.moved(&F::LOCAL, &step)?;
+            F::sound(element.size).then_some((step, element))
+        });
+        let Some((step, element)) = proposal else {
+            if damping > 1e12 {
+                return None;
+            }
+            damping = harder(damping);
+            continue;
+        };
+        let length = now.sums.length(&step);
+        let fall = now.sums.fall(&step);
+        let unseen = damping == 0.0 && fall <= VISIBLE_FALL * now.sums.square;
+        if length <= effort.enough
+            || (unseen && last_length < 1.0 && length * (length / last_length) <= effort.enough)
+            || (unseen && length < ROUNDING_REACH && length > 0.5 * last_length)
+        {
+            now.element = element;
+            now.converged = true;
+            break;
+        }
+        let next = sums::<P, F, W>(&element, sample, weigh);
+        let gain = (now.sums.square - next.square) / fall;
+        if unseen || gain > 1e-4 {
+            now.element = element;
+            now.sums = next;
+            last_length = length;
+            damping = if gain > 0.75 || unseen { easier(damping) } else if gain < 0.25 { harder(damping) } else { damping };
+        } else if length < ROUNDING_REACH {
+            now.converged = true;
+            break;
+        } else {
+            damping = harder(damping);
+        }
+    }
+    now.sums.square.is_finite().then_some(now)
+}
+
+fn harder(damping: f64) -> f64 {
+    (damping * 8.0).max(DAMPING.1)
+}
+fn easier(damping: f64) -> f64 {
+    let less = damping / 8.0;
+    if less < DAMPING.0 { 0.0 } else { less }
+}

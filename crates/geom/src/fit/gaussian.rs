@@ -1,0 +1,157 @@
+//! From checked points to a least-squares [`Fit`]: starts, choice among them, all points, statistics.
+
+use super::family::{Element, Family};
+use super::gauss::{Effort, FULL, Optimum, ROUGH, minimise};
+use super::normal::{Alike, sums};
+use super::sample::Sample;
+use super::scatter::Scatter;
+use super::solution::{Covariance, Fit, Residuals};
+use super::{FitError, Kind, Options, dense, survey};
+use crate::progress::Progress;
+use crate::space::Point;
+
+/// Points that starts are looked for and compared on.
+const FEW: usize = 256;
+/// Points that a start is improved on before all are looked at.
+const SOME: usize = 8192;
+
+/// The least-squares fit.
+pub(super) fn gaussian<const P: usize, F: Family<P>>(
+    sample: &Sample,
+    kind: Kind,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, FitError> {
+    let optimum = optimum::<P, F>(sample, kind, options, progress)?;
+    progress.advance(sample.len() as u64);
+    let element = optimum.element;
+    let residuals = residuals::<P, F>(&element, sample);
+    let covariance = residuals.std_dev.and_then(|std_dev| {
+        covariance::<P, F>(&element, &optimum.sums.symmetric(), std_dev * sample.scale, sample)
+    });
+    Ok(Fit {
+        shape: F::shape(&element, sample),
+        method: options.method,
+        residuals,
+        covariance,
+        touching: Vec::new(),
+        iterations: optimum.steps,
+        converged: optimum.converged,
+    })
+}
+
+/// The element with the least sum of squares.
+pub(super) fn optimum<const P: usize, F: Family<P>>(
+    sample: &Sample,
+    kind: Kind,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Optimum<P>, FitError> {
+    let starts = match &options.start {
+        Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
+        None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),
+    };
+    let best = best_of::<P, F>(&starts, sample).ok_or_else(|| nothing(sample, kind))?;
+    if progress.cancelled() {
+        return Err(FitError::Cancelled);
+    }
+    let best = F::settled(best);
+    let mut optimum = minimise::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
+    let settled = F::settled(optimum.element);
+    if settled != optimum.element {
+        // The sums belong to the frame they were taken in.
+        optimum.element = settled;
+        optimum.sums = sums::<P, F, _>(&settled, sample, &Alike);
+    }
+    if !determined(&optimum) {
+        return Err(nothing(sample, kind));
+    }
+    Ok(optimum)
+}
+
+/// The best of the starts, improved on as many points as that needs.
+fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) -> Option<Element> {
+    let improved = |start: &Element, count: usize, effort: Effort| {
+        minimise::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
+    };
+    let best = match starts {
+        [one] if sample.len() <= 2 * FEW => *one,
+        [one] => improved(one, FEW, ROUGH).map_or(*one, |o| o.element),
+        many => {
+            let ends = many.iter().filter_map(|start| improved(start, FEW, ROUGH));
+            ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))?.element
+        }
+    };
+    if sample.len() <= 2 * SOME {
+        return Some(best);
+    }
+    Some(improved(&best, SOME, ROUGH).map_or(best, |o| o.element))
+}
+
+/// Whether a distance the size of rounding could not move an unknown by the size of the part.
+fn determined<const P: usize>(optimum: &Optimum<P>) -> bool {
+    const WEAKEST: f64 = 1e-4 / f64::EPSILON;
+    let normal = optimum.sums.symmetric();
+    dense::inverse(&normal).is_some_and(|inverse| {
+        (0..P).all(|k| (inverse[k][k] * optimum.sums.weight).sqrt() < WEAKEST)
+    })
+}
+
+/// The reason why there is no element.
+fn nothing(sample: &Sample, kind: Kind) -> FitError {
+    let scatter = Scatter::of(&sample.units().collect::<Vec<Point>>());
+    let width = (scatter.variance[1].max(0.0) / scatter.variance[2]).sqrt();
+    if width < 1e4 * f64::EPSILON { FitError::Collinear { kind } } else { FitError::Undetermined { kind } }
+}
+
+/// Statistics of the distances of all points.
+pub(super) fn residuals<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Residuals {
+    let extremes = survey::extremes::<P, F>(element, sample);
+    let count = sample.len();
+    let size = 1.0 / sample.scale;
+    let distances = if F::SIGNED { count } else { 2 * count };
+    let left = distances.saturating_sub(P);
+    let (min, max) = (extremes.least, extremes.greatest);
+    Residuals {
+        count,
+        rms: (extremes.square / count as f64).sqrt() * size,
+        std_dev: (left > 0).then(|| (extremes.square / left as f64).sqrt() * size),
+        min: (min.0 * size, min.1),
+        max: (max.0 * size, max.1),
+        form_error: if F::SIGNED { max.0 - min.0 } else { 2.0 * max.0 } * size,
+    }
+}
+
+/// Covariance of the parameters from the normal matrix of the unknowns of `element` and the standard deviation
+/// of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
+fn covariance<const P: usize, F: Family<P>>(
+    element: &Element,
+    normal: &[[f64; P]; P],
+    std_dev: f64,
+    sample: &Sample,
+) -> Option<Covariance> {
+    let inverse = dense::inverse(normal)?;
+    let parameters = |step: [f64; P]| -> Option<Vec<f64>> {
+        Some(F::shape(&element.moved(&F::LOCAL, &step)?, sample).flattened())
+    };
+    let mut slopes: Vec<Vec<f64>> = Vec::with_capacity(P);
+    for k in 0..P {
+        let h = (std_dev * inverse[k][k].sqrt()).clamp(1e-9, 1e-4);
+        let at = |h: f64| parameters(std::array::from_fn(|i| if i == k { h } else { 0.0 }));
+        let (more, less) = (at(h)?, at(-h)?);
+        slopes.push(more.iter().zip(&less).map(|(a, b)| (a - b) / (2.0 * h)).collect());
+    }
+    let size = slopes.first()?.len();
+    let mut values = vec![0.0; size * size];
+    for (i, row) in values.chunks_mut(size).enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            for a in 0..P {
+                for b in 0..P {
+                    *value += slopes[a][i] * inverse[a][b] * slopes[b][j];
+                }
+            }
+            *value *= std_dev * std_dev;
+        }
+    }
+    Some(Covariance { size, values })
+}

@@ -1,0 +1,77 @@
+//! Straight lines, in the plane and in space.
+
+use super::family::{Element, Family};
+use super::pose::{Local, Pose};
+use super::sample::Sample;
+use super::scalar::Scalar;
+use super::scatter::Scatter;
+use super::shape::Shape;
+use crate::space::{Point, unit};
+
+/// Line in the plane z = 0: the first axis of its frame.
+pub(super) struct Line2;
+
+impl Family<2> for Line2 {
+    const LOCAL: [Local; 2] = [Local::Shift(1), Local::Turn];
+
+    #[inline(always)]
+    fn rows<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3], mut row: impl FnMut(S, [S; 2])) {
+        row(y, [S::of(-1.0), -x]);
+    }
+    #[inline(always)]
+    fn distance<S: Scalar>(_: [f64; 2], q: [S; 3]) -> S {
+        q[1]
+    }
+    fn starts(points: &[Point]) -> Vec<Element> {
+        let scatter = Scatter::flat(points);
+        vec![Element { pose: Pose::flat(scatter.mean, scatter.axes[2]), size: [0.0; 2] }]
+    }
+    fn settled(element: Element) -> Element {
+        element.facing_up(0)
+    }
+    fn shape(element: &Element, sample: &Sample) -> Shape {
+        let direction = element.pose.axes[0];
+        Shape::Line2 { point: flat(sample.place(element.pose.origin)), direction }
+    }
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
+        let Shape::Line2 { point, direction } = *shape else { return None };
+        let (u, _) = unit(flat(direction))?;
+        Some(Element { pose: Pose::flat(flat(sample.unit(point)), u), size: [0.0; 2] })
+    }
+}
+
+/// Line in space: the third axis of its frame.
+pub(super) struct Line;
+
+impl Family<4> for Line {
+    const LOCAL: [Local; 4] = [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1)];
+    const SIGNED: bool = false;
+
+    #[inline(always)]
+    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 4])) {
+        let (zero, less) = (S::of(0.0), S::of(-1.0));
+        row(x, [less, zero, -z, zero]);
+        row(y, [zero, less, zero, -z]);
+    }
+    #[inline(always)]
+    fn distance<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3]) -> S {
+        (x * x + y * y).root()
+    }
+    fn starts(points: &[Point]) -> Vec<Element> {
+        let scatter = Scatter::of(points);
+        vec![Element { pose: Pose::along(scatter.mean, scatter.axes[2]), size: [0.0; 2] }]
+    }
+    fn shape(element: &Element, sample: &Sample) -> Shape {
+        Shape::Line { point: sample.place(element.pose.origin), direction: element.pose.axes[2] }
+    }
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
+        let Shape::Line { point, direction } = *shape else { return None };
+        let (w, _) = unit(direction)?;
+        Some(Element { pose: Pose::along(sample.unit(point), w), size: [0.0; 2] }.footed([0.0; 3]))
+    }
+}
+
+/// `p` without its height.
+pub(super) fn flat(p: Point) -> Point {
+    [p[0], p[1], 0.0]
+}

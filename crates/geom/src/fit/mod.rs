@@ -1,0 +1,149 @@
+//! Elements fitted to points: line, plane, circle, ellipse, sphere, cylinder, cone, torus.
+//!
+//! [`fit`] is the one entrance. Distances are orthogonal distances. The points are seen from the middle of
+//! their box and at unit size, so neither position nor size costs digits; the unknowns are small motions of the
+//! element about where it stands, so no direction is singular.
+//!
+//! | file | what |
+//! |---|---|
+//! | `shape` | the elements as users know them |
+//! | `solution` | what a fit tells |
+//! | `family` | what an element is to the solvers; `line` … `torus` hold one each |
+//! | `revolution`, `round`, `scatter` | where to start |
+//! | `normal`, `gauss` | least squares |
+//! | `survey` | distances of all points |
+
+mod circle;
+mod cone;
+mod cylinder;
+mod dense;
+mod ellipse;
+mod family;
+mod gauss;
+mod gaussian;
+mod line;
+mod normal;
+mod plane;
+mod pose;
+mod revolution;
+mod round;
+mod sample;
+mod scalar;
+mod scatter;
+mod shape;
+mod solution;
+mod sphere;
+mod survey;
+mod torus;
+
+use crate::progress::Progress;
+use crate::space::Point;
+pub use shape::{Kind, Parameter, Shape};
+pub use solution::{Covariance, Fit, Residuals, Touching};
+
+/// What makes an element the best.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Least sum of squared distances.
+    #[default]
+    Gaussian,
+}
+
+/// How to fit.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// What makes an element the best.
+    pub method: Method,
+    /// Where to start: an element of the kind asked for, near the one sought. Without it all starts are
+    /// looked for.
+    pub start: Option<Shape>,
+}
+
+/// Why there is no element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FitError {
+    /// Fewer points than unknowns.
+    #[error("a {} needs at least {needed} points, there are {found}", kind.name())]
+    TooFewPoints {
+        /// What was asked for.
+        kind: Kind,
+        /// Points that would do.
+        needed: usize,
+        /// Points given.
+        found: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is not a finite number; remove it")]
+    NotFinite {
+        /// Index of the first such point.
+        index: usize,
+    },
+    /// All points are one and the same.
+    #[error("all points are equal")]
+    AllEqual,
+    /// All points lie on one straight line.
+    #[error("all points lie on one straight line: they determine no {}", kind.name())]
+    Collinear {
+        /// What was asked for.
+        kind: Kind,
+    },
+    /// The points fit more than one such element equally well, as points of one circle fit many spheres.
+    #[error("the points determine no {}: measure more of its surface", kind.name())]
+    Undetermined {
+        /// What was asked for.
+        kind: Kind,
+    },
+    /// The start is not of the kind asked for, or has no direction or size.
+    #[error("the start is not a sound {}", kind.name())]
+    WrongStart {
+        /// What was asked for.
+        kind: Kind,
+    },
+    /// Stopped through the progress argument.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// Calls the function with the family of the kind and its number of unknowns.
+macro_rules! with_family {
+    ($kind:expr, $function:ident ( $($argument:expr),* )) => {
+        match $kind {
+            Kind::Line2 => $function::<2, line::Line2>($($argument),*),
+            Kind::Line => $function::<4, line::Line>($($argument),*),
+            Kind::Plane => $function::<3, plane::Plane>($($argument),*),
+            Kind::Circle2 => $function::<3, circle::Circle2>($($argument),*),
+            Kind::Circle => $function::<6, circle::Circle>($($argument),*),
+            Kind::Ellipse2 => $function::<5, ellipse::Ellipse2>($($argument),*),
+            Kind::Sphere => $function::<4, sphere::Sphere>($($argument),*),
+            Kind::Cylinder => $function::<5, cylinder::Cylinder>($($argument),*),
+            Kind::Cone => $function::<6, cone::Cone>($($argument),*),
+            Kind::Torus => $function::<7, torus::Torus>($($argument),*),
+        }
+    };
+}
+
+/// The best element of the given kind for `points` (millimetres). Kinds in the plane read x and y only.
+///
+/// The answer does not depend on the number of threads, and but for rounding not on position, attitude, size
+/// or order of the points. Time grows with the number of points; beyond them nothing is stored.
+///
+/// # Errors
+/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element.
+pub fn fit(points: &[Point], kind: Kind, options: &Options, progress: &dyn Progress) -> Result<Fit, FitError> {
+    let needed = kind.fewest_points();
+    if points.len() < needed {
+        return Err(FitError::TooFewPoints { kind, needed, found: points.len() });
+    }
+    let flattened: Vec<Point>;
+    let points = if kind.is_flat() && points.iter().any(|p| p[2] != 0.0) {
+        flattened = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
+        &flattened
+    } else {
+        points
+    };
+    let sample = sample::Sample::new(points)?;
+    use gaussian::gaussian;
+    match options.method {
+        Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
+    }
+}

@@ -1,0 +1,146 @@
+//! The points of a fit, checked once, with the centre and scale that take size and position out of it.
+
+use super::FitError;
+use super::scalar::{LANES, Lane, Scalar};
+use crate::space::{Aabb, Point, Vector, minus, plus, times};
+use std::borrow::Cow;
+
+/// Points, and the unit frame they are seen in: the middle of their box is its origin and half the longest
+/// side of the box is between 1/2 and 1 long. The scale is a power of two, so that nothing is rounded by it.
+#[derive(Clone, Debug)]
+pub(super) struct Sample<'a> {
+    pub points: Cow<'a, [Point]>,
+    pub center: Point,
+    pub scale: f64,
+}
+
+impl<'a> Sample<'a> {
+    /// Looks at all points once: errors if one is not finite or all are equal.
+    pub(super) fn new(points: &'a [Point]) -> Result<Sample<'a>, FitError> {
+        let bounds = bounds(points);
+        let Some(bounds) = bounds else {
+            let index = points.iter().position(|p| p.iter().any(|x| !x.is_finite())).unwrap_or(0);
+            return Err(FitError::NotFinite { index });
+        };
+        let half = times(0.5, minus(times(0.5, bounds.max), times(0.5, bounds.min)));
+        let reach = 2.0 * half[0].max(half[1]).max(half[2]);
+        if reach == 0.0 {
+            return Err(FitError::AllEqual);
+        }
+        let center = plus(times(0.5, bounds.min), times(0.5, bounds.max));
+        // 2^1000 and more would overflow when squared on the way back; such sizes are no parts.
+        let scale = (-reach.log2().ceil()).clamp(-1000.0, 1000.0).exp2();
+        Ok(Sample { points: Cow::Borrowed(points), center, scale })
+    }
+    /// Number of points.
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
+    }
+    /// `p` in the unit frame.
+    pub(super) fn unit(&self, p: Point) -> Point {
+        times(self.scale, minus(p, self.center))
+    }
+    /// A place of the unit frame in the frame of the points.
+    pub(super) fn place(&self, p: Point) -> Point {
+        plus(self.center, times(1.0 / self.scale, p))
+    }
+    /// All points in the unit frame.
+    pub(super) fn units(&self) -> impl Iterator<Item = Point> {
+        self.points.iter().map(|&p| self.unit(p))
+    }
+    /// At most `count` of the points, spread over the whole list.
+    ///
+    /// They are taken at multiples of the golden section: a fixed stride would pick one and the same column of
+    /// a grid of points, or one generator of a cylinder measured ring by ring.
+    pub(super) fn thinned(&self, count: usize) -> Sample<'_> {
+        if self.len() <= count {
+            return Sample { points: Cow::Borrowed(&self.points), center: self.center, scale: self.scale };
+        }
+        let golden = (5f64.sqrt() - 1.0) / 2.0;
+        let last = self.len() - 1;
+        let pick = |k: usize| ((k as f64 * golden).fract() * self.len() as f64) as usize;
+        let points = (0..count).map(|k| self.points[pick(k).min(last)]).collect();
+        Sample { points: Cow::Owned(points), center: self.center, scale: self.scale }
+    }
+}
+
+/// The box of the points, or `None` if a coordinate is not finite.
+fn bounds(points: &[Point]) -> Option<Aabb> {
+    const BLOCK: usize = 1 << 16;
+    use rayon::prelude::*;
+    if points.len() <= BLOCK {
+        return block_bounds(points);
+    }
+    points.par_chunks(BLOCK).map(block_bounds).reduce(|| Some(Aabb::EMPTY), |a, b| Some(a?.union(&b?)))
+}
+
+fn block_bounds(points: &[Point]) -> Option<Aabb> {
+    // Minima pass over NaN; a sum of zeros does not.
+    let mut sum = [Lane::of(0.0); 3];
+    let mut low = [Lane::of(f64::INFINITY); 3];
+    let mut high = [Lane::of(f64::NEG_INFINITY); 3];
+    let (flat, _) = points.as_flattened().as_chunks::<{ 3 * LANES }>();
+    let rest = &points[flat.len() * LANES..];
+    for twelve in flat {
+        for k in 0..3 {
+            // The order of the coordinates does not matter yet: lane l of register k holds coordinate (4k+l) mod 3.
+            let x = Lane(std::array::from_fn(|l| twelve[LANES * k + l]));
+            sum[k] = sum[k] + x * Lane::of(0.0);
+            low[k] = low[k].zip(x, |a, b| if b < a { b } else { a });
+            high[k] = high[k].zip(x, |a, b| if b > a { b } else { a });
+        }
+    }
+    let mut bounds = Aabb::of(rest);
+    let mut zero: f64 = rest.iter().flatten().map(|x| x * 0.0).sum();
+    for k in 0..3 {
+        zero += sum[k].sum();
+        for l in 0..LANES {
+            let coordinate = (LANES * k + l) % 3;
+            bounds.min[coordinate] = bounds.min[coordinate].min(low[k].0[l]);
+            bounds.max[coordinate] = bounds.max[coordinate].max(high[k].0[l]);
+        }
+    }
+    (zero == 0.0).then_some(bounds)
+}
+
+/// Middle of two directions' or places' span, a helper of starts that work on unit coordinates.
+pub(super) fn mean(points: &[Point]) -> Vector {
+    let sum = points.iter().fold([0.0; 3], |s, &p| plus(s, p));
+    times(1.0 / points.len() as f64, sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_box_is_that_of_a_plain_loop() {
+        for n in [1usize, 3, 4, 5, 17, 1000] {
+            let points: Vec<Point> =
+                (0..n).map(|k| [(k as f64).sin(), 3.0 * (k as f64).cos(), 0.1 * k as f64 - 7.0]).collect();
+            assert_eq!(bounds(&points), Some(Aabb::of(&points)));
+        }
+    }
+
+    #[test]
+    fn a_bad_coordinate_is_named() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut points = vec![[1.0, 2.0, 3.0]; 30];
+            points[5][0] = 2.0;
+            points[17][1] = bad;
+            assert_eq!(Sample::new(&points).unwrap_err(), FitError::NotFinite { index: 17 });
+        }
+        assert_eq!(Sample::new(&[[1.0, 2.0, 3.0]; 9]).unwrap_err(), FitError::AllEqual);
+    }
+
+    #[test]
+    fn thinning_a_grid_keeps_its_columns_apart() {
+        let points: Vec<Point> = (0..10_000).map(|k| [f64::from(k % 100), f64::from(k / 100), 0.0]).collect();
+        let sample = Sample::new(&points).unwrap();
+        let thin = sample.thinned(200);
+        let mut columns: Vec<u64> = thin.points.iter().map(|p| p[0] as u64).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        assert!(columns.len() > 80, "{}", columns.len());
+    }
+}

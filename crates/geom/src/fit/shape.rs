@@ -1,0 +1,218 @@
+//! The elements as users know them.
+
+use super::pose::Pose;
+use crate::space::{Point, Vector, cross, dot, minus, norm};
+
+/// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kind {
+    /// Straight line in the plane.
+    Line2,
+    /// Straight line in space.
+    Line,
+    /// Plane.
+    Plane,
+    /// Circle in the plane.
+    Circle2,
+    /// Circle in space.
+    Circle,
+    /// Ellipse in the plane.
+    Ellipse2,
+    /// Sphere.
+    Sphere,
+    /// Right circular cylinder.
+    Cylinder,
+    /// Right circular cone.
+    Cone,
+    /// Ring torus.
+    Torus,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Kind; 10] = [
+        Kind::Line2,
+        Kind::Line,
+        Kind::Plane,
+        Kind::Circle2,
+        Kind::Circle,
+        Kind::Ellipse2,
+        Kind::Sphere,
+        Kind::Cylinder,
+        Kind::Cone,
+        Kind::Torus,
+    ];
+    /// The word for it: `line`, `plane`, … The same in the plane and in space.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Line2 | Kind::Line => "line",
+            Kind::Plane => "plane",
+            Kind::Circle2 | Kind::Circle => "circle",
+            Kind::Ellipse2 => "ellipse",
+            Kind::Sphere => "sphere",
+            Kind::Cylinder => "cylinder",
+            Kind::Cone => "cone",
+            Kind::Torus => "torus",
+        }
+    }
+    /// Number of unknowns: fewer points do not determine it.
+    pub fn unknowns(self) -> usize {
+        match self {
+            Kind::Line2 => 2,
+            Kind::Plane | Kind::Circle2 => 3,
+            Kind::Line | Kind::Sphere => 4,
+            Kind::Ellipse2 | Kind::Cylinder => 5,
+            Kind::Circle | Kind::Cone => 6,
+            Kind::Torus => 7,
+        }
+    }
+    /// Fewest points that can determine it. A point of a curve in space counts for two.
+    pub fn fewest_points(self) -> usize {
+        match self {
+            Kind::Line => 2,
+            Kind::Circle => 3,
+            kind => kind.unknowns(),
+        }
+    }
+    /// Whether it lies in the plane z = 0.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Kind::Line2 | Kind::Circle2 | Kind::Ellipse2)
+    }
+}
+
+/// A fitted element, millimetres and radians. Directions are unit vectors whose component of largest magnitude
+/// is positive, except a cone's, which points from the apex into the cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // the fields are named as in every textbook
+pub enum Shape {
+    /// Line in the plane z = 0. `point` is the foot of the middle of the points' box.
+    Line2 { point: Point, direction: Vector },
+    /// Line in space. `point` is the foot of the middle of the points' box.
+    Line { point: Point, direction: Vector },
+    /// Plane. `point` is the foot of the middle of the points' box.
+    Plane { point: Point, normal: Vector },
+    /// Circle in the plane z = 0.
+    Circle2 { center: Point, radius: f64 },
+    /// Circle in space.
+    Circle { center: Point, normal: Vector, radius: f64 },
+    /// Ellipse in the plane z = 0; `direction` is that of the longer half axis.
+    Ellipse2 { center: Point, direction: Vector, major_radius: f64, minor_radius: f64 },
+    /// Sphere.
+    Sphere { center: Point, radius: f64 },
+    /// Cylinder. `point` is the foot of the middle of the points' box on the axis.
+    Cylinder { point: Point, direction: Vector, radius: f64 },
+    /// Cone. `radius` is that at `point`, the foot of the middle of the points' box on the axis.
+    Cone { apex: Point, direction: Vector, half_angle: f64, point: Point, radius: f64 },
+    /// Torus.
+    Torus { center: Point, direction: Vector, major_radius: f64, minor_radius: f64 },
+}
+
+/// One parameter of a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Parameter {
+    /// Millimetres or radians.
+    Number(f64),
+    /// A place in millimetres or a unit direction.
+    Vector([f64; 3]),
+}
+
+impl Shape {
+    /// Which element this is.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Shape::Line2 { .. } => Kind::Line2,
+            Shape::Line { .. } => Kind::Line,
+            Shape::Plane { .. } => Kind::Plane,
+            Shape::Circle2 { .. } => Kind::Circle2,
+            Shape::Circle { .. } => Kind::Circle,
+            Shape::Ellipse2 { .. } => Kind::Ellipse2,
+            Shape::Sphere { .. } => Kind::Sphere,
+            Shape::Cylinder { .. } => Kind::Cylinder,
+            Shape::Cone { .. } => Kind::Cone,
+            Shape::Torus { .. } => Kind::Torus,
+        }
+    }
+    /// Names and values of all parameters, in a fixed order.
+    pub fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        use Parameter::{Number, Vector};
+        match *self {
+            Shape::Line2 { point, direction } | Shape::Line { point, direction } => {
+                vec![("point", Vector(point)), ("direction", Vector(direction))]
+            }
+            Shape::Plane { point, normal } => vec![("point", Vector(point)), ("normal", Vector(normal))],
+            Shape::Circle2 { center, radius } | Shape::Sphere { center, radius } => {
+                vec![("center", Vector(center)), ("radius", Number(radius))]
+            }
+            Shape::Circle { center, normal, radius } => {
+                vec![("center", Vector(center)), ("normal", Vector(normal)), ("radius", Number(radius))]
+            }
+            Shape::Cylinder { point, direction, radius } => {
+                vec![("point", Vector(point)), ("direction", Vector(direction)), ("radius", Number(radius))]
+            }
+            Shape::Cone { apex, direction, half_angle, point, radius } => vec![
+                ("apex", Vector(apex)),
+                ("direction", Vector(direction)),
+                ("half_angle", Number(half_angle)),
+                ("point", Vector(point)),
+                ("radius", Number(radius)),
+            ],
+            Shape::Ellipse2 { center, direction, major_radius, minor_radius }
+            | Shape::Torus { center, direction, major_radius, minor_radius } => vec![
+                ("center", Vector(center)),
+                ("direction", Vector(direction)),
+                ("major_radius", Number(major_radius)),
+                ("minor_radius", Number(minor_radius)),
+            ],
+        }
+    }
+    /// The parameters' numbers one after the other.
+    pub(super) fn flattened(&self) -> Vec<f64> {
+        let mut numbers = Vec::with_capacity(12);
+        for (_, parameter) in self.parameters() {
+            match parameter {
+                Parameter::Number(x) => numbers.push(x),
+                Parameter::Vector(v) => numbers.extend(v),
+            }
+        }
+        numbers
+    }
+    /// Distance of `p` from the element, positive on the outer side: away from the axis or centre, along the
+    /// normal of a plane, to the left of a line in the plane. For lines and circles in space it has no sign.
+    /// Not a number where `p` is none.
+    pub fn distance(&self, p: Point) -> f64 {
+        match *self {
+            Shape::Line2 { point, direction } => dot(minus(p, point), [-direction[1], direction[0], 0.0]),
+            Shape::Line { point, direction } => off_axis(p, point, direction).0,
+            Shape::Plane { point, normal } => dot(minus(p, point), normal),
+            Shape::Circle2 { center, radius } => {
+                let q = minus(p, center);
+                norm([q[0], q[1], 0.0]) - radius
+            }
+            Shape::Circle { center, normal, radius } => {
+                let (rho, z) = off_axis(p, center, normal);
+                (rho - radius).hypot(z)
+            }
+            Shape::Ellipse2 { center, direction, major_radius, minor_radius } => {
+                let q = Pose::flat(center, direction).local(p);
+                super::ellipse::distance([major_radius, minor_radius], q)
+            }
+            Shape::Sphere { center, radius } => norm(minus(p, center)) - radius,
+            Shape::Cylinder { point, direction, radius } => off_axis(p, point, direction).0 - radius,
+            Shape::Cone { point, direction, half_angle, radius, .. } => {
+                let (rho, z) = off_axis(p, point, direction);
+                (rho - radius) * half_angle.cos() - z * half_angle.sin()
+            }
+            Shape::Torus { center, direction, major_radius, minor_radius } => {
+                let (rho, z) = off_axis(p, center, direction);
+                (rho - major_radius).hypot(z) - minor_radius
+            }
+        }
+    }
+}
+
+/// Distance from an axis, and coordinate along it.
+fn off_axis(p: Point, point: Point, direction: Vector) -> (f64, f64) {
+    let q = minus(p, point);
+    // The vector product keeps the digits of small distances; subtracting squares would not.
+    (norm(cross(q, direction)), dot(q, direction))
+}

@@ -1,0 +1,87 @@
+//! Ring tori.
+
+use super::family::{Element, Family};
+use super::pose::{Local, Pose};
+use super::revolution::{Powers, Profile};
+use super::round::{TINY, round_starts};
+use super::sample::Sample;
+use super::scalar::Scalar;
+use super::scatter::Scatter;
+use super::shape::Shape;
+use crate::space::{Point, unit};
+
+/// Torus about the third axis of its frame; sizes: major and minor radius.
+pub(super) struct Torus;
+
+impl Family<7> for Torus {
+    const LOCAL: [Local; 7] = [
+        Local::Shift(0),
+        Local::Shift(1),
+        Local::Shift(2),
+        Local::Tilt(0),
+        Local::Tilt(1),
+        Local::Size(0),
+        Local::Size(1),
+    ];
+
+    #[inline(always)]
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 7])) {
+        let tiny = S::of(TINY);
+        let rho = (x * x + y * y).root();
+        let inverse = S::of(1.0) / rho.at_least(tiny);
+        let e = rho - S::of(size[0]);
+        let t = (e * e + z * z).root();
+        let other = S::of(1.0) / t.at_least(tiny);
+        let (er, ez) = (e * other, z * other);
+        let (nu, nv) = (er * x * inverse, er * y * inverse);
+        row(
+            t - S::of(size[1]),
+            [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)],
+        );
+    }
+    #[inline(always)]
+    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
+        let e = (x * x + y * y).root() - S::of(size[0]);
+        (e * e + z * z).root() - S::of(size[1])
+    }
+    fn sound(size: [f64; 2]) -> bool {
+        size[0] > 0.0 && size[1] > 0.0 && size[0].is_finite() && size[1].is_finite()
+    }
+    fn starts(points: &[Point]) -> Vec<Element> {
+        let principal = Scatter::of(points).axes;
+        let powers = Powers::of(points);
+        let mut axes = powers.axes(Profile::Parabola, &principal, 8);
+        axes.extend(powers.axes(Profile::Constant, &principal, 3));
+        axes.into_iter()
+            .flat_map(|axis| {
+                // The section: a circle through height over distance from the axis.
+                let section: Vec<Point> = points
+                    .iter()
+                    .map(|&p| {
+                        let [x, y, z] = axis.pose.local(p);
+                        [x.hypot(y), z, 0.0]
+                    })
+                    .collect();
+                round_starts::<2>(&section, &Scatter::flat(&section)).into_iter().map(move |(c, radius)| {
+                    let pose = axis.pose.moved([0.0, 0.0, c[1]], [0.0; 2], 0.0);
+                    Element { pose, size: [c[0], radius] }
+                })
+            })
+            .filter(|element| Torus::sound(element.size))
+            .collect()
+    }
+    fn shape(element: &Element, sample: &Sample) -> Shape {
+        Shape::Torus {
+            center: sample.place(element.pose.origin),
+            direction: element.pose.axes[2],
+            major_radius: element.size[0] / sample.scale,
+            minor_radius: element.size[1] / sample.scale,
+        }
+    }
+    fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
+        let Shape::Torus { center, direction, major_radius, minor_radius } = *shape else { return None };
+        let (w, _) = unit(direction)?;
+        let size = [major_radius * sample.scale, minor_radius * sample.scale];
+        Some(Element { pose: Pose::along(sample.unit(center), w), size })
+    }
+}
