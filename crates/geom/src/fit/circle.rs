@@ -34,7 +34,10 @@ impl Family<3> for Circle2 {
         let scatter = Scatter::flat(&points);
         round_starts::<2>(&points, &scatter)
             .into_iter()
-            .map(|(center, radius)| Element { pose: Pose::flat(center, [1.0, 0.0, 0.0]), size: [radius, 0.0] })
+            .map(|(center, radius)| Element {
+                pose: Pose::flat(center, [1.0, 0.0, 0.0]),
+                size: [radius, 0.0],
+            })
             .collect()
     }
     fn settled(element: Element) -> Element {
@@ -57,14 +60,8 @@ impl Family<3> for Circle2 {
 pub(super) struct Circle;
 
 impl Family<6> for Circle {
-    const LOCAL: [Local; 6] = [
-        Local::Shift(0),
-        Local::Shift(1),
-        Local::Shift(2),
-        Local::Tilt(0),
-        Local::Tilt(1),
-        Local::Size(0),
-    ];
+    const LOCAL: [Local; 6] =
+        [Local::Shift(0), Local::Shift(1), Local::Shift(2), Local::Tilt(0), Local::Tilt(1), Local::Size(0)];
     const SIGNED: bool = false;
 
     #[inline(always)]

@@ -16,14 +16,8 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) struct Cone;
 
 impl Family<6> for Cone {
-    const LOCAL: [Local; 6] = [
-        Local::Shift(0),
-        Local::Shift(1),
-        Local::Tilt(0),
-        Local::Tilt(1),
-        Local::Size(0),
-        Local::Size(1),
-    ];
+    const LOCAL: [Local; 6] =
+        [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
     fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 6])) {
@@ -34,14 +28,7 @@ impl Family<6> for Cone {
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
         row(
             rho * cos - z * sin - S::of(size[0]),
-            [
-                -nu,
-                -nv,
-                -(z * nu) - x * sin,
-                -(z * nv) - y * sin,
-                S::of(-1.0),
-                -(rho * sin) - z * cos,
-            ],
+            [-nu, -nv, -(z * nu) - x * sin, -(z * nv) - y * sin, S::of(-1.0), -(rho * sin) - z * cos],
         );
     }
     #[inline(always)]

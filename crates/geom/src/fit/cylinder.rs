@@ -37,9 +37,7 @@ impl Family<5> for Cylinder {
             .axes(Profile::Constant, &principal, 6)
             .into_iter()
             .filter(|axis| axis.radius_squared > 0.0)
-            .map(|axis| {
-                Element { pose: axis.pose, size: [axis.radius_squared.sqrt(), 0.0] }.footed([0.0; 3])
-            })
+            .map(|axis| Element { pose: axis.pose, size: [axis.radius_squared.sqrt(), 0.0] }.footed([0.0; 3]))
             .collect()
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {

@@ -11,7 +11,7 @@ pub(super) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N
             let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
             let rest = a[i][j] - sum;
             if i == j {
-                if !(rest > 4.0 * f64::EPSILON * a[i][i]) || !rest.is_finite() {
+                if rest.is_nan() || rest.is_infinite() || rest <= 4.0 * f64::EPSILON * a[i][i] {
                     return None;
                 }
                 l[i][i] = rest.sqrt();
@@ -94,7 +94,7 @@ pub(super) fn eigen(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
     let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     for _ in 0..30 {
         let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();
-        if !(off > f64::EPSILON * 1e-3 * (a[0][0].abs() + a[1][1].abs() + a[2][2].abs())) {
+        if off <= f64::EPSILON * 1e-3 * (a[0][0].abs() + a[1][1].abs() + a[2][2].abs()) {
             break;
         }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {

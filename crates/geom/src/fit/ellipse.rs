@@ -48,7 +48,12 @@ fn foot<S: Scalar>(size: [f64; 2], x: S, y: S) -> Foot<S> {
     let length = one / (nx * nx + ny * ny).root();
     let (nx, ny) = (nx * length, ny * length);
     let distance = (px - a * cos) * nx + (py - b * sin) * ny;
-    Foot { cos: cos.signed_as(x), sin: sin.signed_as(y), normal: [nx.signed_as(x), ny.signed_as(y)], distance }
+    Foot {
+        cos: cos.signed_as(x),
+        sin: sin.signed_as(y),
+        normal: [nx.signed_as(x), ny.signed_as(y)],
+        distance,
+    }
 }
 
 /// Steps of the search. Each more than doubles the digits; long ellipses need the first few to come near.
@@ -60,8 +65,7 @@ pub(super) fn distance(size: [f64; 2], q: Point) -> f64 {
 }
 
 impl Family<5> for Ellipse2 {
-    const LOCAL: [Local; 5] =
-        [Local::Shift(0), Local::Shift(1), Local::Turn, Local::Size(0), Local::Size(1)];
+    const LOCAL: [Local; 5] = [Local::Shift(0), Local::Shift(1), Local::Turn, Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
     fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], mut row: impl FnMut(S, [S; 5])) {

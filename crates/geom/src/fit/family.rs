@@ -80,22 +80,3 @@ impl Element {
         self
     }
 }
-
-/// Distance and its derivatives where the rows are the components of an unsigned distance.
-pub(super) fn joined<const P: usize, F: Family<P>>(size: [f64; 2], q: Point) -> (f64, [f64; P]) {
-    if F::SIGNED {
-        let mut answer = (0.0, [0.0; P]);
-        F::rows(size, q, |d, g| answer = (d, g));
-        return answer;
-    }
-    let (mut square, mut slope) = (0.0, [0.0; P]);
-    F::rows(size, q, |d, g: [f64; P]| {
-        square += d * d;
-        for k in 0..P {
-            slope[k] += d * g[k];
-        }
-    });
-    let distance = square.sqrt();
-    let inverse = if distance > 0.0 { 1.0 / distance } else { 0.0 };
-    (distance, slope.map(|x| x * inverse))
-}

@@ -49,12 +49,8 @@ pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
     weigh: &W,
     effort: Effort,
 ) -> Option<Optimum<P>> {
-    let mut now = Optimum {
-        element: *start,
-        sums: sums::<P, F, W>(start, sample, weigh),
-        steps: 0,
-        converged: false,
-    };
+    let mut now =
+        Optimum { element: *start, sums: sums::<P, F, W>(start, sample, weigh), steps: 0, converged: false };
     let mut damping = 0.0;
     let mut last_length = f64::INFINITY;
     while now.steps < effort.steps && now.sums.square.is_finite() {
@@ -87,7 +83,13 @@ pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
             now.element = element;
             now.sums = next;
             last_length = length;
-            damping = if gain > 0.75 || unseen { easier(damping) } else if gain < 0.25 { harder(damping) } else { damping };
+            damping = if gain > 0.75 || unseen {
+                easier(damping)
+            } else if gain < 0.25 {
+                harder(damping)
+            } else {
+                damping
+            };
         } else if length < ROUNDING_REACH {
             now.converged = true;
             break;

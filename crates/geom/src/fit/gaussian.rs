@@ -56,7 +56,8 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
         return Err(FitError::Cancelled);
     }
     let best = F::settled(best);
-    let mut optimum = minimise::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
+    let mut optimum =
+        minimise::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
     let settled = F::settled(optimum.element);
     if settled != optimum.element {
         // The sums belong to the frame they were taken in.
@@ -92,9 +93,8 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
 fn determined<const P: usize>(optimum: &Optimum<P>) -> bool {
     const WEAKEST: f64 = 1e-4 / f64::EPSILON;
     let normal = optimum.sums.symmetric();
-    dense::inverse(&normal).is_some_and(|inverse| {
-        (0..P).all(|k| (inverse[k][k] * optimum.sums.weight).sqrt() < WEAKEST)
-    })
+    dense::inverse(&normal)
+        .is_some_and(|inverse| (0..P).all(|k| (inverse[k][k] * optimum.sums.weight).sqrt() < WEAKEST))
 }
 
 /// The reason why there is no element.

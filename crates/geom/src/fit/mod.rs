@@ -13,6 +13,8 @@
 //! | `normal`, `gauss` | least squares |
 //! | `survey` | distances of all points |
 
+#![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
+
 mod circle;
 mod cone;
 mod cylinder;
@@ -129,7 +131,12 @@ macro_rules! with_family {
 ///
 /// # Errors
 /// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element.
-pub fn fit(points: &[Point], kind: Kind, options: &Options, progress: &dyn Progress) -> Result<Fit, FitError> {
+pub fn fit(
+    points: &[Point],
+    kind: Kind,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, FitError> {
     let needed = kind.fewest_points();
     if points.len() < needed {
         return Err(FitError::TooFewPoints { kind, needed, found: points.len() });

@@ -176,9 +176,7 @@ pub(super) fn sums<const P: usize, F: Family<P>, W: Weighing>(
 impl<const P: usize> Sums<P> {
     fn plus(&self, other: &Sums<P>) -> Sums<P> {
         Sums {
-            normal: std::array::from_fn(|i| {
-                std::array::from_fn(|j| self.normal[i][j] + other.normal[i][j])
-            }),
+            normal: std::array::from_fn(|i| std::array::from_fn(|j| self.normal[i][j] + other.normal[i][j])),
             gradient: std::array::from_fn(|i| self.gradient[i] + other.gradient[i]),
             square: self.square + other.square,
             weight: self.weight + other.weight,
@@ -197,9 +195,7 @@ impl<const P: usize> Sums<P> {
         }
         let full = self.symmetric();
         let even: [[f64; P]; P] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                full[i][j] * scale[i] * scale[j] + if i == j { damping } else { 0.0 }
-            })
+            std::array::from_fn(|j| full[i][j] * scale[i] * scale[j] + if i == j { damping } else { 0.0 })
         });
         let l = dense::cholesky(&even)?;
         let right: [f64; P] = std::array::from_fn(|i| -self.gradient[i] * scale[i]);

@@ -56,7 +56,8 @@ impl Pose {
     /// The frame after the small motions `shift` (along its axes), `tilt` and `turn`.
     pub(super) fn moved(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
         let [u, v, w] = self.axes;
-        let origin = plus(self.origin, plus(plus(times(shift[0], u), times(shift[1], v)), times(shift[2], w)));
+        let origin =
+            plus(self.origin, plus(plus(times(shift[0], u), times(shift[1], v)), times(shift[2], w)));
         let w = plus(w, plus(times(tilt[0], u), times(tilt[1], v)));
         let w = unit(w).map_or(self.axes[2], |(w, _)| w);
         Pose::toward(origin, w, plus(u, times(turn, v)))

@@ -87,8 +87,7 @@ impl Powers {
         let frame = Pose::along(self.mean, w);
         let [u, v, w] = frame.axes;
         let along = product_form(w);
-        let across: [f64; 6] =
-            std::array::from_fn(|k| f64::from(matches!(k, 0 | 3 | 5)) - along[k]);
+        let across: [f64; 6] = std::array::from_fn(|k| f64::from(matches!(k, 0 | 3 | 5)) - along[k]);
         let covariance = |b: &[f64; 6]| -> [f64; 6] { std::array::from_fn(|i| dot6(&self.square[i], b)) };
         let with_linear = |b: &[f64; 6]| -> Vector { std::array::from_fn(|i| dot6(&self.mixed[i], b)) };
         let spread = |a: Vector, b: Vector| dot(a, self.linear.map(|row| dot(row, b)));
@@ -101,7 +100,7 @@ impl Powers {
                 let (uu, uv, vv) = (m(u, u), m(u, v), m(v, v));
                 let (fu, fv) = (dot(f, u), dot(f, v));
                 let det = uu * vv - uv * uv;
-                if !(det > 1e-14 * (uu + vv) * (uu + vv)) {
+                if det.is_nan() || det <= 1e-14 * (uu + vv) * (uu + vv) {
                     return None;
                 }
                 let (cu, cv) = ((vv * fu - uv * fv) / det, (uu * fv - uv * fu) / det);
@@ -135,33 +134,20 @@ impl Powers {
         })
     }
 
+    /// The best axis for each of an even grid of directions and for those in `first`.
+    pub(super) fn grid(&self, profile: Profile, first: &[Vector]) -> Vec<Axis> {
+        let directions = first.iter().copied().chain((0..GRID).map(grid_direction));
+        directions.filter_map(|w| self.axis(w, profile)).filter(|a| a.error.is_finite()).collect()
+    }
+
     /// At most `count` axes that are best among their neighbours, best first. `first` are directions that are
-    /// looked at besides an even grid.
+    /// looked at besides the grid.
     pub(super) fn axes(&self, profile: Profile, first: &[Vector], count: usize) -> Vec<Axis> {
-        /// Directions closer than this are one valley: cos 12°.
-        const SAME: f64 = 0.978;
-        let mut all: Vec<Axis> = first
-            .iter()
-            .copied()
-            .chain((0..GRID).map(grid_direction))
-            .filter_map(|w| self.axis(w, profile))
-            .filter(|a| a.error.is_finite())
-            .collect();
-        all.sort_by(|a, b| a.error.total_cmp(&b.error));
-        let mut chosen: Vec<Axis> = Vec::with_capacity(count);
-        for axis in all {
-            let apart = |c: &Axis| dot(c.pose.axes[2], axis.pose.axes[2]).abs() < SAME;
-            if chosen.iter().all(apart) {
-                chosen.push(axis);
-                if chosen.len() == count {
-                    break;
-                }
-            }
-        }
-        for axis in &mut chosen {
+        let mut valleys = apart(self.grid(profile, first), count);
+        for axis in &mut valleys {
             *axis = self.refined(*axis, profile);
         }
-        chosen
+        apart(valleys, count)
     }
 
     /// A few Newton steps on the direction, by differences.
@@ -176,7 +162,8 @@ impl Powers {
                 // The frame that `axis` builds about a direction is its own: only the error is compared.
                 at(a, b).map_or(f64::INFINITY, |x| x.error)
             };
-            let (e0, xp, xm, yp, ym) = (best.error, error(h, 0.0), error(-h, 0.0), error(0.0, h), error(0.0, -h));
+            let (e0, xp, xm, yp, ym) =
+                (best.error, error(h, 0.0), error(-h, 0.0), error(0.0, h), error(0.0, -h));
             let xy = error(h, h);
             let (gx, gy) = ((xp - xm) / (2.0 * h), (yp - ym) / (2.0 * h));
             let (hxx, hyy) = ((xp - 2.0 * e0 + xm) / (h * h), (yp - 2.0 * e0 + ym) / (h * h));
@@ -195,6 +182,21 @@ impl Powers {
         }
         best
     }
+}
+
+/// The best `count` of the axes that are not of one valley, best first.
+fn apart(mut all: Vec<Axis>, count: usize) -> Vec<Axis> {
+    /// Directions closer than this are one valley: cos 12°.
+    const SAME: f64 = 0.978;
+    all.sort_by(|a, b| a.error.total_cmp(&b.error));
+    let mut chosen: Vec<Axis> = Vec::with_capacity(count);
+    for axis in all {
+        let far = |c: &Axis| dot(c.pose.axes[2], axis.pose.axes[2]).abs() < SAME;
+        if chosen.len() < count && chosen.iter().all(far) {
+            chosen.push(axis);
+        }
+    }
+    chosen
 }
 
 /// Directions of the even grid over the half sphere: about 15° apart.

@@ -21,9 +21,7 @@ pub(super) fn round_starts<const D: usize>(points: &[Point], scatter: &Scatter) 
             std::array::from_fn(|k| dot(axes[k], q))
         })
         .collect();
-    let place = |c: [f64; D]| {
-        (0..D).fold(scatter.mean, |p, k| plus(p, times(c[k], axes[k])))
-    };
+    let place = |c: [f64; D]| (0..D).fold(scatter.mean, |p, k| plus(p, times(c[k], axes[k])));
     // |q|² = 2 c·q + (r² − |c|²)
     let whole = |q: &[f64; D]| {
         let mut columns = vec![1.0];

@@ -34,10 +34,7 @@ impl Family<7> for Torus {
         let other = S::of(1.0) / t.at_least(tiny);
         let (er, ez) = (e * other, z * other);
         let (nu, nv) = (er * x * inverse, er * y * inverse);
-        row(
-            t - S::of(size[1]),
-            [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)],
-        );
+        row(t - S::of(size[1]), [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
@@ -50,25 +47,20 @@ impl Family<7> for Torus {
     fn starts(points: &[Point]) -> Vec<Element> {
         let principal = Scatter::of(points).axes;
         let powers = Powers::of(points);
-        let mut axes = powers.axes(Profile::Parabola, &principal, 8);
-        axes.extend(powers.axes(Profile::Constant, &principal, 3));
-        axes.into_iter()
-            .flat_map(|axis| {
-                // The section: a circle through height over distance from the axis.
-                let section: Vec<Point> = points
-                    .iter()
-                    .map(|&p| {
-                        let [x, y, z] = axis.pose.local(p);
-                        [x.hypot(y), z, 0.0]
-                    })
-                    .collect();
-                round_starts::<2>(&section, &Scatter::flat(&section)).into_iter().map(move |(c, radius)| {
-                    let pose = axis.pose.moved([0.0, 0.0, c[1]], [0.0; 2], 0.0);
-                    Element { pose, size: [c[0], radius] }
-                })
+        // A piece of a torus often looks more like a cylinder about a wrong axis: no direction is left out
+        // before its torus is known.
+        let axes = [Profile::Parabola, Profile::Constant].map(|profile| powers.grid(profile, &principal));
+        let mut ranked: Vec<(f64, Element)> = axes
+            .into_iter()
+            .flatten()
+            .flat_map(|axis| about(&axis.pose, points))
+            .map(|element| {
+                let square = |&p: &Point| Torus::distance::<f64>(element.size, element.pose.local(p)).powi(2);
+                (points.iter().map(square).sum(), element)
             })
-            .filter(|element| Torus::sound(element.size))
-            .collect()
+            .collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ranked.into_iter().take(STARTS).map(|(_, element)| element).collect()
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         Shape::Torus {
@@ -84,4 +76,26 @@ impl Family<7> for Torus {
         let size = [major_radius * sample.scale, minor_radius * sample.scale];
         Some(Element { pose: Pose::along(sample.unit(center), w), size })
     }
+}
+
+/// Starts that are improved.
+const STARTS: usize = 16;
+
+/// Tori about the axis of `frame`: circles through height over distance from it.
+fn about(frame: &Pose, points: &[Point]) -> Vec<Element> {
+    let section: Vec<Point> = points
+        .iter()
+        .map(|&p| {
+            let [x, y, z] = frame.local(p);
+            [x.hypot(y), z, 0.0]
+        })
+        .collect();
+    let circles = round_starts::<2>(&section, &Scatter::flat(&section)).into_iter();
+    circles
+        .map(|(c, radius)| {
+            let pose = frame.moved([0.0, 0.0, c[1]], [0.0; 2], 0.0);
+            Element { pose, size: [c[0], radius] }
+        })
+        .filter(|element| Torus::sound(element.size))
+        .collect()
 }
