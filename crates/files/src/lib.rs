@@ -1,1 +1,46 @@
-//! Readers and writers of meshes and point clouds.
+//! Readers and writers of meshes and point clouds: bytes to data and back, millimetres throughout.
+//!
+//! | task | where |
+//! |---|---|
+//! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
+//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`Warning`] |
+//! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
+//! | write points, with or without deviations | [`write::points`] |
+//! | write a mesh | [`write::mesh`] |
+//! | a file that appears whole or not at all | [`AtomicFile`] |
+//! | the hash of a file | [`sha256`] |
+//!
+//! Readers take their input for hostile: a count in a header is compared with the bytes that are there before
+//! memory is asked for, and no input makes them panic.
+
+mod assemble;
+mod atomic_file;
+mod columns;
+mod content;
+mod detect;
+mod error;
+mod feed;
+mod format;
+mod formats;
+mod gzip;
+mod hash;
+mod lines;
+mod number;
+mod open;
+mod polygon;
+
+mod source;
+mod unicode;
+mod unit;
+mod warning;
+pub mod write;
+
+pub use atomic_file::AtomicFile;
+pub use columns::{Column, Columns, ColumnsError};
+pub use content::{Body, Input, PointSource, Provenance, SourceMesh};
+pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
+pub use format::{FORMATS, Format};
+pub use hash::sha256;
+pub use open::{ReadOptions, open};
+pub use unit::{Unit, UnitError};
+pub use warning::Warning;

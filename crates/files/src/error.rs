@@ -1,0 +1,273 @@
+//! Why a file was not read or written: place, what was expected, remedy.
+
+use std::{borrow::Cow, fmt, io, path::Path};
+
+/// A file that could not be read.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}{place}: {fault}; {}", fault.remedy())]
+pub struct ReadError {
+    /// The file's name as it was given, or `standard input`.
+    pub file: String,
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong there.
+    #[source]
+    pub fault: Fault,
+}
+
+/// Where in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Nowhere in particular.
+    File,
+    /// A line of a text file, counted from 1.
+    Line(u64),
+    /// A byte of a binary file, counted from 0 (of the unpacked bytes, where the file is packed).
+    Byte(u64),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::File => Ok(()),
+            Place::Line(n) => write!(f, ", line {n}"),
+            Place::Byte(n) => write!(f, ", byte {n}"),
+        }
+    }
+}
+
+/// What is wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// The system refused.
+    #[error("{0}")]
+    Io(io::Error),
+    /// A file of zero bytes.
+    #[error("the file is empty")]
+    Empty,
+    /// Recognised, but of a kind that is not read here.
+    #[error("this is {0}, which is not read here")]
+    Foreign(&'static str),
+    /// No reader knows it.
+    #[error("neither a mesh nor points in any known format")]
+    Unknown,
+    /// Something else stands where the format demands something.
+    #[error("expected {expected}, found {found}")]
+    Unexpected {
+        /// What the format demands.
+        expected: Cow<'static, str>,
+        /// What is there, shortened.
+        found: String,
+    },
+    /// The file ends early.
+    #[error("cut short: {declared} {what} declared, {present} there")]
+    Short {
+        /// What is counted.
+        what: &'static str,
+        /// As many as the header says.
+        declared: u64,
+        /// As many as there are whole.
+        present: u64,
+    },
+    /// A face names a vertex that is not there.
+    #[error("face names vertex {index}, but there are {count} vertices")]
+    NoSuchVertex {
+        /// The number as written in the file.
+        index: i64,
+        /// How many vertices there are.
+        count: u64,
+    },
+    /// NaN or infinity.
+    #[error("{what} {number} has a coordinate that is not a finite number")]
+    NotFinite {
+        /// `point` or `vertex`.
+        what: &'static str,
+        /// Its number, counted from 1.
+        number: u64,
+    },
+    /// More than can be numbered.
+    #[error("{count} {what} are more than the {limit} that can be numbered")]
+    TooMany {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        count: u64,
+        /// How many there may be.
+        limit: u64,
+    },
+    /// The packed file grows beyond all measure when unpacked.
+    #[error("unpacks to more than {ratio} times its size")]
+    Bomb {
+        /// The greatest ratio allowed.
+        ratio: u64,
+    },
+    /// The packed bytes are damaged.
+    #[error("the gzip data are damaged: {0}")]
+    Gzip(io::Error),
+    /// A feature of the format that is not read.
+    #[error("{what} {remedy}")]
+    Unsupported {
+        /// What it is.
+        what: String,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+    /// The columns asked for are not in the file.
+    #[error("no column {wanted}; there are {there}")]
+    NoColumn {
+        /// As asked for.
+        wanted: String,
+        /// What there is.
+        there: String,
+    },
+}
+
+impl Fault {
+    /// What the user can do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Fault::Io(e) if e.kind() == io::ErrorKind::NotFound => "check the spelling of the path",
+            Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "ask for the right to read it",
+            Fault::Io(_) => "check that the file can be read",
+            Fault::Empty => "export it again",
+            Fault::Foreign(_) => "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)",
+            Fault::Unknown => "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format",
+            Fault::Unexpected { .. } => "mend this place or export the file again",
+            Fault::Short { .. } => "copy or export the file again",
+            Fault::NoSuchVertex { .. } => "export the file again; its faces and vertices do not belong together",
+            Fault::NotFinite { .. } => "remove it, or export without invalid points",
+            Fault::TooMany { .. } => "divide the file into parts",
+            Fault::Bomb { .. } => "if it is trustworthy, unpack it first",
+            Fault::Gzip(_) => "copy the file again or unpack it first",
+            Fault::Unsupported { .. } => "export it in another way",
+            Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
+        }
+    }
+    pub(crate) fn at(self, place: Place) -> Located {
+        Located { place, fault: self }
+    }
+    pub(crate) fn at_byte(self, byte: u64) -> Located {
+        self.at(Place::Byte(byte))
+    }
+    pub(crate) fn at_line(self, line: u64) -> Located {
+        self.at(Place::Line(line))
+    }
+    /// `found` may be any bytes; they are shortened and made printable.
+    pub(crate) fn unexpected(expected: impl Into<Cow<'static, str>>, found: &[u8]) -> Fault {
+        Fault::Unexpected { expected: expected.into(), found: quoted(found) }
+    }
+}
+
+/// The first bytes of something, as it can be shown in a message.
+fn quoted(found: &[u8]) -> String {
+    const SHOWN: usize = 40;
+    let found = found.trim_ascii();
+    if found.is_empty() {
+        return "nothing".into();
+    }
+    let text = String::from_utf8_lossy(&found[..found.len().min(4 * SHOWN)]);
+    let mut shown: String = text.chars().take(SHOWN).map(|c| if c.is_control() { '·' } else { c }).collect();
+    if text.chars().count() > SHOWN {
+        shown.push('…');
+    }
+    format!("\"{shown}\"")
+}
+
+/// A fault and its place, before it is known in which file.
+#[derive(Debug)]
+pub(crate) struct Located {
+    pub place: Place,
+    pub fault: Fault,
+}
+
+impl Located {
+    pub fn in_file(self, file: &str) -> ReadError {
+        ReadError { file: file.into(), place: self.place, fault: self.fault }
+    }
+}
+
+impl From<Fault> for Located {
+    fn from(fault: Fault) -> Located {
+        fault.at(Place::File)
+    }
+}
+
+impl From<io::Error> for Located {
+    fn from(e: io::Error) -> Located {
+        Fault::Io(e).into()
+    }
+}
+
+pub(crate) type Result<T> = std::result::Result<T, Located>;
+
+/// A file that could not be written. Nothing is left of it.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}: {fault}; nothing was written")]
+pub struct WriteError {
+    /// The file's name as it was given.
+    pub file: String,
+    /// What went wrong.
+    #[source]
+    pub fault: WriteFault,
+}
+
+/// Why a file could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteFault {
+    /// The system refused; on a full disk, [`io::ErrorKind::StorageFull`].
+    #[error("{}", advice(.0))]
+    Io(#[from] io::Error),
+    /// No writer goes by this file's extension.
+    #[error("{what} cannot be written under this name; end it in one of {known}")]
+    UnknownFormat {
+        /// `points` or `a mesh`.
+        what: &'static str,
+        /// The extensions there are.
+        known: String,
+    },
+    /// More than the format can number.
+    #[error("{count} {what} are more than {format} can hold; choose another format")]
+    TooMany {
+        /// Name of the format.
+        format: &'static str,
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        count: u64,
+    },
+    /// A face names a vertex that the mesh does not have.
+    #[error("face {face} names a vertex that does not exist; check the mesh first")]
+    NoSuchVertex {
+        /// Number of the face, from 0.
+        face: usize,
+    },
+    /// A block has not as many deviations or colours as points.
+    #[error("{points} points with {values} {what}")]
+    Uneven {
+        /// `deviations` or `colours`.
+        what: &'static str,
+        /// Points in the block.
+        points: usize,
+        /// Values in the block.
+        values: usize,
+    },
+}
+
+impl WriteFault {
+    pub(crate) fn in_file(self, path: &Path) -> WriteError {
+        WriteError { file: path.display().to_string(), fault: self }
+    }
+}
+
+/// What the system said, with a remedy where there is one.
+fn advice(e: &io::Error) -> String {
+    match e.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "no space is left there: free some or choose another place".into()
+        }
+        io::ErrorKind::NotFound => "the folder does not exist: make it first".into(),
+        io::ErrorKind::PermissionDenied => "not permitted: choose another place".into(),
+        io::ErrorKind::IsADirectory => "this is a folder: name a file in it".into(),
+        _ => e.to_string(),
+    }
+}

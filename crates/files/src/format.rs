@@ -1,0 +1,139 @@
+//! The list of formats, and what each of them is.
+//!
+//! A new format is one file in `formats/` and one line in [`FORMATS`]. Its manual is its page in the handbook.
+
+use crate::{
+    Warning,
+    content::SourceMesh,
+    error::{Located, Result},
+    formats,
+    open::ReadOptions,
+    source::Source,
+    write::{MeshWriter, PointsWriter},
+};
+use std::marker::PhantomData;
+use trueness_geom::{cloud::PointStream, space::Point};
+
+/// A file format.
+pub struct Format {
+    /// Short name, as it is given on the command line.
+    pub name: &'static str,
+    /// Extensions, lower case, without dot; the first is the usual one.
+    pub extensions: &'static [&'static str],
+    /// The page of the handbook: what is read, what is written, what is lost. Markdown.
+    pub manual: &'static str,
+    /// Whether the content is beyond doubt of this format.
+    pub(crate) sniff: fn(&Head) -> bool,
+    pub(crate) read: Option<fn(Source, &ReadOptions) -> Result<Parsed>>,
+    pub(crate) points: Option<PointsWriter>,
+    pub(crate) mesh: Option<MeshWriter>,
+}
+
+/// All formats. Those that show themselves plainly come first.
+pub static FORMATS: [&Format; 5] = [
+    &formats::ply::PLY,
+    &formats::off::OFF,
+    &formats::stl::STL,
+    &formats::obj::OBJ,
+    &formats::table::TABLE,
+];
+
+impl Format {
+    /// The format of this name or extension (upper or lower case).
+    pub fn named(name: &str) -> Option<&'static Format> {
+        let is = |s: &&str| s.eq_ignore_ascii_case(name);
+        let by_name = FORMATS.into_iter().find(|f| is(&f.name));
+        by_name.or_else(|| Format::by_extension(name))
+    }
+    /// The format whose files end in `extension`, given without dot, upper or lower case.
+    pub fn by_extension(extension: &str) -> Option<&'static Format> {
+        FORMATS.into_iter().find(|f| f.extensions.iter().any(|e| e.eq_ignore_ascii_case(extension)))
+    }
+    /// Whether files of this format can be read.
+    pub fn reads(&self) -> bool {
+        self.read.is_some()
+    }
+    /// Whether points, with deviations or without, can be written.
+    pub fn writes_points(&self) -> bool {
+        self.points.is_some()
+    }
+    /// Whether meshes can be written.
+    pub fn writes_meshes(&self) -> bool {
+        self.mesh.is_some()
+    }
+}
+
+impl std::fmt::Debug for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Format) -> bool {
+        self.name == other.name
+    }
+}
+
+/// The start of a file.
+pub(crate) struct Head<'a> {
+    pub bytes: &'a [u8],
+    /// Length of the file, where it is known.
+    pub length: Option<u64>,
+}
+
+/// What a reader makes of a file, lengths still in the file's unit.
+pub(crate) struct Parsed {
+    /// The variant found.
+    pub variant: &'static str,
+    pub content: Parts,
+    /// Points in the plane.
+    pub planar: bool,
+    pub warnings: Vec<Warning>,
+}
+
+/// A mesh, or a stream of points whose errors do not yet name the file.
+pub(crate) enum Parts {
+    Mesh(SourceMesh),
+    Points(Box<dyn PointStream<Error = Located> + Send>),
+}
+
+impl Parsed {
+    pub fn mesh(variant: &'static str, mesh: SourceMesh, mut warnings: Vec<Warning>) -> Parsed {
+        if mesh.mesh.faces.is_empty() && mesh.nonfinite_facets == 0 {
+            warnings.push(Warning::Nothing);
+        }
+        Parsed { variant, content: Parts::Mesh(mesh), planar: false, warnings }
+    }
+    pub fn points(variant: &'static str, points: impl PointStream<Error = Located> + Send + 'static) -> Parsed {
+        Parsed { variant, content: Parts::Points(Box::new(points)), planar: false, warnings: vec![] }
+    }
+    /// Points that have been read already.
+    pub fn cloud(variant: &'static str, points: Vec<Point>) -> Parsed {
+        let warnings = if points.is_empty() { vec![Warning::Nothing] } else { vec![] };
+        Parsed { warnings, ..Parsed::points(variant, Once::new(points)) }
+    }
+}
+
+/// Points that are all there already, in one block.
+pub(crate) struct Once<E> {
+    points: Option<Vec<Point>>,
+    error: PhantomData<fn() -> E>,
+}
+
+impl<E> Once<E> {
+    pub fn new(points: Vec<Point>) -> Once<E> {
+        Once { points: Some(points), error: PhantomData }
+    }
+}
+
+impl<E> PointStream for Once<E> {
+    type Error = E;
+    fn expected(&self) -> Option<u64> {
+        Some(self.points.as_ref().map_or(0, |p| p.len() as u64))
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> std::result::Result<(), E> {
+        *block = self.points.take().unwrap_or_default();
+        Ok(())
+    }
+}

@@ -1,0 +1,218 @@
+//! OBJ: vertices and polygons as text.
+//!
+//! Parts of the text are read at the same time, each giving its vertices and where its faces are; the corners are
+//! looked up when all vertices are there.
+
+use crate::{
+    AtomicFile, SourceMesh,
+    assemble::{self, Faces},
+    error::{Fault, Result, WriteFault},
+    format::{Format, Head, Parsed},
+    lines::{count_lines, line_end, parts},
+    number::{integer, number},
+    open::ReadOptions,
+    source::Source,
+    unicode::without_mark,
+    write::{Loss, corner_positions, push_number},
+};
+use rayon::prelude::*;
+use std::{borrow::Cow, io::Write};
+use trueness_geom::{mesh::Mesh, space::Point};
+
+/// Wavefront OBJ.
+pub(crate) const OBJ: Format = Format {
+    name: "obj",
+    extensions: &["obj"],
+    manual: include_str!("obj.md"),
+    sniff,
+    read: Some(read),
+    points: None,
+    mesh: Some(write),
+};
+
+/// Bytes of one part.
+const PART: usize = 1 << 20;
+
+fn sniff(head: &Head) -> bool {
+    if !crate::detect::is_text(head.bytes) {
+        return false;
+    }
+    let known = |l: &[u8]| {
+        let word = l.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+        matches!(word, b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" | b"l" | b"p" | b"vp")
+    };
+    let lines = without_mark(head.bytes).split(|b| matches!(b, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
+    let mut said = lines.filter(|l| !l.is_empty() && !l.starts_with(b"#")).take(1000).peekable();
+    said.peek().is_some_and(|l| known(l)) && said.any(|l| vertex(l).is_some())
+}
+
+/// The text after `v` in a line that gives a vertex.
+fn vertex(line: &[u8]) -> Option<&[u8]> {
+    line.strip_prefix(b"v").filter(|l| l.first().is_some_and(u8::is_ascii_whitespace))
+}
+
+fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    let text = without_mark(source.feed.all()?);
+    let end = line_end(text);
+    let text = joined(text);
+    let parts = parts(&text, PART, end);
+    let read: Vec<_> = parts.par_iter().map(|p| Part::read(p, end)).collect();
+    let starts = lines_before(&parts, end);
+    let mut positions = Vec::new();
+    let mut lists = Vec::new();
+    for (part, start) in read.into_iter().zip(&starts) {
+        let part = part.map_err(|(line, fault)| fault.at_line(start + line))?;
+        lists.push((positions.len(), part.faces));
+        if positions.is_empty() { positions = part.positions } else { positions.extend(part.positions) }
+    }
+    assemble::numbered("vertices", positions.len() as u64)?;
+    let mut faces = Faces::default();
+    let mut corners = vec![];
+    for ((before, list), start) in lists.into_iter().zip(starts) {
+        for face in list {
+            corners.clear();
+            face.corners(before, positions.len(), &mut corners).map_err(|f| f.at_line(start + face.line))?;
+            faces.push(&positions, &corners);
+        }
+    }
+    if faces.is_empty() {
+        return Ok(Parsed::cloud("obj", positions));
+    }
+    let mut warnings = vec![];
+    let mesh = faces.mesh(positions, options.weld, &mut warnings)?;
+    Ok(Parsed::mesh("obj", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
+}
+
+/// The text with continued lines put together (then counted as one).
+fn joined(text: &[u8]) -> Cow<'_, [u8]> {
+    let continued = |i: usize| matches!(text.get(i + 1..), Some([b'\n', ..] | [b'\r', ..]));
+    if !memchr::memchr_iter(b'\\', text).any(continued) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = Vec::with_capacity(text.len());
+    let mut skip = 0;
+    for (i, b) in text.iter().enumerate() {
+        if skip > 0 {
+            skip -= 1;
+        } else if *b == b'\\' && continued(i) {
+            skip = if text[i + 1..].starts_with(b"\r\n") { 2 } else { 1 };
+            out.push(b' ');
+        } else {
+            out.push(*b);
+        }
+    }
+    Cow::Owned(out)
+}
+
+fn lines_before(parts: &[&[u8]], end: u8) -> Vec<u64> {
+    let mut lines = 0;
+    let mut before = |p: &&[u8]| {
+        let this = lines;
+        lines += count_lines(p, end);
+        this
+    };
+    parts.iter().map(&mut before).collect()
+}
+
+/// What a part of the text gives.
+#[derive(Default)]
+struct Part<'a> {
+    positions: Vec<Point>,
+    faces: Vec<Face<'a>>,
+}
+
+/// A face whose corners are still text.
+struct Face<'a> {
+    text: &'a [u8],
+    /// Its line in the part, from 1.
+    line: u64,
+    /// Vertices of the part before it.
+    vertices: usize,
+}
+
+impl<'a> Part<'a> {
+    fn read(text: &'a [u8], end: u8) -> std::result::Result<Part<'a>, (u64, Fault)> {
+        let mut part = Part::default();
+        for (i, line) in text.split(|b| *b == end).enumerate() {
+            let line = line.trim_ascii_start();
+            let number = i as u64 + 1;
+            if let Some(rest) = vertex(line) {
+                part.positions.push(position(rest).map_err(|fault| (number, fault))?);
+            } else if let Some(text) = line.strip_prefix(b"f").filter(|l| l.first().is_some_and(u8::is_ascii_whitespace)) {
+                part.faces.push(Face { text, line: number, vertices: part.positions.len() });
+            }
+        }
+        Ok(part)
+    }
+}
+
+/// The first three numbers of a line.
+fn position(mut text: &[u8]) -> std::result::Result<Point, Fault> {
+    let mut point = [0.0; 3];
+    for x in &mut point {
+        text = text.trim_ascii_start();
+        match number(text, b'.') {
+            Some((value, length)) if text.get(length).is_none_or(u8::is_ascii_whitespace) => {
+                if !value.is_finite() {
+                    return Err(Fault::unexpected("a finite number", &text[..length]));
+                }
+                *x = value;
+                text = &text[length..];
+            }
+            _ => {
+                let word = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+                return Err(Fault::unexpected("three numbers with decimal points", word));
+            }
+        }
+    }
+    Ok(point)
+}
+
+impl Face<'_> {
+    /// Numbers of the corners, from 0; `before` vertices came before this part, and there are `count`.
+    fn corners(&self, before: usize, count: usize, out: &mut Vec<u32>) -> std::result::Result<(), Fault> {
+        for word in self.text.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()) {
+            if word.starts_with(b"#") {
+                break;
+            }
+            let vertex = word.split(|b| *b == b'/').next().unwrap_or_default();
+            let index = integer(vertex).ok_or_else(|| Fault::unexpected("the number of a vertex", word))?;
+            let from = if index < 0 { (before + self.vertices) as i64 } else { -1 };
+            match u32::try_from(index.saturating_add(from)) {
+                Ok(v) if (v as usize) < count => out.push(v),
+                _ => return Err(Fault::NoSuchVertex { index, count: count as u64 }),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Lines made into text at a time.
+const CHUNK: usize = 1 << 13;
+
+fn write(file: &mut AtomicFile, mesh: &Mesh) -> std::result::Result<Loss, WriteFault> {
+    file.write_all(b"# millimetres\n")?;
+    let mut text = Vec::new();
+    for positions in mesh.positions.chunks(CHUNK) {
+        text.clear();
+        for p in positions {
+            text.push(b'v');
+            for x in p {
+                text.push(b' ');
+                push_number(&mut text, *x);
+            }
+            text.push(b'\n');
+        }
+        file.write_all(&text)?;
+    }
+    for (i, faces) in mesh.faces.chunks(CHUNK).enumerate() {
+        text.clear();
+        for (j, face) in faces.iter().enumerate() {
+            corner_positions(mesh, i * CHUNK + j, face)?;
+            let [a, b, c] = face.map(|v| u64::from(v) + 1);
+            writeln!(text, "f {a} {b} {c}")?;
+        }
+        file.write_all(&text)?;
+    }
+    Ok(Loss::default())
+}

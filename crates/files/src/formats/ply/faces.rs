@@ -1,0 +1,218 @@
+//! Faces and triangle strips, in text or in bytes.
+
+use super::header::{Element, Encoding, Kind, Scalar};
+use crate::{
+    assemble::Faces,
+    error::{Fault, Located, Result},
+    feed::Feed,
+    lines::{Lines, words},
+    number::whole_number,
+};
+use rayon::prelude::*;
+use trueness_geom::space::Point;
+
+/// Names of the list of vertices.
+const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Whether an element connects vertices.
+pub(super) fn is_faces(element: &Element) -> bool {
+    matches!(element.name.as_str(), "face" | "tristrips") && indices(element).is_some()
+}
+
+/// Which property is the list of vertices.
+fn indices(element: &Element) -> Option<usize> {
+    INDICES.iter().find_map(|name| {
+        let (i, property) = element.property(name)?;
+        matches!(property.kind, Kind::List { .. }).then_some(i)
+    })
+}
+
+/// Length of the row ahead; `None` if the file ends within it.
+pub(super) fn row_length(feed: &mut Feed, element: &Element, encoding: Encoding) -> Result<Option<usize>> {
+    let mut length = 0usize;
+    for property in &element.properties {
+        let (count, size) = match property.kind {
+            Kind::One(s) => (1, s.size()),
+            Kind::List { count, item } => {
+                let bytes = feed.ahead(length + count.size())?;
+                let Some(bytes) = bytes.get(length..).filter(|b| b.len() >= count.size()) else { return Ok(None) };
+                let n = count.get(bytes, encoding);
+                if n < 0.0 {
+                    return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(feed.position()));
+                }
+                length += count.size();
+                (n as usize, item.size())
+            }
+        };
+        length = length.saturating_add(count.saturating_mul(size));
+    }
+    Ok((feed.ahead(length)?.len() >= length).then_some(length))
+}
+
+/// Reads the rows of `elements` from the rest of a file, which begins at byte `at` and behind `lines` lines.
+pub(super) fn read(
+    rest: &[u8],
+    at: u64,
+    lines: u64,
+    encoding: Encoding,
+    elements: &[Element],
+    positions: &[Point],
+    faces: &mut Faces,
+) -> Result<()> {
+    if encoding == Encoding::Ascii {
+        return text(rest, lines, elements, positions, faces);
+    }
+    let mut bytes = Bytes { rest, at, encoding };
+    for element in elements {
+        if plain(&mut bytes, element, positions, faces) {
+            continue;
+        }
+        let list = indices(element).filter(|_| is_faces(element));
+        let mut corners = vec![];
+        for row in 0..element.count {
+            let at = bytes.at;
+            if !bytes.row(element, list, &mut corners)? {
+                return Err(Fault::Short { what: "faces", declared: element.count, present: row }.at_byte(at));
+            }
+            if list.is_some() {
+                take(element, &corners, positions, faces).map_err(|f| f.at_byte(at))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Takes the corners of a face, or those of many strips.
+fn take(element: &Element, corners: &[f64], positions: &[Point], faces: &mut Faces) -> std::result::Result<(), Fault> {
+    let count = positions.len() as u64;
+    let vertex = |v: &f64| {
+        let inside = *v >= 0.0 && *v < count as f64 && v.fract() == 0.0;
+        if inside { Ok(*v as u32) } else { Err(Fault::NoSuchVertex { index: *v as i64, count }) }
+    };
+    if element.name == "face" {
+        let corners: Vec<u32> = corners.iter().map(vertex).collect::<std::result::Result<_, _>>()?;
+        faces.push(positions, &corners);
+        return Ok(());
+    }
+    // A strip turns with each triangle and ends at a negative number.
+    for strip in corners.split(|v| *v < 0.0) {
+        let strip: Vec<u32> = strip.iter().map(vertex).collect::<std::result::Result<_, _>>()?;
+        for (i, w) in strip.windows(3).enumerate() {
+            let [a, b, c] = if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] };
+            if a != b && b != c && c != a {
+                faces.push(positions, &[a, b, c]);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Bytes not yet read, and where they begin in the file.
+struct Bytes<'a> {
+    rest: &'a [u8],
+    at: u64,
+    encoding: Encoding,
+}
+
+impl<'a> Bytes<'a> {
+    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.rest.split_at_checked(length)?;
+        self.rest = rest;
+        self.at += length as u64;
+        Some(taken)
+    }
+
+    /// Reads a row, its list `wanted` into `out`. False if the bytes end before.
+    fn row(&mut self, element: &Element, wanted: Option<usize>, out: &mut Vec<f64>) -> Result<bool> {
+        for (i, property) in element.properties.iter().enumerate() {
+            let (count, item) = match property.kind {
+                Kind::One(scalar) => (1.0, scalar),
+                Kind::List { count, item } => {
+                    let at = self.at;
+                    let Some(bytes) = self.take(count.size()) else { return Ok(false) };
+                    let n = count.get(bytes, self.encoding);
+                    if n < 0.0 {
+                        return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(at));
+                    }
+                    (n, item)
+                }
+            };
+            let Some(bytes) = self.take((count as usize).saturating_mul(item.size())) else { return Ok(false) };
+            if wanted == Some(i) {
+                out.clear();
+                out.extend(bytes.chunks_exact(item.size()).map(|b| item.get(b, self.encoding)));
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The common case: nothing but triangles of 32-bit numbers. False, and nothing done, if it is not that.
+fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut Faces) -> bool {
+    const ROW: usize = 13;
+    let list = |k: &Kind| matches!(k, Kind::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
+    let one = element.name == "face" && matches!(&element.properties[..], [p] if list(&p.kind) && is_faces(element));
+    let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(ROW)) else { return false };
+    let Some((rows, rest)) = bytes.rest.split_at_checked(length).filter(|_| one) else { return false };
+    let rows = rows.as_chunks::<ROW>().0;
+    let big = bytes.encoding == Encoding::Big;
+    let corner = |r: &[u8; ROW], k: usize| {
+        let b = [r[4 * k + 1], r[4 * k + 2], r[4 * k + 3], r[4 * k + 4]];
+        if big { u32::from_be_bytes(b) } else { u32::from_le_bytes(b) }
+    };
+    let count = positions.len();
+    let good = |r: &[u8; ROW]| r[0] == 3 && (0..3).all(|k| (corner(r, k) as usize) < count);
+    if !rows.par_iter().with_min_len(1 << 13).all(good) {
+        return false;
+    }
+    let triangle = |r: &[u8; ROW]| [corner(r, 0), corner(r, 1), corner(r, 2)];
+    faces.triangles.par_extend(rows.par_iter().with_min_len(1 << 13).map(triangle));
+    bytes.rest = rest;
+    bytes.at += length as u64;
+    true
+}
+
+/// Rows of text, one a line.
+fn text(rest: &[u8], before: u64, elements: &[Element], positions: &[Point], faces: &mut Faces) -> Result<()> {
+    let mut lines = Lines::new(rest);
+    let mut corners = vec![];
+    for element in elements {
+        let list = indices(element).filter(|_| is_faces(element));
+        for row in 0..element.count {
+            let Some(line) = lines.find(|l| !l.trim_ascii().is_empty()) else {
+                return Err(short(element, row, before + lines.number));
+            };
+            let Some(list) = list else { continue };
+            let number = before + lines.number;
+            let expected = "the number of corners and as many numbers of vertices";
+            text_row(line, element, list, &mut corners)
+                .ok_or_else(|| Fault::unexpected(expected, line).at_line(number))?;
+            take(element, &corners, positions, faces).map_err(|f| f.at_line(number))?;
+        }
+    }
+    Ok(())
+}
+
+fn short(element: &Element, present: u64, line: u64) -> Located {
+    Fault::Short { what: "faces", declared: element.count, present }.at_line(line)
+}
+
+/// The list `wanted` of a line; `None` if it does not hold what it should.
+fn text_row(line: &[u8], element: &Element, wanted: usize, out: &mut Vec<f64>) -> Option<()> {
+    let mut words = words(line);
+    for (i, property) in element.properties.iter().enumerate().take(wanted + 1) {
+        let Kind::List { .. } = property.kind else {
+            words.next()?;
+            continue;
+        };
+        let count = crate::number::count(words.next()?)?;
+        out.clear();
+        for _ in 0..count {
+            let value = whole_number(words.next()?, b'.')?;
+            if i == wanted {
+                out.push(value);
+            }
+        }
+    }
+    Some(())
+}

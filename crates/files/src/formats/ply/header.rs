@@ -1,0 +1,222 @@
+//! The header of a PLY file: what elements there are, of what properties, and how they are written.
+
+use crate::{
+    error::{Fault, Located, Result},
+    lines::words,
+    number::count,
+};
+
+/// How the elements are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+/// Type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    fn named(name: &[u8]) -> Option<Scalar> {
+        Some(match name {
+            b"char" | b"int8" => Scalar::I8,
+            b"uchar" | b"uint8" => Scalar::U8,
+            b"short" | b"int16" => Scalar::I16,
+            b"ushort" | b"uint16" => Scalar::U16,
+            b"int" | b"int32" => Scalar::I32,
+            b"uint" | b"uint32" => Scalar::U32,
+            b"float" | b"float32" => Scalar::F32,
+            b"double" | b"float64" => Scalar::F64,
+            _ => return None,
+        })
+    }
+    /// Bytes it takes.
+    pub fn size(self) -> usize {
+        match self {
+            Scalar::I8 | Scalar::U8 => 1,
+            Scalar::I16 | Scalar::U16 => 2,
+            Scalar::I32 | Scalar::U32 | Scalar::F32 => 4,
+            Scalar::F64 => 8,
+        }
+    }
+    /// The number at the start of `bytes`; zero where they are too few.
+    #[inline(always)]
+    pub fn get(self, bytes: &[u8], encoding: Encoding) -> f64 {
+        macro_rules! read {
+            ($t:ty) => {{
+                let b = bytes.first_chunk().copied().unwrap_or_default();
+                f64::from(if encoding == Encoding::Big { <$t>::from_be_bytes(b) } else { <$t>::from_le_bytes(b) })
+            }};
+        }
+        match self {
+            Scalar::I8 => read!(i8),
+            Scalar::U8 => read!(u8),
+            Scalar::I16 => read!(i16),
+            Scalar::U16 => read!(u16),
+            Scalar::I32 => read!(i32),
+            Scalar::U32 => read!(u32),
+            Scalar::F32 => read!(f32),
+            Scalar::F64 => read!(f64),
+        }
+    }
+}
+
+/// What a property holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    One(Scalar),
+    /// A count and so many numbers.
+    List {
+        count: Scalar,
+        item: Scalar,
+    },
+}
+
+/// A column of an element.
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub name: String,
+    pub kind: Kind,
+}
+
+/// A table of the file.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    pub name: String,
+    pub count: u64,
+    pub properties: Vec<Property>,
+}
+
+impl Element {
+    /// Bytes of a row, if all rows have the same.
+    pub fn stride(&self) -> Option<usize> {
+        let size = |p: &Property| match p.kind {
+            Kind::One(s) => Some(s.size()),
+            Kind::List { .. } => None,
+        };
+        self.properties.iter().map(size).sum()
+    }
+    /// Least number of bytes of a row.
+    pub fn least_stride(&self) -> usize {
+        let size = |p: &Property| match p.kind {
+            Kind::One(s) => s.size(),
+            Kind::List { count, .. } => count.size(),
+        };
+        self.properties.iter().map(size).sum()
+    }
+    /// The property of this name and its position.
+    pub fn property(&self, name: &str) -> Option<(usize, &Property)> {
+        self.properties.iter().enumerate().find(|(_, p)| p.name == name)
+    }
+}
+
+/// A header.
+#[derive(Clone, Debug)]
+pub(super) struct Header {
+    pub encoding: Encoding,
+    pub elements: Vec<Element>,
+    /// Bytes and lines it takes.
+    pub length: usize,
+    pub lines: u64,
+}
+
+/// Elements and properties beyond this are not a header but an attack.
+const MOST: usize = 4096;
+
+/// Reads the header at the start of `bytes`.
+pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
+    let end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+    let mut header = Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0 };
+    let mut encoding = None;
+    loop {
+        header.lines += 1;
+        let rest = bytes.get(header.length..).unwrap_or_default();
+        let wrong = |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(header.lines);
+        let Some(length) = memchr::memchr(end, rest) else {
+            // Without a line end nothing can follow: as good as the end, if it says so.
+            if rest.trim_ascii() == b"end_header" {
+                header.length = bytes.len();
+                break;
+            }
+            return Err(wrong("\"end_header\" at the end of the header", b"the end of the file"));
+        };
+        let line = rest[..length].trim_ascii();
+        header.length += length + 1;
+        let mut words = words(line);
+        match words.next() {
+            Some(b"end_header") => break,
+            Some(b"ply") if header.lines == 1 => {}
+            Some(b"format") => encoding = Some(format(line, header.lines)?),
+            Some(b"element") => header.elements.push(element(line, header.lines)?),
+            Some(b"property") => {
+                let property = property(line, header.lines)?;
+                match header.elements.last_mut() {
+                    Some(e) if e.properties.len() < MOST => e.properties.push(property),
+                    _ => return Err(wrong("an element before its properties", line)),
+                }
+            }
+            Some(b"comment" | b"obj_info") | None => {}
+            _ => return Err(wrong("\"element\", \"property\", \"comment\" or \"end_header\"", line)),
+        }
+        if header.elements.len() > MOST {
+            return Err(wrong("a reasonable number of elements", line));
+        }
+    }
+    header.encoding = encoding.ok_or_else(|| {
+        let found = Fault::Unexpected { expected: "a line \"format …\"".into(), found: "none".into() };
+        found.at_line(2)
+    })?;
+    Ok(header)
+}
+
+fn format(line: &[u8], number: u64) -> Result<Encoding> {
+    match words(line).nth(1) {
+        Some(b"ascii") => Ok(Encoding::Ascii),
+        Some(b"binary_little_endian") => Ok(Encoding::Little),
+        Some(b"binary_big_endian") => Ok(Encoding::Big),
+        _ => Err(Fault::unexpected("ascii, binary_little_endian or binary_big_endian", line).at_line(number)),
+    }
+}
+
+fn element(line: &[u8], number: u64) -> Result<Element> {
+    let mut words = words(line).skip(1);
+    match (words.next(), words.next().and_then(count)) {
+        (Some(name), Some(count)) => Ok(Element { name: text(name), count, properties: vec![] }),
+        _ => Err(Fault::unexpected("\"element\", a name and a number", line).at_line(number)),
+    }
+}
+
+fn property(line: &[u8], number: u64) -> Result<Property> {
+    let wrong = || -> Located {
+        Fault::unexpected("\"property\", a type (char … double, or list of two types) and a name", line).at_line(number)
+    };
+    let mut words = words(line).skip(1);
+    let first = words.next().ok_or_else(wrong)?;
+    let kind = if first == b"list" {
+        let count = words.next().and_then(Scalar::named).ok_or_else(wrong)?;
+        let item = words.next().and_then(Scalar::named).ok_or_else(wrong)?;
+        if matches!(count, Scalar::F32 | Scalar::F64) {
+            return Err(wrong());
+        }
+        Kind::List { count, item }
+    } else {
+        Kind::One(Scalar::named(first).ok_or_else(wrong)?)
+    };
+    let name = words.next().ok_or_else(wrong)?;
+    Ok(Property { name: text(name), kind })
+}
+
+fn text(word: &[u8]) -> String {
+    String::from_utf8_lossy(word).into_owned()
+}

@@ -1,0 +1,187 @@
+//! PLY: tables of any properties, in text or in bytes of either order.
+
+mod binary;
+mod faces;
+mod header;
+mod write;
+
+use super::table::{Layout, Limit, Separator, TextPoints};
+use crate::{
+    SourceMesh, Warning,
+    assemble::{self, Faces},
+    error::{Fault, Located, Result},
+    feed::Feed,
+    format::{Format, Head, Parsed},
+    open::ReadOptions,
+    source::Source,
+};
+use binary::BinaryPoints;
+use header::{Element, Encoding, Header, Kind, Property};
+use trueness_geom::{cloud::PointStream, space::Point};
+
+/// PLY, ASCII and binary.
+pub(crate) const PLY: Format = Format {
+    name: "ply",
+    extensions: &["ply"],
+    manual: include_str!("ply.md"),
+    sniff: |head: &Head| matches!(head.bytes, [b'p', b'l', b'y', b'\n' | b'\r', ..]),
+    read: Some(read),
+    points: Some(write::begin),
+    mesh: Some(write::mesh),
+};
+
+/// The longest header that is read.
+const HEADER: usize = 1 << 20;
+
+fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    let bytes = source.feed.ahead(HEADER)?;
+    if !bytes.starts_with(b"ply") {
+        return Err(Fault::unexpected("\"ply\"", &bytes[..bytes.len().min(16)]).at_line(1));
+    }
+    let header = header::parse(&bytes[..bytes.len().min(HEADER)])?;
+    source.feed.step(header.length);
+    let variant = match header.encoding {
+        Encoding::Ascii => "ply-ascii",
+        Encoding::Little => "ply-binary-le",
+        Encoding::Big => "ply-binary-be",
+    };
+    let (before, vertex, after) = split(&header)?;
+    let mut lines = header.lines;
+    skip(&mut source.feed, &header, before, &mut lines)?;
+    let count = vertex.count;
+    let mut points = Points::new(source.feed, &header, vertex, lines, options)?;
+    if !after.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
+        let mut parsed = Parsed::points(variant, points);
+        parsed.warnings.extend((count == 0).then_some(Warning::Nothing));
+        return Ok(parsed);
+    }
+    assemble::numbered("vertices", count)?;
+    let positions = points.drain()?;
+    let (mut feed, lines) = points.into_rest();
+    let at = feed.position();
+    let mut faces = Faces::default();
+    faces::read(feed.all()?, at, lines, header.encoding, after, &positions, &mut faces)?;
+    let mut warnings = vec![];
+    let mesh = faces.mesh(positions, options.weld, &mut warnings)?;
+    Ok(Parsed::mesh(variant, SourceMesh { mesh, ..SourceMesh::default() }, warnings))
+}
+
+/// The elements before the vertices, the vertices, and those after.
+fn split(header: &Header) -> Result<(&[Element], &Element, &[Element])> {
+    let elements = &header.elements;
+    let at = elements.iter().position(|e| e.name == "vertex").ok_or_else(|| {
+        Fault::Unexpected { expected: "an element \"vertex\" in the header".into(), found: "none".into() }
+            .at_line(header.lines)
+    })?;
+    let (before, vertex, after) = (&elements[..at], &elements[at], &elements[at + 1..]);
+    if before.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
+        let what = "faces before their vertices cannot be read:".into();
+        let remedy = "let the program that wrote this put the element \"vertex\" first";
+        return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
+    }
+    Ok((before, vertex, after))
+}
+
+/// Steps over the rows of elements that nobody wants.
+fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64) -> Result<()> {
+    for element in elements {
+        for row in 0..element.count {
+            let at = feed.position();
+            let length = if header.encoding == Encoding::Ascii {
+                *lines += 1;
+                let bytes = feed.ahead(HEADER)?;
+                memchr::memchr(b'\n', bytes).map(|n| n + 1)
+            } else {
+                faces::row_length(feed, element, header.encoding)?
+            };
+            let Some(length) = length else {
+                return Err(Fault::Short { what: "rows", declared: element.count, present: row }.at_byte(at));
+            };
+            feed.step(length);
+        }
+    }
+    Ok(())
+}
+
+/// Where x, y and z are among the properties of the vertices.
+fn coordinates<'a>(vertex: &'a Element, header: &Header) -> Result<[(usize, &'a Property); 3]> {
+    let mut found = Vec::with_capacity(3);
+    for name in ["x", "y", "z"] {
+        match vertex.property(name) {
+            Some((i, p)) if matches!(p.kind, Kind::One(_)) => found.push((i, p)),
+            _ => {
+                let names: Vec<&str> = vertex.properties.iter().map(|p| p.name.as_str()).collect();
+                let there = if names.is_empty() { "no properties".into() } else { names.join(", ") };
+                return Err(Fault::Unexpected {
+                    expected: format!("a property \"{name}\" of the vertices").into(),
+                    found: there,
+                }
+                .at_line(header.lines));
+            }
+        }
+    }
+    <[(usize, &Property); 3]>::try_from(found).map_err(|_| Fault::Unknown.into())
+}
+
+/// The vertices as a stream.
+enum Points {
+    Text(TextPoints),
+    Binary(BinaryPoints),
+}
+
+impl Points {
+    fn new(feed: Feed, header: &Header, vertex: &Element, lines: u64, options: &ReadOptions) -> Result<Points> {
+        if vertex.count == 0 && vertex.property("x").is_none() {
+            let layout = Layout::of(Separator::Blanks, b'.', b'\n', &[]);
+            return Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(0), 0)));
+        }
+        let xyz = coordinates(vertex, header)?;
+        if header.encoding != Encoding::Ascii {
+            return Ok(Points::Binary(BinaryPoints::new(feed, header.encoding, vertex, xyz, options.block)?));
+        }
+        let last = xyz.iter().map(|(i, _)| *i).max().unwrap_or(0);
+        if vertex.properties[..last].iter().any(|p| matches!(p.kind, Kind::List { .. })) {
+            let what = "a list before the coordinates of a vertex cannot be read:".into();
+            let remedy = "let the program that wrote this put x, y, z first";
+            return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
+        }
+        let layout = Layout::of(Separator::Blanks, b'.', b'\n', &xyz.map(|(i, _)| i));
+        let window = options.block.saturating_mul(12 * vertex.properties.len().max(3));
+        Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(vertex.count), window)))
+    }
+
+    /// All points that are left. Grows with what is there, not with what is declared.
+    fn drain(&mut self) -> Result<Vec<Point>> {
+        let (mut all, mut block) = (vec![], vec![]);
+        loop {
+            self.next_block(&mut block)?;
+            if block.is_empty() {
+                return Ok(all);
+            }
+            if all.is_empty() { std::mem::swap(&mut all, &mut block) } else { all.append(&mut block) }
+        }
+    }
+
+    fn into_rest(self) -> (Feed, u64) {
+        match self {
+            Points::Text(p) => p.into_rest(),
+            Points::Binary(p) => (p.into_rest(), 0),
+        }
+    }
+}
+
+impl PointStream for Points {
+    type Error = Located;
+    fn expected(&self) -> Option<u64> {
+        match self {
+            Points::Text(p) => p.expected(),
+            Points::Binary(p) => p.expected(),
+        }
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        match self {
+            Points::Text(p) => p.next_block(block),
+            Points::Binary(p) => p.next_block(block),
+        }
+    }
+}

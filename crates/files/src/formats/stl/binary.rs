@@ -1,0 +1,78 @@
+//! Binary STL: records of 50 bytes, read where they lie.
+
+use super::Facet;
+use crate::{
+    Warning,
+    error::{Fault, Result},
+};
+
+/// Bytes of header and count.
+pub(super) const HEADER: usize = 84;
+/// Bytes of a facet: normal, three corners, attribute word.
+pub(super) const RECORD: usize = 50;
+
+/// The number of facets that the header declares.
+pub(super) fn declared(bytes: &[u8]) -> Option<u64> {
+    let b = bytes.get(HEADER - 4..)?.first_chunk()?;
+    Some(u64::from(u32::from_le_bytes(*b)))
+}
+
+/// The declared facets, all of them there.
+pub(super) fn records(bytes: &[u8]) -> Result<(&[[u8; RECORD]], Vec<Warning>)> {
+    let Some(declared) = declared(bytes) else {
+        let expected = "the 84 bytes with which a binary STL file begins";
+        return Err(Fault::unexpected(expected, bytes).at_byte(bytes.len() as u64));
+    };
+    let body = &bytes[HEADER..];
+    let there = body.as_chunks().0;
+    let present = there.len() as u64;
+    if declared > present {
+        return Err(Fault::Short { what: "facets", declared, present }.at_byte(bytes.len() as u64));
+    }
+    if declared == 0 && present > 0 {
+        let found = format!("0, and then {} bytes", body.len());
+        return Err(Fault::unexpected("the number of facets", found.as_bytes()).at_byte(HEADER as u64 - 4));
+    }
+    let declared = declared as usize;
+    let trailing = (body.len() - declared * RECORD) as u64;
+    let warnings = if trailing > 0 { vec![Warning::TrailingBytes { count: trailing }] } else { vec![] };
+    Ok((&there[..declared], warnings))
+}
+
+/// Whether the first bytes could be a header and a facet: finite numbers, a normal not longer than 1.
+pub(super) fn plausible(head: &[u8]) -> bool {
+    let Some(first) = head.get(HEADER..).and_then(|b| b.first_chunk()) else { return false };
+    let length = first.normal().iter().map(|x| x * x).sum::<f32>();
+    length < 1.1 && (0..3).all(|k| first.corner(k).iter().all(|x| x.abs() < 1e12))
+}
+
+#[inline(always)]
+fn triple(record: &[u8; RECORD], at: usize) -> [f32; 3] {
+    let word = |i: usize| f32::from_le_bytes([record[i], record[i + 1], record[i + 2], record[i + 3]]);
+    [word(at), word(at + 4), word(at + 8)]
+}
+
+impl Facet for [u8; RECORD] {
+    type Position = [f32; 3];
+    #[inline(always)]
+    fn corner(&self, k: usize) -> [f32; 3] {
+        triple(self, 12 + 12 * k)
+    }
+    fn normal(&self) -> [f32; 3] {
+        triple(self, 0)
+    }
+    fn finite(&self) -> bool {
+        // Zero times a number is zero unless the number is not finite.
+        (0..3).flat_map(|k| self.corner(k)).map(|x| x * 0.0).sum::<f32>() == 0.0
+    }
+}
+
+/// A record of a normal and three corners.
+pub(super) fn record(normal: [f32; 3], corners: [[f32; 3]; 3]) -> [u8; RECORD] {
+    let mut record = [0; RECORD];
+    let numbers = normal.iter().chain(corners.as_flattened());
+    for (bytes, x) in record.chunks_exact_mut(4).zip(numbers) {
+        bytes.copy_from_slice(&x.to_le_bytes());
+    }
+    record
+}

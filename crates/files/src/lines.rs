@@ -1,0 +1,80 @@
+//! Lines and words of text in memory.
+
+use crate::unicode::without_mark;
+
+/// The byte that ends lines: `\r` in files of old Macintoshes, else `\n` (with `\r` before it counted as blank).
+pub(crate) fn line_end(head: &[u8]) -> u8 {
+    match memchr::memchr2(b'\n', b'\r', head) {
+        Some(i) if head[i] == b'\r' && head.get(i + 1) != Some(&b'\n') && memchr::memchr(b'\n', head).is_none() => {
+            b'\r'
+        }
+        _ => b'\n',
+    }
+}
+
+/// Number of the line, from 1, in which byte `at` lies.
+pub(crate) fn line_of(text: &[u8], at: usize) -> u64 {
+    1 + count_lines(&text[..at.min(text.len())], line_end(text))
+}
+
+/// Number of line ends in `text`.
+pub(crate) fn count_lines(text: &[u8], end: u8) -> u64 {
+    memchr::memchr_iter(end, text).count() as u64
+}
+
+/// The lines of a text with their numbers from 1, without what ends them.
+#[derive(Clone)]
+pub(crate) struct Lines<'a> {
+    rest: &'a [u8],
+    end: u8,
+    /// Number of the line last delivered.
+    pub number: u64,
+}
+
+impl<'a> Lines<'a> {
+    /// Passes over a byte order mark.
+    pub fn new(text: &'a [u8]) -> Lines<'a> {
+        Lines { rest: without_mark(text), end: line_end(text), number: 0 }
+    }
+    /// What has not been delivered yet.
+    pub fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = &'a [u8];
+    fn next(&mut self) -> Option<&'a [u8]> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let (line, rest) = match memchr::memchr(self.end, self.rest) {
+            Some(i) => (&self.rest[..i], &self.rest[i + 1..]),
+            None => (self.rest, &[][..]),
+        };
+        self.rest = rest;
+        self.number += 1;
+        Some(line)
+    }
+}
+
+/// The words of a line, parted by ASCII white space.
+pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    line.split(|b| b.is_ascii_whitespace()).filter(|w| !w.is_empty())
+}
+
+/// Cuts text into parts of about `size` bytes, each ending with a whole line.
+pub(crate) fn parts(text: &[u8], size: usize, end: u8) -> Vec<&[u8]> {
+    let mut parts = Vec::with_capacity(text.len() / size.max(1) + 1);
+    let mut rest = text;
+    while rest.len() > size {
+        let Some(i) = memchr::memchr(end, &rest[size - 1..]) else { break };
+        let (part, later) = rest.split_at(size + i);
+        parts.push(part);
+        rest = later;
+    }
+    if !rest.is_empty() {
+        parts.push(rest);
+    }
+    parts
+}

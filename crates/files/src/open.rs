@@ -1,0 +1,105 @@
+//! Reading a file of whatever format.
+
+use crate::{
+    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit,
+    detect,
+    error::Located,
+    format::{Format, Once, Parts},
+    source::Source,
+};
+use std::path::Path;
+use trueness_geom::{cloud::PointStream, space::Point};
+
+/// What a file does not say itself.
+#[derive(Clone, Debug)]
+pub struct ReadOptions {
+    /// The unit of its numbers; millimetres are assumed otherwise.
+    pub units: Option<Unit>,
+    /// Columns of x, y, z in a table; found out otherwise. Other formats pay no heed to it.
+    pub columns: Option<Columns>,
+    /// Its format; found out otherwise.
+    pub format: Option<&'static Format>,
+    /// Whether vertices of a mesh at the same place become one. On by default: without it an STL file is a heap of
+    /// loose triangles, and other formats are torn open where textures or materials meet.
+    pub weld: bool,
+    /// About how many points a block of a stream holds.
+    pub block: usize,
+}
+
+impl Default for ReadOptions {
+    fn default() -> ReadOptions {
+        ReadOptions { units: None, columns: None, format: None, weld: true, block: 1 << 21 }
+    }
+}
+
+/// Reads a file, `-` being standard input: a mesh as a whole, points as a stream.
+///
+/// The format is told by the content and, where that says nothing, by the extension; `.gz` is unpacked on the way.
+/// A file with faces is a mesh, one with vertices alone is points.
+///
+/// Errors name file, line or byte, what was expected and a remedy. Those behind the first block of points come
+/// from the stream. Cost: meshes linear in the size of the file, several times that in memory; points next to
+/// nothing until the stream is read.
+pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
+    let file = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
+    match Source::open(path).and_then(|source| read(source, path, &file, options)) {
+        Ok(input) => Ok(input),
+        Err(fault) => Err(fault.in_file(&file)),
+    }
+}
+
+fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> Result<Input, Located> {
+    let format = match options.format {
+        Some(format) => format,
+        None => detect::format(&mut source, path)?,
+    };
+    let Some(reader) = format.read else { return Err(crate::Fault::Foreign(format.name).into()) };
+    let unit = options.units.unwrap_or_default();
+    let (bytes, gzip) = (source.bytes, source.gzip);
+    let parsed = reader(source, options)?;
+    let body = match parsed.content {
+        Parts::Mesh(mut mesh) => {
+            unit.apply(&mut mesh.mesh.positions);
+            Body::Mesh(mesh)
+        }
+        Parts::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
+    };
+    let provenance = Provenance {
+        path: path.display().to_string(),
+        format: parsed.variant,
+        bytes,
+        gzip,
+        unit_assumed: unit,
+        planar: parsed.planar,
+    };
+    Ok(Input { provenance, body, warnings: parsed.warnings })
+}
+
+/// A stream in millimetres whose errors name the file.
+struct Named {
+    inner: Box<dyn PointStream<Error = Located> + Send>,
+    file: String,
+    unit: Unit,
+}
+
+impl PointStream for Named {
+    type Error = ReadError;
+    fn expected(&self) -> Option<u64> {
+        self.inner.expected()
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<(), ReadError> {
+        self.inner.next_block(block).map_err(|e| e.in_file(&self.file))?;
+        self.unit.apply(block);
+        Ok(())
+    }
+}
+
+impl Body {
+    /// The points: those of a cloud, or the vertices of a mesh in their order.
+    pub fn into_points(self) -> crate::PointSource {
+        match self {
+            Body::Points(points) => points,
+            Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Once::new(mesh.positions)),
+        }
+    }
+}

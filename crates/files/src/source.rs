@@ -1,0 +1,109 @@
+//! Where bytes come from: a file, mapped where possible, or standard input; unpacked if need be.
+
+use crate::{
+    error::{Fault, Result},
+    feed::Feed,
+    gzip, unicode,
+};
+use std::{
+    fs::File,
+    io::{self, Read},
+    path::Path,
+};
+
+/// Opened bytes and what is known of them.
+pub(crate) struct Source {
+    pub feed: Feed,
+    /// Size on disk, 0 where unknown.
+    pub bytes: u64,
+    pub gzip: bool,
+}
+
+/// How much of a file is looked at before its format is decided.
+pub(crate) const HEAD: usize = 1 << 16;
+
+impl Source {
+    /// Opens a path; `-` is standard input.
+    pub fn open(path: &Path) -> Result<Source> {
+        if path == Path::new("-") {
+            return Source { feed: Feed::stream(Box::new(io::stdin())), bytes: 0, gzip: false }.unpacked();
+        }
+        let file = File::open(path)?;
+        let about = file.metadata()?;
+        if about.is_dir() {
+            return Err(Fault::Foreign("a folder").into());
+        }
+        // Pipes and devices have no size and cannot be mapped.
+        if !about.is_file() {
+            return Source { feed: Feed::stream(Box::new(file)), bytes: 0, gzip: false }.unpacked();
+        }
+        let bytes = about.len();
+        let mut head = [0; 3];
+        let packed = bytes >= 3 && (&file).read_exact(&mut head).is_ok() && gzip::is_gzip(&head);
+        if packed {
+            let again = io::BufReader::with_capacity(1 << 18, File::open(path)?);
+            let feed = Feed::stream(Box::new(gzip::unpack(again)));
+            return Source { feed, bytes, gzip: true }.recoded();
+        }
+        if bytes == 0 {
+            return Err(Fault::Empty.into());
+        }
+        let feed = match map(&file) {
+            Ok(map) => Feed::mapped(map),
+            // Some file systems cannot map.
+            Err(_) => Feed::stream(Box::new(File::open(path)?)),
+        };
+        Source { feed, bytes, gzip: false }.recoded()
+    }
+
+    #[cfg(test)]
+    pub fn of_bytes(bytes: &[u8]) -> Result<Source> {
+        let mut inner = Feed::owned(bytes.to_vec());
+        if gzip::is_gzip(inner.ahead(3)?) {
+            inner = Feed::stream(Box::new(gzip::unpack(io::Cursor::new(bytes.to_vec()))));
+            return Source { feed: inner, bytes: bytes.len() as u64, gzip: true }.recoded();
+        }
+        Source { feed: inner, bytes: bytes.len() as u64, gzip: false }.recoded()
+    }
+
+    /// Unpacks a stream whose first bytes say that it is packed.
+    fn unpacked(mut self) -> Result<Source> {
+        let head = self.feed.ahead(3)?;
+        if gzip::is_gzip(head) {
+            self.feed = Feed::stream(Box::new(gzip::unpack(Rest(self.feed))));
+            self.gzip = true;
+        }
+        self.recoded()
+    }
+
+    /// Turns text in UTF-16 into UTF-8. Such files are small: they come from spreadsheets.
+    fn recoded(mut self) -> Result<Source> {
+        let head = self.feed.ahead(HEAD)?;
+        crate::feed::not_empty(head)?;
+        if let Some(order) = unicode::utf16(head) {
+            let text = unicode::to_utf8(self.feed.all()?, order);
+            self.feed = Feed::owned(text);
+        }
+        Ok(self)
+    }
+}
+
+#[expect(unsafe_code, reason = "mapping a file is unsafe: another process might shorten it meanwhile")]
+fn map(file: &File) -> io::Result<memmap2::Mmap> {
+    // SAFETY: the map is only read, as bytes, of which any pattern is valid. Should another process shorten the file
+    // while it is read, the system ends the program: as for every mapped file.
+    unsafe { memmap2::Mmap::map(file) }
+}
+
+/// A feed read as a stream, below the unpacking.
+struct Rest(Feed);
+
+impl Read for Rest {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let there = self.0.ahead(1).map_err(|e| io::Error::other(e.fault))?;
+        let n = there.len().min(buffer.len());
+        buffer[..n].copy_from_slice(&there[..n]);
+        self.0.step(n);
+        Ok(n)
+    }
+}

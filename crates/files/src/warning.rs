@@ -1,0 +1,91 @@
+//! What was odd about a file that could still be read.
+
+use std::fmt;
+
+/// An oddity that did not keep a file from being read. Its text says what was done about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The file is well-formed and holds nothing.
+    Nothing,
+    /// Facets with a NaN or infinite coordinate were left out.
+    NonFiniteFacets {
+        /// How many.
+        count: u64,
+        /// The first of them, counted from 1.
+        first: u64,
+    },
+    /// Bytes follow what the header declares; they were not read.
+    TrailingBytes {
+        /// How many.
+        count: u64,
+    },
+    /// The last solid of an STL file is not closed by `endsolid`.
+    NoEndsolid,
+    /// Several solids became one mesh.
+    Solids {
+        /// How many.
+        count: u64,
+    },
+    /// Faces of more than three vertices were cut into triangles.
+    Polygons {
+        /// How many.
+        count: u64,
+    },
+    /// Faces of fewer than three vertices were left out.
+    Slight {
+        /// How many.
+        count: u64,
+    },
+    /// Vertices at the same place became one.
+    Joined {
+        /// Vertices in the file.
+        before: u64,
+        /// Vertices in the mesh.
+        after: u64,
+    },
+    /// The first column counts the rows and was not taken for a coordinate.
+    RunningNumber,
+    /// The numbers of a row may have been meant with decimal commas.
+    PerhapsDecimalCommas,
+    /// The columns were chosen by guess: no header names them and there are more than three.
+    ColumnsGuessed {
+        /// The three columns, counted from 1.
+        taken: [usize; 3],
+        /// How many there are.
+        of: usize,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::Nothing => write!(f, "the file holds neither faces nor points"),
+            Warning::NonFiniteFacets { count, first } => {
+                write!(f, "{count} facet(s) with a coordinate that is not finite left out, first: facet {first}")
+            }
+            Warning::TrailingBytes { count } => {
+                write!(f, "{count} bytes after the declared content were not read")
+            }
+            Warning::NoEndsolid => write!(f, "the last solid is not closed; the file may be cut short"),
+            Warning::Solids { count } => write!(f, "{count} solids read as one mesh"),
+            Warning::Polygons { count } => {
+                write!(f, "{count} face(s) of more than three vertices cut into triangles")
+            }
+            Warning::Slight { count } => write!(f, "{count} face(s) of fewer than three vertices left out"),
+            Warning::Joined { before, after } => {
+                write!(f, "{before} vertices at {after} places: vertices at the same place were joined")
+            }
+            Warning::RunningNumber => {
+                write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
+            }
+            Warning::PerhapsDecimalCommas => write!(
+                f,
+                "the commas were taken as separators; if they are decimal commas, separate the columns by semicolons or blanks"
+            ),
+            Warning::ColumnsGuessed { taken: [x, y, z], of } => {
+                write!(f, "columns {x}, {y}, {z} of {of} were taken as x, y, z")
+            }
+        }
+    }
+}

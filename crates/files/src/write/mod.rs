@@ -1,0 +1,132 @@
+//! Writing points and meshes. Files appear whole or not at all.
+
+mod loss;
+#[cfg(test)]
+pub(crate) mod scratch;
+
+use crate::{
+    AtomicFile, FORMATS, Format,
+    error::{WriteError, WriteFault},
+};
+pub use loss::Loss;
+use std::path::{Path, PathBuf};
+use trueness_geom::{mesh::Mesh, space::Point};
+
+/// Which values go with the points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// A deviation for each point, some of them without.
+    pub deviation: bool,
+    /// A colour for each point.
+    pub colour: bool,
+}
+
+/// Some of the points, in order.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Block<'a> {
+    /// Positions, millimetres.
+    pub points: &'a [Point],
+    /// As many deviations, millimetres, NaN for a point that has none; nothing where the layout has none.
+    pub deviation: &'a [f64],
+    /// As many colours (red, green, blue); nothing where the layout has none.
+    pub colour: &'a [[u8; 3]],
+}
+
+/// Begins a file of points in the format of the path's extension (with or without deviations and colours).
+///
+/// Errors: an extension that no writer of points has; those of the system.
+pub fn points(path: &Path, layout: Layout) -> Result<PointsFile, WriteError> {
+    let begin = |path: &Path| {
+        let writer = by_extension(path, "points", |f| f.points)?;
+        writer(AtomicFile::create(path)?, layout)
+    };
+    let writing = begin(path).map_err(|e| e.in_file(path))?;
+    Ok(PointsFile { writing, layout, path: path.into(), count: 0 })
+}
+
+/// A file of points being written. Unless it is finished, nothing of it remains.
+pub struct PointsFile {
+    writing: Box<dyn PointsSink>,
+    layout: Layout,
+    path: PathBuf,
+    count: u64,
+}
+
+impl PointsFile {
+    /// Adds points. Memory is bounded by the size of the blocks.
+    pub fn write(&mut self, block: &Block) -> Result<(), WriteError> {
+        let points = block.points.len();
+        let even = |what, there: bool, values: usize| {
+            let expected = if there { points } else { 0 };
+            if values == expected { Ok(()) } else { Err(WriteFault::Uneven { what, points, values }) }
+        };
+        let write = |this: &mut Self| {
+            even("deviations", this.layout.deviation, block.deviation.len())?;
+            even("colours", this.layout.colour, block.colour.len())?;
+            this.count += points as u64;
+            this.writing.write(block)
+        };
+        write(self).map_err(|e| e.in_file(&self.path))
+    }
+
+    /// Puts the file in its place. Gives the number of points.
+    pub fn finish(self) -> Result<u64, WriteError> {
+        let commit = |writing: Box<dyn PointsSink>| Ok(writing.finish()?.commit()?);
+        commit(self.writing).map_err(|e: WriteFault| e.in_file(&self.path))?;
+        Ok(self.count)
+    }
+}
+
+/// Writes a mesh in the format of the path's extension. Gives what the format could not hold.
+///
+/// Errors: an extension that no writer of meshes has; a face that names no vertex; those of the system.
+pub fn mesh(path: &Path, mesh: &Mesh) -> Result<Loss, WriteError> {
+    let write = || {
+        let writer = by_extension(path, "a mesh", |f| f.mesh)?;
+        let mut file = AtomicFile::create(path)?;
+        let loss = writer(&mut file, mesh)?;
+        file.commit()?;
+        Ok(loss)
+    };
+    write().map_err(|e: WriteFault| e.in_file(path))
+}
+
+/// Begins the points of a format.
+pub(crate) type PointsWriter = fn(AtomicFile, Layout) -> Result<Box<dyn PointsSink>, WriteFault>;
+/// Writes a whole mesh.
+pub(crate) type MeshWriter = fn(&mut AtomicFile, &Mesh) -> Result<Loss, WriteFault>;
+
+/// Takes points block by block; the lengths of a block agree with the layout.
+pub(crate) trait PointsSink: Send {
+    fn write(&mut self, block: &Block) -> Result<(), WriteFault>;
+    fn finish(self: Box<Self>) -> Result<AtomicFile, WriteFault>;
+}
+
+fn by_extension<W>(
+    path: &Path,
+    what: &'static str,
+    writer: impl Fn(&Format) -> Option<W>,
+) -> Result<W, WriteFault> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    let found = Format::by_extension(extension).and_then(&writer);
+    found.ok_or_else(|| {
+        let known = FORMATS.iter().filter(|f| writer(f).is_some()).map(|f| format!(".{}", f.extensions[0]));
+        WriteFault::UnknownFormat { what, known: known.collect::<Vec<_>>().join(" ") }
+    })
+}
+
+/// Positions of the corners of a face, if it has them.
+pub(crate) fn corner_positions(mesh: &Mesh, face: usize, corners: &[u32; 3]) -> Result<[Point; 3], WriteFault> {
+    let mut out = [[0.0; 3]; 3];
+    for (p, v) in out.iter_mut().zip(corners) {
+        *p = *mesh.positions.get(*v as usize).ok_or(WriteFault::NoSuchVertex { face })?;
+    }
+    Ok(out)
+}
+
+/// The shortest digits that give the same number back.
+pub(crate) fn push_number(text: &mut Vec<u8>, x: f64) {
+    let mut digits = zmij::Buffer::new();
+    let shown = digits.format(x);
+    text.extend_from_slice(shown.strip_suffix(".0").unwrap_or(shown).as_bytes());
+}
