@@ -19,7 +19,9 @@ pub struct Columns(pub(crate) Vec<Column>);
 
 /// Not a choice of columns.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("\"{0}\" does not name the columns of x, y, z: give three numbers from 1 or three names, for instance 2,3,4")]
+#[error(
+    "\"{0}\" does not name the columns of x, y, z: give three numbers from 1 or three names, for instance 2,3,4"
+)]
 pub struct ColumnsError(String);
 
 impl FromStr for Columns {

@@ -130,11 +130,17 @@ impl Fault {
             Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "ask for the right to read it",
             Fault::Io(_) => "check that the file can be read",
             Fault::Empty => "export it again",
-            Fault::Foreign(_) => "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)",
-            Fault::Unknown => "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format",
+            Fault::Foreign(_) => {
+                "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
+            }
+            Fault::Unknown => {
+                "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format"
+            }
             Fault::Unexpected { .. } => "mend this place or export the file again",
             Fault::Short { .. } => "copy or export the file again",
-            Fault::NoSuchVertex { .. } => "export the file again; its faces and vertices do not belong together",
+            Fault::NoSuchVertex { .. } => {
+                "export the file again; its faces and vertices do not belong together"
+            }
             Fault::NotFinite { .. } => "remove it, or export without invalid points",
             Fault::TooMany { .. } => "divide the file into parts",
             Fault::Bomb { .. } => "if it is trustworthy, unpack it first",

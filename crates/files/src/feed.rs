@@ -112,7 +112,10 @@ fn fill(reader: &mut dyn Read, buffer: &mut Vec<u8>, want: usize) -> Result<bool
 
 /// Takes the pages of a range out of memory, so that what has been read does not count as ours any longer.
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "dropping pages of a map is unsafe in general, and harmless for an unchanged file")]
+#[expect(
+    unsafe_code,
+    reason = "dropping pages of a map is unsafe in general, and harmless for an unchanged file"
+)]
 fn forget(map: &Mmap, from: usize, to: usize) {
     const LARGE: usize = 1 << 21;
     let (from, to) = (from / LARGE * LARGE, to / LARGE * LARGE);

@@ -30,13 +30,8 @@ pub struct Format {
 }
 
 /// All formats. Those that show themselves plainly come first.
-pub static FORMATS: [&Format; 5] = [
-    &formats::ply::PLY,
-    &formats::off::OFF,
-    &formats::stl::STL,
-    &formats::obj::OBJ,
-    &formats::table::TABLE,
-];
+pub static FORMATS: [&Format; 5] =
+    [&formats::ply::PLY, &formats::off::OFF, &formats::stl::STL, &formats::obj::OBJ, &formats::table::TABLE];
 
 impl Format {
     /// The format of this name or extension (upper or lower case).
@@ -105,7 +100,10 @@ impl Parsed {
         }
         Parsed { variant, content: Parts::Mesh(mesh), planar: false, warnings }
     }
-    pub fn points(variant: &'static str, points: impl PointStream<Error = Located> + Send + 'static) -> Parsed {
+    pub fn points(
+        variant: &'static str,
+        points: impl PointStream<Error = Located> + Send + 'static,
+    ) -> Parsed {
         Parsed { variant, content: Parts::Points(Box::new(points)), planar: false, warnings: vec![] }
     }
     /// Points that have been read already.

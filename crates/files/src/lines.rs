@@ -5,7 +5,11 @@ use crate::unicode::without_mark;
 /// The byte that ends lines: `\r` in files of old Macintoshes, else `\n` (with `\r` before it counted as blank).
 pub(crate) fn line_end(head: &[u8]) -> u8 {
     match memchr::memchr2(b'\n', b'\r', head) {
-        Some(i) if head[i] == b'\r' && head.get(i + 1) != Some(&b'\n') && memchr::memchr(b'\n', head).is_none() => {
+        Some(i)
+            if head[i] == b'\r'
+                && head.get(i + 1) != Some(&b'\n')
+                && memchr::memchr(b'\n', head).is_none() =>
+        {
             b'\r'
         }
         _ => b'\n',

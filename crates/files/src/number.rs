@@ -6,8 +6,8 @@
 
 /// Powers of ten that a `f64` holds exactly.
 const TEN: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19,
-    1e20, 1e21, 1e22,
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19, 1e20, 1e21, 1e22,
 ];
 
 /// The number at the start of `text` and how many bytes it takes. `point` is the decimal point: `.` or `,`.
@@ -52,7 +52,9 @@ fn digit(text: &[u8], at: usize) -> Option<u64> {
 /// Any number, with an exponent behind `e` or, as Fortran writes it, `d`.
 #[cold]
 fn general(text: &[u8], point: u8) -> Option<(f64, usize)> {
-    let word = text.iter().position(|b| !matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b',' | b'a'..=b'z' | b'A'..=b'Z'));
+    let word = text
+        .iter()
+        .position(|b| !matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b',' | b'a'..=b'z' | b'A'..=b'Z'));
     let word = &text[..word.unwrap_or(text.len())];
     if point == b'.' && !word.iter().any(|b| matches!(b, b'd' | b'D')) {
         return fast_float2::parse_partial::<f64, _>(word).ok();
@@ -120,7 +122,11 @@ mod tests {
             let (value, length) = number(text.as_bytes(), b'.').unwrap_or_else(|| panic!("{text}"));
             assert_eq!((value.to_bits(), length), (expected.to_bits(), text.len()), "{text}");
             let comma = text.replace('.', ",");
-            assert_eq!(number(comma.as_bytes(), b',').map(|n| n.0.to_bits()), Some(expected.to_bits()), "{comma}");
+            assert_eq!(
+                number(comma.as_bytes(), b',').map(|n| n.0.to_bits()),
+                Some(expected.to_bits()),
+                "{comma}"
+            );
             tried += 1;
         }
         assert!(tried > 150_000);

@@ -1,8 +1,7 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit,
-    detect,
+    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit, detect,
     error::Located,
     format::{Format, Once, Parts},
     source::Source,

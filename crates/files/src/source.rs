@@ -56,16 +56,6 @@ impl Source {
         Source { feed, bytes, gzip: false }.recoded()
     }
 
-    #[cfg(test)]
-    pub fn of_bytes(bytes: &[u8]) -> Result<Source> {
-        let mut inner = Feed::owned(bytes.to_vec());
-        if gzip::is_gzip(inner.ahead(3)?) {
-            inner = Feed::stream(Box::new(gzip::unpack(io::Cursor::new(bytes.to_vec()))));
-            return Source { feed: inner, bytes: bytes.len() as u64, gzip: true }.recoded();
-        }
-        Source { feed: inner, bytes: bytes.len() as u64, gzip: false }.recoded()
-    }
-
     /// Unpacks a stream whose first bytes say that it is packed.
     fn unpacked(mut self) -> Result<Source> {
         let head = self.feed.ahead(3)?;

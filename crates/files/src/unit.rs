@@ -20,7 +20,8 @@ pub enum Unit {
 
 impl Unit {
     /// All of them.
-    pub const ALL: [Unit; 5] = [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre, Unit::Inch];
+    pub const ALL: [Unit; 5] =
+        [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre, Unit::Inch];
 
     /// Its short name: `um`, `mm`, `cm`, `m`, `in`.
     pub const fn name(self) -> &'static str {

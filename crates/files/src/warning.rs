@@ -62,7 +62,10 @@ impl fmt::Display for Warning {
         match self {
             Warning::Nothing => write!(f, "the file holds neither faces nor points"),
             Warning::NonFiniteFacets { count, first } => {
-                write!(f, "{count} facet(s) with a coordinate that is not finite left out, first: facet {first}")
+                write!(
+                    f,
+                    "{count} facet(s) with a coordinate that is not finite left out, first: facet {first}"
+                )
             }
             Warning::TrailingBytes { count } => {
                 write!(f, "{count} bytes after the declared content were not read")

@@ -39,7 +39,10 @@ fn sniff(head: &Head) -> bool {
     }
     let known = |l: &[u8]| {
         let word = l.split(u8::is_ascii_whitespace).next().unwrap_or_default();
-        matches!(word, b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" | b"l" | b"p" | b"vp")
+        matches!(
+            word,
+            b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" | b"l" | b"p" | b"vp"
+        )
     };
     let lines = without_mark(head.bytes).split(|b| matches!(b, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let mut said = lines.filter(|l| !l.is_empty() && !l.starts_with(b"#")).take(1000).peekable();
@@ -138,7 +141,9 @@ impl<'a> Part<'a> {
             let number = i as u64 + 1;
             if let Some(rest) = vertex(line) {
                 part.positions.push(position(rest).map_err(|fault| (number, fault))?);
-            } else if let Some(text) = line.strip_prefix(b"f").filter(|l| l.first().is_some_and(u8::is_ascii_whitespace)) {
+            } else if let Some(text) =
+                line.strip_prefix(b"f").filter(|l| l.first().is_some_and(u8::is_ascii_whitespace))
+            {
                 part.faces.push(Face { text, line: number, vertices: part.positions.len() });
             }
         }

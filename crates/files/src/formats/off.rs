@@ -22,7 +22,8 @@ pub(crate) const OFF: Format = Format {
     manual: include_str!("off.md"),
     sniff: |head: &Head| {
         let text = without_mark(head.bytes).trim_ascii_start();
-        keyword(text).is_some_and(|(_, n)| text.get(n).is_none_or(|b| b.is_ascii_whitespace() || b.is_ascii_digit()))
+        keyword(text)
+            .is_some_and(|(_, n)| text.get(n).is_none_or(|b| b.is_ascii_whitespace() || b.is_ascii_digit()))
     },
     read: Some(read),
     points: None,
@@ -42,7 +43,10 @@ struct Said<'a>(Lines<'a>);
 impl<'a> Iterator for Said<'a> {
     type Item = &'a [u8];
     fn next(&mut self) -> Option<&'a [u8]> {
-        self.0.by_ref().map(|l| l[..memchr::memchr(b'#', l).unwrap_or(l.len())].trim_ascii()).find(|l| !l.is_empty())
+        self.0
+            .by_ref()
+            .map(|l| l[..memchr::memchr(b'#', l).unwrap_or(l.len())].trim_ascii())
+            .find(|l| !l.is_empty())
     }
 }
 

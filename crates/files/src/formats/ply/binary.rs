@@ -37,7 +37,8 @@ impl BinaryPoints {
         xyz: [(usize, &Property); 3],
         block: usize,
     ) -> Result<BinaryPoints> {
-        let before = |i: usize| Element { properties: vertex.properties[..i].to_vec(), ..vertex.clone() }.stride();
+        let before =
+            |i: usize| Element { properties: vertex.properties[..i].to_vec(), ..vertex.clone() }.stride();
         let place = |(i, p): (usize, &Property)| match (before(i), p.kind) {
             (Some(offset), Kind::One(scalar)) => Ok((offset, scalar)),
             _ => {
@@ -52,7 +53,9 @@ impl BinaryPoints {
             && vertex.count.checked_mul(least).is_none_or(|need| need > left)
         {
             let present = left / least.max(1);
-            return Err(Fault::Short { what: "vertices", declared: vertex.count, present }.at_byte(feed.position()));
+            return Err(
+                Fault::Short { what: "vertices", declared: vertex.count, present }.at_byte(feed.position())
+            );
         }
         let (stride, vertex) = (vertex.stride(), vertex.clone());
         Ok(BinaryPoints { feed, encoding, vertex, stride, places, found: 0, block: block.max(1) })
@@ -63,7 +66,8 @@ impl BinaryPoints {
     }
 
     fn short(&self) -> Located {
-        Fault::Short { what: "vertices", declared: self.vertex.count, present: self.found }.at_byte(self.feed.position())
+        Fault::Short { what: "vertices", declared: self.vertex.count, present: self.found }
+            .at_byte(self.feed.position())
     }
 
     /// Rows of the same length, many at a time.
@@ -85,7 +89,9 @@ impl BinaryPoints {
                     *p = places.map(|(at, _)| Scalar::F32.get(&row[at..], Encoding::Little));
                 });
             } else {
-                out.iter_mut().zip(rows).for_each(|(p, row)| *p = places.map(|(at, s)| s.get(&row[at..], encoding)));
+                out.iter_mut()
+                    .zip(rows)
+                    .for_each(|(p, row)| *p = places.map(|(at, s)| s.get(&row[at..], encoding)));
             }
         });
         self.feed.step(there * stride);
@@ -127,7 +133,8 @@ impl PointStream for BinaryPoints {
         let bad = |p: &Point| !p.iter().all(|x| x.is_finite());
         if let Some(i) = block.par_iter().position_first(bad) {
             let number = self.found + i as u64 + 1;
-            return Err(Fault::NotFinite { what: "vertex", number }.at_byte(at + (i * self.stride.unwrap_or(0)) as u64));
+            return Err(Fault::NotFinite { what: "vertex", number }
+                .at_byte(at + (i * self.stride.unwrap_or(0)) as u64));
         }
         self.found += block.len() as u64;
         Ok(())

@@ -35,10 +35,13 @@ pub(super) fn row_length(feed: &mut Feed, element: &Element, encoding: Encoding)
             Kind::One(s) => (1, s.size()),
             Kind::List { count, item } => {
                 let bytes = feed.ahead(length + count.size())?;
-                let Some(bytes) = bytes.get(length..).filter(|b| b.len() >= count.size()) else { return Ok(None) };
+                let Some(bytes) = bytes.get(length..).filter(|b| b.len() >= count.size()) else {
+                    return Ok(None);
+                };
                 let n = count.get(bytes, encoding);
                 if n < 0.0 {
-                    return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(feed.position()));
+                    return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes())
+                        .at_byte(feed.position()));
                 }
                 length += count.size();
                 (n as usize, item.size())
@@ -83,7 +86,12 @@ pub(super) fn read(
 }
 
 /// Takes the corners of a face, or those of many strips.
-fn take(element: &Element, corners: &[f64], positions: &[Point], faces: &mut Faces) -> std::result::Result<(), Fault> {
+fn take(
+    element: &Element,
+    corners: &[f64],
+    positions: &[Point],
+    faces: &mut Faces,
+) -> std::result::Result<(), Fault> {
     let count = positions.len() as u64;
     let vertex = |v: &f64| {
         let inside = *v >= 0.0 && *v < count as f64 && v.fract() == 0.0;
@@ -132,12 +140,16 @@ impl<'a> Bytes<'a> {
                     let Some(bytes) = self.take(count.size()) else { return Ok(false) };
                     let n = count.get(bytes, self.encoding);
                     if n < 0.0 {
-                        return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(at));
+                        return Err(
+                            Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(at)
+                        );
                     }
                     (n, item)
                 }
             };
-            let Some(bytes) = self.take((count as usize).saturating_mul(item.size())) else { return Ok(false) };
+            let Some(bytes) = self.take((count as usize).saturating_mul(item.size())) else {
+                return Ok(false);
+            };
             if wanted == Some(i) {
                 out.clear();
                 out.extend(bytes.chunks_exact(item.size()).map(|b| item.get(b, self.encoding)));
@@ -150,9 +162,13 @@ impl<'a> Bytes<'a> {
 /// The common case: nothing but triangles of 32-bit numbers. False, and nothing done, if it is not that.
 fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut Faces) -> bool {
     const ROW: usize = 13;
-    let list = |k: &Kind| matches!(k, Kind::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
-    let one = element.name == "face" && matches!(&element.properties[..], [p] if list(&p.kind) && is_faces(element));
-    let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(ROW)) else { return false };
+    let list =
+        |k: &Kind| matches!(k, Kind::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
+    let one = element.name == "face"
+        && matches!(&element.properties[..], [p] if list(&p.kind) && is_faces(element));
+    let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(ROW)) else {
+        return false;
+    };
     let Some((rows, rest)) = bytes.rest.split_at_checked(length).filter(|_| one) else { return false };
     let rows = rows.as_chunks::<ROW>().0;
     let big = bytes.encoding == Encoding::Big;
@@ -173,7 +189,13 @@ fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut 
 }
 
 /// Rows of text, one a line.
-fn text(rest: &[u8], before: u64, elements: &[Element], positions: &[Point], faces: &mut Faces) -> Result<()> {
+fn text(
+    rest: &[u8],
+    before: u64,
+    elements: &[Element],
+    positions: &[Point],
+    faces: &mut Faces,
+) -> Result<()> {
     let mut lines = Lines::new(rest);
     let mut corners = vec![];
     for element in elements {

@@ -56,7 +56,11 @@ impl Scalar {
         macro_rules! read {
             ($t:ty) => {{
                 let b = bytes.first_chunk().copied().unwrap_or_default();
-                f64::from(if encoding == Encoding::Big { <$t>::from_be_bytes(b) } else { <$t>::from_le_bytes(b) })
+                f64::from(if encoding == Encoding::Big {
+                    <$t>::from_be_bytes(b)
+                } else {
+                    <$t>::from_le_bytes(b)
+                })
             }};
         }
         match self {
@@ -142,7 +146,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
     loop {
         header.lines += 1;
         let rest = bytes.get(header.length..).unwrap_or_default();
-        let wrong = |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(header.lines);
+        let wrong =
+            |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(header.lines);
         let Some(length) = memchr::memchr(end, rest) else {
             // Without a line end nothing can follow: as good as the end, if it says so.
             if rest.trim_ascii() == b"end_header" {
@@ -199,7 +204,8 @@ fn element(line: &[u8], number: u64) -> Result<Element> {
 
 fn property(line: &[u8], number: u64) -> Result<Property> {
     let wrong = || -> Located {
-        Fault::unexpected("\"property\", a type (char … double, or list of two types) and a name", line).at_line(number)
+        Fault::unexpected("\"property\", a type (char … double, or list of two types) and a name", line)
+            .at_line(number)
     };
     let mut words = words(line).skip(1);
     let first = words.next().ok_or_else(wrong)?;

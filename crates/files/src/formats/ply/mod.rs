@@ -130,7 +130,13 @@ enum Points {
 }
 
 impl Points {
-    fn new(feed: Feed, header: &Header, vertex: &Element, lines: u64, options: &ReadOptions) -> Result<Points> {
+    fn new(
+        feed: Feed,
+        header: &Header,
+        vertex: &Element,
+        lines: u64,
+        options: &ReadOptions,
+    ) -> Result<Points> {
         if vertex.count == 0 && vertex.property("x").is_none() {
             let layout = Layout::of(Separator::Blanks, b'.', b'\n', &[]);
             return Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(0), 0)));

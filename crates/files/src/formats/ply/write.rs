@@ -15,7 +15,8 @@ const DIGITS: usize = 20;
 
 /// The header of `count` vertices: always of the same length, so that it can be written again when they are counted.
 fn header(layout: Layout, count: u64, faces: Option<usize>) -> String {
-    let mut text = format!("ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex {count}\n");
+    let mut text =
+        format!("ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex {count}\n");
     let digits = count.to_string().len();
     text.push_str("property double x\nproperty double y\nproperty double z\n");
     if layout.deviation {

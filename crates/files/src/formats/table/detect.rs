@@ -52,7 +52,7 @@ pub(super) fn detect(head: &[u8], columns: Option<&Columns>) -> Result<Found> {
     // The later of equals would win: so from the end.
     let best = tried.rev().max_by_key(|t| t.rank());
     match best {
-        Some(best) if best.rows.len() > 0 => best.found(head, &lines, columns),
+        Some(best) if !best.rows.is_empty() => best.found(head, &lines, columns),
         _ => Err(first_line_fault(&lines)),
     }
 }
@@ -68,10 +68,15 @@ fn sample(head: &[u8]) -> Vec<&[u8]> {
 }
 
 fn first_line_fault(lines: &[&[u8]]) -> crate::error::Located {
-    let said = lines.iter().position(|l| !l.trim_ascii().is_empty() && !is_comment(l.trim_ascii(), Separator::Blanks));
+    let said = lines
+        .iter()
+        .position(|l| !l.trim_ascii().is_empty() && !is_comment(l.trim_ascii(), Separator::Blanks));
     match said {
         Some(i) => Fault::unexpected("rows of two or three numbers", lines[i]).at_line(i as u64 + 1),
-        None => Fault::Unexpected { expected: "rows of two or three numbers".into(), found: "no rows".into() }.into(),
+        None => {
+            Fault::Unexpected { expected: "rows of two or three numbers".into(), found: "no rows".into() }
+                .into()
+        }
     }
 }
 
@@ -88,7 +93,8 @@ impl Tried {
     fn new(dialect: (Separator, u8), lines: &[&[u8]]) -> Tried {
         let numeric = |line: &&[u8]| {
             let words = Layout::words(dialect.0, line);
-            let set = words.iter().take(COLUMNS).enumerate().filter(|(_, w)| whole_number(w, dialect.1).is_some());
+            let set =
+                words.iter().take(COLUMNS).enumerate().filter(|(_, w)| whole_number(w, dialect.1).is_some());
             (set.fold(0u64, |m, (i, _)| m | 1 << i), words.len())
         };
         let all: Vec<(usize, u64, usize)> = lines
@@ -103,7 +109,11 @@ impl Tried {
         let rows = |least: u32| all.iter().copied().filter(|r| r.1.count_ones() >= least).collect::<Vec<_>>();
         let (three, two) = (rows(3), rows(2));
         // A few rows of three among many of two are not what the table is about.
-        if 2 * three.len() > two.len() { Tried { dialect, rows: three, least: 3 } } else { Tried { dialect, rows: two, least: 2 } }
+        if 2 * three.len() > two.len() {
+            Tried { dialect, rows: three, least: 3 }
+        } else {
+            Tried { dialect, rows: two, least: 2 }
+        }
     }
 
     /// More rows are better; then three columns of numbers; then numbers only.
@@ -133,7 +143,13 @@ impl Tried {
         let rows: usize = lines[start..].iter().map(|l| l.len() + 1).sum();
         Ok(Found {
             layout,
-            variant: if declared.is_some() { "pts" } else if csv { "csv" } else { "xyz" },
+            variant: if declared.is_some() {
+                "pts"
+            } else if csv {
+                "csv"
+            } else {
+                "xyz"
+            },
             skip,
             lines: start as u64,
             declared,
@@ -154,11 +170,21 @@ impl Tried {
     fn names(&self, lines: &[&[u8]], start: usize, width: usize) -> Vec<String> {
         let last = lines[..start].iter().rev().find(|l| !l.trim_ascii().is_empty());
         let names = last.map(|l| header::names(l, self.dialect.0)).unwrap_or_default();
-        if names.len() >= width.min(2) && names.iter().all(|n| n.parse::<f64>().is_err()) { names } else { vec![] }
+        if names.len() >= width.min(2) && names.iter().all(|n| n.parse::<f64>().is_err()) {
+            names
+        } else {
+            vec![]
+        }
     }
 
     /// The columns of the coordinates, when nobody names them.
-    fn guess(&self, lines: &[&[u8]], numeric: &[usize], names: &[String], warnings: &mut Vec<Warning>) -> Vec<usize> {
+    fn guess(
+        &self,
+        lines: &[&[u8]],
+        numeric: &[usize],
+        names: &[String],
+        warnings: &mut Vec<Warning>,
+    ) -> Vec<usize> {
         let named = header::coordinates(names).filter(|c| c.iter().all(|i| numeric.contains(i)));
         if let Some(named) = named.filter(|c| c.len() == 3 || numeric.len() == 2) {
             return named;
@@ -168,10 +194,17 @@ impl Tried {
             warnings.push(Warning::RunningNumber);
             free = &free[1..];
         } else if free.len() > 3 && !names.is_empty() {
-            warnings.push(Warning::ColumnsGuessed { taken: [free[0] + 1, free[1] + 1, free[2] + 1], of: free.len() });
+            warnings.push(Warning::ColumnsGuessed {
+                taken: [free[0] + 1, free[1] + 1, free[2] + 1],
+                of: free.len(),
+            });
         }
         let no_point = || self.rows.iter().all(|(i, ..)| memchr::memchr(b'.', lines[*i]).is_none());
-        if self.dialect.0 == Separator::Byte(b',') && free.len() > 3 && free.len() % 2 == 0 && no_point() {
+        if self.dialect.0 == Separator::Byte(b',')
+            && free.len() > 3
+            && free.len().is_multiple_of(2)
+            && no_point()
+        {
             warnings.push(Warning::PerhapsDecimalCommas);
         }
         free[..free.len().min(self.least as usize)].to_vec()
@@ -181,7 +214,8 @@ impl Tried {
     fn counts_rows(&self, lines: &[&[u8]]) -> bool {
         let first = |i: usize| count(Layout::words(self.dialect.0, lines[i]).first()?);
         let mut pairs = self.rows.windows(2).map(|w| (first(w[0].0), first(w[1].0)));
-        self.rows.len() > 2 && pairs.all(|(a, b)| matches!((a, b), (Some(a), Some(b)) if a.checked_add(1) == Some(b)))
+        self.rows.len() > 2
+            && pairs.all(|(a, b)| matches!((a, b), (Some(a), Some(b)) if a.checked_add(1) == Some(b)))
     }
 }
 

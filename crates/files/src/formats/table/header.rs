@@ -6,7 +6,10 @@ use super::row::{Layout, Separator};
 pub(super) fn names(line: &[u8], separator: Separator) -> Vec<String> {
     let line = line.trim_ascii();
     let marks = line.iter().take_while(|b| matches!(b, b'#' | b'/' | b'%' | b'!' | b'\'')).count();
-    Layout::words(separator, &line[marks..]).into_iter().map(|w| String::from_utf8_lossy(w).trim().to_lowercase()).collect()
+    Layout::words(separator, &line[marks..])
+        .into_iter()
+        .map(|w| String::from_utf8_lossy(w).trim().to_lowercase())
+        .collect()
 }
 
 /// The columns named x, y, and perhaps z.

@@ -87,7 +87,9 @@ impl Layout {
         let next = skip_blanks(line, at, self.separator);
         match self.separator {
             Separator::Blanks => (next > at && next < line.len()).then_some(next),
-            Separator::Byte(b) => (line.get(next) == Some(&b)).then(|| skip_blanks(line, next + 1, self.separator)),
+            Separator::Byte(b) => {
+                (line.get(next) == Some(&b)).then(|| skip_blanks(line, next + 1, self.separator))
+            }
         }
     }
 
@@ -132,8 +134,9 @@ impl Layout {
     }
 
     /// All columns of a line as text, quotes taken off.
-    pub fn words<'a>(separator: Separator, line: &'a [u8]) -> Vec<&'a [u8]> {
-        let layout = Layout { separator, point: b'.', columns: vec![], planar: false, announced: false, end: b'\n' };
+    pub fn words(separator: Separator, line: &[u8]) -> Vec<&[u8]> {
+        let layout =
+            Layout { separator, point: b'.', columns: vec![], planar: false, announced: false, end: b'\n' };
         let mut words = vec![];
         let mut at = skip_blanks(line, 0, separator);
         while at < line.len() || separator != Separator::Blanks {

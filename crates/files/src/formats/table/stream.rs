@@ -66,7 +66,8 @@ impl TextPoints {
         if bytes.is_empty() {
             return match self.limit {
                 Limit::Expected(declared) | Limit::Exactly(declared) if self.found < declared => {
-                    Err(Fault::Short { what: "points", declared, present: self.found }.at_line(self.lines + 1))
+                    Err(Fault::Short { what: "points", declared, present: self.found }
+                        .at_line(self.lines + 1))
                 }
                 _ => Ok(false),
             };
