@@ -13,8 +13,12 @@ pub const PERCENTILES: [f64; 11] = [0.1, 1.0, 2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 
 const STEPS_LOG2: u32 = 17;
 /// Values per parallel piece of work.
 const PIECE: usize = 1 << 18;
+/// Keys sieved at once.
+const BATCH: usize = 1024;
 /// A step with more values than this share of all is cut into steps again instead of being copied out.
-const COPY_SHARE: u64 = 64;
+const COPY_SHARE: u64 = 128;
+/// The key of a value that does not take part; no finite number has it.
+pub(crate) const NO_KEY: u64 = u64::MAX;
 
 /// The integer that orders as `f64::total_cmp` does.
 pub(crate) fn key_of(x: f64) -> u64 {
@@ -39,139 +43,218 @@ pub(crate) fn interpolate(a: f64, b: f64, t: f64) -> f64 {
     if t < 0.5 { a + (b - a) * t } else { b - (b - a) * (1.0 - t) }
 }
 
-/// The values of the given ranks (0 = least) among the keys that `key` finds for `values`; `None` passes over.
-/// Ranks beyond the last give the greatest. Empty where no value has a key.
-pub(crate) fn select(values: &[f64], key: impl Fn(f64) -> Option<u64> + Sync, ranks: &[u64]) -> Vec<f64> {
-    let (low, high, count) = key_range(values, &key);
-    if count == 0 {
-        return Vec::new();
-    }
-    let mut wanted: Vec<u64> = ranks.iter().map(|r| (*r).min(count - 1)).collect();
-    wanted.sort_unstable();
-    wanted.dedup();
-    let mut spans = Vec::new();
-    narrow(values, &key, Span { low, high, before: 0, ranks: wanted.clone() }, count, &mut spans);
-    let found = pick(values, &key, &spans);
-    ranks.iter().map(|r| found[wanted.partition_point(|w| w < &(*r).min(count - 1))]).collect()
+/// Values seen as integers of the same order.
+pub(crate) struct Keyed<'a, F> {
+    /// The values.
+    pub(crate) values: &'a [f64],
+    /// Key of a value, or [`NO_KEY`].
+    pub(crate) key: F,
+    /// No key is less.
+    pub(crate) low: u64,
+    /// No key but [`NO_KEY`] is greater.
+    pub(crate) high: u64,
+    /// Values that have a key.
+    pub(crate) count: u64,
 }
 
-/// Keys from `low` to `high`, of which `before` come earlier, and the wanted ranks among them.
+/// Keys from `low` to `high`: `before` others are less, `count` lie inside, among them the wanted `ranks`.
+#[derive(Clone)]
 struct Span {
     low: u64,
     high: u64,
     before: u64,
+    count: u64,
     ranks: Vec<u64>,
 }
 
-fn key_range(values: &[f64], key: &(impl Fn(f64) -> Option<u64> + Sync)) -> (u64, u64, u64) {
-    let piece = |piece: &[f64]| {
-        piece
+impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
+    /// The values behind the keys of the given ranks (0 = least). Ranks beyond the last give the greatest; empty
+    /// where no value has a key.
+    pub(crate) fn at(&self, ranks: &[u64]) -> Vec<f64> {
+        if self.count == 0 {
+            return Vec::new();
+        }
+        let mut wanted: Vec<u64> = ranks.iter().map(|r| (*r).min(self.count - 1)).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let mut found = vec![0; wanted.len()];
+        let mut put = |rank: u64, key: u64| found[wanted.partition_point(|w| *w < rank)] = key;
+        let mut spans = vec![Span {
+            low: self.low,
+            high: self.high,
+            before: 0,
+            count: self.count,
+            ranks: wanted.clone(),
+        }];
+        while !spans.is_empty() {
+            spans = self.cut(&spans);
+            spans = self.settle(spans, &mut put);
+        }
+        ranks
             .iter()
-            .filter_map(|x| key(*x))
-            .fold((u64::MAX, 0, 0), |(l, h, n), k| (k.min(l), k.max(h), n + 1))
-    };
-    values
-        .par_chunks(PIECE)
-        .map(piece)
-        .reduce(|| (u64::MAX, 0, 0), |a, b| (a.0.min(b.0), a.1.max(b.1), a.2 + b.2))
-}
+            .map(|r| from_key(found[wanted.partition_point(|w| *w < (*r).min(self.count - 1))]))
+            .collect()
+    }
 
-/// Cuts `span` into steps until every step with a wanted rank is small or a single key.
-fn narrow(
-    values: &[f64],
-    key: &(impl Fn(f64) -> Option<u64> + Sync),
-    span: Span,
-    count: u64,
-    spans: &mut Vec<Span>,
-) {
-    let width = span.high - span.low;
-    let shift = (u64::BITS - width.leading_zeros()).saturating_sub(STEPS_LOG2);
-    let steps = (width >> shift) as usize + 1;
-    let counts = count_steps(values, key, &span, shift, steps);
-    let mut before = span.before;
-    let mut ranks = &span.ranks[..];
-    for (step, inside) in counts.into_iter().enumerate() {
-        let (here, later) = ranks.split_at(ranks.partition_point(|r| *r < before + inside));
-        if !here.is_empty() {
-            let low = span.low + ((step as u64) << shift);
-            let part = Span {
-                low,
-                high: low.saturating_add((1 << shift) - 1).min(span.high),
-                before,
-                ranks: here.to_vec(),
-            };
-            if shift > 0 && inside > (count / COPY_SHARE).max(PIECE as u64) {
-                narrow(values, key, part, count, spans);
+    /// One pass: the steps of `spans` that hold a wanted rank.
+    fn cut(&self, spans: &[Span]) -> Vec<Span> {
+        let finder = Finder::new(spans);
+        let shifts: Vec<u32> = spans.iter().map(|s| shift_of(s.high - s.low)).collect();
+        let firsts: Vec<usize> = spans
+            .iter()
+            .zip(&shifts)
+            .scan(0, |next, (s, shift)| {
+                let first = *next;
+                *next += ((s.high - s.low) >> shift) as usize + 1;
+                Some(first)
+            })
+            .collect();
+        let steps = spans.len() << STEPS_LOG2;
+        let tally = |mut counts: Vec<u64>, piece: &[f64]| {
+            if let [span] = spans {
+                // Branchless: keys outside the span, above or (wrapped around) below, fall into the last counter.
+                let (low, shift, last) = (span.low, shifts[0], counts.len() - 1);
+                let (table, key) = (&mut counts[..], &self.key);
+                for x in piece {
+                    table[((key(*x).wrapping_sub(low) >> shift) as usize).min(last)] += 1;
+                }
             } else {
-                spans.push(part);
+                for key in piece.iter().map(|x| (self.key)(*x)) {
+                    if let Some(s) = finder.find(key) {
+                        counts[firsts[s] + ((key - spans[s].low) >> shifts[s]) as usize] += 1;
+                    }
+                }
             }
-        }
-        before += inside;
-        ranks = later;
-        if ranks.is_empty() {
-            break;
-        }
-    }
-}
-
-fn count_steps(
-    values: &[f64],
-    key: &(impl Fn(f64) -> Option<u64> + Sync),
-    span: &Span,
-    shift: u32,
-    steps: usize,
-) -> Vec<u64> {
-    let tally = |mut counts: Vec<u64>, piece: &[f64]| {
-        for k in piece.iter().filter_map(|x| key(*x)) {
-            // Keys below `low` wrap around to large steps and are passed over with those above `high`.
-            if let Some(count) = counts.get_mut((k.wrapping_sub(span.low) >> shift) as usize) {
-                *count += 1;
-            }
-        }
-        counts
-    };
-    let add = |mut a: Vec<u64>, b: Vec<u64>| {
-        a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-        a
-    };
-    values
-        .par_chunks(PIECE)
-        .with_min_len(values.len() / PIECE / (4 * rayon::current_num_threads()) + 1)
-        .fold(|| vec![0; steps], tally)
-        .reduce(|| vec![0; steps], add)
-}
-
-/// The keys of the wanted ranks, in ascending order of rank: one pass copies out the keys inside `spans`.
-fn pick(values: &[f64], key: &(impl Fn(f64) -> Option<u64> + Sync), spans: &[Span]) -> Vec<f64> {
-    let (Some(first), Some(last)) = (spans.first(), spans.last()) else { return Vec::new() };
-    let shift = (u64::BITS - (last.high - first.low).leading_zeros()).saturating_sub(STEPS_LOG2);
-    let step_of = |k: u64| (k.wrapping_sub(first.low) >> shift) as usize;
-    // Most keys lie in no span: one look at this table passes them over.
-    let mut touched = vec![false; step_of(last.high) + 1];
-    for span in spans.iter().filter(|s| s.low < s.high) {
-        touched[step_of(span.low)..=step_of(span.high)].fill(true);
-    }
-    let copy = |piece: &[f64]| -> Vec<u64> {
-        let inside = |k: &u64| {
-            touched.get(step_of(*k)).is_some_and(|t| *t)
-                && spans
-                    .get(spans.partition_point(|s| s.high < *k))
-                    .is_some_and(|s| s.low <= *k && s.low < s.high)
+            counts
         };
-        piece.iter().filter_map(|x| key(*x)).filter(inside).collect()
-    };
-    let mut keys: Vec<u64> = values.par_chunks(PIECE).flat_map_iter(copy).collect();
-    keys.par_sort_unstable();
-    let mut found = Vec::new();
-    for span in spans {
-        let start = keys.partition_point(|k| *k < span.low);
-        for rank in &span.ranks {
-            let key =
-                if span.low == span.high { span.low } else { keys[start + (rank - span.before) as usize] };
-            found.push(from_key(key));
-        }
+        let counts = self.parallel(
+            || vec![0; steps + 1],
+            tally,
+            |mut a, b| {
+                a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+                a
+            },
+        );
+        spans
+            .iter()
+            .zip(shifts)
+            .zip(firsts)
+            .flat_map(|((s, shift), first)| s.steps(shift, &counts[first..]))
+            .collect()
     }
-    found
+
+    /// One pass: copies out the small spans and settles their ranks; returns the large ones, trimmed to their keys.
+    fn settle(&self, spans: Vec<Span>, put: &mut impl FnMut(u64, u64)) -> Vec<Span> {
+        let (known, open): (Vec<Span>, Vec<Span>) = spans.into_iter().partition(|s| s.low == s.high);
+        known.iter().for_each(|s| s.ranks.iter().for_each(|r| put(*r, s.low)));
+        if open.is_empty() {
+            return open;
+        }
+        let finder = Finder::new(&open);
+        let small = (self.count / COPY_SHARE).max(PIECE as u64);
+        let none = || (Vec::new(), vec![(u64::MAX, 0); open.len()]);
+        let look = |(mut copied, mut extents): (Vec<u64>, Vec<(u64, u64)>), piece: &[f64]| {
+            let mut near = [0; BATCH + 1];
+            for batch in piece.chunks(BATCH) {
+                for key in finder.near(batch.iter().map(|x| (self.key)(*x)), &mut near) {
+                    match finder.find(*key) {
+                        Some(s) if open[s].count <= small => copied.push(*key),
+                        Some(s) => extents[s] = (extents[s].0.min(*key), extents[s].1.max(*key)),
+                        None => {}
+                    }
+                }
+            }
+            (copied, extents)
+        };
+        let (mut copied, extents) = self.parallel(none, look, |(mut copied, mut extents), (c, e)| {
+            copied.extend(c);
+            extents.iter_mut().zip(e).for_each(|(a, b)| *a = (a.0.min(b.0), a.1.max(b.1)));
+            (copied, extents)
+        });
+        copied.par_sort_unstable();
+        for span in open.iter().filter(|s| s.count <= small) {
+            let start = copied.partition_point(|k| *k < span.low);
+            span.ranks.iter().for_each(|r| put(*r, copied[start + (r - span.before) as usize]));
+        }
+        let large = open.into_iter().zip(extents).filter(|(s, _)| s.count > small);
+        large.map(|(span, (low, high))| Span { low, high, ..span }).collect()
+    }
+
+    /// Folds pieces of the values, few enough that large accumulators do not matter.
+    fn parallel<A: Send>(
+        &self,
+        new: impl Fn() -> A + Sync + Send,
+        fold: impl Fn(A, &[f64]) -> A + Sync + Send,
+        join: impl Fn(A, A) -> A + Sync + Send,
+    ) -> A {
+        let fewest = self.values.len() / PIECE / (4 * rayon::current_num_threads()) + 1;
+        self.values.par_chunks(PIECE).with_min_len(fewest).fold(&new, fold).reduce(&new, join)
+    }
+}
+
+impl Span {
+    /// Those steps of 2^`shift` keys, counted in `counts`, that hold a wanted rank.
+    fn steps(&self, shift: u32, counts: &[u64]) -> Vec<Span> {
+        let mut steps = Vec::new();
+        let (mut before, mut ranks) = (self.before, &self.ranks[..]);
+        for (step, count) in counts.iter().enumerate() {
+            if ranks.is_empty() {
+                break;
+            }
+            let (here, later) = ranks.split_at(ranks.partition_point(|r| *r < before + count));
+            if !here.is_empty() {
+                let low = self.low + ((step as u64) << shift);
+                let high = low.saturating_add((1 << shift) - 1).min(self.high);
+                steps.push(Span { low, high, before, count: *count, ranks: here.to_vec() });
+            }
+            before += count;
+            ranks = later;
+        }
+        steps
+    }
+}
+
+/// The shift that leaves [`STEPS_LOG2`] bits of `width`.
+fn shift_of(width: u64) -> u32 {
+    (u64::BITS - width.leading_zeros()).saturating_sub(STEPS_LOG2)
+}
+
+/// Finds the span of a key: a table by leading bits passes over most keys that lie in none.
+struct Finder<'a> {
+    spans: &'a [Span],
+    low: u64,
+    shift: u32,
+    /// For each step from `low` on, whether a span reaches into it; the last entry is for keys beyond, `false`.
+    near: Vec<bool>,
+}
+
+impl Finder<'_> {
+    /// `spans`: ascending, disjoint, not empty.
+    fn new(spans: &[Span]) -> Finder<'_> {
+        let (low, high) = (spans[0].low, spans[spans.len() - 1].high);
+        let shift = shift_of(high - low);
+        let mut near = vec![false; ((high - low) >> shift) as usize + 2];
+        for span in spans {
+            near[((span.low - low) >> shift) as usize..=((span.high - low) >> shift) as usize].fill(true);
+        }
+        Finder { spans, low, shift, near }
+    }
+    /// Those of at most [`BATCH`] keys that may lie in a span, without a branch that could be mispredicted.
+    fn near<'b>(&self, keys: impl Iterator<Item = u64>, kept: &'b mut [u64; BATCH + 1]) -> &'b [u64] {
+        let (near, low, shift) = (&self.near[..], self.low, self.shift);
+        let last = near.len() - 1;
+        let mut count = 0;
+        for key in keys {
+            kept[count] = key;
+            count += usize::from(near[((key.wrapping_sub(low) >> shift) as usize).min(last)]);
+        }
+        &kept[..count]
+    }
+    /// The span that holds the key.
+    fn find(&self, key: u64) -> Option<usize> {
+        let i = self.spans.partition_point(|s| s.high < key);
+        (self.spans.get(i)?.low <= key).then_some(i)
+    }
 }
 
 #[cfg(test)]
@@ -179,15 +262,17 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    fn some_key(x: f64) -> Option<u64> {
-        Some(key_of(x))
+    fn select(values: &[f64], key: fn(f64) -> u64, ranks: &[u64]) -> Vec<f64> {
+        let keys = || values.iter().map(|x| key(*x)).filter(|k| *k != NO_KEY);
+        let (low, high) = (keys().min().unwrap_or(0), keys().max().unwrap_or(0));
+        Keyed { values, key, low, high, count: keys().count() as u64 }.at(ranks)
     }
     fn check(values: &[f64]) {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let n = values.len() as u64;
         let ranks = [n - 1, 0, n / 2, n / 2, n / 3, n / 1000, n + 7];
-        let found = select(values, some_key, &ranks);
+        let found = select(values, key_of, &ranks);
         for (rank, x) in ranks.iter().zip(found) {
             let expected = sorted[(*rank).min(n - 1) as usize];
             assert_eq!(x.to_bits(), expected.to_bits(), "rank {rank} of {n}");
@@ -215,7 +300,7 @@ mod tests {
 
     #[test]
     fn values_without_a_key_do_not_count() {
-        let positive = |x: f64| (x > 0.0).then(|| key_of(x));
+        let positive = |x: f64| if x > 0.0 { key_of(x) } else { NO_KEY };
         assert_eq!(select(&[3.0, -1.0, 1.0, 0.0, 2.0], positive, &[0, 1, 2]), [1.0, 2.0, 3.0]);
         assert!(select(&[-1.0], positive, &[0]).is_empty());
     }

@@ -1,7 +1,7 @@
 //! Statistics of deviations: all, the positive and the negative ones apart.
 
 use super::moments::{CHUNK, MomentTree, Moments};
-use super::quantiles::{self, PERCENTILES, interpolate, key_of, position};
+use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
 use super::sketch::Sketch;
 use rayon::prelude::*;
 
@@ -40,14 +40,18 @@ pub enum Part {
 }
 
 impl Part {
-    /// True if the part has this value.
-    #[inline(always)]
-    pub fn holds(self, x: f64) -> bool {
+    /// The part lies strictly between these.
+    fn limits(self) -> (f64, f64) {
         match self {
-            Part::All => true,
-            Part::Positive => x > 0.0,
-            Part::Negative => x < 0.0,
+            Part::All => (f64::NEG_INFINITY, f64::INFINITY),
+            Part::Positive => (0.0, f64::INFINITY),
+            Part::Negative => (f64::NEG_INFINITY, 0.0),
         }
+    }
+    /// True if the part has this value; never for a value that is not finite.
+    pub fn holds(self, x: f64) -> bool {
+        let (above, below) = self.limits();
+        x > above && x < below
     }
 }
 
@@ -274,15 +278,8 @@ impl SignedMoments {
         let all = negative.merge(&Moments::repeated(0.0, zeros)).merge(&positive);
         let shares =
             [&positive, &negative].map(|m| m.mean.value().abs() * (m.count as f64 / all.count as f64));
-        let first_positive = negative.count + zeros;
-        let [of_all, of_positive, of_negative] = ordered(
-            values,
-            [
-                (Part::All, 0, all.count),
-                (Part::Positive, first_positive, positive.count),
-                (Part::Negative, 0, negative.count),
-            ],
-        );
+        let [of_all, of_positive, of_negative] =
+            ordered(values, [&all, &positive, &negative], negative.count + zeros);
         Summary {
             all: Statistics::new(&all, shares[0] + shares[1], of_all),
             positive: Statistics::new(&positive, positive.mean.value(), of_positive),
@@ -305,29 +302,39 @@ impl Chunks {
 
 /// Numbers that can be asked for their values in order.
 trait Order {
-    /// The values of these ranks among all finite values.
-    fn at(&self, ranks: &[u64]) -> Vec<f64>;
-    /// The same for the distances of the part's values from `centre`.
-    fn distances_at(&self, part: Part, centre: f64, ranks: &[u64]) -> Vec<f64>;
+    /// The values of these ranks among all finite values, whose moments are known.
+    fn at(&self, all: &Moments, ranks: &[u64]) -> Vec<f64>;
+    /// The same for the distances of a part's values from `centre`.
+    fn distances_at(&self, part: Part, moments: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64>;
 }
 
+/// Values in memory. The moments' extremes bound what is searched.
 struct Exact<'a>(&'a [f64]);
 
 impl Order for Exact<'_> {
-    fn at(&self, ranks: &[u64]) -> Vec<f64> {
-        quantiles::select(self.0, |x| x.is_finite().then(|| key_of(x)), ranks)
+    fn at(&self, all: &Moments, ranks: &[u64]) -> Vec<f64> {
+        let key = |x: f64| if x.is_finite() { key_of(x) } else { NO_KEY };
+        // Zeros of both signs are equal as extremes, but not as keys.
+        let low = if all.min == 0.0 { -0.0 } else { all.min };
+        let high = if all.max == 0.0 { 0.0 } else { all.max };
+        Keyed { values: self.0, key, low: key_of(low), high: key_of(high), count: all.count }.at(ranks)
     }
-    fn distances_at(&self, part: Part, centre: f64, ranks: &[u64]) -> Vec<f64> {
-        let key = |x: f64| (x.is_finite() && part.holds(x)).then(|| key_of((x - centre).abs()));
-        quantiles::select(self.0, key, ranks)
+    fn distances_at(&self, part: Part, moments: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64> {
+        let (above, below) = part.limits();
+        // No branch: scattered signs would mispredict it.
+        let key =
+            move |x: f64| key_of((x - centre).abs()) | (NO_KEY * u64::from(!((x > above) & (x < below))));
+        let farthest = (moments.min - centre).abs().max((moments.max - centre).abs());
+        Keyed { values: self.0, key, low: key_of(0.0), high: key_of(farthest), count: moments.count }
+            .at(ranks)
     }
 }
 
 impl Order for Sketch {
-    fn at(&self, ranks: &[u64]) -> Vec<f64> {
+    fn at(&self, _: &Moments, ranks: &[u64]) -> Vec<f64> {
         self.at(ranks)
     }
-    fn distances_at(&self, part: Part, centre: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Part, _: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64> {
         self.distances_at(part, centre, ranks)
     }
 }
@@ -337,15 +344,15 @@ struct Ordered {
     mad: f64,
 }
 
-/// Percentiles and MAD of parts that lie at `(part, first rank, count)` in the order of all values.
-fn ordered(values: &impl Order, parts: [(Part, u64, u64); 3]) -> [Option<Ordered>; 3] {
-    let ranks: Vec<u64> = parts
-        .iter()
-        .flat_map(|(_, first, count)| PERCENTILES.iter().flat_map(|p| neighbours(*first, *count, *p)))
+/// Percentiles and MAD of all values, the positive ones (from rank `first_positive` on) and the negative ones.
+fn ordered(values: &impl Order, moments: [&Moments; 3], first_positive: u64) -> [Option<Ordered>; 3] {
+    let parts = [(Part::All, 0), (Part::Positive, first_positive), (Part::Negative, 0)];
+    let ranks: Vec<u64> = std::iter::zip(parts, moments)
+        .flat_map(|((_, first), m)| PERCENTILES.iter().flat_map(move |p| neighbours(first, m.count, *p)))
         .collect();
-    let found = values.at(&ranks);
+    let found = values.at(moments[0], &ranks);
     std::array::from_fn(|i| {
-        let (part, _, count) = parts[i];
+        let (part, count) = (parts[i].0, moments[i].count);
         let of_part = found.get(i * 2 * PERCENTILES.len()..)?;
         if count == 0 {
             return None;
@@ -353,7 +360,7 @@ fn ordered(values: &impl Order, parts: [(Part, u64, u64); 3]) -> [Option<Ordered
         let percentiles = std::array::from_fn(|k| {
             interpolate(of_part[2 * k], of_part[2 * k + 1], position(count, PERCENTILES[k]).1)
         });
-        let distances = values.distances_at(part, percentiles[5], &neighbours(0, count, 50.0));
+        let distances = values.distances_at(part, moments[i], percentiles[5], &neighbours(0, count, 50.0));
         let [a, b] = distances[..] else { return None };
         Some(Ordered { percentiles, mad: interpolate(a, b, position(count, 50.0).1) })
     })
