@@ -44,6 +44,7 @@ mod winding;
 
 pub use edges::FreeEdges;
 pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
+pub(crate) use limits::{check_mesh, check_points};
 pub use query::{Hit, Level, Query};
 pub use sign::{Agreement, Signs};
 pub use tree::{Closest, Tree};
