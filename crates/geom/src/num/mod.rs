@@ -1,4 +1,5 @@
 //! Numerical tools: sums, random numbers, special functions.
 
+pub mod predicates;
 pub mod random;
 pub mod sum;

@@ -91,13 +91,8 @@ pub struct Welded {
 /// # Errors
 /// [`WeldError::NoSuchVertex`], [`WeldError::TooManyFacets`].
 pub fn mesh(mesh: &Mesh) -> Result<Welded, WeldError> {
+    check_corners(mesh)?;
     let vertices = mesh.positions.len();
-    if mesh.faces.len() > MOST_FACETS {
-        return Err(WeldError::TooManyFacets { facets: mesh.faces.len() });
-    }
-    if let Some((facet, vertex)) = first_bad_corner(mesh) {
-        return Err(WeldError::NoSuchVertex { facet, vertex, vertices });
-    }
     // More positions than corners can name are more than faces can use.
     let named = vertices.min(u32::MAX as usize - 1);
     let item = |v: usize| mesh.positions[v].normal();
@@ -126,11 +121,18 @@ pub(super) fn renumbered(mesh: &Mesh, first_of: impl Fn(u32) -> u32) -> Welded {
     Welded { mesh: Mesh { positions, faces }, vertex_of }
 }
 
-/// The first face that names a vertex which is not there, and that vertex.
-fn first_bad_corner(mesh: &Mesh) -> Option<(usize, u32)> {
-    let n = mesh.positions.len();
-    let bad = |v: &&u32| **v as usize >= n;
-    mesh.faces.par_iter().enumerate().find_map_first(|(i, f)| f.iter().find(bad).map(|&v| (i, v)))
+/// That every corner of `mesh` can be numbered and names a vertex that is there.
+pub(super) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
+    let (facets, vertices) = (mesh.faces.len(), mesh.positions.len());
+    if facets > MOST_FACETS {
+        return Err(WeldError::TooManyFacets { facets });
+    }
+    let bad = |v: &&u32| **v as usize >= vertices;
+    let first = |(facet, f): (usize, &[u32; 3])| f.iter().find(bad).map(|&v| (facet, v));
+    match mesh.faces.par_iter().enumerate().find_map_first(first) {
+        Some((facet, vertex)) => Err(WeldError::NoSuchVertex { facet, vertex, vertices }),
+        None => Ok(()),
+    }
 }
 
 /// For each of `n` items the first one equal to it. `expected` is a guess at the number of different ones.

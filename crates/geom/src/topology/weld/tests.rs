@@ -1,9 +1,10 @@
 use super::*;
-use crate::topology::testing::{Dice, on_threads};
+use crate::num::random::Random;
+use crate::topology::tests::on_threads;
 use std::collections::HashMap;
 
 /// Facets with corners on a grid of `side`³ places, some at −0 and some at NaN.
-fn soup(dice: &mut Dice, facets: usize, side: u64) -> Vec<[[f32; 3]; 3]> {
+fn soup(dice: &mut Random, facets: usize, side: u64) -> Vec<[[f32; 3]; 3]> {
     let mut coordinate = || match dice.below(side + 2) {
         0 => -0.0,
         1 if side > 50 => f32::NAN,
@@ -34,7 +35,7 @@ fn plain(soup: &[[[f32; 3]; 3]]) -> Mesh {
 
 #[test]
 fn equals_a_hash_map_on_any_number_of_threads() {
-    let dice = &mut Dice(1);
+    let dice = &mut Random::new(1);
     for (facets, side) in [(0, 3), (1, 3), (50, 2), (4_000, 20), (30_000, 60), (40_000, 300)] {
         let soup = soup(dice, facets, side);
         let want = plain(&soup);

@@ -1,0 +1,78 @@
+//! Which facets meet at each vertex, without a list for each: the corners are chained.
+//!
+//! Corner `k` of facet `f` has the number `3 f + k`. For each vertex the number of one of its corners is kept, for each
+//! corner the number of the next one at the same vertex. Building it takes one atomic exchange a corner.
+
+use super::memory::{atomics, large_pages};
+use crate::mesh::Mesh;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Facets or vertices of one task.
+pub(super) const CHUNK: usize = 1 << 13;
+
+/// A facet at a vertex: the corner after the vertex, the corner before it, the facet.
+pub(super) type Spoke = [u32; 3];
+
+/// The chained corners of a mesh.
+#[derive(Debug)]
+pub(super) struct Fans {
+    /// For each vertex one more than the number of its first corner; zero if it has none.
+    head: Vec<AtomicU32>,
+    /// For each corner one more than the number of the next one at its vertex; zero ends the chain.
+    next: Vec<u32>,
+}
+
+impl Fans {
+    /// Chains the corners of the faces for which `counts` says yes. All their vertices must exist.
+    pub(super) fn new(mesh: &Mesh, counts: impl Fn(&[u32; 3]) -> bool + Sync) -> Fans {
+        let head = atomics(mesh.positions.len());
+        let mut next = large_pages(vec![0u32; 3 * mesh.faces.len()]);
+        next.par_chunks_mut(3 * CHUNK).zip(mesh.faces.par_chunks(CHUNK)).enumerate().for_each(
+            |(i, (next, faces))| {
+                for (j, face) in faces.iter().enumerate().filter(|(_, f)| counts(f)) {
+                    for k in 0..3 {
+                        let number = 3 * (i * CHUNK + j) + k;
+                        next[3 * j + k] = head[face[k] as usize].swap(number as u32 + 1, Relaxed);
+                    }
+                }
+            },
+        );
+        Fans { head, next }
+    }
+
+    /// Number of vertices.
+    pub(super) fn len(&self) -> usize {
+        self.head.len()
+    }
+
+    /// Number of vertices that have a corner.
+    pub(super) fn used(&self) -> usize {
+        self.head.par_iter().filter(|h| h.load(Relaxed) != 0).count()
+    }
+
+    /// Replaces `spokes` by the facets at `vertex`, in an order that depends on the threads.
+    #[inline(always)]
+    pub(super) fn spokes(&self, faces: &[[u32; 3]], vertex: u32, spokes: &mut Vec<Spoke>) {
+        spokes.clear();
+        let mut corner = self.head[vertex as usize].load(Relaxed);
+        while corner != 0 {
+            let (facet, k) = ((corner - 1) / 3, (corner - 1) as usize % 3);
+            let face = faces[facet as usize];
+            spokes.push([face[(k + 1) % 3], face[(k + 2) % 3], facet]);
+            corner = self.next[corner as usize - 1];
+        }
+    }
+
+    /// The facets at `vertex`, ascending.
+    pub(super) fn facets(&self, vertex: u32) -> Vec<u32> {
+        let mut facets = vec![];
+        let mut corner = self.head.get(vertex as usize).map_or(0, |c| c.load(Relaxed));
+        while corner != 0 {
+            facets.push((corner - 1) / 3);
+            corner = self.next[corner as usize - 1];
+        }
+        facets.sort_unstable();
+        facets
+    }
+}
