@@ -56,6 +56,14 @@ impl AtomicFile {
         }
     }
 
+    /// A free name in the same folder, for what helps to write this file.
+    pub(crate) fn beside(&self) -> io::Result<PathBuf> {
+        match &self.places {
+            Some((_, target)) => beside(target),
+            None => beside(&std::env::temp_dir().join("trueness")),
+        }
+    }
+
     fn inner(&mut self) -> io::Result<&mut BufWriter<File>> {
         self.file.as_mut().ok_or_else(|| io::ErrorKind::BrokenPipe.into())
     }

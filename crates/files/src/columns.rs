@@ -34,7 +34,11 @@ impl FromStr for Columns {
             Err(_) => Some(Column::Name(word.trim().into())),
         };
         let columns: Option<Vec<Column>> = s.split(',').map(column).collect();
-        columns.filter(|c| matches!(c.len(), 2 | 3)).map(Columns).ok_or_else(|| ColumnsError(s.into()))
+        let distinct = |c: &Vec<Column>| (1..c.len()).all(|i| !c[..i].contains(&c[i]));
+        columns
+            .filter(|c| matches!(c.len(), 2 | 3) && distinct(c))
+            .map(Columns)
+            .ok_or_else(|| ColumnsError(s.into()))
     }
 }
 
@@ -46,7 +50,7 @@ mod tests {
     fn numbers_and_names() {
         let Columns(c) = "2, 3,Höhe".parse().unwrap();
         assert_eq!(c, [Column::Number(2), Column::Number(3), Column::Name("Höhe".into())]);
-        for bad in ["", "1", "1,2,3,4", "0,1,2", "1,,3"] {
+        for bad in ["", "1", "1,2,3,4", "0,1,2", "1,,3", "1,1,2"] {
             assert!(bad.parse::<Columns>().is_err(), "{bad}");
         }
     }

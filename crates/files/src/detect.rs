@@ -14,7 +14,7 @@ pub(crate) fn format(source: &mut Source, path: &Path) -> Result<&'static Format
     let bytes = source.feed.ahead(HEAD)?;
     let bytes = &bytes[..bytes.len().min(HEAD)];
     let head = Head { bytes, length };
-    if let Some(format) = FORMATS.into_iter().find(|f| f.reads() && (f.sniff)(&head)) {
+    if let Some(format) = FORMATS.iter().copied().find(|f| f.reads() && (f.sniff)(&head)) {
         return Ok(format);
     }
     if let Some(name) = foreign(bytes) {

@@ -18,8 +18,10 @@ use trueness_geom::{cloud::PointStream, space::Point};
 pub struct Format {
     /// Short name, as it is given on the command line.
     pub name: &'static str,
-    /// Extensions, lower case, without dot; the first is the usual one.
+    /// Extensions of files that are read, lower case, without dot; the first is the usual one.
     pub extensions: &'static [&'static str],
+    /// Those under which it is written.
+    pub written_as: &'static [&'static str],
     /// The page of the handbook: what is read, what is written, what is lost. Markdown.
     pub manual: &'static str,
     /// Whether the content is beyond doubt of this format.
@@ -30,19 +32,29 @@ pub struct Format {
 }
 
 /// All formats. Those that show themselves plainly come first.
-pub static FORMATS: [&Format; 5] =
-    [&formats::ply::PLY, &formats::off::OFF, &formats::stl::STL, &formats::obj::OBJ, &formats::table::TABLE];
+pub static FORMATS: &[&Format] = &[
+    &formats::ply::PLY,
+    &formats::npy::NPY,
+    &formats::off::OFF,
+    &formats::stl::STL,
+    &formats::obj::OBJ,
+    &formats::table::TABLE,
+    &formats::npz::NPZ,
+    &formats::vtp::VTP,
+    #[cfg(feature = "parquet")]
+    &formats::parquet::PARQUET,
+];
 
 impl Format {
     /// The format of this name or extension (upper or lower case).
     pub fn named(name: &str) -> Option<&'static Format> {
         let is = |s: &&str| s.eq_ignore_ascii_case(name);
-        let by_name = FORMATS.into_iter().find(|f| is(&f.name));
+        let by_name = FORMATS.iter().copied().find(|f| is(&f.name));
         by_name.or_else(|| Format::by_extension(name))
     }
     /// The format whose files end in `extension`, given without dot, upper or lower case.
     pub fn by_extension(extension: &str) -> Option<&'static Format> {
-        FORMATS.into_iter().find(|f| f.extensions.iter().any(|e| e.eq_ignore_ascii_case(extension)))
+        FORMATS.iter().copied().find(|f| f.extensions.iter().any(|e| e.eq_ignore_ascii_case(extension)))
     }
     /// Whether files of this format can be read.
     pub fn reads(&self) -> bool {

@@ -29,6 +29,7 @@ mod number;
 mod open;
 mod polygon;
 
+mod scalar;
 mod source;
 mod unicode;
 mod unit;

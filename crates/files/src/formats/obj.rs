@@ -23,6 +23,7 @@ use trueness_geom::{mesh::Mesh, space::Point};
 pub(crate) const OBJ: Format = Format {
     name: "obj",
     extensions: &["obj"],
+    written_as: &["obj"],
     manual: include_str!("obj.md"),
     sniff,
     read: Some(read),

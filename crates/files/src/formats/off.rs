@@ -19,6 +19,7 @@ use trueness_geom::{mesh::Mesh, space::Point};
 pub(crate) const OFF: Format = Format {
     name: "off",
     extensions: &["off"],
+    written_as: &["off"],
     manual: include_str!("off.md"),
     sniff: |head: &Head| {
         let text = without_mark(head.bytes).trim_ascii_start();

@@ -3,6 +3,7 @@
 mod loss;
 #[cfg(test)]
 pub(crate) mod scratch;
+pub(crate) mod spool;
 
 use crate::{
     AtomicFile, FORMATS, Format,
@@ -37,8 +38,8 @@ pub struct Block<'a> {
 /// Errors: an extension that no writer of points has; those of the system.
 pub fn points(path: &Path, layout: Layout) -> Result<PointsFile, WriteError> {
     let begin = |path: &Path| {
-        let writer = by_extension(path, "points", |f| f.points)?;
-        writer(AtomicFile::create(path)?, layout)
+        let (writer, extension) = by_extension(path, "points", |f| f.points)?;
+        writer(AtomicFile::create(path)?, layout, extension)
     };
     let writing = begin(path).map_err(|e| e.in_file(path))?;
     Ok(PointsFile { writing, layout, path: path.into(), count: 0 })
@@ -82,7 +83,7 @@ impl PointsFile {
 /// Errors: an extension that no writer of meshes has; a face that names no vertex; those of the system.
 pub fn mesh(path: &Path, mesh: &Mesh) -> Result<Loss, WriteError> {
     let write = || {
-        let writer = by_extension(path, "a mesh", |f| f.mesh)?;
+        let (writer, _) = by_extension(path, "a mesh", |f| f.mesh)?;
         let mut file = AtomicFile::create(path)?;
         let loss = writer(&mut file, mesh)?;
         file.commit()?;
@@ -91,8 +92,8 @@ pub fn mesh(path: &Path, mesh: &Mesh) -> Result<Loss, WriteError> {
     write().map_err(|e: WriteFault| e.in_file(path))
 }
 
-/// Begins the points of a format.
-pub(crate) type PointsWriter = fn(AtomicFile, Layout) -> Result<Box<dyn PointsSink>, WriteFault>;
+/// Begins the points of a format, under one of its extensions.
+pub(crate) type PointsWriter = fn(AtomicFile, Layout, &str) -> Result<Box<dyn PointsSink>, WriteFault>;
 /// Writes a whole mesh.
 pub(crate) type MeshWriter = fn(&mut AtomicFile, &Mesh) -> Result<Loss, WriteFault>;
 
@@ -102,16 +103,21 @@ pub(crate) trait PointsSink: Send {
     fn finish(self: Box<Self>) -> Result<AtomicFile, WriteFault>;
 }
 
+/// The writer of a path's extension, and that extension.
 fn by_extension<W>(
     path: &Path,
     what: &'static str,
     writer: impl Fn(&Format) -> Option<W>,
-) -> Result<W, WriteFault> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    let found = Format::by_extension(extension).and_then(&writer);
-    found.ok_or_else(|| {
-        let known = FORMATS.iter().filter(|f| writer(f).is_some()).map(|f| format!(".{}", f.extensions[0]));
-        WriteFault::UnknownFormat { what, known: known.collect::<Vec<_>>().join(" ") }
+) -> Result<(W, &'static str), WriteFault> {
+    let given = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    let known = || {
+        FORMATS
+            .iter()
+            .flat_map(|f| f.written_as.iter().filter_map(|e| Some((writer(f)?, *e))).collect::<Vec<_>>())
+    };
+    known().find(|(_, e)| e.eq_ignore_ascii_case(given)).ok_or_else(|| {
+        let known: Vec<String> = known().map(|(_, e)| format!(".{e}")).collect();
+        WriteFault::UnknownFormat { what, known: known.join(" ") }
     })
 }
 

@@ -1,12 +1,13 @@
 //! Faces and triangle strips, in text or in bytes.
 
-use super::header::{Element, Encoding, Kind, Scalar};
+use super::header::{Element, Encoding, Kind};
 use crate::{
     assemble::Faces,
     error::{Fault, Located, Result},
     feed::Feed,
     lines::{Lines, words},
     number::whole_number,
+    scalar::{Order, Scalar},
 };
 use rayon::prelude::*;
 use trueness_geom::space::Point;
@@ -28,7 +29,7 @@ fn indices(element: &Element) -> Option<usize> {
 }
 
 /// Length of the row ahead; `None` if the file ends within it.
-pub(super) fn row_length(feed: &mut Feed, element: &Element, encoding: Encoding) -> Result<Option<usize>> {
+pub(super) fn row_length(feed: &mut Feed, element: &Element, order: Order) -> Result<Option<usize>> {
     let mut length = 0usize;
     for property in &element.properties {
         let (count, size) = match property.kind {
@@ -38,7 +39,7 @@ pub(super) fn row_length(feed: &mut Feed, element: &Element, encoding: Encoding)
                 let Some(bytes) = bytes.get(length..).filter(|b| b.len() >= count.size()) else {
                     return Ok(None);
                 };
-                let n = count.get(bytes, encoding);
+                let n = count.get(bytes, order);
                 if n < 0.0 {
                     return Err(Fault::unexpected("the length of a list", n.to_string().as_bytes())
                         .at_byte(feed.position()));
@@ -62,10 +63,10 @@ pub(super) fn read(
     positions: &[Point],
     faces: &mut Faces,
 ) -> Result<()> {
-    if encoding == Encoding::Ascii {
+    let Encoding::Binary(order) = encoding else {
         return text(rest, lines, elements, positions, faces);
-    }
-    let mut bytes = Bytes { rest, at, encoding };
+    };
+    let mut bytes = Bytes { rest, at, order };
     for element in elements {
         if plain(&mut bytes, element, positions, faces) {
             continue;
@@ -119,7 +120,7 @@ fn take(
 struct Bytes<'a> {
     rest: &'a [u8],
     at: u64,
-    encoding: Encoding,
+    order: Order,
 }
 
 impl<'a> Bytes<'a> {
@@ -138,7 +139,7 @@ impl<'a> Bytes<'a> {
                 Kind::List { count, item } => {
                     let at = self.at;
                     let Some(bytes) = self.take(count.size()) else { return Ok(false) };
-                    let n = count.get(bytes, self.encoding);
+                    let n = count.get(bytes, self.order);
                     if n < 0.0 {
                         return Err(
                             Fault::unexpected("the length of a list", n.to_string().as_bytes()).at_byte(at)
@@ -152,7 +153,7 @@ impl<'a> Bytes<'a> {
             };
             if wanted == Some(i) {
                 out.clear();
-                out.extend(bytes.chunks_exact(item.size()).map(|b| item.get(b, self.encoding)));
+                out.extend(bytes.chunks_exact(item.size()).map(|b| item.get(b, self.order)));
             }
         }
         Ok(true)
@@ -171,7 +172,7 @@ fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut 
     };
     let Some((rows, rest)) = bytes.rest.split_at_checked(length).filter(|_| one) else { return false };
     let rows = rows.as_chunks::<ROW>().0;
-    let big = bytes.encoding == Encoding::Big;
+    let big = bytes.order == Order::Big;
     let corner = |r: &[u8; ROW], k: usize| {
         let b = [r[4 * k + 1], r[4 * k + 2], r[4 * k + 3], r[4 * k + 4]];
         if big { u32::from_be_bytes(b) } else { u32::from_le_bytes(b) }

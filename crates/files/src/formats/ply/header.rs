@@ -4,76 +4,14 @@ use crate::{
     error::{Fault, Located, Result},
     lines::words,
     number::count,
+    scalar::{Order, Scalar},
 };
 
 /// How the elements are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Ascii,
-    Little,
-    Big,
-}
-
-/// Type of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    fn named(name: &[u8]) -> Option<Scalar> {
-        Some(match name {
-            b"char" | b"int8" => Scalar::I8,
-            b"uchar" | b"uint8" => Scalar::U8,
-            b"short" | b"int16" => Scalar::I16,
-            b"ushort" | b"uint16" => Scalar::U16,
-            b"int" | b"int32" => Scalar::I32,
-            b"uint" | b"uint32" => Scalar::U32,
-            b"float" | b"float32" => Scalar::F32,
-            b"double" | b"float64" => Scalar::F64,
-            _ => return None,
-        })
-    }
-    /// Bytes it takes.
-    pub fn size(self) -> usize {
-        match self {
-            Scalar::I8 | Scalar::U8 => 1,
-            Scalar::I16 | Scalar::U16 => 2,
-            Scalar::I32 | Scalar::U32 | Scalar::F32 => 4,
-            Scalar::F64 => 8,
-        }
-    }
-    /// The number at the start of `bytes`; zero where they are too few.
-    #[inline(always)]
-    pub fn get(self, bytes: &[u8], encoding: Encoding) -> f64 {
-        macro_rules! read {
-            ($t:ty) => {{
-                let b = bytes.first_chunk().copied().unwrap_or_default();
-                f64::from(if encoding == Encoding::Big {
-                    <$t>::from_be_bytes(b)
-                } else {
-                    <$t>::from_le_bytes(b)
-                })
-            }};
-        }
-        match self {
-            Scalar::I8 => read!(i8),
-            Scalar::U8 => read!(u8),
-            Scalar::I16 => read!(i16),
-            Scalar::U16 => read!(u16),
-            Scalar::I32 => read!(i32),
-            Scalar::U32 => read!(u32),
-            Scalar::F32 => read!(f32),
-            Scalar::F64 => read!(f64),
-        }
-    }
+    Binary(Order),
 }
 
 /// What a property holds.
@@ -133,6 +71,8 @@ pub(super) struct Header {
     /// Bytes and lines it takes.
     pub length: usize,
     pub lines: u64,
+    /// The byte that ends lines.
+    pub end: u8,
 }
 
 /// Elements and properties beyond this are not a header but an attack.
@@ -141,7 +81,7 @@ const MOST: usize = 4096;
 /// Reads the header at the start of `bytes`.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
     let end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
-    let mut header = Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0 };
+    let mut header = Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0, end };
     let mut encoding = None;
     loop {
         header.lines += 1;
@@ -185,11 +125,26 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
     Ok(header)
 }
 
+/// The type of this name.
+fn scalar(name: &[u8]) -> Option<Scalar> {
+    Some(match name {
+        b"char" | b"int8" => Scalar::I8,
+        b"uchar" | b"uint8" => Scalar::U8,
+        b"short" | b"int16" => Scalar::I16,
+        b"ushort" | b"uint16" => Scalar::U16,
+        b"int" | b"int32" => Scalar::I32,
+        b"uint" | b"uint32" => Scalar::U32,
+        b"float" | b"float32" => Scalar::F32,
+        b"double" | b"float64" => Scalar::F64,
+        _ => return None,
+    })
+}
+
 fn format(line: &[u8], number: u64) -> Result<Encoding> {
     match words(line).nth(1) {
         Some(b"ascii") => Ok(Encoding::Ascii),
-        Some(b"binary_little_endian") => Ok(Encoding::Little),
-        Some(b"binary_big_endian") => Ok(Encoding::Big),
+        Some(b"binary_little_endian") => Ok(Encoding::Binary(Order::Little)),
+        Some(b"binary_big_endian") => Ok(Encoding::Binary(Order::Big)),
         _ => Err(Fault::unexpected("ascii, binary_little_endian or binary_big_endian", line).at_line(number)),
     }
 }
@@ -210,14 +165,14 @@ fn property(line: &[u8], number: u64) -> Result<Property> {
     let mut words = words(line).skip(1);
     let first = words.next().ok_or_else(wrong)?;
     let kind = if first == b"list" {
-        let count = words.next().and_then(Scalar::named).ok_or_else(wrong)?;
-        let item = words.next().and_then(Scalar::named).ok_or_else(wrong)?;
+        let count = words.next().and_then(scalar).ok_or_else(wrong)?;
+        let item = words.next().and_then(scalar).ok_or_else(wrong)?;
         if matches!(count, Scalar::F32 | Scalar::F64) {
             return Err(wrong());
         }
         Kind::List { count, item }
     } else {
-        Kind::One(Scalar::named(first).ok_or_else(wrong)?)
+        Kind::One(scalar(first).ok_or_else(wrong)?)
     };
     let name = words.next().ok_or_else(wrong)?;
     Ok(Property { name: text(name), kind })

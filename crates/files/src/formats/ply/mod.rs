@@ -1,11 +1,14 @@
 //! PLY: tables of any properties, in text or in bytes of either order.
 
-mod binary;
 mod faces;
 mod header;
+mod loose;
 mod write;
 
-use super::table::{Layout, Limit, Separator, TextPoints};
+use super::{
+    strided::{Rows, StridedPoints},
+    table::{Layout, Limit, Separator, TextPoints},
+};
 use crate::{
     SourceMesh, Warning,
     assemble::{self, Faces},
@@ -13,16 +16,18 @@ use crate::{
     feed::Feed,
     format::{Format, Head, Parsed},
     open::ReadOptions,
+    scalar::{Order, Scalar},
     source::Source,
 };
-use binary::BinaryPoints;
-use header::{Element, Encoding, Header, Kind, Property};
+use header::{Element, Encoding, Header, Kind};
+use loose::LoosePoints;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// PLY, ASCII and binary.
 pub(crate) const PLY: Format = Format {
     name: "ply",
     extensions: &["ply"],
+    written_as: &["ply"],
     manual: include_str!("ply.md"),
     sniff: |head: &Head| matches!(head.bytes, [b'p', b'l', b'y', b'\n' | b'\r', ..]),
     read: Some(read),
@@ -42,8 +47,8 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     source.feed.step(header.length);
     let variant = match header.encoding {
         Encoding::Ascii => "ply-ascii",
-        Encoding::Little => "ply-binary-le",
-        Encoding::Big => "ply-binary-be",
+        Encoding::Binary(Order::Little) => "ply-binary-le",
+        Encoding::Binary(Order::Big) => "ply-binary-be",
     };
     let (before, vertex, after) = split(&header)?;
     let mut lines = header.lines;
@@ -87,12 +92,12 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
     for element in elements {
         for row in 0..element.count {
             let at = feed.position();
-            let length = if header.encoding == Encoding::Ascii {
-                *lines += 1;
-                let bytes = feed.ahead(HEADER)?;
-                memchr::memchr(b'\n', bytes).map(|n| n + 1)
-            } else {
-                faces::row_length(feed, element, header.encoding)?
+            let length = match header.encoding {
+                Encoding::Ascii => {
+                    *lines += 1;
+                    memchr::memchr(header.end, feed.ahead(HEADER)?).map(|n| n + 1)
+                }
+                Encoding::Binary(order) => faces::row_length(feed, element, order)?,
             };
             let Some(length) = length else {
                 return Err(Fault::Short { what: "rows", declared: element.count, present: row }.at_byte(at));
@@ -103,30 +108,34 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
     Ok(())
 }
 
-/// Where x, y and z are among the properties of the vertices.
-fn coordinates<'a>(vertex: &'a Element, header: &Header) -> Result<[(usize, &'a Property); 3]> {
-    let mut found = Vec::with_capacity(3);
-    for name in ["x", "y", "z"] {
+/// The positions of x, y and z among the properties of the vertices. No list may stand before them.
+fn coordinates(vertex: &Element, header: &Header) -> Result<[usize; 3]> {
+    let mut found = [0; 3];
+    for (name, found) in ["x", "y", "z"].into_iter().zip(&mut found) {
         match vertex.property(name) {
-            Some((i, p)) if matches!(p.kind, Kind::One(_)) => found.push((i, p)),
+            Some((i, p)) if matches!(p.kind, Kind::One(_)) => *found = i,
             _ => {
                 let names: Vec<&str> = vertex.properties.iter().map(|p| p.name.as_str()).collect();
-                let there = if names.is_empty() { "no properties".into() } else { names.join(", ") };
-                return Err(Fault::Unexpected {
-                    expected: format!("a property \"{name}\" of the vertices").into(),
-                    found: there,
-                }
-                .at_line(header.lines));
+                let found = if names.is_empty() { "no properties".into() } else { names.join(", ") };
+                let expected = format!("a property \"{name}\" of the vertices").into();
+                return Err(Fault::Unexpected { expected, found }.at_line(header.lines));
             }
         }
     }
-    <[(usize, &Property); 3]>::try_from(found).map_err(|_| Fault::Unknown.into())
+    let last = found.iter().max().copied().unwrap_or(0);
+    if vertex.properties[..last].iter().any(|p| matches!(p.kind, Kind::List { .. })) {
+        let what = "a list before the coordinates of a vertex cannot be read:".into();
+        let remedy = "let the program that wrote this put x, y, z first";
+        return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
+    }
+    Ok(found)
 }
 
 /// The vertices as a stream.
 enum Points {
     Text(TextPoints),
-    Binary(BinaryPoints),
+    Even(StridedPoints),
+    Loose(LoosePoints),
 }
 
 impl Points {
@@ -137,23 +146,35 @@ impl Points {
         lines: u64,
         options: &ReadOptions,
     ) -> Result<Points> {
-        if vertex.count == 0 && vertex.property("x").is_none() {
-            let layout = Layout::of(Separator::Blanks, b'.', b'\n', &[]);
+        if vertex.count == 0 {
+            let layout = Layout::of(Separator::Blanks, b'.', header.end, &[]);
             return Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(0), 0)));
         }
         let xyz = coordinates(vertex, header)?;
-        if header.encoding != Encoding::Ascii {
-            return Ok(Points::Binary(BinaryPoints::new(feed, header.encoding, vertex, xyz, options.block)?));
+        let Encoding::Binary(order) = header.encoding else {
+            let layout = Layout::of(Separator::Blanks, b'.', header.end, &xyz);
+            let window = options.block.saturating_mul(12 * vertex.properties.len());
+            return Ok(Points::Text(TextPoints::new(
+                feed,
+                layout,
+                lines,
+                Limit::Exactly(vertex.count),
+                window,
+            )));
+        };
+        let size = |k: &Kind| if let Kind::One(s) = k { *s } else { Scalar::U8 };
+        let place = |i: usize| {
+            let before = vertex.properties[..i].iter().map(|p| size(&p.kind).size()).sum();
+            (before, size(&vertex.properties[i].kind))
+        };
+        let [x, y, z] = xyz.map(place);
+        let stride = vertex.least_stride();
+        let rows =
+            Rows { order, stride, x, y, z: Some(z), count: vertex.count, what: ("vertex", "vertices") };
+        if vertex.stride().is_some() {
+            return Ok(Points::Even(StridedPoints::new(feed, rows, options.block)?));
         }
-        let last = xyz.iter().map(|(i, _)| *i).max().unwrap_or(0);
-        if vertex.properties[..last].iter().any(|p| matches!(p.kind, Kind::List { .. })) {
-            let what = "a list before the coordinates of a vertex cannot be read:".into();
-            let remedy = "let the program that wrote this put x, y, z first";
-            return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
-        }
-        let layout = Layout::of(Separator::Blanks, b'.', b'\n', &xyz.map(|(i, _)| i));
-        let window = options.block.saturating_mul(12 * vertex.properties.len().max(3));
-        Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(vertex.count), window)))
+        Ok(Points::Loose(LoosePoints::new(feed, vertex.clone(), rows, options.block)))
     }
 
     /// All points that are left. Grows with what is there, not with what is declared.
@@ -171,7 +192,8 @@ impl Points {
     fn into_rest(self) -> (Feed, u64) {
         match self {
             Points::Text(p) => p.into_rest(),
-            Points::Binary(p) => (p.into_rest(), 0),
+            Points::Even(p) => (p.into_rest(), 0),
+            Points::Loose(p) => (p.into_rest(), 0),
         }
     }
 }
@@ -181,13 +203,15 @@ impl PointStream for Points {
     fn expected(&self) -> Option<u64> {
         match self {
             Points::Text(p) => p.expected(),
-            Points::Binary(p) => p.expected(),
+            Points::Even(p) => p.expected(),
+            Points::Loose(p) => p.expected(),
         }
     }
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
         match self {
             Points::Text(p) => p.next_block(block),
-            Points::Binary(p) => p.next_block(block),
+            Points::Even(p) => p.next_block(block),
+            Points::Loose(p) => p.next_block(block),
         }
     }
 }

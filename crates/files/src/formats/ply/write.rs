@@ -33,7 +33,11 @@ fn header(layout: Layout, count: u64, faces: Option<usize>) -> String {
 }
 
 /// Begins the points.
-pub(super) fn begin(mut file: AtomicFile, layout: Layout) -> Result<Box<dyn PointsSink>, WriteFault> {
+pub(super) fn begin(
+    mut file: AtomicFile,
+    layout: Layout,
+    _: &str,
+) -> Result<Box<dyn PointsSink>, WriteFault> {
     file.write_all(header(layout, 0, None).as_bytes())?;
     Ok(Box::new(Rows { file, layout, count: 0 }))
 }

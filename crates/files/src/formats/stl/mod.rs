@@ -21,6 +21,7 @@ use rayon::prelude::*;
 pub(crate) const STL: Format = Format {
     name: "stl",
     extensions: &["stl", "stla", "stlb"],
+    written_as: &["stl"],
     manual: include_str!("stl.md"),
     sniff,
     read: Some(read),

@@ -20,6 +20,7 @@ pub(crate) use stream::{Limit, TextPoints};
 pub(crate) const TABLE: Format = Format {
     name: "csv",
     extensions: &["csv", "xyz", "asc", "txt", "pts", "xyzn", "xyzrgb", "xy", "dat", "tsv"],
+    written_as: &["csv", "tsv", "xyz", "asc", "txt"],
     manual: include_str!("table.md"),
     // Any text could be one: it is tried when everything else, the extension too, has said no.
     sniff: |_: &Head| false,

@@ -1,4 +1,4 @@
-//! Writes CSV.
+//! Writes rows of numbers.
 
 use crate::{
     AtomicFile,
@@ -11,30 +11,58 @@ use std::io::Write;
 /// Rows made into text by one task.
 const CHUNK: usize = 1 << 13;
 
+/// How rows are written.
+#[derive(Clone, Copy)]
+struct Style {
+    /// What begins the header line.
+    header: &'static str,
+    separator: u8,
+    /// What stands where there is no number.
+    nothing: &'static str,
+}
+
+impl Style {
+    fn of(extension: &str) -> Style {
+        match extension {
+            "csv" => Style { header: "", separator: b',', nothing: "" },
+            "tsv" => Style { header: "", separator: b'\t', nothing: "" },
+            // Blanks cannot part an empty column from the next.
+            _ => Style { header: "# ", separator: b' ', nothing: "nan" },
+        }
+    }
+}
+
 /// Begins the file with its header line.
-pub(super) fn begin(mut file: AtomicFile, layout: Layout) -> Result<Box<dyn PointsSink>, WriteFault> {
-    let mut header = String::from("x,y,z");
+pub(super) fn begin(
+    mut file: AtomicFile,
+    layout: Layout,
+    extension: &str,
+) -> Result<Box<dyn PointsSink>, WriteFault> {
+    let style = Style::of(extension);
+    let mut names = vec!["x", "y", "z"];
     if layout.deviation {
-        header.push_str(",deviation");
+        names.push("deviation");
     }
     if layout.colour {
-        header.push_str(",red,green,blue");
+        names.extend(["red", "green", "blue"]);
     }
-    header.push('\n');
-    file.write_all(header.as_bytes())?;
-    Ok(Box::new(Csv { file }))
+    let names = names.join(&char::from(style.separator).to_string());
+    writeln!(file, "{}{names}", style.header)?;
+    Ok(Box::new(Rows { file, style }))
 }
 
-struct Csv {
+struct Rows {
     file: AtomicFile,
+    style: Style,
 }
 
-impl PointsSink for Csv {
+impl PointsSink for Rows {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
         let starts: Vec<usize> = (0..block.points.len()).step_by(CHUNK).collect();
+        let style = self.style;
         // A few parts at a time, so that the text does not outgrow the numbers.
         for group in starts.chunks(4 * rayon::current_num_threads().max(1)) {
-            let texts: Vec<Vec<u8>> = group.par_iter().map(|start| rows(block, *start)).collect();
+            let texts: Vec<Vec<u8>> = group.par_iter().map(|start| rows(block, *start, style)).collect();
             for text in texts {
                 self.file.write_all(&text)?;
             }
@@ -46,24 +74,21 @@ impl PointsSink for Csv {
     }
 }
 
-/// Rows from `start` on. The shortest digits that give the same number back; nothing where there is no number.
-fn rows(block: &Block, start: usize) -> Vec<u8> {
+/// Rows from `start` on. The shortest digits that give the same number back.
+fn rows(block: &Block, start: usize, style: Style) -> Vec<u8> {
     let mut text = Vec::with_capacity(CHUNK * 64);
     for i in start..block.points.len().min(start + CHUNK) {
         let [x, y, z] = block.points[i];
         for (k, v) in [x, y, z].iter().chain(block.deviation.get(i)).enumerate() {
             if k > 0 {
-                text.push(b',');
+                text.push(style.separator);
             }
-            if v.is_finite() {
-                push_number(&mut text, *v);
-            }
+            if v.is_finite() { push_number(&mut text, *v) } else { text.extend(style.nothing.bytes()) }
         }
-        if let Some(colour) = block.colour.get(i) {
-            for c in colour {
-                // Writing to a vector cannot fail.
-                let _ = write!(text, ",{c}");
-            }
+        for c in block.colour.get(i).into_iter().flatten() {
+            text.push(style.separator);
+            // Writing to a vector cannot fail.
+            let _ = write!(text, "{c}");
         }
         text.push(b'\n');
     }

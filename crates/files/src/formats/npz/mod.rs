@@ -1,0 +1,88 @@
+//! NPZ: arrays of NumPy in an archive.
+
+mod zip;
+
+use crate::{
+    AtomicFile,
+    error::WriteFault,
+    format::{Format, Head},
+    write::{Block, Layout, PointsSink, spool::Spool},
+};
+use zip::Archive;
+
+/// Archive of NumPy arrays.
+pub(crate) const NPZ: Format = Format {
+    name: "npz",
+    extensions: &[],
+    written_as: &["npz"],
+    manual: include_str!("npz.md"),
+    sniff: |_: &Head| false,
+    read: None,
+    points: Some(begin),
+    mesh: None,
+};
+
+/// Bytes of the header of an array: a multiple of 64, as NumPy wants it, with room for any shape.
+const HEADER: usize = 128;
+
+/// The header of an array of `rows` rows.
+fn header(descr: &str, rows: u64, width: Option<u32>) -> Vec<u8> {
+    let shape = width.map_or(format!("({rows},)"), |w| format!("({rows}, {w})"));
+    let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((HEADER as u16 - 10).to_le_bytes());
+    bytes.extend(dictionary.as_bytes());
+    bytes.resize(HEADER - 1, b' ');
+    bytes.push(b'\n');
+    bytes
+}
+
+fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
+    let spool = || Spool::beside(&file);
+    let (deviation, excluded, colour) = (spool()?, spool()?, spool()?);
+    let mut archive = Archive::new(file);
+    // The shape is written again when the points are counted.
+    archive.begin("points.npy", HEADER)?;
+    Ok(Box::new(Arrays { archive, layout, count: 0, deviation, excluded, colour }))
+}
+
+struct Arrays {
+    archive: Archive,
+    layout: Layout,
+    count: u64,
+    deviation: Spool,
+    excluded: Spool,
+    colour: Spool,
+}
+
+impl PointsSink for Arrays {
+    fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
+        for points in block.points.chunks(1 << 14) {
+            let bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+            self.archive.write(&bytes)?;
+        }
+        self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
+        self.excluded.write(block.deviation.iter().map(|d| u8::from(d.is_nan())))?;
+        self.colour.write(block.colour.iter().flatten().copied())?;
+        self.count += block.points.len() as u64;
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<AtomicFile, WriteFault> {
+        let rows = self.count;
+        self.archive.end(&header("<f8", rows, Some(3)))?;
+        let mut add = |name: &str, descr: &str, width: Option<u32>, values: &mut Spool| {
+            self.archive.begin(name, HEADER)?;
+            values.play(|bytes| self.archive.write(bytes))?;
+            self.archive.end(&header(descr, rows, width))
+        };
+        if self.layout.deviation {
+            add("deviation.npy", "<f8", None, &mut self.deviation)?;
+            add("excluded.npy", "|b1", None, &mut self.excluded)?;
+        }
+        if self.layout.colour {
+            add("colour.npy", "|u1", Some(3), &mut self.colour)?;
+        }
+        Ok(self.archive.finish()?)
+    }
+}

@@ -1,0 +1,51 @@
+//! Vertices in bytes that also hold lists: rows of unequal length, read one after the other.
+
+use super::{faces, header::Element};
+use crate::{
+    error::{Fault, Located, Result},
+    feed::Feed,
+    formats::strided::{Rows, finite},
+};
+use trueness_geom::{cloud::PointStream, space::Point};
+
+/// Points of such rows.
+pub(super) struct LoosePoints {
+    feed: Feed,
+    vertex: Element,
+    /// Where the coordinates are; the stride is the least there can be.
+    rows: Rows,
+    found: u64,
+    block: usize,
+}
+
+impl LoosePoints {
+    pub fn new(feed: Feed, vertex: Element, rows: Rows, block: usize) -> LoosePoints {
+        LoosePoints { feed, vertex, rows, found: 0, block: block.max(1) }
+    }
+    pub fn into_rest(self) -> Feed {
+        self.feed
+    }
+}
+
+impl PointStream for LoosePoints {
+    type Error = Located;
+    fn expected(&self) -> Option<u64> {
+        Some(self.rows.count)
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        block.clear();
+        let at = self.feed.position();
+        while block.len() < self.block && self.found + (block.len() as u64) < self.rows.count {
+            let Some(length) = faces::row_length(&mut self.feed, &self.vertex, self.rows.order)? else {
+                let present = self.found + block.len() as u64;
+                let short = Fault::Short { what: self.rows.what.1, declared: self.rows.count, present };
+                return Err(short.at_byte(self.feed.position()));
+            };
+            block.push(self.rows.point(self.feed.ahead(length)?));
+            self.feed.step(length);
+        }
+        finite(block, self.rows.what.0, self.found).map_err(|(_, fault)| fault.at_byte(at))?;
+        self.found += block.len() as u64;
+        Ok(())
+    }
+}

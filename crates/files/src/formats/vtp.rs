@@ -1,0 +1,148 @@
+//! VTP: points or a mesh for VTK, as XML with raw bytes appended.
+
+use crate::{
+    AtomicFile,
+    error::WriteFault,
+    format::{Format, Head},
+    write::{Block, Layout, Loss, PointsSink, corner_positions, spool::Spool},
+};
+use std::{
+    fmt::Write as _,
+    io::{self, Seek, SeekFrom, Write},
+};
+use trueness_geom::mesh::Mesh;
+
+/// XML PolyData of VTK.
+pub(crate) const VTP: Format = Format {
+    name: "vtp",
+    extensions: &[],
+    written_as: &["vtp"],
+    manual: include_str!("vtp.md"),
+    sniff: |_: &Head| false,
+    read: None,
+    points: Some(begin),
+    mesh: Some(mesh),
+};
+
+/// Bytes kept free for the XML part, which names counts that are known only at the end.
+const HEADER: usize = 2048;
+
+/// Arrays in the order of their bytes: name, type, components, bytes.
+type Array = (&'static str, &'static str, u32, u64);
+
+/// The XML part: `cells` are `Verts` or `Polys`, of which there are `cell_count`.
+fn header(points: u64, cells: &str, cell_count: u64, data: &[Array], lists: &[Array]) -> Vec<u8> {
+    let mut xml = String::from("<?xml version=\"1.0\"?>\n");
+    xml.push_str(
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
+    );
+    let mut offset = 0;
+    let mut array = |xml: &mut String, (name, kind, components, bytes): Array| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            xml,
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>"
+        );
+        offset += 8 + bytes;
+    };
+    let _ = writeln!(
+        xml,
+        "<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOf{cells}=\"{cell_count}\">\n<Points>"
+    );
+    array(&mut xml, ("Points", "Float64", 3, 24 * points));
+    xml.push_str("</Points>\n<PointData>\n");
+    data.iter().for_each(|a| array(&mut xml, *a));
+    let _ = writeln!(xml, "</PointData>\n<{cells}>");
+    lists.iter().for_each(|a| array(&mut xml, *a));
+    let _ = writeln!(xml, "</{cells}>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">");
+    let mut bytes = xml.into_bytes();
+    bytes.resize(HEADER - 1, b' ');
+    bytes.push(b'_');
+    bytes
+}
+
+fn end(file: &mut AtomicFile) -> io::Result<()> {
+    file.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+}
+
+fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
+    let spool = || Spool::beside(&file);
+    let (deviation, excluded, colour) = (spool()?, spool()?, spool()?);
+    // Header and length of the positions are written again when the points are counted.
+    file.write_all(&[b' '; HEADER + 8])?;
+    Ok(Box::new(Points { file, layout, count: 0, deviation, excluded, colour }))
+}
+
+struct Points {
+    file: AtomicFile,
+    layout: Layout,
+    count: u64,
+    deviation: Spool,
+    excluded: Spool,
+    colour: Spool,
+}
+
+impl PointsSink for Points {
+    fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
+        for points in block.points.chunks(1 << 14) {
+            let bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+            self.file.write_all(&bytes)?;
+        }
+        self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
+        self.excluded.write(block.deviation.iter().map(|d| u8::from(d.is_nan())))?;
+        self.colour.write(block.colour.iter().flatten().copied())?;
+        self.count += block.points.len() as u64;
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<AtomicFile, WriteFault> {
+        let this = &mut *self;
+        let count = this.count;
+        let mut data: Vec<Array> = vec![];
+        for (there, name, kind, components, spool) in [
+            (this.layout.deviation, "deviation", "Float64", 1, &mut this.deviation),
+            (this.layout.deviation, "excluded", "UInt8", 1, &mut this.excluded),
+            (this.layout.colour, "colour", "UInt8", 3, &mut this.colour),
+        ] {
+            if there {
+                data.push((name, kind, components, spool.len()));
+                this.file.write_all(&spool.len().to_le_bytes())?;
+                spool.play(|bytes| this.file.write_all(bytes))?;
+            }
+        }
+        // One cell of all points: programs show points only where cells name them.
+        let cells = u64::from(count > 0);
+        numbers(&mut this.file, count, |i| i)?;
+        numbers(&mut this.file, cells, |_| count)?;
+        end(&mut this.file)?;
+        let lists = [("connectivity", "Int64", 1, 8 * count), ("offsets", "Int64", 1, 8 * cells)];
+        this.file.seek(SeekFrom::Start(0))?;
+        this.file.write_all(&header(count, "Verts", cells, &data, &lists))?;
+        this.file.write_all(&(24 * count).to_le_bytes())?;
+        Ok(self.file)
+    }
+}
+
+/// An array of `count` 64-bit numbers.
+fn numbers(file: &mut AtomicFile, count: u64, number: impl Fn(u64) -> u64) -> io::Result<()> {
+    file.write_all(&(8 * count).to_le_bytes())?;
+    (0..count).try_for_each(|i| file.write_all(&number(i).to_le_bytes()))
+}
+
+fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFault> {
+    let (points, faces) = (mesh.positions.len() as u64, mesh.faces.len() as u64);
+    let lists = [("connectivity", "Int64", 1, 24 * faces), ("offsets", "Int64", 1, 8 * faces)];
+    file.write_all(&header(points, "Polys", faces, &[], &lists))?;
+    file.write_all(&(24 * points).to_le_bytes())?;
+    for x in mesh.positions.as_flattened() {
+        file.write_all(&x.to_le_bytes())?;
+    }
+    for (i, face) in mesh.faces.iter().enumerate() {
+        corner_positions(mesh, i, face)?;
+    }
+    let corners = mesh.faces.as_flattened();
+    numbers(file, 3 * faces, |i| u64::from(corners[i as usize]))?;
+    numbers(file, faces, |i| 3 * (i + 1))?;
+    end(file)?;
+    Ok(Loss::default())
+}
