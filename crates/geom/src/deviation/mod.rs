@@ -1,8 +1,11 @@
 //! Deviations of points from a reference, and what can be said about them.
 
+pub mod histogram;
 pub mod moments;
 pub mod neighbours;
+pub mod paired;
 pub mod paper;
 pub mod quantiles;
+pub mod sample;
 pub mod sketch;
 pub mod statistics;

@@ -54,7 +54,8 @@ impl Sketch {
         }));
     }
     fn count_one(&mut self, x: f64) {
-        let key = key_of(x);
+        // -0 becomes 0.
+        let key = key_of(x + 0.0);
         let page = &mut self.pages[(key >> (64 - PAGE_BITS)) as usize];
         page.get_or_insert_with(|| vec![0; SLOTS].into_boxed_slice())
             [(key >> DROPPED_BITS) as usize % SLOTS] += 1;
@@ -73,14 +74,26 @@ impl Sketch {
     }
     /// The bins that hold something, ascending: value in the middle, count.
     pub fn bins(&self) -> impl Iterator<Item = (f64, u64)> {
-        self.pages.iter().enumerate().filter_map(|(p, page)| Some((p, page.as_ref()?))).flat_map(
-            |(p, page)| {
-                page.iter()
-                    .enumerate()
-                    .filter(|(_, count)| **count > 0)
-                    .map(move |(slot, count)| (middle(p, slot), *count))
-            },
-        )
+        self.used().map(|(page, slot, count)| (middle(page, slot), count))
+    }
+    /// Page, slot and count of the bins that hold something, ascending.
+    fn used(&self) -> impl Iterator<Item = (usize, usize, u64)> {
+        let pages = self.pages.iter().enumerate().filter_map(|(p, page)| Some((p, page.as_ref()?)));
+        pages.flat_map(|(p, page)| {
+            page.iter()
+                .enumerate()
+                .filter(|(_, count)| **count > 0)
+                .map(move |(slot, count)| (p, slot, *count))
+        })
+    }
+    /// The same with the least value of each bin.
+    pub(crate) fn floors(&self) -> impl Iterator<Item = (f64, u64)> {
+        self.used().map(|(page, slot, count)| (from_key(limits(page, slot).0), count))
+    }
+    /// The least and the greatest value of the bin that holds `x`.
+    pub(crate) fn around(x: f64) -> (f64, f64) {
+        let low = key_of(x + 0.0) >> DROPPED_BITS << DROPPED_BITS;
+        (from_key(low), from_key(low | ((1 << DROPPED_BITS) - 1)))
     }
     /// Values of the ranks (0 = least), each within [`RELATIVE_ERROR`]. Ranks beyond the last give the greatest;
     /// empty where nothing was counted.
@@ -99,10 +112,14 @@ impl Sketch {
     }
 }
 
+/// The least and the greatest key of a bin.
+fn limits(page: usize, slot: usize) -> (u64, u64) {
+    let low = ((page as u64) << (64 - PAGE_BITS)) | ((slot as u64) << DROPPED_BITS);
+    (low, low | ((1 << DROPPED_BITS) - 1))
+}
 /// The number in the middle of a bin.
 fn middle(page: usize, slot: usize) -> f64 {
-    let low = ((page as u64) << (64 - PAGE_BITS)) | ((slot as u64) << DROPPED_BITS);
-    let high = low | ((1 << DROPPED_BITS) - 1);
+    let (low, high) = limits(page, slot);
     let middle = from_key(low) / 2.0 + from_key(high) / 2.0;
     if middle.abs() < f64::MIN_POSITIVE { 0.0 } else { middle }
 }

@@ -129,11 +129,11 @@ impl Statistics {
             } else {
                 std_dev.map(|s| s / mean.abs())
             },
-            rms: some(mean.hypot((m2 / n).sqrt())),
+            rms: some((mean * mean + m2 / n).sqrt()),
             mean_abs: some(mean_abs),
             median: ordered_number(|o| o.percentiles[5]),
             mad: ordered_number(|o| o.mad),
-            skewness: shape(m3 / n / (m2 / n).powf(1.5)),
+            skewness: shape(m3 / n / (m2 / n * (m2 / n).sqrt())),
             kurtosis: shape(m4 / n / (m2 / n).powi(2) - 3.0),
             six_sigma: std_dev.map(|s| 6.0 * s),
             percentiles: std::array::from_fn(|i| {

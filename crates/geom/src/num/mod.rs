@@ -2,4 +2,5 @@
 
 pub mod predicates;
 pub mod random;
+pub mod special;
 pub mod sum;
