@@ -1,6 +1,6 @@
 //! Circles, in the plane and in space.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::line::flat;
 use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
@@ -17,10 +17,10 @@ impl Family<3> for Circle2 {
     const LOCAL: [Local; 3] = [Local::Shift(0), Local::Shift(1), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], mut row: impl FnMut(S, [S; 3])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 3>) {
         let rho = (x * x + y * y).root();
         let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
-        row(rho - S::of(size[0]), [-(x * inverse), -(y * inverse), S::of(-1.0)]);
+        rows.row(rho - S::of(size[0]), [-(x * inverse), -(y * inverse), S::of(-1.0)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3]) -> S {
@@ -65,13 +65,13 @@ impl Family<6> for Circle {
     const SIGNED: bool = false;
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 6])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 6>) {
         let (zero, less) = (S::of(0.0), S::of(-1.0));
         let rho = (x * x + y * y).root();
         let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
         let (nu, nv) = (x * inverse, y * inverse);
-        row(rho - S::of(size[0]), [-nu, -nv, zero, -(z * nu), -(z * nv), less]);
-        row(z, [zero, zero, less, x, y, zero]);
+        rows.row(rho - S::of(size[0]), [-nu, -nv, zero, -(z * nu), -(z * nv), less]);
+        rows.row(z, [zero, zero, less, x, y, zero]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {

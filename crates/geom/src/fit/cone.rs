@@ -1,6 +1,6 @@
 //! Right circular cones.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::{TINY, least_squares};
@@ -20,13 +20,13 @@ impl Family<6> for Cone {
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 6])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 6>) {
         let (sin, cos) = size[1].sin_cos();
         let (sin, cos) = (S::of(sin), S::of(cos));
         let rho = (x * x + y * y).root();
         let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
-        row(
+        rows.row(
             rho * cos - z * sin - S::of(size[0]),
             [-nu, -nv, -(z * nu) - x * sin, -(z * nv) - y * sin, S::of(-1.0), -(rho * sin) - z * cos],
         );

@@ -1,6 +1,6 @@
 //! Right circular cylinders.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::TINY;
@@ -18,11 +18,11 @@ impl Family<5> for Cylinder {
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 5])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 5>) {
         let rho = (x * x + y * y).root();
         let inverse = S::of(-1.0) / rho.at_least(S::of(TINY));
         let (nu, nv) = (x * inverse, y * inverse);
-        row(rho - S::of(size[0]), [nu, nv, z * nu, z * nv, S::of(-1.0)]);
+        rows.row(rho - S::of(size[0]), [nu, nv, z * nu, z * nv, S::of(-1.0)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3]) -> S {

@@ -1,6 +1,6 @@
 //! Ellipses in the plane.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::line::flat;
 use super::pose::{Local, Pose};
 use super::round::{TINY, least_squares};
@@ -68,9 +68,9 @@ impl Family<5> for Ellipse2 {
     const LOCAL: [Local; 5] = [Local::Shift(0), Local::Shift(1), Local::Turn, Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], mut row: impl FnMut(S, [S; 5])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 5>) {
         let Foot { cos, sin, normal: [nx, ny], distance } = foot(size, x, y);
-        row(distance, [-nx, -ny, nx * y - ny * x, -(nx * cos), -(ny * sin)]);
+        rows.row(distance, [-nx, -ny, nx * y - ny * x, -(nx * cos), -(ny * sin)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], q: [S; 3]) -> S {

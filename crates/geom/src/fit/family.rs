@@ -13,6 +13,13 @@ pub(super) struct Element {
     pub size: [f64; 2],
 }
 
+/// Takes the rows of one point. (A closure would do, but cannot be told to be inlined, and the wide registers
+/// live only in code inlined into a function compiled for them.)
+pub(super) trait Rows<S, const P: usize> {
+    /// A residual and its derivatives by the unknowns.
+    fn row(&mut self, d: S, g: [S; P]);
+}
+
 /// One family of elements with `P` unknowns. The formulas are written in the element's own frame, where they
 /// are short, and about the element as it stands (all unknowns zero).
 pub(super) trait Family<const P: usize>: Sync {
@@ -21,8 +28,8 @@ pub(super) trait Family<const P: usize>: Sync {
     /// Whether the distance is signed. The distance to a curve in space is not.
     const SIGNED: bool = true;
 
-    /// Hands each row of the least-squares problem for the point `q` to `row`: residual and its derivatives.
-    fn rows<S: Scalar>(size: [f64; 2], q: [S; 3], row: impl FnMut(S, [S; P]));
+    /// Hands each row of the least-squares problem for the point `q` to `rows`: residual and its derivatives.
+    fn rows<S: Scalar>(size: [f64; 2], q: [S; 3], rows: &mut impl Rows<S, P>);
     /// Orthogonal distance of the point `q`, positive outside.
     fn distance<S: Scalar>(size: [f64; 2], q: [S; 3]) -> S;
     /// Whether these sizes make an element.
@@ -79,4 +86,33 @@ impl Element {
         self.pose = self.pose.moved([0.0, 0.0, along], [0.0; 2], 0.0);
         self
     }
+}
+
+/// Distance and its derivatives, whether the rows give it whole or by components.
+pub(super) fn slope<const P: usize, F: Family<P>>(size: [f64; 2], q: Point) -> (f64, [f64; P]) {
+    struct Joined<const P: usize>(f64, [f64; P]);
+    impl<const P: usize> Rows<f64, P> for Joined<P> {
+        fn row(&mut self, d: f64, g: [f64; P]) {
+            self.0 += d * d;
+            for k in 0..P {
+                self.1[k] += d * g[k];
+            }
+        }
+    }
+    struct Only<const P: usize>(f64, [f64; P]);
+    impl<const P: usize> Rows<f64, P> for Only<P> {
+        fn row(&mut self, d: f64, g: [f64; P]) {
+            *self = Only(d, g);
+        }
+    }
+    if F::SIGNED {
+        let mut only = Only(0.0, [0.0; P]);
+        F::rows(size, q, &mut only);
+        return (only.0, only.1);
+    }
+    let mut joined = Joined(0.0, [0.0; P]);
+    F::rows(size, q, &mut joined);
+    let distance = joined.0.sqrt();
+    let inverse = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+    (distance, joined.1.map(|x| x * inverse))
 }

@@ -40,6 +40,17 @@ pub(super) fn gaussian<const P: usize, F: Family<P>>(
     })
 }
 
+/// An element near the best one: the best of some of the points.
+pub(super) fn near<const P: usize, F: Family<P>>(
+    sample: &Sample,
+    kind: Kind,
+    options: &Options,
+) -> Result<Element, FitError> {
+    let some = sample.thinned(SOME);
+    let optimum = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
+    Ok(optimum.element)
+}
+
 /// The element with the least sum of squares.
 pub(super) fn optimum<const P: usize, F: Family<P>>(
     sample: &Sample,

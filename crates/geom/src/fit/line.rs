@@ -1,6 +1,6 @@
 //! Straight lines, in the plane and in space.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::sample::Sample;
 use super::scalar::Scalar;
@@ -15,8 +15,8 @@ impl Family<2> for Line2 {
     const LOCAL: [Local; 2] = [Local::Shift(1), Local::Turn];
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3], mut row: impl FnMut(S, [S; 2])) {
-        row(y, [S::of(-1.0), -x]);
+    fn rows<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 2>) {
+        rows.row(y, [S::of(-1.0), -x]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(_: [f64; 2], q: [S; 3]) -> S {
@@ -48,10 +48,10 @@ impl Family<4> for Line {
     const SIGNED: bool = false;
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 4])) {
+    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 4>) {
         let (zero, less) = (S::of(0.0), S::of(-1.0));
-        row(x, [less, zero, -z, zero]);
-        row(y, [zero, less, zero, -z]);
+        rows.row(x, [less, zero, -z, zero]);
+        rows.row(y, [zero, less, zero, -z]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3]) -> S {

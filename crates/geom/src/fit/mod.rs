@@ -10,7 +10,8 @@
 //! | `solution` | what a fit tells |
 //! | `family` | what an element is to the solvers; `line` … `torus` hold one each |
 //! | `revolution`, `round`, `scatter` | where to start |
-//! | `normal`, `gauss` | least squares |
+//! | `normal`, `gauss`, `gaussian` | least squares |
+//! | `linear`, `minimax`, `zone` | least greatest distance |
 //! | `survey` | distances of all points |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -24,6 +25,8 @@ mod family;
 mod gauss;
 mod gaussian;
 mod line;
+mod linear;
+mod minimax;
 mod normal;
 mod plane;
 mod pose;
@@ -37,6 +40,7 @@ mod solution;
 mod sphere;
 mod survey;
 mod torus;
+mod zone;
 
 use crate::progress::Progress;
 use crate::space::Point;
@@ -49,6 +53,28 @@ pub enum Method {
     /// Least sum of squared distances.
     #[default]
     Gaussian,
+    /// Least deviation of form: the zone between two elements of equal distance from this one is the narrowest
+    /// that holds all points. Of a line in space: the thinnest cylinder about it.
+    MinimumZone,
+    /// The smallest circle, sphere or cylinder around all points.
+    MinimumCircumscribed,
+    /// The largest circle, sphere or cylinder free of points, near the least-squares one.
+    MaximumInscribed,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Method; 4] =
+        [Method::Gaussian, Method::MinimumZone, Method::MinimumCircumscribed, Method::MaximumInscribed];
+    /// The word for it: `gaussian`, `minimum-zone`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Gaussian => "gaussian",
+            Method::MinimumZone => "minimum-zone",
+            Method::MinimumCircumscribed => "minimum-circumscribed",
+            Method::MaximumInscribed => "maximum-inscribed",
+        }
+    }
 }
 
 /// How to fit.
@@ -101,6 +127,14 @@ pub enum FitError {
         /// What was asked for.
         kind: Kind,
     },
+    /// The method has no meaning for the element.
+    #[error("{} is not defined for a {}", method.name(), kind.name())]
+    NoSuchMethod {
+        /// What was asked for.
+        kind: Kind,
+        /// How.
+        method: Method,
+    },
     /// Stopped through the progress argument.
     #[error("cancelled")]
     Cancelled,
@@ -150,7 +184,9 @@ pub fn fit(
     };
     let sample = sample::Sample::new(points)?;
     use gaussian::gaussian;
+    use zone::zone;
     match options.method {
         Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
+        _ => with_family!(kind, zone(&sample, kind, options, progress)),
     }
 }

@@ -4,7 +4,7 @@
 //! The sums are therefore the same bits on one thread and on many.
 
 use super::dense;
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::sample::Sample;
 use super::scalar::{LANES, Lane, Scalar};
 use crate::space::{Point, Vector, dot, times};
@@ -75,35 +75,41 @@ pub(super) fn lanes(four: &[Point; LANES]) -> [Lane; 3] {
     std::array::from_fn(|k| Lane(std::array::from_fn(|l| four[l][k])))
 }
 
-#[derive(Clone, Copy)]
 struct Accumulator<S, const P: usize> {
     normal: [[S; P]; P],
     gradient: [S; P],
     square: S,
     weight: S,
+    /// Of the point whose rows come.
+    present: S,
 }
 
 impl<S: Scalar, const P: usize> Accumulator<S, P> {
     #[inline(always)]
     fn new() -> Self {
         let zero = S::of(0.0);
-        Accumulator { normal: [[zero; P]; P], gradient: [zero; P], square: zero, weight: zero }
+        Accumulator { normal: [[zero; P]; P], gradient: [zero; P], square: zero, weight: zero, present: zero }
     }
     #[inline(always)]
     fn add<F: Family<P>, W: Weighing>(&mut self, size: [f64; 2], q: [S; 3], weigh: &W) {
-        let weight = weigh.weight(F::distance(size, q));
-        self.weight = self.weight + weight;
-        F::rows(size, q, |d, g| {
-            let heavy = weight * d;
-            self.square = self.square + heavy * d;
-            for i in 0..P {
-                self.gradient[i] = self.gradient[i] + heavy * g[i];
-                let row = weight * g[i];
-                for j in i..P {
-                    self.normal[i][j] = self.normal[i][j] + row * g[j];
-                }
+        self.present = weigh.weight(F::distance(size, q));
+        self.weight = self.weight + self.present;
+        F::rows(size, q, self);
+    }
+}
+
+impl<S: Scalar, const P: usize> Rows<S, P> for Accumulator<S, P> {
+    #[inline(always)]
+    fn row(&mut self, d: S, g: [S; P]) {
+        let heavy = self.present * d;
+        self.square = self.square + heavy * d;
+        for i in 0..P {
+            self.gradient[i] = self.gradient[i] + heavy * g[i];
+            let row = self.present * g[i];
+            for j in i..P {
+                self.normal[i][j] = self.normal[i][j] + row * g[j];
             }
-        });
+        }
     }
 }
 

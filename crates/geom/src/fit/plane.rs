@@ -1,6 +1,6 @@
 //! Planes.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::sample::Sample;
 use super::scalar::Scalar;
@@ -15,8 +15,8 @@ impl Family<3> for Plane {
     const LOCAL: [Local; 3] = [Local::Shift(2), Local::Tilt(0), Local::Tilt(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 3])) {
-        row(z, [S::of(-1.0), x, y]);
+    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 3>) {
+        rows.row(z, [S::of(-1.0), x, y]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(_: [f64; 2], q: [S; 3]) -> S {

@@ -56,11 +56,15 @@ impl<'a> Sample<'a> {
         if self.len() <= count {
             return Sample { points: Cow::Borrowed(&self.points), center: self.center, scale: self.scale };
         }
-        let golden = (5f64.sqrt() - 1.0) / 2.0;
-        let last = self.len() - 1;
-        let pick = |k: usize| ((k as f64 * golden).fract() * self.len() as f64) as usize;
-        let points = (0..count).map(|k| self.points[pick(k).min(last)]).collect();
+        let points = self.spread(count).map(|k| self.points[k]).collect();
         Sample { points: Cow::Owned(points), center: self.center, scale: self.scale }
+    }
+    /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
+    pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
+        let golden = (5f64.sqrt() - 1.0) / 2.0;
+        let all = self.len();
+        let pick = move |k: usize| ((k as f64 * golden).fract() * all as f64) as usize;
+        (0..count.min(all)).map(move |k| if all <= count { k } else { pick(k).min(all - 1) })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Spheres.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
@@ -16,10 +16,10 @@ impl Family<4> for Sphere {
     const LOCAL: [Local; 4] = [Local::Shift(0), Local::Shift(1), Local::Shift(2), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 4])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 4>) {
         let rho = (x * x + y * y + z * z).root();
         let inverse = S::of(-1.0) / rho.at_least(S::of(TINY));
-        row(rho - S::of(size[0]), [x * inverse, y * inverse, z * inverse, S::of(-1.0)]);
+        rows.row(rho - S::of(size[0]), [x * inverse, y * inverse, z * inverse, S::of(-1.0)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {

@@ -8,7 +8,7 @@ use crate::space::Point;
 use rayon::prelude::*;
 
 /// Points of one block.
-pub(super) const BLOCK: usize = 4096;
+pub(super) const BLOCK: usize = 256;
 
 /// Sum of squares and extremes of the distances of one block, in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -54,11 +54,25 @@ widest! {
 pub(super) fn blocks<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Vec<Survey> {
     let placing = Placing::new(element, sample);
     let of = |points: &[Point]| survey_block::<P, F>(points, element.size, &placing);
-    if sample.len() <= 4 * BLOCK {
+    if sample.len() <= 64 * BLOCK {
         sample.points.chunks(BLOCK).map(of).collect()
     } else {
-        sample.points.par_chunks(BLOCK).map(of).collect()
+        sample.points.par_chunks(BLOCK).with_min_len(32).map(of).collect()
     }
+}
+
+/// The first point of block `block` at exactly the distance `distance`, which its survey has told.
+pub(super) fn find<const P: usize, F: Family<P>>(
+    element: &Element,
+    sample: &Sample,
+    block: usize,
+    distance: f64,
+) -> Option<usize> {
+    let placing = Placing::new(element, sample);
+    let start = block * BLOCK;
+    let points = sample.points.get(start..(start + BLOCK).min(sample.len()))?;
+    let within = points.iter().position(|&p| F::distance::<f64>(element.size, placing.local(p)) == distance)?;
+    Some(start + within)
 }
 
 /// Sum of squares, and the extremes with the first point that has each: `(distance, index)`.
@@ -70,7 +84,6 @@ pub(super) struct Extremes {
 
 /// One pass over the points, and a second look at the two blocks with the extremes.
 pub(super) fn extremes<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Extremes {
-    let placing = Placing::new(element, sample);
     let all = blocks::<P, F>(element, sample);
     let square = all.iter().map(|b| b.square).sum();
     let find = |value: fn(&Survey) -> f64, better: fn(f64, f64) -> bool| {
@@ -81,12 +94,7 @@ pub(super) fn extremes<const P: usize, F: Family<P>>(element: &Element, sample: 
             }
         }
         let extreme = all.get(best).map_or(0.0, value);
-        let start = best * BLOCK;
-        let end = (start + BLOCK).min(sample.len());
-        let within = sample.points[start..end]
-            .iter()
-            .position(|&p| F::distance(element.size, placing.local(p)) == extreme);
-        (extreme, start + within.unwrap_or(0))
+        (extreme, self::find::<P, F>(element, sample, best, extreme).unwrap_or(0))
     };
     Extremes { square, least: find(|b| b.least, |a, b| a < b), greatest: find(|b| b.greatest, |a, b| a > b) }
 }

@@ -1,6 +1,6 @@
 //! Ring tori.
 
-use super::family::{Element, Family};
+use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::{TINY, round_starts};
@@ -25,7 +25,7 @@ impl Family<7> for Torus {
     ];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], mut row: impl FnMut(S, [S; 7])) {
+    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 7>) {
         let tiny = S::of(TINY);
         let rho = (x * x + y * y).root();
         let inverse = S::of(1.0) / rho.at_least(tiny);
@@ -34,7 +34,7 @@ impl Family<7> for Torus {
         let other = S::of(1.0) / t.at_least(tiny);
         let (er, ez) = (e * other, z * other);
         let (nu, nv) = (er * x * inverse, er * y * inverse);
-        row(t - S::of(size[1]), [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)]);
+        rows.row(t - S::of(size[1]), [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)]);
     }
     #[inline(always)]
     fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {

@@ -1,0 +1,184 @@
+//! Minimum zone, minimum circumscribed and maximum inscribed elements of any number of points.
+//!
+//! Few points touch the best element. A small working set is solved to the end; one pass over all points finds
+//! those that still stick out; the worst of every stretch of the list join the working set, until none sticks
+//! out. The answer is then optimal for all points, with the multipliers of the touching ones as certificate.
+
+use super::family::{Element, Family};
+use super::minimax::{Aim, Low, minimax};
+use super::pose::Local;
+use super::sample::Sample;
+use super::solution::{Fit, Touching};
+use super::{FitError, Kind, Method, Options, gaussian, survey};
+use crate::num::random::Random;
+use crate::progress::Progress;
+use crate::space::Point;
+
+/// Points that join the working set in one round, on each side.
+const JOINING: usize = 24;
+/// Points all over the surface that are in the working set from the first.
+const COVERING: usize = 64;
+/// Rounds of exchange. Two to five are the rule.
+const ROUNDS: usize = 60;
+/// Sticking out less than this, in the unit frame, is rounding.
+const TOUCHES: f64 = 1e-15;
+/// Further starts about the first optimum.
+const STARTS: u64 = 12;
+
+/// The fit by greatest distances.
+pub(super) fn zone<const P: usize, F: Family<P>>(
+    sample: &Sample,
+    kind: Kind,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Fit, FitError> {
+    let aim = aim::<P, F>(kind, options.method)?;
+    let first = gaussian::near::<P, F>(sample, kind, options)?;
+    let mut search = Search::<P, F>::new(sample, aim, &first);
+    let best = search.best(&first, progress)?.ok_or(FitError::Undetermined { kind })?;
+    progress.advance(sample.len() as u64);
+    let mut element = best.element;
+    if aim.pinned {
+        element.size[0] += if aim.outer { best.value } else { -best.value };
+        if element.size[0] <= 0.0 {
+            return Err(FitError::Undetermined { kind });
+        }
+    }
+    let element = F::settled(element);
+    let mut touching: Vec<Touching> = best
+        .held
+        .iter()
+        .map(|&(k, side, multiplier)| Touching { point: search.working[k], side: side as i8, multiplier })
+        .collect();
+    touching.sort_by_key(|t| t.point);
+    Ok(Fit {
+        shape: F::shape(&element, sample),
+        method: options.method,
+        residuals: gaussian::residuals::<P, F>(&element, sample),
+        covariance: None,
+        touching,
+        iterations: best.steps,
+        converged: best.slack < 1e-6,
+    })
+}
+
+/// Which distances count.
+fn aim<const P: usize, F: Family<P>>(kind: Kind, method: Method) -> Result<Aim, FitError> {
+    let round = matches!(kind, Kind::Circle2 | Kind::Sphere | Kind::Cylinder);
+    match method {
+        Method::MinimumCircumscribed if round => Ok(Aim { outer: true, inner: false, pinned: true }),
+        Method::MaximumInscribed if round => Ok(Aim { outer: false, inner: true, pinned: true }),
+        Method::MinimumZone => Ok(Aim { outer: true, inner: F::SIGNED, pinned: false }),
+        _ => Err(FitError::NoSuchMethod { kind, method }),
+    }
+}
+
+/// The exchange, with the points it has gathered.
+struct Search<'a, const P: usize, F> {
+    sample: &'a Sample<'a>,
+    aim: Aim,
+    /// First box of the minimax search.
+    reach: f64,
+    /// Indices of the points of the working set, and their places in the unit frame.
+    working: Vec<usize>,
+    places: Vec<Point>,
+    family: std::marker::PhantomData<F>,
+}
+
+impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
+    fn new(sample: &'a Sample<'a>, aim: Aim, first: &Element) -> Self {
+        let mut search = Search {
+            sample,
+            aim,
+            reach: 0.0,
+            working: Vec::new(),
+            places: Vec::new(),
+            family: std::marker::PhantomData,
+        };
+        let blocks = survey::blocks::<P, F>(first, sample);
+        let most = blocks.iter().fold(0.0f64, |m, b| m.max(b.greatest.abs()).max(b.least.abs()));
+        search.reach = 4.0 * most.max(1e-12);
+        search.join(first, f64::NEG_INFINITY, &blocks);
+        // Points all over the surface keep the element from leaving through a gap between the few extreme ones.
+        for index in sample.spread(COVERING) {
+            search.take(index);
+        }
+        search
+    }
+
+    /// Takes in the points that stick out farther than `value`: the worst of the worst blocks. Returns how far
+    /// the worst of all points sticks out, as distance.
+    fn join(&mut self, element: &Element, value: f64, blocks: &[survey::Survey]) -> f64 {
+        let mut worst = f64::NEG_INFINITY;
+        let mut found = Vec::new();
+        for (counts, side) in [(self.aim.outer, 1.0), (self.aim.inner, -1.0)] {
+            if !counts {
+                continue;
+            }
+            let out = |b: &survey::Survey| if side > 0.0 { b.greatest } else { -b.least };
+            let mut order: Vec<usize> = (0..blocks.len()).filter(|&k| out(&blocks[k]) > value).collect();
+            worst = blocks.iter().map(out).fold(worst, f64::max);
+            order.sort_by(|&i, &j| out(&blocks[j]).total_cmp(&out(&blocks[i])).then(i.cmp(&j)));
+            order.truncate(JOINING);
+            for &block in &order {
+                found.extend(survey::find::<P, F>(element, self.sample, block, side * out(&blocks[block])));
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        for index in found {
+            self.take(index);
+        }
+        worst
+    }
+
+    fn take(&mut self, index: usize) {
+        if !self.working.contains(&index) {
+            self.working.push(index);
+            self.places.push(self.sample.unit(self.sample.points[index]));
+        }
+    }
+
+    /// The optimum of all points near `start`; `None` if no optimum is reached or it is not below `limit`.
+    fn all_points(&mut self, start: &Element, limit: f64) -> Option<Low> {
+        let mut element = *start;
+        for _ in 0..ROUNDS {
+            let low = minimax::<P, F>(&element, &self.places, self.aim, self.reach)?;
+            // Further points can only raise it.
+            if low.value >= limit {
+                return None;
+            }
+            let blocks = survey::blocks::<P, F>(&low.element, self.sample);
+            let before = self.working.len();
+            let worst = self.join(&low.element, low.value + TOUCHES, &blocks);
+            if worst <= low.value + TOUCHES || self.working.len() == before {
+                return Some(low);
+            }
+            element = low.element;
+        }
+        None
+    }
+
+    /// The best of the optima reached from `first` and from starts scattered about it.
+    fn best(&mut self, first: &Element, progress: &dyn Progress) -> Result<Option<Low>, FitError> {
+        let mut best = self.all_points(first, f64::INFINITY);
+        let mut random = Random::new(0);
+        for k in 0..STARTS {
+            if progress.cancelled() {
+                return Err(FitError::Cancelled);
+            }
+            let about = best.as_ref().map_or(*first, |b| b.element);
+            let spread = self.reach * [0.5, 2.0, 8.0][k as usize % 3];
+            let step = std::array::from_fn(|i| match F::LOCAL[i] {
+                Local::Size(0) if self.aim.pinned => 0.0,
+                _ => spread * (2.0 * random.unit() - 1.0),
+            });
+            let Some(start) = about.moved(&F::LOCAL, &step).filter(|e| F::sound(e.size)) else { continue };
+            let limit = best.as_ref().map_or(f64::INFINITY, |b| b.value - 1e-13);
+            if let Some(low) = self.all_points(&start, limit) {
+                best = Some(low);
+            }
+        }
+        Ok(best)
+    }
+}
