@@ -84,15 +84,15 @@ fn greatest<const P: usize, F: Family<P>>(element: &Element, points: &[Point], a
 }
 
 /// The local optimum reached from `start` over `points` (unit frame, not empty), with a first box of
-/// `reach` times the effect of each unknown.
+/// `first_reach` times the effect of each unknown.
 pub(super) fn minimax<const P: usize, F: Family<P>>(
     start: &Element,
     points: &[Point],
     aim: Aim,
-    reach: f64,
+    first_reach: f64,
 ) -> Option<Low> {
     let mut element = *start;
-    let mut reach = reach;
+    let mut reach = first_reach;
     let mut value = greatest::<P, F>(&element, points, aim);
     for steps in 1..120 {
         let (mut all, origin) = functions::<P, F>(&element, points, aim);
@@ -115,11 +115,16 @@ pub(super) fn minimax<const P: usize, F: Family<P>>(
         let straight = try_step(&program.x);
         let gain = straight.map_or(f64::NEG_INFINITY, |(_, v)| (value - v) / fall);
         let mut next = straight.filter(|s| s.1 < value);
-        if gain < 0.9 && (program.boxed > 0.0 || gain < 0.25) {
+        if gain < 0.9 && (program.boxed > 1e-14 || gain < 0.25) {
             let curved = newton::<P, F>(&element, points, aim, &program, &all, &origin, &unit);
-            // What it knows of the curvature holds near by only.
-            let near = |x: &[f64; P]| x.iter().all(|x| x.abs() <= 2.0 * reach);
-            let curved = curved.filter(near).and_then(|x| try_step(&x)).filter(|s| s.1 < value);
+            // Beyond the first box the curvature is another one; a shorter step may still go down the valley.
+            let curved = curved.and_then(|x| {
+                let length = x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+                let whole = (first_reach / length).min(1.0);
+                [1.0, 0.3, 0.1]
+                    .into_iter()
+                    .find_map(|part| try_step(&x.map(|x| part * whole * x)).filter(|s| s.1 < value))
+            });
             if let Some(c) = curved
                 && next.is_none_or(|n| c.1 < n.1)
             {
@@ -208,7 +213,9 @@ fn newton<const P: usize, F: Family<P>>(
             matrix[k][k] = 1.0;
             continue;
         }
-        let at = |h: f64| element.moved(&F::LOCAL, &std::array::from_fn(|i| if i == k { h * unit[k] } else { 0.0 }));
+        let at = |h: f64| {
+            element.moved(&F::LOCAL, &std::array::from_fn(|i| if i == k { h * unit[k] } else { 0.0 }))
+        };
         let (more, less) = (gradient(&at(H)?), gradient(&at(-H)?));
         for i in 0..P {
             matrix[i][k] = (more[i] - less[i]) / (2.0 * H);

@@ -71,7 +71,8 @@ pub(super) fn find<const P: usize, F: Family<P>>(
     let placing = Placing::new(element, sample);
     let start = block * BLOCK;
     let points = sample.points.get(start..(start + BLOCK).min(sample.len()))?;
-    let within = points.iter().position(|&p| F::distance::<f64>(element.size, placing.local(p)) == distance)?;
+    let within =
+        points.iter().position(|&p| F::distance::<f64>(element.size, placing.local(p)) == distance)?;
     Some(start + within)
 }
 

@@ -22,6 +22,9 @@ const COVERING: usize = 64;
 const ROUNDS: usize = 60;
 /// Sticking out less than this, in the unit frame, is rounding.
 const TOUCHES: f64 = 1e-15;
+/// An optimum whose distances range this many times as far as those of the least-squares element is another
+/// one: a flat ring also fits through a cylinder that lies on its side.
+const ASTRAY: f64 = 6.0;
 /// Further starts about the first optimum.
 const STARTS: u64 = 12;
 
@@ -35,6 +38,8 @@ pub(super) fn zone<const P: usize, F: Family<P>>(
     let aim = aim::<P, F>(kind, options.method)?;
     let first = gaussian::near::<P, F>(sample, kind, options)?;
     let mut search = Search::<P, F>::new(sample, aim, &first);
+    // The greatest distance from a centre is a convex function of it.
+    search.only_one = aim.outer && aim.pinned && kind != Kind::Cylinder;
     let best = search.best(&first, progress)?.ok_or(FitError::Undetermined { kind })?;
     progress.advance(sample.len() as u64);
     let mut element = best.element;
@@ -73,10 +78,20 @@ fn aim<const P: usize, F: Family<P>>(kind: Kind, method: Method) -> Result<Aim, 
     }
 }
 
+/// Greatest less least distance.
+fn range(blocks: &[survey::Survey]) -> f64 {
+    let greatest = blocks.iter().fold(f64::NEG_INFINITY, |m, b| m.max(b.greatest));
+    greatest - blocks.iter().fold(f64::INFINITY, |m, b| m.min(b.least))
+}
+
 /// The exchange, with the points it has gathered.
 struct Search<'a, const P: usize, F> {
     sample: &'a Sample<'a>,
     aim: Aim,
+    /// Whether there is but one optimum, wherever it lies.
+    only_one: bool,
+    /// Range of the distances from the first element.
+    range: f64,
     /// First box of the minimax search.
     reach: f64,
     /// Indices of the points of the working set, and their places in the unit frame.
@@ -90,6 +105,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         let mut search = Search {
             sample,
             aim,
+            only_one: false,
+            range: 0.0,
             reach: 0.0,
             working: Vec::new(),
             places: Vec::new(),
@@ -97,6 +114,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         };
         let blocks = survey::blocks::<P, F>(first, sample);
         let most = blocks.iter().fold(0.0f64, |m, b| m.max(b.greatest.abs()).max(b.least.abs()));
+        search.range = range(&blocks);
         search.reach = 4.0 * most.max(1e-12);
         search.join(first, f64::NEG_INFINITY, &blocks);
         // Points all over the surface keep the element from leaving through a gap between the few extreme ones.
@@ -152,7 +170,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
             let before = self.working.len();
             let worst = self.join(&low.element, low.value + TOUCHES, &blocks);
             if worst <= low.value + TOUCHES || self.working.len() == before {
-                return Some(low);
+                let near = self.only_one || range(&blocks) <= ASTRAY * self.range.max(TOUCHES);
+                return near.then_some(low);
             }
             element = low.element;
         }
@@ -163,7 +182,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
     fn best(&mut self, first: &Element, progress: &dyn Progress) -> Result<Option<Low>, FitError> {
         let mut best = self.all_points(first, f64::INFINITY);
         let mut random = Random::new(0);
-        for k in 0..STARTS {
+        let further = if self.only_one { 0 } else { STARTS };
+        for k in 0..further {
             if progress.cancelled() {
                 return Err(FitError::Cancelled);
             }
