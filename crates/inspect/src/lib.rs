@@ -3,9 +3,11 @@
 //! | task | where |
 //! |---|---|
 //! | result documents, as JSON and for reports | [`results`] |
+//! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 
+pub mod report;
 pub mod results;
 pub mod scale;
 pub mod tolerance;

@@ -120,7 +120,7 @@ impl Scale {
 }
 
 /// See [`Scale::slot`].
-fn slot(limits: &[f64], deviation: f64) -> usize {
+pub(crate) fn slot(limits: &[f64], deviation: f64) -> usize {
     let middle = limits.len() / 2;
     let above = limits[middle..].iter().filter(|l| deviation > **l).count();
     let below = limits[..middle].iter().filter(|l| deviation < **l).count();

@@ -1,0 +1,372 @@
+//! Writes the reports that the browser tests open: bodies whose deviations are known in closed form.
+//!
+//! ```text
+//! cargo run -p trueness-inspect --example report_fixtures -- FOLDER
+//! ```
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, reason = "a tool of the tests")]
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+use trueness_inspect::report::{self, Geometry, NoValue, ReportInput, ReportOptions, ViewField, ViewObject};
+use trueness_inspect::results::compare::*;
+use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
+use trueness_inspect::scale::Scale;
+
+fn main() {
+    let folder = std::env::args().nth(1).expect("a folder to write to");
+    let folder = Path::new(&folder);
+    std::fs::create_dir_all(folder).unwrap();
+    let tolerance = Some([-0.05, 0.05]);
+    write(folder, "sphere", &sphere(200), tolerance, "sphere.stl", "nominal.stl");
+    write(folder, "cube", &cube(), Some([-0.1, 0.1]), "cube.stl", "nominal.stl");
+    write(folder, "free", &sphere(60), None, "sphere.stl", "nominal.stl");
+    write(folder, "missing", &half_missing(), tolerance, "sphere.stl", "nominal.stl");
+    let hostile = format!("<img src=x onerror=alert(1)>\u{202e}lts.{}</script>", "long".repeat(75));
+    write(folder, "hostile", &sphere(40), tolerance, &hostile, "\u{2067}שלום\" onload=\"x.stl");
+    write(folder, "cloud", &cloud(), Some([-0.1, 0.1]), "points.xyz", "nominal.stl");
+    write(folder, "two", &two(), tolerance, "points.xyz", "fine.stl");
+    write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
+}
+
+/// A body with one value a vertex for each reference.
+struct Body {
+    measured: Mesh,
+    fields: Vec<Vec<f64>>,
+    references: Vec<Mesh>,
+    /// Whether the measured object is a cloud and the maps are on the references.
+    cloud: bool,
+}
+
+/// Radius 10, 2n² triangles; the deviation is 0.1·z/r.
+fn sphere(n: u32) -> Body {
+    let measured = uv_sphere(n);
+    let values = measured.positions.iter().map(|p| 0.01 * p[2]).collect();
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+}
+
+fn uv_sphere(n: u32) -> Mesh {
+    let (rings, around) = (n, n);
+    let mut mesh = Mesh::default();
+    for i in 0..=rings {
+        let theta = PI * f64::from(i) / f64::from(rings);
+        let count = if i == 0 || i == rings { 1 } else { around };
+        for j in 0..count {
+            let phi = 2.0 * PI * f64::from(j) / f64::from(around);
+            mesh.positions.push([
+                10.0 * theta.sin() * phi.cos(),
+                10.0 * theta.sin() * phi.sin(),
+                10.0 * theta.cos(),
+            ]);
+        }
+    }
+    let at = |i: u32, j: u32| match i {
+        0 => 0,
+        i if i == rings => 1 + (rings - 1) * around,
+        i => 1 + (i - 1) * around + j % around,
+    };
+    for i in 0..rings {
+        for j in 0..around {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            mesh.faces
+                .extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+        }
+    }
+    mesh
+}
+
+/// 20 mm; +x face +0.2, −y face −0.15, the others 0. Faces share no vertex, so each has its one value.
+fn cube() -> Body {
+    let mut measured = Mesh::default();
+    let mut values = vec![];
+    for (axis, side) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+        let value = [[0.2, 0.0], [0.0, -0.15], [0.0, 0.0]][axis][usize::from(side < 0.0)];
+        // The hair's breadth keeps equal places of neighbouring faces apart.
+        let half = 10.0 - 1e-9;
+        let first = measured.positions.len() as u32;
+        for (u, v) in [(-half, -half), (half, -half), (half, half), (-half, half)] {
+            let mut p = [0.0; 3];
+            p[axis] = 10.0 * side;
+            p[(axis + 1) % 3] = u;
+            p[(axis + 2) % 3] = v;
+            measured.positions.push(p);
+            values.push(value);
+        }
+        let quad = if side > 0.0 { [[0, 1, 2], [0, 2, 3]] } else { [[0, 2, 1], [0, 3, 2]] };
+        measured.faces.extend(quad.map(|t| t.map(|k| first + k)));
+    }
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+}
+
+/// The sphere without values where y is above 0.
+fn half_missing() -> Body {
+    let mut body = sphere(100);
+    for (value, p) in body.fields[0].iter_mut().zip(&body.measured.positions) {
+        if p[1] > 0.0 {
+            *value = f64::NAN;
+        }
+    }
+    body
+}
+
+/// Points on the sphere, measured against it; the map is on the reference.
+fn cloud() -> Body {
+    let body = sphere(150);
+    Body { references: vec![body.measured.clone()], cloud: true, ..body }
+}
+
+/// The same points against a fine and a coarse sphere.
+fn two() -> Body {
+    let points = uv_sphere(150);
+    let fields = vec![
+        points.positions.iter().map(|p| 0.01 * p[2]).collect(),
+        points.positions.iter().map(|p| 0.02 * p[0] + 0.02).collect(),
+    ];
+    Body { fields, references: vec![uv_sphere(150), uv_sphere(150)], measured: points, cloud: true }
+}
+
+fn write(
+    folder: &Path,
+    name: &str,
+    body: &Body,
+    tolerance: Option<[f64; 2]>,
+    measured: &str,
+    reference: &str,
+) {
+    let result = document(body, tolerance, measured, reference);
+    let reasons = vec![NoValue::MaxDistance; body.measured.positions.len()];
+    let fields =
+        |fields: &'_ [Vec<f64>]| -> Vec<(usize, Vec<f64>)> { fields.iter().cloned().enumerate().collect() };
+    let all = fields(&body.fields);
+    let view = |comparison: usize| ViewField { comparison, values: &all[comparison].1, reasons: &reasons };
+    let geometry =
+        if body.cloud { Geometry::Points(&body.measured.positions) } else { Geometry::Mesh(&body.measured) };
+    let mut objects = vec![ViewObject {
+        role: Role::Measured,
+        name: measured,
+        comparison: None,
+        geometry,
+        fields: (0..body.fields.len()).map(view).collect(),
+    }];
+    for (n, mesh) in body.references.iter().enumerate() {
+        objects.push(ViewObject {
+            role: Role::Reference,
+            name: reference,
+            comparison: Some(n),
+            geometry: Geometry::Mesh(mesh),
+            fields: if body.cloud { vec![view(n)] } else { vec![] },
+        });
+    }
+    let options = ReportOptions { part: Some(format!("{name} 4711")), ..ReportOptions::default() };
+    let input = ReportInput { result: &result, objects: &objects, options: &options };
+    let path = folder.join(format!("{name}.html"));
+    let mut out = BufWriter::new(File::create(&path).unwrap());
+    let summary = report::write(&input, &mut out).unwrap();
+    println!("{}: {} bytes", path.display(), summary.bytes);
+}
+
+fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference: &str) -> CompareDocument {
+    let comparisons: Vec<Comparison> =
+        body.fields.iter().enumerate().map(|(n, f)| comparison(body, n, f, tolerance, reference)).collect();
+    let sizes: Vec<f64> = sorted(body.fields[0].iter().map(|v| v.abs()).filter(|v| v.is_finite()));
+    let record = |role, path: &str, facets| InputRecord {
+        role,
+        path: path.into(),
+        format: "STL, binary".into(),
+        bytes: 84,
+        sha256: Some("3f".repeat(32)),
+        sha256_reason: None,
+        unit_assumed: "mm".into(),
+        points: body.measured.positions.len() as u64,
+        facets,
+        warnings: vec![],
+    };
+    let mut inputs = vec![record(Role::Measured, measured, None)];
+    inputs.extend(
+        body.references.iter().map(|r| record(Role::Reference, reference, Some(r.faces.len() as u64))),
+    );
+    CompareDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs,
+        measured: Measured {
+            kind: "vertices".into(),
+            count: body.measured.positions.len() as u64,
+            bounds: None,
+        },
+        method: "exact".into(),
+        sign: sign(),
+        max_distance: None,
+        skip_boundary: false,
+        verdict: comparisons[0].verdict,
+        comparisons,
+        paired: vec![],
+        scale: Scale::for_deviations(quantile(&sizes, 0.95), tolerance),
+        sampling: None,
+        seed: 1,
+    }
+}
+
+fn sign() -> SignRecord {
+    SignRecord {
+        requested: "auto".into(),
+        method: "pseudonormal".into(),
+        reason: "the reference is closed and consistently oriented".into(),
+        disagreement: Some(0.0),
+        disagreement_reason: None,
+        sample: 1000,
+    }
+}
+
+fn comparison(
+    body: &Body,
+    n: usize,
+    field: &[f64],
+    tolerance: Option<[f64; 2]>,
+    reference: &str,
+) -> Comparison {
+    let values = sorted(field.iter().copied().filter(|v| v.is_finite()));
+    let shares = tolerance.map(|[lower, upper]| {
+        let share = |keep: &dyn Fn(f64) -> bool| {
+            values.iter().filter(|v| keep(**v)).count() as f64 / values.len() as f64
+        };
+        ToleranceShares {
+            lower,
+            upper,
+            inside: share(&|v| lower <= v && v <= upper),
+            above: share(&|v| v > upper),
+            below: share(&|v| v < lower),
+            required: 1.0,
+        }
+    });
+    let missing = (field.len() - values.len()) as u64;
+    let side = |keep: &dyn Fn(f64) -> bool| statistics(&sorted(values.iter().copied().filter(|v| keep(*v))));
+    Comparison {
+        reference: reference.into(),
+        rank: n as u32 + 1,
+        sign: sign(),
+        soundness: soundness(&body.references[n]),
+        deviation: BySide {
+            all: side(&|_| true),
+            positive: side(&|v| v > 0.0),
+            negative: side(&|v| v < 0.0),
+        },
+        excluded: if missing > 0 {
+            BTreeMap::from([("max_distance".into(), missing)])
+        } else {
+            BTreeMap::new()
+        },
+        tolerance: shares,
+        verdict: shares.map(|s| if s.inside >= s.required { Verdict::Pass } else { Verdict::Fail }),
+        histogram: Some(histogram(&values)),
+        worst: worst(body, field),
+        reverse: None,
+        paper_vs_exact: None,
+    }
+}
+
+fn soundness(mesh: &Mesh) -> Soundness {
+    Soundness {
+        sound: true,
+        closed: true,
+        consistently_oriented: true,
+        facets: mesh.faces.len() as u64,
+        vertices: mesh.positions.len() as u64,
+        shells: 1,
+        boundary_edges: 0,
+        non_manifold_edges: 0,
+        non_manifold_vertices: 0,
+        duplicate_facets: 0,
+        degenerate_facets: 0,
+        inconsistent_edges: 0,
+    }
+}
+
+/// The three highest and three lowest vertices, at least 1 mm apart.
+fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
+    let mut all = vec![];
+    for sign in [1i8, -1] {
+        let mut order: Vec<usize> = (0..field.len()).filter(|i| field[*i] * f64::from(sign) > 0.0).collect();
+        order.sort_by(|a, b| field[*b].abs().total_cmp(&field[*a].abs()));
+        let mut picked: Vec<Point> = vec![];
+        for index in order {
+            let p = body.measured.positions[index];
+            let apart = |q: &Point| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>() > 4.0;
+            if picked.len() < 3 && picked.iter().all(apart) {
+                picked.push(p);
+                let worst = Worst {
+                    sign,
+                    index: index as u64,
+                    point: p,
+                    nearest: p,
+                    normal: None,
+                    deviation: field[index],
+                };
+                all.push(worst);
+            }
+        }
+    }
+    all
+}
+
+fn histogram(values: &[f64]) -> Histogram {
+    const BINS: usize = 100;
+    let (low, high) = (quantile(values, 0.001), quantile(values, 0.999));
+    let edges: Vec<f64> = (0..=BINS).map(|i| low + (high - low) * i as f64 / BINS as f64).collect();
+    let mut counts = vec![0; BINS];
+    for v in values.iter().filter(|v| (low..=high).contains(*v)) {
+        let bin = edges.partition_point(|e| e <= v).saturating_sub(1).min(BINS - 1);
+        counts[bin] += 1;
+    }
+    let outside = |keep: &dyn Fn(f64) -> bool| values.iter().filter(|v| keep(**v)).count() as u64;
+    Histogram { edges, counts, below: outside(&|v| v < low), above: outside(&|v| v > high) }
+}
+
+fn statistics(values: &[f64]) -> Statistics {
+    let n = values.len() as f64;
+    if values.is_empty() {
+        return Statistics::default();
+    }
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    let p = |q: f64| Some(quantile(values, q));
+    Statistics {
+        count: values.len() as u64,
+        min: Some(values[0]),
+        max: values.last().copied(),
+        range: Some(values[values.len() - 1] - values[0]),
+        mean: Some(mean),
+        variance: Some(variance),
+        std_dev: Some(variance.sqrt()),
+        six_sigma: Some(6.0 * variance.sqrt()),
+        cv: None,
+        cv_reason: Some("the mean is zero to rounding".into()),
+        rms: Some((values.iter().map(|v| v * v).sum::<f64>() / n).sqrt()),
+        mean_abs: Some(values.iter().map(|v| v.abs()).sum::<f64>() / n),
+        median: p(0.5),
+        percentiles: Percentiles {
+            p2_5: p(0.025),
+            p5: p(0.05),
+            p95: p(0.95),
+            p97_5: p(0.975),
+            ..Percentiles::default()
+        },
+        ..Statistics::default()
+    }
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut all: Vec<f64> = values.collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn quantile(sorted: &[f64], q: f64) -> f64 {
+    sorted.get((q * (sorted.len().max(1) - 1) as f64).round() as usize).copied().unwrap_or(0.0)
+}

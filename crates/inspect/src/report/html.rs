@@ -1,0 +1,158 @@
+//! Writing HTML so that no text can become markup.
+
+use super::Language;
+use super::number::Style;
+use super::text::word;
+
+/// A page, or a part of one, under construction.
+pub struct Html {
+    text: String,
+    /// How numbers and words are written.
+    pub style: Style,
+}
+
+impl Html {
+    /// Nothing yet.
+    pub fn new(style: Style) -> Html {
+        Html { text: String::new(), style }
+    }
+
+    /// The text so far.
+    pub fn finish(self) -> String {
+        self.text
+    }
+
+    /// Language of the words.
+    pub fn language(&self) -> Language {
+        self.style.language
+    }
+
+    /// Markup of our own.
+    pub fn raw(&mut self, markup: &str) -> &mut Html {
+        self.text.push_str(markup);
+        self
+    }
+
+    /// Text from anywhere, as text.
+    pub fn text(&mut self, text: &str) -> &mut Html {
+        self.text.push_str(&escaped(text));
+        self
+    }
+
+    /// A name from outside: as text, and whatever direction it is written in ends with it.
+    pub fn name(&mut self, name: &str) -> &mut Html {
+        let safe = escaped(name);
+        self.raw(&format!("<bdi class=\"name\" title=\"{safe}\">{safe}</bdi>"))
+    }
+
+    /// A word of the table, which the script can exchange for another language's.
+    pub fn word(&mut self, key: &str) -> &mut Html {
+        let text = escaped(word(key, self.language()));
+        self.raw(&format!("<span data-t=\"{key}\">{text}</span>"))
+    }
+
+    /// A number, which the script can write in another language's way. `signed` puts a plus sign before what is above zero.
+    pub fn number(&mut self, value: f64, decimals: usize, signed: bool) -> &mut Html {
+        let text =
+            if signed { self.style.signed(value, decimals) } else { self.style.fixed(value, decimals) };
+        let sign = if signed { " data-s" } else { "" };
+        self.raw(&format!("<span class=\"n\" data-n=\"{value}\" data-d=\"{decimals}\"{sign}>{text}</span>"))
+    }
+
+    /// A count.
+    pub fn count(&mut self, count: u64) -> &mut Html {
+        self.number(count as f64, 0, false)
+    }
+
+    /// A share (0 to 1) in percent.
+    pub fn percent(&mut self, share: f64, decimals: usize) -> &mut Html {
+        self.number(percent(share, decimals), decimals, false).raw("\u{a0}%")
+    }
+
+    /// A number, or a dash with the reason why there is none as its tooltip.
+    pub fn optional(
+        &mut self,
+        value: Option<f64>,
+        reason: Option<&str>,
+        decimals: usize,
+        signed: bool,
+    ) -> &mut Html {
+        match value.filter(|v| v.is_finite()) {
+            Some(v) => self.number(v, decimals, signed),
+            None => {
+                let why = escaped(reason.unwrap_or(""));
+                self.raw(&format!("<span class=\"none\" title=\"{why}\">–</span>"))
+            }
+        }
+    }
+}
+
+/// A share in percent that rounds to 100 or to 0 only where it is that: 99.9996 % in tolerance is not 100.00 %.
+pub fn percent(share: f64, decimals: usize) -> f64 {
+    let unit = 10f64.powi(-(decimals as i32));
+    let p = 100.0 * share;
+    if share < 1.0 && p > 100.0 - unit {
+        100.0 - unit
+    } else if share > 0.0 && p < unit {
+        unit
+    } else {
+        p
+    }
+}
+
+/// Text with the five characters that mean something in HTML replaced, and control characters dropped.
+pub fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            c if c.is_control() => safe.push('\u{fffd}'),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// JSON to stand inside a `<script>` element: nothing in it can end the element.
+pub fn json(value: &serde_json::Value) -> String {
+    value.to_string().replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn html() -> Html {
+        Html::new(Style { language: Language::De, decimal: None })
+    }
+
+    #[test]
+    fn no_text_becomes_markup() {
+        let mut h = html();
+        h.text("<img src=x onerror=\"alert('&')\">\u{0}");
+        assert_eq!(h.finish(), "&lt;img src=x onerror=&quot;alert(&#39;&amp;&#39;)&quot;&gt;\u{fffd}");
+        let value = serde_json::json!({"name": "</script><!--"});
+        assert_eq!(json(&value), r#"{"name":"\u003c/script>\u003c!--"}"#);
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&json(&value)).unwrap(), value);
+    }
+
+    #[test]
+    fn numbers_keep_all_digits_for_the_script() {
+        let mut h = html();
+        h.number(1234.56789, 2, true);
+        assert_eq!(
+            h.finish(),
+            "<span class=\"n\" data-n=\"1234.56789\" data-d=\"2\" data-s>+1.234,57</span>"
+        );
+    }
+
+    #[test]
+    fn all_is_all_and_none_is_none() {
+        assert_eq!([1.0, 0.0, 0.5].map(|s| percent(s, 2)), [100.0, 0.0, 50.0]);
+        assert_eq!([0.999_999, 0.000_001].map(|s| percent(s, 2)), [99.99, 0.01]);
+    }
+}

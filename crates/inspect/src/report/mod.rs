@@ -1,0 +1,213 @@
+//! The report: one HTML file that needs nothing else.
+//!
+//! ```text
+//! result document ──► page (verdict, tables, figure: readable with scripts off)
+//! geometry, deviations ──► picture (PNG of the default view)
+//!                      └─► payload (trueness/view/1: manifest and blobs for the script)
+//! ```
+//! The same input gives the same bytes.
+
+mod html;
+mod number;
+mod page;
+mod payload;
+mod picture;
+mod text;
+
+pub use payload::NoValue;
+pub use text::Language;
+
+use crate::results::Role;
+use crate::results::compare::CompareDocument;
+use std::io::{self, Write};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+
+/// What a report is made of.
+pub struct ReportInput<'a> {
+    /// The answer; every number on the page is from here.
+    pub result: &'a CompareDocument,
+    /// What is drawn: the measured object, then the references.
+    pub objects: &'a [ViewObject<'a>],
+    /// Words and limits.
+    pub options: &'a ReportOptions,
+}
+
+/// Header fields, language, size.
+#[derive(Clone, Debug)]
+pub struct ReportOptions {
+    /// Heading; the name of the measured file where absent.
+    pub title: Option<String>,
+    /// Name or number of the part.
+    pub part: Option<String>,
+    /// Serial number.
+    pub serial: Option<String>,
+    /// Who measured.
+    pub operator: Option<String>,
+    /// Bytes of the whole file that are aimed at.
+    pub budget: usize,
+    /// Language of the page as it is written; the reader can switch.
+    pub language: Language,
+    /// Decimal sign; by the language where absent.
+    pub decimal: Option<char>,
+    /// Which axis of the model points up on the screen.
+    pub up: Up,
+}
+
+impl Default for ReportOptions {
+    fn default() -> ReportOptions {
+        ReportOptions {
+            title: None,
+            part: None,
+            serial: None,
+            operator: None,
+            budget: 10_000_000,
+            language: Language::En,
+            decimal: None,
+            up: Up::Z,
+        }
+    }
+}
+
+/// The axis that points up in the standard views.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// The model's y axis; the front looks along −z.
+    Y,
+    /// The model's z axis; the front looks along +y.
+    #[default]
+    Z,
+}
+
+/// A mesh or a cloud with its deviations.
+pub struct ViewObject<'a> {
+    /// Measured or reference.
+    pub role: Role,
+    /// Shown to the reader; any text at all.
+    pub name: &'a str,
+    /// For a reference, its number in the result's `comparisons`.
+    pub comparison: Option<usize>,
+    /// Places.
+    pub geometry: Geometry<'a>,
+    /// Deviations at the places. On a measured object: from each reference. On a reference: of the measured points near it.
+    pub fields: Vec<ViewField<'a>>,
+}
+
+/// Places, millimetres.
+#[derive(Clone, Copy)]
+pub enum Geometry<'a> {
+    /// A cloud.
+    Points(&'a [Point]),
+    /// A surface.
+    Mesh(&'a Mesh),
+}
+
+/// One deviation a point or vertex.
+pub struct ViewField<'a> {
+    /// Number in the result's `comparisons`.
+    pub comparison: usize,
+    /// Millimetres, + outside; NaN where there is none.
+    pub values: &'a [f64],
+    /// Why there is none, place by place; where the list is too short the reason is unknown.
+    pub reasons: &'a [NoValue],
+}
+
+impl ViewField<'_> {
+    /// Deviation and, should it be NaN, the reason.
+    fn at(&self, i: usize) -> (f64, NoValue) {
+        let value = self.values.get(i).copied().unwrap_or(f64::NAN);
+        (value, self.reasons.get(i).copied().unwrap_or(NoValue::Unknown))
+    }
+}
+
+impl<'a> ViewObject<'a> {
+    fn mesh(&self) -> Option<&'a Mesh> {
+        match self.geometry {
+            Geometry::Mesh(mesh) => Some(mesh),
+            Geometry::Points(_) => None,
+        }
+    }
+
+    fn points(&self) -> Option<&'a [Point]> {
+        match self.geometry {
+            Geometry::Mesh(_) => None,
+            Geometry::Points(points) => Some(points),
+        }
+    }
+
+    fn places(&self) -> &'a [Point] {
+        match self.geometry {
+            Geometry::Mesh(mesh) => &mesh.positions,
+            Geometry::Points(points) => points,
+        }
+    }
+
+    fn field(&self, comparison: usize) -> Option<&ViewField<'a>> {
+        self.fields.iter().find(|f| f.comparison == comparison)
+    }
+}
+
+/// What was written.
+#[derive(Clone, Copy, Debug)]
+pub struct ReportSummary {
+    /// Size of the file.
+    pub bytes: usize,
+    /// Points drawn, of measured clouds.
+    pub points_shown: usize,
+    /// Points given for drawing.
+    pub points_given: usize,
+    /// Farthest that what is drawn lies from what was given, millimetres.
+    pub display_error: f64,
+}
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The output refused bytes.
+    #[error("the report could not be written: {0}")]
+    Write(#[from] io::Error),
+    /// The result could not be made JSON.
+    #[error("the result could not be put into the report: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A field has another number of values than its object has places.
+    #[error("object {object}: {values} deviations for {places} places")]
+    FieldLength {
+        /// Number of the object.
+        object: usize,
+        /// Deviations given.
+        values: usize,
+        /// Points or vertices.
+        places: usize,
+    },
+    /// The triangle code failed.
+    #[error("the triangles could not be packed: {0}")]
+    Encoding(String),
+}
+
+/// Writes the report of a comparison as one HTML file.
+///
+/// Objects may be empty, fields may be NaN throughout, names may hold any text. Deterministic for any number of threads.
+/// Cost: a few passes over the geometry, dominated by compression.
+pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary, ReportError> {
+    for (object, o) in input.objects.iter().enumerate() {
+        let places = o.places().len();
+        if let Some(f) = o.fields.iter().find(|f| f.values.len() != places) {
+            return Err(ReportError::FieldLength { object, values: f.values.len(), places });
+        }
+    }
+    let scale = &input.result.scale;
+    let range = scale.tolerance.map_or(scale.upper - scale.lower, |[l, u]| u - l);
+    let picture = payload::base64(&picture::png(input.objects, scale, input.options.up));
+    let text = trueness_viewer::SCRIPT.len() + trueness_viewer::STYLE.len() + trueness_viewer::TEXTS.len();
+    let fixed = text + picture.len() + serde_json::to_string(input.result)?.len() + 60_000;
+    let payload = payload::pack(input.objects, range, input.options.budget.saturating_sub(fixed))?;
+    let html = page::page(input, &payload, &picture)?;
+    out.write_all(html.as_bytes())?;
+    out.flush()?;
+    Ok(ReportSummary {
+        bytes: html.len(),
+        points_shown: payload.points.0,
+        points_given: payload.points.1,
+        display_error: payload.display_error,
+    })
+}

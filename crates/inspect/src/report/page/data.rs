@@ -1,0 +1,68 @@
+//! What the script reads: manifest, words, blobs.
+
+use super::super::html::{Html, json};
+use super::super::payload::Payload;
+use super::super::{ReportError, ReportInput, Up, text};
+use crate::scale::palette::{self, Rgb};
+use crate::scale::{Mode, Scale};
+use serde_json::{Map, Value, json};
+
+/// Values of the distribution that the script interpolates shares of a range from.
+const QUANTILES: usize = 2000;
+
+/// Writes the data elements.
+pub fn data(h: &mut Html, input: &ReportInput, payload: &Payload) -> Result<(), ReportError> {
+    let manifest = json!({
+        "schema": "trueness/view/1",
+        "language": input.options.language.code(),
+        "decimal": input.options.decimal,
+        "up": if input.options.up == Up::Y { "y" } else { "z" },
+        "palettes": palettes(&input.result.scale),
+        "quantiles": quantiles(input),
+        "objects": payload.objects,
+        "simplified": payload.simplified,
+        "display_error": payload.display_error,
+        "result": input.result,
+    });
+    element(h, "manifest", &manifest);
+    element(h, "texts", &text::table());
+    for (n, blob) in payload.blobs.iter().enumerate() {
+        h.raw(&format!("<script type=\"application/octet-stream\" id=\"blob-{n}\">{blob}</script>\n"));
+    }
+    Ok(())
+}
+
+fn element(h: &mut Html, id: &str, value: &Value) {
+    h.raw(&format!("<script type=\"application/json\" id=\"{id}\">{}</script>\n", json(value)));
+}
+
+/// Every palette's colours for this scale's bands and, in 256 steps, without bands; and three for go / no-go.
+fn palettes(scale: &Scale) -> Value {
+    let hex =
+        |colors: &[Rgb]| colors.iter().map(|[r, g, b]| format!("{r:02x}{g:02x}{b:02x}")).collect::<String>();
+    let of = |name: &str| {
+        let as_mode = |mode| Scale { mode, palette: name.into(), ..scale.clone() };
+        json!({
+            "bands": hex(&as_mode(Mode::Bands).colors()),
+            "ramp": hex(&as_mode(Mode::Continuous).ramp(256)),
+            "go_no_go": hex(&palette::colors(name, 1)),
+        })
+    };
+    Value::Object(Map::from_iter(palette::NAMES.map(|name| (name.to_string(), of(name)))))
+}
+
+/// For each comparison, evenly spaced quantiles of the deviations at hand, least to greatest; empty where there are none.
+fn quantiles(input: &ReportInput) -> Value {
+    let of = |comparison: usize| -> Vec<f64> {
+        let measured = input.objects.iter().filter(|o| o.role == crate::results::Role::Measured);
+        let mut sorted: Vec<f64> = measured
+            .filter_map(|o| o.field(comparison))
+            .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
+            .collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
+        let steps = QUANTILES.min(last.max(1));
+        (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()
+    };
+    (0..input.result.comparisons.len()).map(of).collect::<Vec<_>>().into()
+}

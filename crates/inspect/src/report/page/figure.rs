@@ -1,0 +1,94 @@
+//! Histogram and colour scale on one axis, as SVG: for print, narrow screens, and readers without scripts.
+
+use super::super::html::Html;
+use super::super::text::word;
+use crate::results::compare::{CompareDocument, Comparison};
+use crate::scale::Scale;
+
+const WIDTH: f64 = 760.0;
+const LEFT: f64 = 34.0;
+const RIGHT: f64 = WIDTH - 34.0;
+/// Foot of the bars, and top of the coloured strip.
+const FOOT: f64 = 96.0;
+const BARS: f64 = 84.0;
+const STRIP: f64 = 14.0;
+/// Length of a cap.
+const CAP: f64 = 22.0;
+
+/// The first comparison's distribution.
+pub fn figure(h: &mut Html, result: &CompareDocument) {
+    let Some(c) = result.comparisons.first() else { return };
+    let scale = &result.scale;
+    let at = axis(scale);
+    h.raw(&format!("<svg class=\"distribution\" viewBox=\"0 0 {WIDTH} 162\" role=\"img\"><title>"));
+    h.text(word("figure.title", h.language())).raw("</title>");
+    bars(h, c, scale, &at);
+    strip(h, scale, &at);
+    ticks(h, scale, &at);
+    let (low, high) = (word("ends.low", h.language()), word("ends.high", h.language()));
+    h.raw(&format!("<text class=\"end\" x=\"{LEFT}\" y=\"154\" data-t=\"ends.low\">"))
+        .text(low)
+        .raw("</text>");
+    h.raw(&format!("<text class=\"end r\" x=\"{RIGHT}\" y=\"154\" data-t=\"ends.high\">"))
+        .text(high)
+        .raw("</text></svg>");
+}
+
+/// From deviation to place along the axis; the caps take what is beyond the scale.
+fn axis(scale: &Scale) -> impl Fn(f64) -> f64 + use<> {
+    let (lower, upper) = (scale.lower, scale.upper);
+    let (from, to) = (LEFT + CAP, RIGHT - CAP);
+    move |d| from + (d - lower) / (upper - lower) * (to - from)
+}
+
+/// Bars within the scale, each in the colour of its middle; what lies beyond stands as one share at each end.
+fn bars(h: &mut Html, c: &Comparison, scale: &Scale, at: &impl Fn(f64) -> f64) {
+    let Some(histogram) = &c.histogram else { return };
+    let greatest = histogram.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
+    for (edges, count) in histogram.edges.windows(2).zip(&histogram.counts) {
+        let (from, to) = (edges[0].max(scale.lower), edges[1].min(scale.upper));
+        if *count == 0 || from >= to {
+            continue;
+        }
+        let (x, w) = (at(from), at(to) - at(from));
+        let height = BARS * *count as f64 / greatest;
+        let y = FOOT - height;
+        let fill = hex(scale.color(0.5 * (from + to)));
+        h.raw(&format!(
+            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{height:.2}\" fill=\"{fill}\"/>"
+        ));
+    }
+}
+
+fn strip(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
+    let (limits, colors) = (scale.limits(), scale.colors());
+    let mut piece = |x: f64, w: f64, fill: &str| {
+        h.raw(&format!(
+            "<rect x=\"{x:.2}\" y=\"{FOOT}\" width=\"{w:.2}\" height=\"{STRIP}\" fill=\"{fill}\"/>"
+        ));
+    };
+    piece(LEFT, CAP, &hex(colors[0]));
+    for (pair, color) in limits.windows(2).zip(&colors[1..]) {
+        piece(at(pair[0]), at(pair[1]) - at(pair[0]), &hex(*color));
+    }
+    piece(RIGHT - CAP, CAP, &hex(colors[colors.len() - 1]));
+}
+
+fn ticks(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
+    let zone = scale.tolerance.unwrap_or([f64::NAN; 2]);
+    let style = h.style;
+    for limit in scale.limits() {
+        let x = at(limit);
+        let (top, class) = if zone.contains(&limit) { (6.0, "limit") } else { (FOOT, "tick") };
+        h.raw(&format!(
+            "<line class=\"{class}\" x1=\"{x:.2}\" x2=\"{x:.2}\" y1=\"{top}\" y2=\"{}\"/>",
+            FOOT + STRIP + 5.0
+        ));
+        let text = style.signed(limit, scale.decimals as usize);
+        h.raw(&format!("<text class=\"{class}\" x=\"{x:.2}\" y=\"{}\">{text}</text>", FOOT + STRIP + 18.0));
+    }
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}

@@ -1,0 +1,288 @@
+//! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
+
+use super::super::ReportInput;
+use super::super::html::{Html, escaped};
+use super::header::{Headline, badge, file_name, in_words};
+use crate::results::compare::{CompareDocument, Comparison, SignRecord, Statistics};
+
+/// Writes all sections.
+pub fn list(h: &mut Html, input: &ReportInput) {
+    let result = input.result;
+    h.raw("<aside id=\"list\" class=\"list\">\n");
+    if result.comparisons.len() > 1 {
+        ranking(h, result);
+    }
+    for (n, c) in result.comparisons.iter().enumerate() {
+        let hidden = if n == 0 { "" } else { " hidden" };
+        h.raw(&format!("<div class=\"comparison\" data-comparison=\"{n}\"{hidden}>\n"));
+        if result.comparisons.len() > 1 {
+            h.raw("<p class=\"against\">")
+                .word("reference")
+                .raw(" ")
+                .name(file_name(&c.reference))
+                .raw("</p>");
+        }
+        worst(h, c, result.scale.decimals as usize);
+        statistics(h, c, result.scale.decimals as usize);
+        trust(h, result, c);
+        h.raw("</div>\n");
+    }
+    files(h, result);
+    method(h, result);
+    h.raw("</aside>\n");
+}
+
+fn section(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
+    h.raw(&format!("<section class=\"block b-{key}\"><h2>")).word(key).raw("</h2>\n");
+    body(h);
+    h.raw("</section>\n");
+}
+
+/// Several references side by side, the nearest first.
+fn ranking(h: &mut Html, result: &CompareDocument) {
+    let decimals = result.scale.decimals as usize + 1;
+    let mut order: Vec<usize> = (0..result.comparisons.len()).collect();
+    order.sort_by_key(|i| result.comparisons[*i].rank);
+    section(h, "ranking", |h| {
+        h.raw("<table class=\"choose\"><thead><tr><th></th><th>")
+            .word("reference")
+            .raw("</th><th class=\"r\">")
+            .word("rms");
+        h.raw("</th><th class=\"r\">").word("within.short").raw("</th></tr></thead><tbody>");
+        for i in order {
+            let c = &result.comparisons[i];
+            let current = if i == 0 { "true" } else { "false" };
+            h.raw(&format!("<tr data-choose=\"{i}\" aria-selected=\"{current}\"><td>{}</td><td>", c.rank));
+            h.name(file_name(&c.reference)).raw("</td><td class=\"r\">");
+            h.optional(c.deviation.all.rms, c.deviation.all.rms_reason.as_deref(), decimals, false)
+                .raw("</td><td class=\"r\">");
+            match (&c.tolerance, c.verdict) {
+                (Some(t), Some(v)) => {
+                    badge(h, Headline::Judged(v));
+                    h.raw(" ").percent(t.inside, 2);
+                }
+                _ => {
+                    h.raw("–");
+                }
+            }
+            h.raw("</td></tr>");
+        }
+        h.raw("</tbody></table>");
+        paired(h, result);
+    });
+}
+
+/// Whether the better reference is better by more than chance.
+fn paired(h: &mut Html, result: &CompareDocument) {
+    let decimals = result.scale.decimals as usize + 2;
+    let name = |i: usize| result.comparisons.get(i).map_or("", |c| file_name(&c.reference));
+    for p in &result.paired {
+        let Some(mean) = p.mean_difference else { continue };
+        h.raw("<p class=\"note\">")
+            .name(name(p.better))
+            .raw(" ")
+            .word("nearer_than")
+            .raw(" ")
+            .name(name(p.other));
+        h.raw(" ").word("by").raw(" ").number(mean.abs(), decimals, false).raw("\u{a0}mm");
+        if let Some([l, u]) = p.interval {
+            h.raw(" (95\u{a0}%: ").number(l.abs().min(u.abs()), decimals, false).raw("\u{2009}…\u{2009}");
+            h.number(l.abs().max(u.abs()), decimals, false).raw(")");
+        }
+        h.raw("</p>");
+    }
+}
+
+fn worst(h: &mut Html, c: &Comparison, decimals: usize) {
+    if c.worst.is_empty() {
+        return;
+    }
+    section(h, "worst", |h| {
+        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("deviation").raw(
+            "</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>",
+        );
+        for (n, w) in c.worst.iter().enumerate() {
+            let outside =
+                c.tolerance.as_ref().is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower);
+            let class = if outside { " class=\"out\"" } else { "" };
+            h.raw(&format!("<tr data-worst=\"{n}\"{class}><td>{}</td><td class=\"r\">", n + 1));
+            h.number(w.deviation, decimals, true).raw("</td>");
+            for x in w.point {
+                h.raw("<td class=\"r\">").number(x, 2, false).raw("</td>");
+            }
+            h.raw("</tr>");
+        }
+        h.raw("</tbody></table>");
+    });
+}
+
+/// A row of the table of statistics: key in the table of words, digits beyond the scale's, signed, number and reason.
+type Row = (&'static str, usize, bool, fn(&Statistics) -> (Option<f64>, Option<&str>));
+
+const ROWS: [Row; 14] = [
+    ("mean", 1, true, |s| (s.mean, s.mean_reason.as_deref())),
+    ("std_dev", 1, false, |s| (s.std_dev, s.std_dev_reason.as_deref())),
+    ("rms", 1, false, |s| (s.rms, s.rms_reason.as_deref())),
+    ("mean_abs", 1, false, |s| (s.mean_abs, s.mean_abs_reason.as_deref())),
+    ("min", 0, true, |s| (s.min, s.min_reason.as_deref())),
+    ("max", 0, true, |s| (s.max, s.max_reason.as_deref())),
+    ("range_width", 0, false, |s| (s.range, s.range_reason.as_deref())),
+    ("median", 1, true, |s| (s.median, s.median_reason.as_deref())),
+    ("p5", 0, true, |s| (s.percentiles.p5, None)),
+    ("p95", 0, true, |s| (s.percentiles.p95, None)),
+    ("six_sigma", 1, false, |s| (s.six_sigma, s.six_sigma_reason.as_deref())),
+    ("cv", 0, false, |s| (s.cv, s.cv_reason.as_deref())),
+    ("skewness", 0, true, |s| (s.skewness, s.skewness_reason.as_deref())),
+    ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
+];
+
+fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
+    let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
+    section(h, "statistics", |h| {
+        if let Some(words) = in_words(c, h.style) {
+            h.raw("<p class=\"words\">").text(&words).raw("</p>");
+        }
+        h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
+        h.raw("</th><th class=\"r\">")
+            .word("plus")
+            .raw("</th><th class=\"r\">")
+            .word("minus")
+            .raw("</th></tr></thead><tbody>");
+        h.raw("<tr><th scope=\"row\">").word("points").raw("</th>");
+        for s in sides {
+            h.raw("<td class=\"r\">").count(s.count).raw("</td>");
+        }
+        h.raw("</tr>");
+        for (key, more, signed, of) in ROWS {
+            h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
+            for s in sides {
+                let (value, reason) = of(s);
+                h.raw("<td class=\"r\">").optional(value, reason, decimals + more, signed).raw("</td>");
+            }
+            h.raw("</tr>");
+        }
+        h.raw("</tbody></table>");
+    });
+}
+
+/// What the numbers rest on: the points left out, the sign, the reference's soundness.
+fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
+    section(h, "trust", |h| {
+        h.raw("<dl class=\"facts\">");
+        let total: u64 = c.excluded.values().sum();
+        fact(h, "excluded", |h| {
+            h.count(total).raw(" / ").count(result.measured.count);
+            for (reason, count) in c.excluded.iter().filter(|(_, count)| **count > 0) {
+                h.raw("<br>").word(&format!("reason.{}", known(reason))).raw(": ").count(*count);
+            }
+            if let Some(d) = result.max_distance {
+                h.raw(" (> ").number(d, 1, false).raw("\u{a0}mm)");
+            }
+        });
+        fact(h, "sign.method", |h| sign(h, &c.sign));
+        fact(h, "soundness", |h| soundness(h, c));
+        if let Some(p) = &c.paper_vs_exact {
+            fact(h, "paper_differs", |h| {
+                h.count(p.differing)
+                    .raw(" / ")
+                    .count(p.count)
+                    .raw(", ≤ ")
+                    .number(p.max_difference, 4, false)
+                    .raw("\u{a0}mm");
+            });
+        }
+        h.raw("</dl>");
+    });
+}
+
+/// The reasons that the table of words knows.
+fn known(reason: &str) -> &str {
+    if ["max_distance", "free_edge", "not_measured"].contains(&reason) { reason } else { "excluded" }
+}
+
+fn sign(h: &mut Html, s: &SignRecord) {
+    h.text(&s.method).raw("<br><small>").text(&s.reason).raw("</small>");
+    if let Some(share) = s.disagreement {
+        h.raw("<br><small>").word("disagreement").raw(": ").percent(share, 3).raw("</small>");
+    }
+}
+
+fn soundness(h: &mut Html, c: &Comparison) {
+    let s = &c.soundness;
+    if s.sound {
+        h.raw("✓ ").word("sound");
+        return;
+    }
+    h.raw("<strong class=\"warning\">⚠ ").word("not_sound").raw("</strong>");
+    let counts = [
+        ("boundary_edges", s.boundary_edges),
+        ("non_manifold_edges", s.non_manifold_edges),
+        ("non_manifold_vertices", s.non_manifold_vertices),
+        ("duplicate_facets", s.duplicate_facets),
+        ("degenerate_facets", s.degenerate_facets),
+        ("inconsistent_edges", s.inconsistent_edges),
+    ];
+    for (key, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
+        h.raw("<br>").word(key).raw(": ").count(count);
+    }
+    h.raw("<br><small>").word("not_sound.means").raw("</small>");
+}
+
+fn fact(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
+    h.raw("<dt>").word(key).raw("</dt><dd>");
+    body(h);
+    h.raw("</dd>");
+}
+
+fn files(h: &mut Html, result: &CompareDocument) {
+    section(h, "files", |h| {
+        for input in &result.inputs {
+            let role = if input.role == crate::results::Role::Measured { "measured" } else { "reference" };
+            h.raw(&format!("<div class=\"file\"><p><span class=\"chip {role}\"><i></i>"))
+                .word(role)
+                .raw("</span> ");
+            h.name(&input.path)
+                .raw("</p><p class=\"note\">")
+                .text(&input.format)
+                .raw(" · ")
+                .count(input.bytes);
+            h.raw("\u{a0}B · ").count(input.points).raw(" ").word(if input.facets.is_some() {
+                "vertices"
+            } else {
+                "points"
+            });
+            if let Some(facets) = input.facets {
+                h.raw(" · ").count(facets).raw(" ").word("facets");
+            }
+            h.raw(" · ").word("unit_assumed").raw(" ").text(&input.unit_assumed).raw("</p>");
+            match &input.sha256 {
+                Some(hash) => h.raw(&format!(
+                    "<p class=\"hash\"><abbr>SHA-256</abbr> <code>{}</code></p>",
+                    escaped(hash)
+                )),
+                None => h
+                    .raw("<p class=\"hash\">")
+                    .text(input.sha256_reason.as_deref().unwrap_or("–"))
+                    .raw("</p>"),
+            };
+            for warning in &input.warnings {
+                h.raw("<p class=\"warning\">⚠ ").text(warning).raw("</p>");
+            }
+            h.raw("</div>");
+        }
+    });
+}
+
+fn method(h: &mut Html, result: &CompareDocument) {
+    section(h, "method", |h| {
+        let text = if result.method == "paper" { "method.paper.text" } else { "method.exact.text" };
+        h.raw("<p>")
+            .word(text)
+            .raw("</p><p>")
+            .word("method.sign.text")
+            .raw("</p><p>")
+            .word("method.map.text");
+        h.raw("</p><p class=\"note\">trueness ").text(&result.version).raw(" · ").text(&result.schema);
+        h.raw(" · ").word("seed").raw("\u{a0}").text(&result.seed.to_string()).raw("</p>");
+    });
+}

@@ -1,0 +1,283 @@
+//! `trueness/view/1`: what the page's script draws, as a manifest (JSON) and blobs.
+//!
+//! Positions are 16-bit numbers on a cubic grid, deviations 16- or 24-bit codes with apart codes for missing values,
+//! triangles the published triangle code; everything is predicted from what the reader has, then gzipped. See
+//! `docs/decisions/` for why.
+
+mod blob;
+mod field;
+mod grid;
+mod mesh;
+mod planes;
+mod points;
+mod predict;
+
+pub use blob::base64;
+pub use field::NoValue;
+
+use super::{Geometry, ReportError, Role, ViewObject};
+use field::Codes;
+use grid::Grid;
+use mesh::{MeshBytes, Ordered};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::{Aabb, Point};
+
+/// The worst points of each field are kept however much is left out.
+const KEPT: usize = 200;
+/// Points drawn at most: more change nothing that can be seen, and the file is for looking.
+const MOST_POINTS: usize = 1_000_000;
+
+/// Objects of the manifest and the blobs they name.
+#[derive(Default)]
+pub struct Payload {
+    /// `objects` of the manifest.
+    pub objects: Vec<Value>,
+    /// Base64 of gzip; a blob's number is its place here.
+    pub blobs: Vec<String>,
+    /// Points drawn and points given, of measured clouds.
+    pub points: (usize, usize),
+    /// Farthest that what is drawn lies from what was given, millimetres.
+    pub display_error: f64,
+    /// Something was left out or coarsened beyond the grid's rounding.
+    pub simplified: bool,
+}
+
+impl Payload {
+    /// Bytes of all blobs in the page.
+    pub fn len(&self) -> usize {
+        self.blobs.iter().map(String::len).sum()
+    }
+
+    fn add(&mut self, bytes: &[u8]) -> usize {
+        self.blobs.push(base64(&blob::gzip(bytes)));
+        self.blobs.len() - 1
+    }
+}
+
+/// How much may be kept.
+#[derive(Clone, Copy, Debug)]
+struct Quality {
+    points: usize,
+    triangles: usize,
+    bits: u32,
+}
+
+/// Packs all objects into at most `budget` bytes of base64, as far as that can be done.
+///
+/// First everything is kept; then positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
+/// `range` is what the deviations are looked at in: the width of the tolerance zone or of the scale.
+pub fn pack(objects: &[ViewObject], range: f64, budget: usize) -> Result<Payload, ReportError> {
+    let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
+    let points =
+        objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
+    let mut quality = Quality { points, triangles, bits: 16 };
+    loop {
+        let payload = pack_at(objects, range, quality)?;
+        let share = budget as f64 / payload.len().max(1) as f64;
+        let least = quality.points <= 1000 && quality.triangles <= 1000;
+        if share >= 1.0 || least {
+            return Ok(payload);
+        }
+        if quality.bits == 16 && share > 0.85 && objects.iter().all(|o| coarse_grid_is_fine(o)) {
+            quality.bits = 14;
+        } else {
+            let less = |n: usize| (n as f64 * share * 0.96) as usize;
+            quality = Quality { points: less(quality.points), triangles: less(quality.triangles), ..quality };
+        }
+    }
+}
+
+/// 14 bits do while their step is at most an eighth of the median edge.
+fn coarse_grid_is_fine(object: &ViewObject) -> bool {
+    let Some(mesh) = object.mesh() else { return true };
+    let mut edges: Vec<f64> = mesh
+        .faces
+        .iter()
+        .step_by(1 + mesh.faces.len() / 10_000)
+        .filter_map(|f| Some((mesh.positions.get(f[0] as usize)?, mesh.positions.get(f[1] as usize)?)))
+        .map(|(a, b)| trueness_geom::space::norm(trueness_geom::space::minus(*a, *b)))
+        .collect();
+    edges.sort_by(f64::total_cmp);
+    let median = edges.get(edges.len() / 2).copied().unwrap_or(0.0);
+    Grid::over(&mesh.bounds(), 14).step <= median / 8.0
+}
+
+fn pack_at(objects: &[ViewObject], range: f64, quality: Quality) -> Result<Payload, ReportError> {
+    let parts: Vec<Payload> = objects
+        .par_iter()
+        .enumerate()
+        .map(|(id, object)| {
+            let mut part = Payload::default();
+            let entry = match object.geometry {
+                Geometry::Mesh(mesh) => pack_mesh(&mut part, object, mesh, range, quality)?,
+                Geometry::Points(points) => pack_points(&mut part, object, points, range, quality),
+            };
+            part.objects.push(entry);
+            part.objects[0]["id"] = json!(id);
+            Ok(part)
+        })
+        .collect::<Result<_, ReportError>>()?;
+    Ok(parts.into_iter().fold(Payload::default(), join))
+}
+
+/// Appends a part, whose blobs get later numbers.
+fn join(mut all: Payload, part: Payload) -> Payload {
+    let shift = all.blobs.len();
+    all.objects.extend(part.objects.into_iter().map(|mut object| {
+        renumber(&mut object, shift);
+        object
+    }));
+    all.blobs.extend(part.blobs);
+    all.points = (all.points.0 + part.points.0, all.points.1 + part.points.1);
+    all.display_error = all.display_error.max(part.display_error);
+    all.simplified |= part.simplified;
+    all
+}
+
+fn renumber(value: &mut Value, shift: usize) {
+    match value {
+        Value::Object(entries) => {
+            for (key, inner) in entries.iter_mut() {
+                match inner.as_u64() {
+                    Some(n) if key == "blob" => *inner = json!(n as usize + shift),
+                    _ => renumber(inner, shift),
+                }
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(|inner| renumber(inner, shift)),
+        _ => {}
+    }
+}
+
+fn pack_mesh(
+    part: &mut Payload,
+    object: &ViewObject,
+    mesh: &Mesh,
+    range: f64,
+    quality: Quality,
+) -> Result<Value, ReportError> {
+    let ordered = Ordered::of(mesh, &worst(object), quality.triangles.max(4));
+    let grid = Grid::over(&Aabb::of(&ordered.positions), quality.bits);
+    let bytes = MeshBytes::of(&ordered, &grid).map_err(|e| ReportError::Encoding(e.to_string()))?;
+    part.simplified = ordered.error > 0.0;
+    part.display_error = ordered.error + grid.error();
+    let levels: Vec<Value> = bytes
+        .levels
+        .iter()
+        .map(|(code, triangles, error)| json!({"triangles": triangles, "error": error, "blob": part.add(code)}))
+        .collect();
+    let triangles = json!({"blob": part.add(&bytes.triangles)});
+    let positions = json!({"blob": part.add(&bytes.positions)});
+    let fields: Vec<Value> = object
+        .fields
+        .iter()
+        .map(|field| {
+            let codes = Codes::for_values(field.values, range);
+            let packed = bytes.field(&codes, |v| field.at(ordered.source[v as usize] as usize));
+            field_entry(field.comparison, &codes, part.add(&packed))
+        })
+        .collect();
+    Ok(entry(
+        object,
+        "mesh",
+        &grid,
+        (ordered.positions.len(), mesh.positions.len()),
+        json!({
+            "triangles": ordered.triangles.len(), "source_triangles": mesh.faces.len(),
+            "corners": triangles, "positions": positions, "levels": levels, "fields": fields,
+            "display_error": part.display_error,
+        }),
+    ))
+}
+
+fn pack_points(
+    part: &mut Payload,
+    object: &ViewObject,
+    points: &[Point],
+    range: f64,
+    quality: Quality,
+) -> Value {
+    let finite: Vec<u32> =
+        (0u32..).zip(points).filter(|(_, p)| p.iter().all(|x| x.is_finite())).map(|(i, _)| i).collect();
+    let grid = Grid::over(&Aabb::of(finite.iter().map(|i| &points[*i as usize])), quality.bits);
+    let places: Vec<[u16; 3]> = finite.iter().map(|i| grid.place(&points[*i as usize])).collect();
+    let worst: Vec<u32> =
+        worst(object).iter().filter_map(|w| finite.binary_search(w).ok()).map(|i| i as u32).collect();
+    let levels = points::levels(&places, &worst, quality.points);
+    let count = levels.order.len();
+    let positions: Vec<u8> = (0..3)
+        .flat_map(|k| {
+            let at = |i: usize| i32::from(places[levels.order[i] as usize][k]);
+            let differences = (0..count).map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 });
+            planes::pack(differences, count, 2)
+        })
+        .collect();
+    let positions = json!({"blob": part.add(&positions)});
+    let fields: Vec<Value> = object
+        .fields
+        .iter()
+        .map(|field| {
+            let codes = Codes::for_values(field.values, range);
+            let at = |i: usize| {
+                let (value, reason) = field.at(finite[levels.order[i] as usize] as usize);
+                codes.code(value, reason)
+            };
+            let differences = (0..count).map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
+            field_entry(field.comparison, &codes, part.add(&planes::pack(differences, count, codes.bytes)))
+        })
+        .collect();
+    part.display_error = grid.error();
+    if object.role == Role::Measured {
+        part.points = (count, points.len());
+    }
+    let ends: Vec<Value> = levels.ends.iter().map(|e| json!({"points": e})).collect();
+    entry(
+        object,
+        "points",
+        &grid,
+        (count, points.len()),
+        json!({
+            "positions": positions, "levels": ends, "fields": fields, "display_error": part.display_error,
+        }),
+    )
+}
+
+fn entry(object: &ViewObject, kind: &str, grid: &Grid, (shown, given): (usize, usize), rest: Value) -> Value {
+    let mut entry = json!({
+        "role": object.role, "name": object.name, "kind": kind, "comparison": object.comparison,
+        "vertices": shown, "source_vertices": given, "origin": grid.origin, "step": grid.step,
+    });
+    if let (Some(all), Value::Object(rest)) = (entry.as_object_mut(), rest) {
+        all.extend(rest);
+    }
+    entry
+}
+
+fn field_entry(comparison: usize, codes: &Codes, blob: usize) -> Value {
+    let reasons = NoValue::ALL.map(|r| (codes.no_value(r).to_string(), json!(r.name())));
+    json!({
+        "comparison": comparison, "name": "deviation", "unit": "mm", "bits": 8 * codes.bytes,
+        "step": codes.step, "blob": blob, "no_value": serde_json::Map::from_iter(reasons),
+    })
+}
+
+/// The points or vertices with the greatest deviations, over all fields.
+fn worst(object: &ViewObject) -> Vec<u32> {
+    let mut worst: Vec<u32> = vec![];
+    for field in &object.fields {
+        let size = |i: &u32| field.values[*i as usize].abs();
+        let mut finite: Vec<u32> =
+            (0u32..).zip(field.values).filter(|(_, v)| v.is_finite()).map(|(i, _)| i).collect();
+        let by_size = |a: &u32, b: &u32| size(b).total_cmp(&size(a)).then(a.cmp(b));
+        if finite.len() > KEPT {
+            finite.select_nth_unstable_by(KEPT, by_size);
+            finite.truncate(KEPT);
+        }
+        worst.extend(finite);
+    }
+    worst.sort_unstable();
+    worst.dedup();
+    worst
+}

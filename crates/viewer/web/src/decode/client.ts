@@ -1,0 +1,41 @@
+import code from 'virtual:worker'
+import { blobText, type ViewObject } from '../manifest'
+import type { DecodedObject, PackedObject } from './object'
+
+/** Starts the worker from the text that the page carries; the page's rules allow no other way. */
+function start(): Worker {
+  const url = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }))
+  const policy = window.trustedTypes?.createPolicy('trueness', { createScriptURL: (text: string) => text })
+  return new Worker((policy?.createScriptURL(url) ?? url) as string)
+}
+
+/** Decodes all objects, each reported as it is ready. Rejects when one cannot be read. */
+export async function decodeAll(objects: ViewObject[], ready: (object: ViewObject, decoded: DecodedObject) => void): Promise<void> {
+  const worker = start()
+  try {
+    for (const object of objects) ready(object, await decodeOne(worker, object))
+  } finally {
+    worker.terminate()
+  }
+}
+
+function decodeOne(worker: Worker, object: ViewObject): Promise<DecodedObject> {
+  return new Promise((resolve, reject) => {
+    worker.onerror = (event) => reject(new Error(event.message))
+    worker.onmessage = (event: MessageEvent<{ decoded?: DecodedObject; error?: string }>) =>
+      event.data.decoded ? resolve(event.data.decoded) : reject(new Error(event.data.error))
+    worker.postMessage({ id: object.id, object: packed(object) })
+  })
+}
+
+function packed(object: ViewObject): PackedObject {
+  return {
+    kind: object.kind,
+    vertices: object.vertices,
+    triangles: object.triangles ?? 0,
+    corners: object.corners ? blobText(object.corners.blob) : null,
+    positions: blobText(object.positions.blob),
+    levels: object.levels.flatMap((l) => (l.blob !== undefined ? [{ triangles: l.triangles ?? 0, blob: blobText(l.blob) }] : [])),
+    fields: object.fields.map((f) => ({ bits: f.bits, step: f.step, blob: blobText(f.blob), reasons: Object.keys(f.no_value).length })),
+  }
+}

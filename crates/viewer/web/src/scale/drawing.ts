@@ -1,0 +1,121 @@
+import { svg } from '../dom'
+import type { State } from '../state'
+import type { Words } from '../words'
+import { barsOf, domainOf } from './axis'
+import { hex } from './scale'
+
+/** Where things lie across the axis, in pixels. */
+const STRIP = 18
+const TICK = 4
+const LABEL = 52
+
+export interface Drawing {
+  /** Pixel along the axis for a deviation. */
+  at(value: number): number
+  /** Deviation for a pixel along the axis. */
+  value(pixel: number): number
+}
+
+/**
+ * Scale and histogram on one axis into `target`, `length` pixels along the axis and `breadth` across.
+ * Upright: high values at the top, bars grow to the right. Lying: high values to the right, bars grow upward.
+ */
+export function drawScale(target: SVGSVGElement, state: State, words: Words, length: number, breadth: number, upright: boolean): Drawing {
+  const { scale, colors } = state
+  const histogram = state.current?.histogram ?? null
+  const domain = domainOf(scale, histogram)
+  const at = (v: number) => {
+    const t = ((v - domain[0]) / (domain[1] - domain[0])) * length
+    return upright ? length - t : t
+  }
+  const value = (pixel: number) => domain[0] + ((upright ? length - pixel : pixel) / length) * (domain[1] - domain[0])
+  const [w, h] = upright ? [breadth, length] : [length, breadth]
+  target.setAttribute('viewBox', `0 0 ${w} ${h}`)
+  target.replaceChildren(svg('title', {}, words.of('figure.title')))
+  const strip = upright ? LABEL : breadth - LABEL + 18
+  const bars = strip + (upright ? STRIP + 4 : -4)
+  const room = upright ? breadth - bars : bars
+
+  /** A box from `a` to `b` along the axis and from `c`, `size` pixels across, away from the strip. */
+  const box = (a: number, b: number, c: number, size: number, attributes: Record<string, string | number>) => {
+    const from = Math.min(at(a), at(b))
+    const long = Math.abs(at(a) - at(b))
+    return upright
+      ? svg('rect', { x: c, y: from, width: size, height: long, ...attributes })
+      : svg('rect', { x: from, y: c - size, width: long, height: size, ...attributes })
+  }
+  const across = (v: number, from: number, to: number, name: string) => {
+    const p = at(v)
+    return upright
+      ? svg('line', { class: name, x1: from, x2: to, y1: p, y2: p })
+      : svg('line', { class: name, x1: p, x2: p, y1: from, y2: to })
+  }
+  const text = (v: number, c: number, content: string, name: string) =>
+    svg('text', upright ? { class: name, x: c, y: at(v) } : { class: name, x: at(v), y: c }, content)
+
+  // The strip: caps and bands, each of which can be chosen.
+  const { limits, slots } = colors
+  const edges = [domain[0], ...limits, domain[1]]
+  const inStrip = upright ? strip : strip + STRIP
+  for (let i = 0; i + 1 < edges.length; i++) {
+    const smooth = scale.mode === 'continuous' && i > 0 && i + 2 < edges.length
+    const [from, to] = [edges[i], edges[i + 1]]
+    const pieces = smooth ? 12 : 1
+    for (let k = 0; k < pieces; k++) {
+      const [a, b] = [from + ((to - from) * k) / pieces, from + ((to - from) * (k + 1)) / pieces]
+      const fill = smooth ? colors.css((a + b) / 2) : hex(slots[i])
+      target.append(box(a, b, inStrip, STRIP, { fill, class: 'band', 'data-slot': i }))
+    }
+  }
+
+  if (histogram) {
+    const { bars: all, below, above } = barsOf(histogram, domain)
+    const size = (count: number) => (state.log ? Math.log10(1 + count) : count)
+    const most = Math.max(1e-9, ...all.map((b) => size(b.count)))
+    for (const bar of all) {
+      const long = (room * 0.97 * size(bar.count)) / most
+      const middle = (bar.from + bar.to) / 2
+      const dim = state.only && (middle < state.only[0] || middle > state.only[1])
+      const name = dim ? 'bar dim' : 'bar'
+      target.append(box(bar.from, bar.to, bars, long, { fill: colors.css(middle), class: name, 'data-count': bar.count, 'data-from': bar.from, 'data-to': bar.to }))
+    }
+    target.dataset.below = String(below)
+    target.dataset.above = String(above)
+  }
+
+  // Ticks at the limits, the tolerance across the bars, zero and mean.
+  const [near, far] = upright ? [strip - TICK, strip] : [strip + STRIP, strip + STRIP + TICK]
+  const end = upright ? breadth : 0
+  for (const limit of [...limits].sort((a, b) => Math.abs(a) - Math.abs(b))) {
+    const isLimit = scale.tolerance?.includes(limit) ?? false
+    target.append(across(limit, near, far, 'tick'))
+    if (isLimit) target.append(across(limit, far, end, 'limit'))
+    const label = words.signed(limit, scale.decimals)
+    target.append(text(limit, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, label, isLimit ? 'tick bold' : 'tick'))
+  }
+  if (limits.length % 2 === 0 && limits[0] < 0 && limits[limits.length - 1] > 0) {
+    target.append(across(0, near, end, 'zero'))
+    if (Math.abs(at(limits[limits.length / 2]) - at(0)) > 14) target.append(text(0, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, '0', 'tick'))
+  }
+  const mean = state.current?.deviation.all.mean
+  if (mean !== null && mean !== undefined && mean > domain[0] && mean < domain[1]) target.append(across(mean, bars, end, 'mean'))
+
+  // Shares beside the bands, over the bars.
+  if (upright) {
+    const tolerance = state.current?.tolerance
+    const shares = state.distribution
+    for (let i = 0; i + 1 < edges.length && shares.known; i++) {
+      const [from, to] = [i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1]]
+      const zone = tolerance && from === tolerance.lower && to === tolerance.upper
+      const share = zone ? tolerance.inside : shares.between(from, to)
+      // Above the middle of the zone, where the lines of zero and mean are.
+      const middle = value((at(edges[i]) + at(edges[i + 1])) / 2 - (zone ? 11 : 0))
+      if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.percent(share, share > 0 && share < 0.001 ? 2 : 1), 'share'))
+    }
+  }
+  if (state.hover !== null) {
+    const v = Math.min(domain[1], Math.max(domain[0], state.hover))
+    target.append(across(v, upright ? strip - TICK : 0, upright ? breadth : strip + STRIP, 'hover'))
+  }
+  return { at, value }
+}

@@ -1,0 +1,61 @@
+import type { Manifest, ScaleObject } from '../manifest'
+
+export type Rgb = [number, number, number]
+
+/** Where the colour changes: the same rule as the program's, because the reader can change the range. */
+export function limitsOf(scale: ScaleObject): number[] {
+  const zone = scale.tolerance
+  if (scale.mode === 'go_no_go') return zone ? [...zone] : [scale.lower, scale.upper]
+  if (!zone || zone[0] <= scale.lower || zone[1] >= scale.upper) return steps(scale.lower, scale.upper, scale.bands)
+  const side = Math.max(1, Math.floor(scale.bands / 2))
+  return [...steps(scale.lower, zone[0], side), ...steps(zone[1], scale.upper, side)]
+}
+
+function steps(from: number, to: number, n: number): number[] {
+  return Array.from({ length: n + 1 }, (_, i) => (i === n ? to : from + (i / n) * (to - from)))
+}
+
+/** 0 is the low cap, then the bands from low to high, last the high cap. A limit belongs to the band nearer the middle. */
+export function slotOf(limits: number[], value: number): number {
+  const middle = limits.length >> 1
+  let slot = middle
+  for (let i = middle; i < limits.length; i++) if (value > limits[i]) slot++
+  for (let i = 0; i < middle; i++) if (value < limits[i]) slot--
+  return slot
+}
+
+/** Colours of a scale: those of the slots, and the ramp for continuous mode. All come from the file. */
+export class Colors {
+  readonly limits: number[]
+  readonly slots: Rgb[]
+  readonly ramp: Rgb[]
+
+  constructor(
+    manifest: Manifest,
+    readonly scale: ScaleObject,
+  ) {
+    const palette = manifest.palettes[scale.palette]
+    this.limits = limitsOf(scale)
+    this.slots = parse(scale.mode === 'go_no_go' ? palette.go_no_go : palette.bands)
+    this.ramp = parse(palette.ramp)
+  }
+
+  of(value: number): Rgb {
+    const { lower, upper, mode } = this.scale
+    if (mode === 'continuous' && value >= lower && value <= upper)
+      return this.ramp[Math.min(255, Math.floor(((value - lower) / (upper - lower)) * 256))]
+    return this.slots[slotOf(this.limits, value)]
+  }
+
+  css(value: number): string {
+    return hex(this.of(value))
+  }
+}
+
+function parse(text: string): Rgb[] {
+  return (text.match(/.{6}/g) ?? []).map((c) => [0, 2, 4].map((k) => parseInt(c.slice(k, k + 2), 16)) as Rgb)
+}
+
+export function hex(c: Rgb): string {
+  return `#${c.map((x) => x.toString(16).padStart(2, '0')).join('')}`
+}

@@ -1,0 +1,68 @@
+import { el, need } from '../dom'
+import type { State } from '../state'
+import type { Words } from '../words'
+import type { Stage } from './stage'
+
+/** What lies under the cursor: beside it, on the scale, and in the status line. */
+export function hover(stage: Stage, overlay: HTMLElement, state: State, words: Words): void {
+  const card = el('div', { class: 'hover', role: 'status', hidden: true })
+  const dot = el('div', { class: 'dot', hidden: true })
+  overlay.append(dot, card)
+  const line = need('readout')
+  let cursor: { x: number; y: number } | null = null
+
+  const clear = () => {
+    card.hidden = dot.hidden = true
+    line.textContent = ''
+    state.setHover(null)
+  }
+  const read = () => {
+    if (!cursor) return clear()
+    const reading = stage.values.at(cursor.x, cursor.y)
+    if (!reading) {
+      clear()
+      if (!stage.values.ready) line.textContent = '…'
+      return
+    }
+    const part = stage.part(reading.object)
+    const place = stage.eye.unproject(cursor.x, cursor.y, reading.depth).add(stage.center)
+    const xyz = place.toArray().map((x) => words.number(x, 2))
+    const valued = part?.hasMap === true && reading.missing === 0
+    const decimals = digits(part?.step ?? 0, state.scale.decimals)
+    const value = valued ? `${words.signed(reading.value, decimals)} ${state.scale.unit}` : part?.hasMap ? words.of('no_value') : ''
+    const why = part?.hasMap && reading.missing > 0 ? words.of(`reason.${part.reason(reading.missing)}`) : ''
+    const zone = state.scale.tolerance
+    const inside = zone && reading.value >= zone[0] - part!.step / 2 && reading.value <= zone[1] + part!.step / 2
+    const judged = valued && zone ? (inside ? `✓ ${words.of('state.in')}` : `✕ ${words.of('state.out')}`) : ''
+    const role = part ? words.of(part.object.role) : ''
+    card.replaceChildren(
+      el('strong', {}, value),
+      el('span', { class: inside ? 'in' : 'out' }, judged || why),
+      el('span', { class: 'place' }, `x ${xyz[0]}  y ${xyz[1]}  z ${xyz[2]}`),
+      el('span', { class: 'place' }, role),
+    )
+    line.textContent = [value, judged || why, `x ${xyz[0]} y ${xyz[1]} z ${xyz[2]}`].filter(Boolean).join(' · ')
+    line.dataset.value = valued ? String(reading.value) : ''
+    dot.hidden = card.hidden = false
+    dot.style.transform = `translate(${cursor.x}px, ${cursor.y}px)`
+    const left = cursor.x > stage.eye.width - 220 ? cursor.x - 16 - card.offsetWidth : cursor.x + 16
+    const top = cursor.y > stage.eye.pixels - 110 ? cursor.y - 12 - card.offsetHeight : cursor.y + 12
+    card.style.transform = `translate(${left}px, ${top}px)`
+    state.setHover(valued ? reading.value : null)
+  }
+  stage.canvas.addEventListener('pointermove', (e) => {
+    const box = stage.canvas.getBoundingClientRect()
+    cursor = e.buttons ? null : { x: e.clientX - box.left, y: e.clientY - box.top }
+    read()
+  })
+  stage.canvas.addEventListener('pointerleave', () => {
+    cursor = null
+    clear()
+  })
+  stage.onDraw(read)
+}
+
+/** No more digits than the stored step carries, and no fewer than the scale's. */
+function digits(step: number, least: number): number {
+  return step > 0 ? Math.min(6, Math.max(least, Math.floor(-Math.log10(step)))) : least
+}

@@ -1,0 +1,87 @@
+import { DataTexture, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat, UnsignedByteType, Vector2, Vector3, type IUniform } from 'three'
+import type { ViewObject } from '../manifest'
+import type { Rgb } from '../scale/scale'
+import type { State } from '../state'
+import { FRAGMENT, VALUES, VERTEX } from './shaders'
+
+const MEASURED: Rgb = [0xb9, 0xb4, 0xaa]
+const REFERENCE: Rgb = [0x8f, 0xa3, 0xbf]
+const MOST_LIMITS = 34
+
+const slots = texture(36)
+const ramp = texture(256)
+
+/** What all objects are coloured by: changing it costs one frame and touches no vertex. */
+const shared: Record<string, IUniform> = {
+  flatColors: { value: false },
+  perspective: { value: false },
+  continuous: { value: false },
+  hatch: { value: false },
+  limits: { value: new Float32Array(MOST_LIMITS) },
+  limitCount: { value: 0 },
+  range: { value: new Vector2() },
+  only: { value: new Vector2() },
+  slots: { value: slots },
+  ramp: { value: ramp },
+}
+
+function texture(width: number): DataTexture {
+  const t = new DataTexture(new Uint8Array(4 * width), width, 1, RGBAFormat, UnsignedByteType)
+  t.magFilter = t.minFilter = NearestFilter
+  return t
+}
+
+function paint(t: DataTexture, colors: Rgb[]): void {
+  const data = t.image.data as Uint8Array
+  colors.forEach((c, i) => data.set([...c, 255], 4 * i))
+  t.needsUpdate = true
+}
+
+/** Takes over scale and switches from the state. */
+export function applyLook(state: State): void {
+  const { scale, colors, only } = state
+  const limits = colors.limits.slice(0, MOST_LIMITS)
+  shared.limits.value.fill(0)
+  shared.limits.value.set(limits)
+  shared.limitCount.value = limits.length
+  shared.range.value.set(scale.lower, scale.upper)
+  shared.only.value.set(only ? only[0] : -3e38, only ? only[1] : 3e38)
+  shared.continuous.value = scale.mode === 'continuous'
+  shared.hatch.value = scale.palette === 'mono'
+  shared.flatColors.value = state.flat
+  shared.perspective.value = state.perspective
+  paint(slots, colors.slots)
+  paint(ramp, colors.ramp)
+}
+
+export interface Materials {
+  picture: RawShaderMaterial
+  values: RawShaderMaterial
+  /** Uniforms of this object alone. */
+  own: Record<'map' | 'slack' | 'pointSize', IUniform>
+}
+
+export function materialsFor(object: ViewObject): Materials {
+  const base = object.role === 'measured' ? MEASURED : REFERENCE
+  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 } }
+  const uniforms = {
+    ...shared,
+    ...own,
+    base: { value: new Vector3(...base.map((x) => x / 255)) },
+    isPoints: { value: object.kind === 'points' },
+    objectId: { value: object.id + 1 },
+  }
+  const make = (fragmentShader: string) =>
+    new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: VERTEX,
+      fragmentShader,
+      uniforms,
+      side: 2,
+      // Points on a surface stay in front of it.
+      polygonOffset: object.kind === 'mesh',
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    })
+  return { picture: make(FRAGMENT), values: make(VALUES), own }
+}

@@ -1,0 +1,132 @@
+import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Points, Vector3 } from 'three'
+import { NO_VALUE, type DecodedObject } from '../decode/object'
+import type { ViewObject } from '../manifest'
+import { materialsFor, type Materials } from './look'
+
+/** An object on the stage: its buffers on the GPU, its levels of detail, its values. */
+export class Part {
+  readonly drawn: Mesh | Points
+  readonly materials: Materials
+  /** First element and count of each level: the full one first for meshes, the coarsest first for points. */
+  private readonly levels: { start: number; count: number }[]
+  private field = -2
+
+  constructor(
+    readonly object: ViewObject,
+    private readonly data: DecodedObject,
+    center: Vector3,
+  ) {
+    const geometry = new BufferGeometry()
+    geometry.setAttribute('position', new BufferAttribute(data.packed, 4))
+    if (object.kind === 'mesh') geometry.setIndex(new BufferAttribute(data.corners, 1))
+    this.materials = materialsFor(object)
+    this.drawn = object.kind === 'mesh' ? new Mesh(geometry, this.materials.picture) : new Points(geometry, this.materials.picture)
+    this.drawn.frustumCulled = false
+    this.drawn.matrixAutoUpdate = false
+    const [x, y, z] = object.origin
+    this.drawn.matrix = new Matrix4().makeScale(object.step, object.step, object.step)
+    // The difference is taken in double precision: no world coordinate ever becomes a float.
+    this.drawn.matrix.setPosition(x - center.x, y - center.y, z - center.z)
+    this.drawn.matrixWorldNeedsUpdate = true
+    this.levels = levelsOf(object)
+    this.showField(0)
+    this.setLevel(0)
+  }
+
+  /** Shows the deviations of one comparison; the plain body where this object has none. */
+  showField(comparison: number): void {
+    const index = this.object.fields.findIndex((f) => f.comparison === comparison)
+    if (index === this.field) return
+    this.field = index
+    const values = this.data.fields[index] ?? new Float32Array(this.object.vertices)
+    this.drawn.geometry.setAttribute('value', new BufferAttribute(values, 1))
+    this.materials.own.slack.value = 0.5001 * (this.object.fields[index]?.step ?? 0)
+  }
+
+  setMap(on: boolean): void {
+    this.materials.own.map.value = on && this.field >= 0
+  }
+
+  get hasMap(): boolean {
+    return this.field >= 0
+  }
+
+  get levelCount(): number {
+    return this.levels.length
+  }
+
+  /** 0 is everything, greater numbers are coarser. */
+  setLevel(level: number): void {
+    const { start, count } = this.levels[Math.min(level, this.levels.length - 1)]
+    this.drawn.geometry.setDrawRange(start, count)
+  }
+
+  /** Why there is no value, by the number that the value buffer gives. */
+  reason(number: number): string {
+    const field = this.object.fields[this.field]
+    const lowest = -(2 ** ((field?.bits ?? 16) - 1))
+    return field?.no_value[String(lowest + number - 1)] ?? 'excluded'
+  }
+
+  /** Half a step: what a value read off the picture can be wrong by, beside interpolation. */
+  get step(): number {
+    return this.object.fields[this.field]?.step ?? 0
+  }
+
+  /** Number of the vertex nearest to a place, among those with a value; −1 for none. Looks at all vertices. */
+  nearestVertex(place: Vector3): number {
+    const { origin, step } = this.object
+    const q = [0, 1, 2].map((k) => (place.getComponent(k) - origin[k]) / step)
+    const { packed, fields } = this.data
+    const values = fields[this.field]
+    let best = -1
+    let least = Infinity
+    for (let v = 0, p = 0; p < packed.length; v++, p += 4) {
+      const d = (packed[p] - q[0]) ** 2 + (packed[p + 1] - q[1]) ** 2 + (packed[p + 2] - q[2]) ** 2
+      if (d < least && values && values[v] < NO_VALUE / 2) {
+        least = d
+        best = v
+      }
+    }
+    return best
+  }
+
+  /** Corners of the box around all vertices, relative to the stage's centre. */
+  corners(): Vector3[] {
+    const low = [65535, 65535, 65535]
+    const high = [0, 0, 0]
+    const { packed } = this.data
+    for (let p = 0; p < packed.length; p += 4)
+      for (let k = 0; k < 3; k++) {
+        const x = packed[p + k]
+        if (x < low[k]) low[k] = x
+        if (x > high[k]) high[k] = x
+      }
+    if (packed.length === 0) return []
+    const corner = (i: number) => new Vector3(...[0, 1, 2].map((k) => ((i >> k) & 1 ? high[k] : low[k])))
+    return Array.from({ length: 8 }, (_, i) => corner(i).applyMatrix4(this.drawn.matrix))
+  }
+
+  /** Up to `n` evenly chosen vertices, relative to the stage's centre: enough to frame the part. */
+  sample(n: number): Vector3[] {
+    const { packed } = this.data
+    const stride = 4 * Math.max(1, Math.floor(packed.length / 4 / n))
+    const out: Vector3[] = []
+    for (let p = 0; p < packed.length; p += stride)
+      out.push(new Vector3(packed[p], packed[p + 1], packed[p + 2]).applyMatrix4(this.drawn.matrix))
+    return out
+  }
+}
+
+function levelsOf(object: ViewObject): { start: number; count: number }[] {
+  if (object.kind === 'points') {
+    const counts = object.levels.map((l) => l.points ?? 0).reverse()
+    return (counts.length ? counts : [object.vertices]).map((count) => ({ start: 0, count }))
+  }
+  let start = 0
+  return [object.triangles ?? 0, ...object.levels.map((l) => l.triangles ?? 0)].map((triangles) => {
+    const level = { start, count: 3 * triangles }
+    start += 3 * triangles
+    return level
+  })
+}

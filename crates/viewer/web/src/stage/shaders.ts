@@ -1,0 +1,121 @@
+/** Shared by picture and value buffer: place, normal and value of a vertex. */
+export const VERTEX = `
+in vec4 position;
+in float value;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform float pointSize;
+out vec3 vPlace;
+out vec3 vNormal;
+out float vValue;
+/* Share of corners without a value, and their reason weighted by it. */
+out vec2 vMissing;
+
+vec3 unfold(float packed) {
+  vec2 e = vec2(floor(packed / 256.0), mod(packed, 256.0)) / 127.5 - 1.0;
+  vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+  float t = max(-n.z, 0.0);
+  n.x += n.x >= 0.0 ? -t : t;
+  n.y += n.y >= 0.0 ? -t : t;
+  return normalize(n);
+}
+
+void main() {
+  vec4 place = modelViewMatrix * vec4(position.xyz, 1.0);
+  vPlace = place.xyz;
+  vNormal = mat3(modelViewMatrix) * unfold(position.w);
+  bool missing = value > 5e29;
+  vValue = missing ? 0.0 : value;
+  vMissing = missing ? vec2(1.0, floor(value / 1e30 + 0.5)) : vec2(0.0);
+  gl_Position = projectionMatrix * place;
+  gl_PointSize = pointSize;
+}`
+
+/** The picture. The colour is found at the pixel from the interpolated value, so band edges are iso-lines. */
+export const FRAGMENT = `
+precision highp float;
+precision highp int;
+in vec3 vPlace;
+in vec3 vNormal;
+in float vValue;
+in vec2 vMissing;
+uniform bool map, flatColors, isPoints, perspective, continuous, hatch;
+uniform vec3 base;
+uniform float limits[34];
+uniform int limitCount;
+uniform float slack;
+uniform vec2 range, only;
+uniform sampler2D slots, ramp;
+out vec4 color;
+
+/* 0 is the low cap; a limit belongs to the band nearer the middle. Values are rounded to steps: half a step is still on it. */
+int slotOf(float v) {
+  int middle = limitCount / 2;
+  int slot = middle;
+  for (int i = 0; i < 34; i++) {
+    if (i >= limitCount) break;
+    if (i >= middle && v > limits[i] + slack) slot++;
+    if (i < middle && v < limits[i] - slack) slot--;
+  }
+  return slot;
+}
+
+vec3 colorOf(float v, int slot) {
+  if (continuous && slot > 0 && slot < limitCount) return texture(ramp, vec2((v - range.x) / (range.y - range.x), 0.5)).rgb;
+  return texelFetch(slots, ivec2(slot, 0), 0).rgb;
+}
+
+/* Diffuse light from the eye; the facet's own normal where the smooth one is more than 30 degrees away. */
+float light(float darkest) {
+  vec3 eye = perspective ? normalize(-vPlace) : vec3(0.0, 0.0, 1.0);
+  vec3 facet = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
+  vec3 smooth_ = normalize(vNormal);
+  if (dot(smooth_, facet) < 0.0) smooth_ = -smooth_;
+  vec3 n = dot(smooth_, facet) < 0.866 ? facet : smooth_;
+  return mix(darkest, 1.0, abs(dot(n, eye)));
+}
+
+bool line(float along) { return mod(along, 7.0) < 1.6; }
+
+void main() {
+  if (isPoints) {
+    vec2 p = 2.0 * gl_PointCoord - 1.0;
+    if (dot(p, p) > 1.0) discard;
+  }
+  float shade = isPoints || flatColors ? 1.0 : light(map ? 0.72 : 0.45);
+  if (!map) {
+    color = vec4(base * (isPoints ? 1.0 : light(0.45)), 1.0);
+    return;
+  }
+  float up = gl_FragCoord.x + gl_FragCoord.y;
+  float down = gl_FragCoord.x - gl_FragCoord.y;
+  vec3 c;
+  if (vMissing.x > 1e-4) {
+    c = line(up) ? vec3(0.40, 0.43, 0.46) : vec3(0.604, 0.627, 0.651);
+  } else {
+    int slot = slotOf(vValue);
+    c = colorOf(vValue, slot);
+    if (hatch && slot > limitCount / 2 && line(up)) c = vec3(0.0);
+    if (hatch && slot < limitCount / 2 && line(down)) c = vec3(1.0);
+    if (vValue < only.x || vValue > only.y) c = vec3(0.72, 0.74, 0.76);
+  }
+  color = vec4(c * shade, 1.0);
+}`
+
+/** The value buffer: value, distance before the eye, object, reason why there is no value (0: there is one). */
+export const VALUES = `
+precision highp float;
+in vec3 vPlace;
+in vec3 vNormal;
+in float vValue;
+in vec2 vMissing;
+uniform float objectId;
+uniform bool isPoints;
+out vec4 color;
+void main() {
+  if (isPoints) {
+    vec2 p = 2.0 * gl_PointCoord - 1.0;
+    if (dot(p, p) > 1.0) discard;
+  }
+  bool missing = vMissing.x > 1e-4;
+  color = vec4(vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
+}`

@@ -1,0 +1,202 @@
+import { ColorManagement, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
+import { decodeAll } from '../decode/client'
+import type { State } from '../state'
+import { Eye, type StandardView } from './eye'
+import { applyLook } from './look'
+import { Part } from './part'
+import { ValueBuffer } from './values'
+
+ColorManagement.enabled = false
+
+/** After this long without movement the picture is drawn in full. */
+const REST = 150
+/** And after this long its values are read. */
+const READ = 120
+/** A frame while moving may take this long, milliseconds. */
+const FRAME = 33
+/** Room for the flags' columns where the stage is wide. */
+const FLAGS = 150
+
+/** The 3D stage: draws on demand only, never at rest. */
+export class Stage {
+  readonly renderer: WebGLRenderer
+  readonly scene = new Scene()
+  readonly eye: Eye
+  readonly values: ValueBuffer
+  readonly parts: Part[] = []
+  /** Middle of everything in the model's coordinates. */
+  readonly center: Vector3
+  private level = 0
+  private moving = false
+  private frame = 0
+  private lastFrame = 0
+  private restTimer = 0
+  private readonly listeners: (() => void)[] = []
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly state: State,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' })
+    this.renderer.outputColorSpace = LinearSRGBColorSpace
+    this.renderer.autoClear = false
+    this.renderer.sortObjects = false
+    this.values = new ValueBuffer(this.renderer)
+    this.eye = new Eye(state.manifest.up)
+    this.center = centerOf(state)
+    this.scene.matrixAutoUpdate = false
+    applyLook(state)
+  }
+
+  /** Decodes and shows all objects; the first view appears as soon as its objects are there. */
+  async load(): Promise<void> {
+    // What the first view shows comes first.
+    const wanted = [...this.state.manifest.objects].sort((a, b) => Number(this.state.visible[b.role]) - Number(this.state.visible[a.role]))
+    await decodeAll(wanted, (object, decoded) => {
+      const part = new Part(object, decoded, this.center)
+      this.parts.push(part)
+      this.scene.add(part.drawn)
+      this.measure()
+      this.applyState()
+      if (part.drawn.visible) this.fit()
+    })
+  }
+
+  private measure(): void {
+    const corners = this.parts.flatMap((p) => p.corners())
+    this.eye.setRadius(Math.max(1e-6, ...corners.map((c) => c.length())) * 1.01)
+  }
+
+  /** Called after every drawn frame. */
+  onDraw(listener: () => void): void {
+    this.listeners.push(listener)
+  }
+
+  /** Takes over what the reader changed, and draws. */
+  applyState(): void {
+    applyLook(this.state)
+    this.eye.perspective = this.state.perspective
+    for (const part of this.parts) {
+      const { role, comparison } = part.object
+      part.showField(this.state.comparison)
+      part.setMap(this.state.map)
+      part.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
+    }
+    this.values.clear()
+    this.draw()
+    this.rest()
+  }
+
+  resize(width: number, height: number): void {
+    const first = this.eye.pixels === 1
+    this.eye.width = Math.max(1, width)
+    this.eye.pixels = Math.max(1, height)
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
+    this.renderer.setSize(this.eye.width, this.eye.pixels, false)
+    if (first) this.fit()
+    this.values.clear()
+    this.drawNow()
+    this.rest()
+  }
+
+  get shown(): Part[] {
+    return this.parts.filter((p) => p.drawn.visible)
+  }
+
+  part(object: number): Part | undefined {
+    return this.parts.find((p) => p.object.id === object)
+  }
+
+  fit(): void {
+    const margin = this.state.flags && this.eye.width > 700 ? FLAGS : 0
+    this.eye.fit(
+      this.shown.flatMap((p) => p.sample(20000)),
+      margin,
+    )
+    this.moved()
+  }
+
+  look(view: StandardView): void {
+    this.eye.look(view)
+    this.fit()
+  }
+
+  /** Brings a place of the model to the middle and as near as `height` millimetres. */
+  flyTo(place: Vector3): void {
+    this.eye.target.copy(place)
+    this.moved()
+  }
+
+  /** The eye has moved: draws the finest level that keeps up, and everything once it rests. */
+  moved(): void {
+    this.moving = true
+    this.values.clear()
+    this.draw()
+    this.rest()
+  }
+
+  draw(): void {
+    if (this.frame) return
+    this.frame = requestAnimationFrame((time) => {
+      this.frame = 0
+      this.adapt(time)
+      this.drawNow()
+    })
+  }
+
+  /** Chooses the level for moving from the time the last frames took. */
+  private adapt(time: number): void {
+    const took = time - this.lastFrame
+    this.lastFrame = time
+    if (!this.moving || took > 1000) return
+    const coarsest = Math.max(...this.parts.map((p) => p.levelCount), 1) - 1
+    if (took > FRAME && this.level < coarsest) this.level++
+    else if (took < FRAME / 2.5 && this.level > 0) this.level--
+  }
+
+  drawNow(): void {
+    for (const part of this.parts) part.setLevel(this.moving ? this.level : 0)
+    this.updatePointSize()
+    const ground = getComputedStyle(this.canvas).backgroundColor.match(/\d+/g)?.map(Number) ?? [236, 239, 241]
+    this.renderer.setClearColor((ground[0] << 16) | (ground[1] << 8) | ground[2], 1)
+    this.renderer.clear()
+    this.renderer.render(this.scene, this.eye.camera)
+    for (const listener of this.listeners) listener()
+  }
+
+  private updatePointSize(): void {
+    const ratio = this.renderer.getPixelRatio()
+    for (const part of this.parts) {
+      if (part.object.kind !== 'points') continue
+      const share = part.drawn.geometry.drawRange.count / part.object.vertices
+      // Points of a closed surface of this size, evenly spread, are about this far apart.
+      const radius = part.object.step * 65535 * 0.5
+      const spacing = (radius * 3) / Math.sqrt(Math.max(1, part.object.vertices * share))
+      part.materials.own.pointSize.value = ratio * Math.min(24, Math.max(2, spacing / this.eye.millimetresPerPixel))
+    }
+  }
+
+  private rest(): void {
+    clearTimeout(this.restTimer)
+    this.restTimer = window.setTimeout(() => {
+      if (this.moving) {
+        this.moving = false
+        this.draw()
+      }
+      this.restTimer = window.setTimeout(() => void this.read(), READ)
+    }, REST)
+  }
+
+  private async read(): Promise<void> {
+    if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
+    await this.values.draw(this.scene, this.parts, this.eye)
+    if (this.values.ready) for (const listener of this.listeners) listener()
+  }
+}
+
+/** Middle of the objects' grids, in double precision. */
+function centerOf(state: State): Vector3 {
+  const first = state.manifest.objects[0]
+  if (!first) return new Vector3()
+  return new Vector3(...first.origin.map((o) => o + 32767 * first.step))
+}
