@@ -3,6 +3,8 @@
 //! `TRUENESS_VIEWER` says what happens: `auto` (the default: build where Node is present, else go on without and warn),
 //! `require` (no viewer is an error: releases), `off` (no viewer, no warning), or the path of a script built elsewhere.
 
+#![allow(clippy::unwrap_used, reason = "a build script can tell nobody but cargo, and cargo shows the panic")]
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
