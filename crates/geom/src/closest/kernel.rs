@@ -41,11 +41,20 @@ unsafe fn field<V: Lanes<8>>(leaf: &Leaf, i: usize) -> V {
     unsafe { V::load(&leaf.field[i]) }
 }
 
+/// Each coordinate of `q` in a vector of its own.
+///
+/// A function, not `map` with a closure: closures over vector types are not reliably inlined into `#[target_feature]`
+/// functions.
+#[inline(always)]
+pub unsafe fn splat<V: Lanes<8>>(q: [f32; 3]) -> [V; 3] {
+    unsafe { [V::splat(q[0]), V::splat(q[1]), V::splat(q[2])] }
+}
+
 /// `q`, relative to the leaf's origin, in the frames of the leaf's eight triangles.
 #[inline(always)]
 pub unsafe fn into_frames<V: Lanes<8>>(leaf: &Leaf, q: [f32; 3]) -> [V; 3] {
     unsafe {
-        let q = [V::splat(q[0]), V::splat(q[1]), V::splat(q[2])];
+        let q = splat::<V>(q);
         let mut r = q;
         for (axis, r) in r.iter_mut().enumerate() {
             let a = AXES + 3 * axis;

@@ -50,6 +50,8 @@ pub trait Lanes<const N: usize>: Arithmetic {
     fn least(self) -> f32;
     /// Zero in the lanes where `s < 0`, else `self`.
     fn zero_where_negative(self, s: Self) -> Self;
+    /// `self` in the lanes whose bit in `mask` is set, zero in the others.
+    fn keep(self, mask: u32) -> Self;
     /// The lanes as an array.
     #[inline(always)]
     fn array(self) -> [f32; N] {
@@ -179,6 +181,10 @@ impl<const N: usize> Lanes<N> for Plain<N> {
     #[inline(always)]
     fn zero_where_negative(self, s: Self) -> Self {
         self.zip(s, |a, s| if s < 0.0 { 0.0 } else { a })
+    }
+    #[inline(always)]
+    fn keep(self, mask: u32) -> Self {
+        Plain(std::array::from_fn(|i| if mask >> i & 1 != 0 { self.0[i] } else { 0.0 }))
     }
 }
 

@@ -82,6 +82,14 @@ impl Lanes<8> for A8 {
         unsafe { A8(_mm256_loadu_ps(p.as_ptr())) }
     }
     #[inline(always)]
+    fn keep(self, mask: u32) -> Self {
+        unsafe {
+            let bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let set = _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(mask as i32), bit), bit);
+            A8(_mm256_and_ps(_mm256_castsi256_ps(set), self.0))
+        }
+    }
+    #[inline(always)]
     fn store(self, out: &mut [f32; 8]) {
         unsafe { _mm256_storeu_ps(out.as_mut_ptr(), self.0) }
     }
@@ -144,6 +152,10 @@ impl Lanes<16> for A16 {
         unsafe { A16(A8(_mm256_loadu_ps(p.as_ptr())), A8(_mm256_loadu_ps(p.as_ptr().add(8)))) }
     }
     #[inline(always)]
+    fn keep(self, mask: u32) -> Self {
+        A16(self.0.keep(mask), self.1.keep(mask >> 8))
+    }
+    #[inline(always)]
     fn store(self, out: &mut [f32; 16]) {
         unsafe {
             _mm256_storeu_ps(out.as_mut_ptr(), self.0.0);
@@ -193,6 +205,10 @@ impl Lanes<16> for Z16 {
     #[inline(always)]
     unsafe fn load(p: &[f32; 16]) -> Self {
         unsafe { Z16(_mm512_loadu_ps(p.as_ptr())) }
+    }
+    #[inline(always)]
+    fn keep(self, mask: u32) -> Self {
+        unsafe { Z16(_mm512_maskz_mov_ps(mask as __mmask16, self.0)) }
     }
     #[inline(always)]
     fn store(self, out: &mut [f32; 16]) {

@@ -36,6 +36,7 @@ mod order;
 mod query;
 mod settle;
 mod sign;
+mod solid_angle;
 mod tree;
 mod triangle;
 mod walk;

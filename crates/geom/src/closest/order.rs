@@ -2,10 +2,11 @@
 //!
 //! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into
 //! buckets by the high bits of the key, in parallel; each bucket is then sorted in cache by the thread that is about to
-//! answer it ([`sort_bucket`]). The order only decides the speed, never the answer.
+//! answer it ([`for_each_bucket`]). The order only decides the speed, never the answer.
 #![expect(unsafe_code, reason = "several threads scatter into one list, each to places of its own")]
 
-use crate::closest::limits::sane;
+use crate::closest::limits::{QueryError, sane};
+use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use rayon::prelude::*;
 
@@ -14,10 +15,47 @@ const BUCKET_BITS: u32 = 12;
 /// Bits of the key below the bucket's.
 const LOW_BITS: u32 = 30 - BUCKET_BITS;
 
+/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make neighbours nearer
+/// and the answers a little faster.
+const SLICE: usize = 1 << 23;
+/// Points a thread takes at a time, about: buckets are joined until they have this many.
+const CHUNK: usize = 8192;
+
+/// Calls `answer(scratch, slice, base, items)` for portions of neighbouring points, until every point was named once by
+/// the low 32 bits of an item: the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool;
+/// a thread keeps its scratch. Tells `progress` of the points answered.
+///
+/// The portions and the order in them do not depend on the number of threads.
+pub fn for_each_bucket<S: Default>(
+    points: &[Point],
+    progress: &dyn Progress,
+    answer: impl Fn(&mut S, &[Point], usize, &[u64]) + Sync,
+) -> Result<(), QueryError> {
+    for (n, slice) in points.chunks(SLICE).enumerate() {
+        let base = n * SLICE;
+        let mut buckets = buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
+        chunks(&mut buckets).into_par_iter().with_max_len(1).try_for_each_init(
+            || (S::default(), vec![]),
+            |(scratch, spare), chunk| {
+                for items in chunk {
+                    if progress.cancelled() {
+                        return Err(Cancelled);
+                    }
+                    sort_bucket(items, spare);
+                    answer(scratch, slice, base, items);
+                    progress.advance(items.len() as u64);
+                }
+                Ok(())
+            },
+        )?;
+    }
+    Ok(())
+}
+
 /// `(key << 32 | index)` of each point grouped by bucket, and the limits of the buckets.
-pub struct Buckets {
-    pub items: Vec<u64>,
-    pub limits: Vec<usize>,
+struct Buckets {
+    items: Vec<u64>,
+    limits: Vec<usize>,
 }
 
 /// A pointer that several threads write through, each to its own places.
@@ -75,7 +113,7 @@ fn survey(points: &[Point], chunk: usize) -> (Point, Point, bool) {
 
 /// Groups the points by the high bits of their Morton key (Morton 1966): the interleaved bits of their cell in a grid of
 /// 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
-pub fn buckets(points: &[Point]) -> Result<Buckets, usize> {
+fn buckets(points: &[Point]) -> Result<Buckets, usize> {
     let n = points.len();
     let chunk = n.div_ceil(4 * rayon::current_num_threads()).max(1 << 14);
     let (lo, hi, good) = survey(points, chunk);
@@ -126,7 +164,7 @@ fn limits(counts: &mut [Vec<usize>]) -> Vec<usize> {
 }
 
 /// Sorts one bucket by key: two counting passes over the low bits, in cache. `spare` is scratch.
-pub fn sort_bucket(items: &mut [u64], spare: &mut Vec<u64>) {
+fn sort_bucket(items: &mut [u64], spare: &mut Vec<u64>) {
     if items.len() < 256 {
         return items.sort_unstable();
     }
@@ -150,4 +188,23 @@ fn counting_pass(from: &[u64], to: &mut [u64], shift: u32, bits: u32) {
         to[*at as usize] = x;
         *at += 1;
     }
+}
+
+/// Neighbouring buckets joined to portions of about [`CHUNK`] points.
+fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
+    let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
+    let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);
+    for w in buckets.limits.windows(2).filter(|w| w[1] > w[0]) {
+        let (part, tail) = rest.split_at_mut(w[1] - w[0]);
+        rest = tail;
+        if filled.saturating_add(part.len()) > CHUNK {
+            chunks.push(vec![]);
+            filled = 0;
+        }
+        filled += part.len();
+        if let Some(c) = chunks.last_mut() {
+            c.push(part);
+        }
+    }
+    chunks
 }

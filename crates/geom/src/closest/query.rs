@@ -17,12 +17,11 @@
 
 use crate::closest::block::Scratch;
 use crate::closest::limits::{QueryError, sane};
-use crate::closest::order::{self, Buckets, Shared};
+use crate::closest::order::{self, Shared};
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::walk;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::Progress;
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// The answer for one point, as the search finds it. [`Tree::place`] tells the rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,12 +101,6 @@ impl Default for Query {
     }
 }
 
-/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make the blocks smaller
-/// and the answers a little faster.
-const SLICE: usize = 1 << 23;
-/// Points a thread takes at a time, about: buckets are joined until they have this many.
-const CHUNK: usize = 8192;
-
 impl Tree {
     /// The point of the mesh closest to `p`, or `None` if it is farther than `max_distance` (which may be infinite).
     ///
@@ -145,14 +138,11 @@ impl Tree {
         sink: impl Fn(usize, Option<Hit>) + Sync,
     ) -> Result<(), QueryError> {
         check_distance(query.max_distance)?;
-        for (n, slice) in points.chunks(SLICE).enumerate() {
-            let base = n * SLICE;
-            let buckets = order::buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
-            self.answer(slice, buckets, query, progress, &|i, hit: Hit| {
+        order::for_each_bucket(points, progress, |scratch: &mut Scratch, slice, base, items| {
+            answer_items(self, query, slice, items, scratch, &|i, hit: Hit| {
                 sink(base + i, (hit.distance() <= query.max_distance).then_some(hit));
-            })?;
-        }
-        Ok(())
+            });
+        })
     }
 
     /// `f(index, hit)` of every point, in the order of `points`: [`Tree::for_each_closest`] with the answers collected.
@@ -190,55 +180,10 @@ impl Tree {
     ) -> Result<Vec<f64>, QueryError> {
         self.map_closest(points, query, progress, |_, hit| hit.map_or(f64::NAN, |h| h.distance()))
     }
-
-    /// Answers one slice, whose points lie in buckets.
-    fn answer(
-        &self,
-        points: &[Point],
-        mut buckets: Buckets,
-        query: &Query,
-        progress: &dyn Progress,
-        sink: &(impl Fn(usize, Hit) + Sync),
-    ) -> Result<(), Cancelled> {
-        chunks(&mut buckets).into_par_iter().with_max_len(1).try_for_each_init(
-            || (Scratch::default(), vec![]),
-            |(scratch, spare), chunk| {
-                scratch.warm = None;
-                for items in chunk {
-                    if progress.cancelled() {
-                        return Err(Cancelled);
-                    }
-                    order::sort_bucket(items, spare);
-                    answer_items(self, query, points, items, scratch, sink);
-                    progress.advance(items.len() as u64);
-                }
-                Ok(())
-            },
-        )
-    }
 }
 
 fn check_distance(max_distance: f64) -> Result<(), QueryError> {
     if max_distance >= 0.0 { Ok(()) } else { Err(QueryError::BadMaxDistance(max_distance)) }
-}
-
-/// Neighbouring buckets joined to portions of about [`CHUNK`] points.
-fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
-    let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
-    let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);
-    for w in buckets.limits.windows(2).filter(|w| w[1] > w[0]) {
-        let (part, tail) = rest.split_at_mut(w[1] - w[0]);
-        rest = tail;
-        if filled.saturating_add(part.len()) > CHUNK {
-            chunks.push(vec![]);
-            filled = 0;
-        }
-        filled += part.len();
-        if let Some(c) = chunks.last_mut() {
-            c.push(part);
-        }
-    }
-    chunks
 }
 
 /// Answers the points named by `items` with the chosen instruction set.

@@ -25,11 +25,10 @@ pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [H
             }
         }
         // SAFETY: the caller's promise.
-        let (d, height) = unsafe {
-            let [p, a, b, c] =
-                [0, 3, 6, 9].map(|i| [D::load(&soa[i]), D::load(&soa[i + 1]), D::load(&soa[i + 2])]);
-            triangle::squared(p, [a, b, c])
-        };
+        let v = unsafe { load_all::<D>(&soa) };
+        let corners = [[v[3], v[4], v[5]], [v[6], v[7], v[8]], [v[9], v[10], v[11]]];
+        // SAFETY: the caller's promise.
+        let (d, height) = unsafe { triangle::squared([v[0], v[1], v[2]], corners) };
         let (mut distances, mut heights) = ([0f64; 8], [0f64; 8]);
         d.store(&mut distances);
         height.store(&mut heights);
@@ -42,5 +41,18 @@ pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [H
                 }
             }
         }
+    }
+}
+
+/// All rows as vectors.
+#[inline(always)]
+unsafe fn load_all<D: Real>(rows: &[[f64; 8]; 12]) -> [D; 12] {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let mut out = [D::load(&rows[0]); 12];
+        for (v, row) in out.iter_mut().zip(rows) {
+            *v = D::load(row);
+        }
+        out
     }
 }

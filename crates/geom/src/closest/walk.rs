@@ -116,7 +116,7 @@ unsafe fn nearest<V: Lanes<8>>(tree: &Tree, b: &Block, limit: f32, s: &mut Scrat
         (best, found) = (limit * limit, false);
     }
     unsafe {
-        let q = b.at.map(|x| V::splat(x));
+        let q = kernel::splat::<V>(b.at);
         s.stack.clear();
         let mut here = tree.root;
         loop {

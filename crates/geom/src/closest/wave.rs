@@ -52,7 +52,7 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s:
         while let Some(&[i, n]) = s.queue.get(next) {
             next += 1;
             let node = &tree.nodes[n as usize];
-            let q = place[i as usize % BLOCK].map(|x| V::splat(x));
+            let q = kernel::splat::<V>(place[i as usize % BLOCK]);
             let mask = kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % BLOCK]));
             let leaf = V::negative(&node.child);
             push::<V>(mask & !leaf, i, node, &mut s.queue);
@@ -80,7 +80,7 @@ unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], from: i32) -> [
                 let node = &tree.nodes[*h as usize];
                 // SAFETY: the caller's promise.
                 let nearest = unsafe {
-                    let d = kernel::box_distance2::<V>(node, q.map(|x| V::splat(x)));
+                    let d = kernel::box_distance2::<V>(node, kernel::splat(*q));
                     d.le(V::splat(d.least()))
                 };
                 *h = node.child[nearest.trailing_zeros() as usize & 7];
