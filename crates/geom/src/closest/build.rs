@@ -69,8 +69,37 @@ impl Bounds {
 /// A triangle while the tree is built.
 type Item = Bounds;
 
-/// Box and number of the items in each bin of each axis.
-type Bins = [[(Bounds, u32); BINS]; 3];
+/// Items looked at, about, to choose a plane: of larger ranges every n-th.
+const SAMPLE: usize = 4096;
+
+/// Ranges up to this size are sorted along the axis of their largest extent, and every place to split is tried.
+const FEW: usize = 16;
+/// Ranges up to this size are split on one of the two axes of largest extent.
+const TWO_AXES: usize = 64;
+
+/// A plane between two bins of an axis.
+#[derive(Clone, Copy)]
+struct Plane {
+    axis: usize,
+    /// Items in bins up to this one lie to its left.
+    bin: usize,
+    /// Where the centres begin and how far they reach; twice the coordinate, like all centres here.
+    origin: f32,
+    extent: f32,
+}
+
+impl Plane {
+    /// Bins per length.
+    fn factor(&self) -> f32 {
+        BINS as f32 * 0.99999 / self.extent
+    }
+    /// The bin of an item on this axis.
+    #[inline(always)]
+    fn bin_of(&self, item: &Item, factor: f32) -> usize {
+        // The cast saturates, and makes 0 of the NaN that denormal extents can give.
+        (((item.lo[self.axis] + item.hi[self.axis] - self.origin) * factor) as i32 as usize).min(BINS - 1)
+    }
+}
 
 /// A range of items, with the boxes of the items and of their doubled centres.
 struct Range<'a> {
@@ -105,76 +134,103 @@ impl<'a> Range<'a> {
         Range { items, start, bounds, centres }
     }
 
-    /// The best of 3 x 15 planes: axis, bin, and the factors that give an item's bin.
-    fn best_plane(&self) -> Option<(usize, usize, f32, f32)> {
-        let origin: [f32; 3] = std::array::from_fn(|k| self.centres.lo[k]);
-        let factor: [f32; 3] = std::array::from_fn(|k| {
-            let e = self.centres.hi[k] - self.centres.lo[k];
-            if e > 0.0 { BINS as f32 * 0.99999 / e } else { 0.0 }
+    /// The best plane that the items, or of many items a sample, can tell; `None` if all centres coincide.
+    fn best_plane(&self) -> Option<Plane> {
+        let step = self.items.len().div_ceil(SAMPLE);
+        self.best_plane_of_every(step).or_else(|| if step > 1 { self.best_plane_of_every(1) } else { None })
+    }
+
+    /// The best of 15 planes on each axis, judged by every `step`-th item. Few items are parts of a smooth surface more
+    /// often than not: the axes along which they extend the most will do.
+    fn best_plane_of_every(&self, step: usize) -> Option<Plane> {
+        let mut axes: [Plane; 3] = std::array::from_fn(|axis| {
+            let extent = self.centres.hi[axis] - self.centres.lo[axis];
+            Plane { axis, bin: 0, origin: self.centres.lo[axis], extent }
         });
-        const EMPTY: Bins = [[(Bounds::EMPTY, 0); BINS]; 3];
-        let of = |mut bin: Bins, part: &[Item]| {
-            for i in part {
-                let c = i.centre2();
-                for k in 0..3 {
-                    let b = &mut bin[k][bin_of(c[k], origin[k], factor[k])];
-                    b.0.add(i);
-                    b.1 += 1;
-                }
-            }
-            bin
-        };
-        let merge = |mut a: Bins, b: Bins| {
-            for (a, b) in a.iter_mut().flatten().zip(b.iter().flatten()) {
-                a.0.add(&b.0);
-                a.1 += b.1;
-            }
-            a
-        };
-        let bin = if self.items.len() <= SHARE {
-            of(EMPTY, self.items)
-        } else {
-            self.items.par_chunks(SHARE).map(|p| of(EMPTY, p)).reduce(|| EMPTY, merge)
-        };
+        axes.sort_by(|a, b| b.extent.total_cmp(&a.extent));
+        let tried = if self.items.len() <= TWO_AXES { 2 } else { 3 };
         let mut best = (f32::INFINITY, None);
-        for k in (0..3).filter(|&k| factor[k] > 0.0) {
-            let mut right = [(0.0, 0); BINS];
-            let (mut box_, mut n) = (Bounds::EMPTY, 0);
-            for j in (1..BINS).rev() {
-                box_.add(&bin[k][j].0);
-                n += bin[k][j].1;
-                right[j] = (box_.area(), n);
+        for plane in axes[..tried].iter().filter(|plane| plane.extent > 0.0) {
+            let (cost, bin) = self.cheapest(plane, step);
+            if cost < best.0 {
+                best = (cost, Some(Plane { bin, ..*plane }));
             }
-            (box_, n) = (Bounds::EMPTY, 0);
-            for j in 0..BINS - 1 {
-                box_.add(&bin[k][j].0);
-                n += bin[k][j].1;
-                let (area, m) = right[j + 1];
-                let cost =
-                    box_.area() * n.div_ceil(LEAF as u32) as f32 + area * m.div_ceil(LEAF as u32) as f32;
-                if n > 0 && m > 0 && cost < best.0 {
-                    best = (cost, Some((k, j, origin[k], factor[k])));
-                }
+        }
+        best.1
+    }
+
+    /// The cost of the best plane along the axis of `plane`, and its bin; infinite if one side would be empty.
+    fn cheapest(&self, plane: &Plane, step: usize) -> (f32, usize) {
+        let (mut boxes, mut counts) = ([Bounds::EMPTY; BINS], [0; BINS]);
+        let factor = plane.factor();
+        for i in self.items.iter().step_by(step) {
+            let bin = plane.bin_of(i, factor);
+            boxes[bin].add(i);
+            counts[bin] += 1;
+        }
+        let mut right = [f32::INFINITY; BINS];
+        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
+        for j in (1..BINS).rev() {
+            bounds.add(&boxes[j]);
+            n += counts[j];
+            right[j] = if n > 0 { bounds.area() * leaves(n) } else { f32::INFINITY };
+        }
+        let mut best = (f32::INFINITY, 0);
+        (bounds, n) = (Bounds::EMPTY, 0);
+        for j in 0..BINS - 1 {
+            bounds.add(&boxes[j]);
+            n += counts[j];
+            let cost = bounds.area() * leaves(n) + right[j + 1];
+            if n > 0 && cost < best.0 {
+                best = (cost, j);
+            }
+        }
+        best
+    }
+
+    /// Sorts a few items along the axis of their largest extent; returns how many to take to the left.
+    fn sort_and_cut(&mut self) -> usize {
+        let extent = |k: usize| self.centres.hi[k] - self.centres.lo[k];
+        let k = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+        let items = &mut self.items[..];
+        items.sort_unstable_by(|a, b| (a.lo[k] + a.hi[k]).total_cmp(&(b.lo[k] + b.hi[k])));
+        let n = items.len();
+        let mut right = [0.0; FEW + 1];
+        let mut bounds = Bounds::EMPTY;
+        for i in (1..n).rev() {
+            bounds.add(&items[i]);
+            right[i] = bounds.area() * leaves(n - i);
+        }
+        let mut best = (f32::INFINITY, n / 2);
+        bounds = Bounds::EMPTY;
+        for i in 1..n {
+            bounds.add(&items[i - 1]);
+            let cost = bounds.area() * leaves(i) + right[i];
+            if cost < best.0 {
+                best = (cost, i);
             }
         }
         best.1
     }
 
     /// Splits in two non-empty ranges.
-    fn split(self) -> (Range<'a>, Range<'a>) {
-        let middle = match self.best_plane() {
-            Some((k, j, o, f)) => partition(self.items, |i| bin_of(i.centre2()[k], o, f) <= j),
-            None => self.items.len() / 2, // all centres coincide: any half will do
+    fn split(mut self) -> (Range<'a>, Range<'a>) {
+        let middle = if self.items.len() <= FEW {
+            self.sort_and_cut()
+        } else if let Some(plane) = self.best_plane() {
+            let factor = plane.factor();
+            partition(self.items, |i| plane.bin_of(i, factor) <= plane.bin)
+        } else {
+            self.items.len() / 2 // all centres coincide: any half will do
         };
         let (a, b) = self.items.split_at_mut(middle);
         (Range::new(a, self.start), Range::new(b, self.start + middle))
     }
 }
 
-#[inline(always)]
-fn bin_of(centre2: f32, origin: f32, factor: f32) -> usize {
-    // The cast saturates, and makes 0 of the NaN that denormal extents can give.
-    (((centre2 - origin) * factor) as i32 as usize).min(BINS - 1)
+/// Leaves that `n` items need.
+fn leaves(n: usize) -> f32 {
+    n.div_ceil(LEAF) as f32
 }
 
 /// Moves the items with `left` to the front; returns their number. Every item is swapped, whatever its side: a branch
@@ -283,10 +339,11 @@ pub fn build(mesh: &Mesh) -> Tree {
     let root = t.grow(Range::new(&mut items, 0));
     let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
     drop(items);
-    let leaf =
-        |&(first, n): &(u32, u32)| frame::leaf(mesh, &face[first as usize..][..n as usize], first, scale);
-    let leaves = t.leaves.par_iter().map(leaf).collect();
     let (slots, corners) = frame::renumber(mesh, &face);
+    let leaf = |&(first, n): &(u32, u32)| {
+        frame::leaf(&slots[first as usize..][..n as usize], &corners, first, scale)
+    };
+    let leaves = t.leaves.par_iter().map(leaf).collect();
     Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }
 }
 

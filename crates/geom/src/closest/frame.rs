@@ -2,12 +2,7 @@
 
 use crate::closest::tree::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
 use crate::mesh::Mesh;
-use crate::space::{Point, Vector, cross, dot, minus, norm, times, unit};
-
-/// The corners of face `f`, which [`check_mesh`](super::limits::check_mesh) has looked at.
-fn corners(mesh: &Mesh, f: u32) -> [Point; 3] {
-    mesh.faces[f as usize].map(|v| mesh.positions[v as usize])
-}
+use crate::space::{Point, Vector, cross, dot, minus, times, unit};
 
 /// Triangles in slot order, vertices in order of first use.
 pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
@@ -29,30 +24,33 @@ pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
     (slots, used)
 }
 
-/// Fills one leaf with the frames of its triangles.
-pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
+/// Fills one leaf with the frames of its triangles, at most eight.
+pub fn leaf(slots: &[[u32; 3]], corners: &[Point], first: u32, scale: f64) -> Leaf {
     let mut out = Leaf { field: [[0.0; 8]; FIELDS], origin: [0.0; 3], first, radius: 0.0 };
+    let mut triangles = [[[0.0; 3]; 3]; 8];
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for v in faces.iter().flat_map(|&f| corners(mesh, f)) {
-        for k in 0..3 {
-            lo[k] = lo[k].min(v[k]);
-            hi[k] = hi[k].max(v[k]);
+    for (t, slot) in triangles.iter_mut().zip(slots) {
+        *t = slot.map(|v| corners[v as usize]);
+        for v in t {
+            for k in 0..3 {
+                lo[k] = if v[k] < lo[k] { v[k] } else { lo[k] };
+                hi[k] = if v[k] > hi[k] { v[k] } else { hi[k] };
+            }
         }
     }
     out.origin = std::array::from_fn(|k| 0.5 * lo[k] + 0.5 * hi[k]);
-    for j in 0..8 {
-        let Some(&f) = faces.get(j) else {
-            out.field[AXES][j] = 1.0;
-            out.field[AXES + 4][j] = 1.0;
-            out.field[AXES + 8][j] = 1.0;
-            out.field[ORIGIN + 2][j] = -NOWHERE;
-            continue;
-        };
-        let v = corners(mesh, f).map(|v| times(scale, minus(v, out.origin)));
-        for c in v {
-            out.radius = out.radius.max(norm(c) as f32 * 1.000001);
+    let mut radius2 = 0.0;
+    for (j, t) in triangles[..slots.len()].iter().enumerate() {
+        let t = t.map(|v| times(scale, minus(v, out.origin)));
+        radius2 = t.iter().map(|&c| dot(c, c)).fold(radius2, |m, d| if d > m { d } else { m });
+        frame(t, |field, x| out.field[field][j] = x as f32);
+    }
+    out.radius = radius2.sqrt() as f32 * 1.000001;
+    for j in slots.len()..8 {
+        for axis in 0..3 {
+            out.field[AXES + 4 * axis][j] = 1.0;
         }
-        frame(v, |field, x| out.field[field][j] = x as f32);
+        out.field[ORIGIN + 2][j] = -NOWHERE;
     }
     out
 }
