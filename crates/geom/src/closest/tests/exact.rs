@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::closest::{Feature, MeshError, QueryError, brute};
-use crate::progress::{Cancelled, Progress};
+use crate::progress::Cancelled;
 use crate::space::{minus, norm, times};
 
 /// Points of every kind around `mesh`: on its corners, edges and faces, near, and far.
@@ -183,13 +183,6 @@ fn refuses_what_cannot_be_measured() {
     assert!(matches!(ask(&[], f64::NAN), Err(QueryError::BadMaxDistance(_))));
     assert_eq!(ask(&[], -1.0), Err(QueryError::BadMaxDistance(-1.0)));
     assert_eq!(tree.closest(&[f64::NAN; 3], far), Err(QueryError::BadPoint(0)));
-}
-
-struct Stop;
-impl Progress for Stop {
-    fn cancelled(&self) -> bool {
-        true
-    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ mod winding;
 
 use crate::closest::{Closest, Hit, Level, Query, Tree};
 use crate::mesh::Mesh;
-use crate::progress::Silent;
+use crate::progress::{Progress, Silent};
 use crate::space::{Point, plus};
 use std::f64::consts::PI;
 use std::sync::Mutex;
@@ -113,6 +113,16 @@ pub fn with(instructions: Level) -> Query {
     Query { instructions, ..Query::default() }
 }
 
+/// Wants to stop at once.
+pub struct Stop;
+
+impl Progress for Stop {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+/// All instruction sets; those that the processor lacks count as the best it has.
 pub const LEVELS: [Level; 3] = [Level::Plain, Level::Avx2, Level::Avx512];
 
 /// Runs `f` in a pool of `threads`.

@@ -1,7 +1,7 @@
 //! The hierarchical winding number against the sum of all solid angles.
 
 use super::*;
-use crate::closest::Winding;
+use crate::closest::{QueryError, Winding};
 use crate::space::{cross, dot, minus, norm};
 
 /// The definition: solid angles by van Oosterom & Strackee, in double precision.
@@ -15,19 +15,140 @@ fn by_definition(mesh: &Mesh, p: &Point) -> f64 {
     mesh.faces.iter().map(angle).sum::<f64>() / (4.0 * PI)
 }
 
-fn numbers(mesh: &Mesh, points: &[Point]) -> Vec<f64> {
+/// Greatest and mean difference from the definition.
+fn error(mesh: &Mesh, points: &[Point]) -> (f64, f64) {
     let tree = Tree::build(mesh).unwrap();
-    Winding::new(&tree).numbers(points, &Silent).unwrap()
+    let numbers = Winding::new(&tree).numbers(points, &Silent).unwrap();
+    let errors = points.iter().zip(&numbers).map(|(p, w)| (w - by_definition(mesh, p)).abs());
+    let (worst, sum) = errors.fold((0.0, 0.0), |(worst, sum): (f64, f64), e| (worst.max(e), sum + e));
+    (worst, sum / points.len() as f64)
+}
+
+/// Points in and around a mesh, some near its surface.
+fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
+    let bounds = mesh.bounds();
+    let size = bounds.sides().into_iter().fold(0.0, f64::max);
+    let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
+    (0..n)
+        .map(|i| match i % 3 {
+            0 => plus(mesh.positions[d.bits() as usize % mesh.positions.len()], d.point(0.01 * size)),
+            1 => plus(centre, d.point(0.7 * size)),
+            _ => plus(centre, d.point(5.0 * size)),
+        })
+        .collect()
 }
 
 #[test]
-fn closed_meshes_are_one_inside_and_zero_outside() {
+fn differs_little_from_the_sum_of_all_solid_angles() {
     let d = &mut Dice(12);
-    for mesh in [cube(1.0), sphere(50, 1.0, [0.5; 3]), sphere(13, 1.0, [0.5; 3])] {
-        let points: Vec<Point> = (0..4000).map(|_| plus([0.5; 3], d.point(1.5))).collect();
-        for (p, w) in points.iter().zip(numbers(&mesh, &points)) {
-            let want = by_definition(&mesh, p);
-            assert!((w - want).abs() < 0.05, "{w} instead of {want} at {p:?}");
+    let mut open = sphere(60, 40.0, [1000.0; 3]);
+    open.faces.truncate(5000);
+    let mut thrice = sphere(30, 1.0, [0.0; 3]);
+    thrice.faces = [&thrice.faces[..]; 3].concat();
+    let crossing = soup(d, 3000, |d| {
+        let c = d.point(10.0);
+        std::array::from_fn(|_| plus(c, d.point(0.5)))
+    });
+    let meshes = [
+        ("cube", cube(1.0), 1.0),
+        ("sphere", sphere(60, 1.0, [0.5; 3]), 1.0),
+        ("sphere at 1e6", sphere(40, 100.0, [1e6; 3]), 1.0),
+        ("bowl", open, 1.0),
+        ("every face thrice", thrice, 3.0),
+        ("soup", crossing, 1.0),
+        ("tiny", sphere(30, 1e-12, [0.0; 3]), 1.0),
+    ];
+    for (name, mesh, layers) in meshes {
+        let (worst, mean) = error(&mesh, &around(&mesh, d, 1500));
+        assert!(
+            worst < 0.05 * layers && mean < 0.004 * layers,
+            "{name}: {worst} at worst, {mean} in the mean"
+        );
+    }
+}
+
+#[test]
+fn a_single_leaf_is_summed_to_single_precision() {
+    let d = &mut Dice(13);
+    for _ in 0..100 {
+        let mesh = soup(d, 8, |d| std::array::from_fn(|_| d.point(1.0)));
+        let points: Vec<Point> = (0..20).map(|_| d.point(1.5)).collect();
+        let (worst, _) = error(&mesh, &points);
+        assert!(worst < 1e-5, "{worst}");
+    }
+}
+
+#[test]
+fn full_turns_are_counted() {
+    // Nested spheres: the number inside all is their count, of either sense.
+    let mut mesh = Mesh::default();
+    for (i, turns) in [(1, 5), (2, 5)] {
+        for _ in 0..turns {
+            let s = sphere(12, i as f64, [0.0; 3]);
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(s.positions);
+            mesh.faces.extend(s.faces.iter().map(|f| f.map(|v| v + first)));
         }
     }
+    let points = [[0.0; 3], [0.1, 0.2, 0.3], [1.4, 0.0, 0.3], [3.0, 0.0, 0.0]];
+    for (sense, swap) in [(1.0, false), (-1.0, true)] {
+        if swap {
+            mesh.faces.iter_mut().for_each(|f| f.swap(1, 2));
+        }
+        let tree = Tree::build(&mesh).unwrap();
+        let numbers = Winding::new(&tree).numbers(&points, &Silent).unwrap();
+        for (got, want) in numbers.iter().zip([10.0, 10.0, 5.0, 0.0]) {
+            assert!((got - sense * want).abs() < 0.3, "{numbers:?}");
+        }
+    }
+}
+
+#[test]
+fn points_on_corners_and_edges_have_a_number() {
+    let mesh = cube(1.0);
+    let tree = Tree::build(&mesh).unwrap();
+    let mut points = mesh.positions.clone();
+    points.extend([[0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.25, 0.5, 1.0]]);
+    let numbers = Winding::new(&tree).numbers(&points, &Silent).unwrap();
+    assert!(numbers.iter().all(|w| w.is_finite()), "{numbers:?}");
+}
+
+#[test]
+fn does_not_depend_on_neighbours_or_threads() {
+    let d = &mut Dice(14);
+    let mesh = sphere(40, 1.0, [0.0; 3]);
+    let tree = Tree::build(&mesh).unwrap();
+    let winding = Winding::new(&tree);
+    let points = around(&mesh, d, 3000);
+    let ask = |points: &[Point]| -> Vec<u64> {
+        winding.numbers(points, &Silent).unwrap().into_iter().map(f64::to_bits).collect()
+    };
+    let all = in_pool(1, || ask(&points));
+    assert_eq!(all, in_pool(5, || ask(&points)));
+    for i in (0..points.len()).step_by(50) {
+        assert_eq!(ask(&points[i..=i]), all[i..=i], "point {i} alone");
+    }
+}
+
+#[test]
+fn instruction_sets_agree_to_single_precision() {
+    let d = &mut Dice(15);
+    let mesh = sphere(40, 1.0, [0.0; 3]);
+    let tree = Tree::build(&mesh).unwrap();
+    let winding = Winding::new(&tree);
+    for part in around(&mesh, d, 1600).chunks_exact(16) {
+        let points: &[Point; 16] = part.try_into().unwrap();
+        let ask = |level| winding.block(level, points, 16, &mut vec![]);
+        let (plain, best) = (ask(Level::Plain), ask(Level::detect()));
+        assert!(plain.iter().zip(best).all(|(a, b)| (a - b).abs() < 2e-5), "{plain:?} {best:?}");
+    }
+}
+
+#[test]
+fn refuses_bad_points_and_stops_when_asked() {
+    let tree = Tree::build(&cube(1.0)).unwrap();
+    let winding = Winding::new(&tree);
+    assert_eq!(winding.numbers(&[[0.0; 3], [f64::NAN; 3]], &Silent), Err(QueryError::BadPoint(1)));
+    assert!(matches!(winding.numbers(&[[0.0; 3]], &Stop), Err(QueryError::Cancelled(_))));
+    assert_eq!(winding.numbers(&[], &Silent), Ok(vec![]));
 }
