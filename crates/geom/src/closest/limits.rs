@@ -54,6 +54,14 @@ pub fn sane(p: &Point) -> bool {
     p.iter().all(|x| x.abs() <= MAX_COORDINATE)
 }
 
+/// The number of the first point that is not [`sane`], as an error.
+pub fn check_points(points: &[Point]) -> Result<(), QueryError> {
+    match points.par_iter().position_first(|p| !sane(p)) {
+        Some(i) => Err(QueryError::BadPoint(i)),
+        None => Ok(()),
+    }
+}
+
 /// Checks what the tree relies on. Only vertices that a face uses are looked at.
 pub fn check_mesh(mesh: &Mesh) -> Result<(), MeshError> {
     let count = mesh.faces.len();
