@@ -28,9 +28,9 @@ mod dense;
 mod edges;
 mod frame;
 mod kernel;
-mod lanes;
+pub(crate) mod lanes;
 #[cfg(target_arch = "x86_64")]
-mod lanes_x86;
+pub(crate) mod lanes_x86;
 mod limits;
 mod order;
 mod query;

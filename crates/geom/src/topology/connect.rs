@@ -8,11 +8,12 @@
 
 use super::EdgeAt;
 use super::fans::{CHUNK, Fans, Spoke};
-#[cfg(target_arch = "x86_64")]
-use super::same::{Avx2, Avx512};
-use super::same::{Plain, Row, Same, W};
+use super::same::{Row, Same, W};
 use super::union::Sets;
 use crate::closest::Level;
+use crate::closest::lanes::Plain;
+#[cfg(target_arch = "x86_64")]
+use crate::closest::lanes_x86::{A16, Z16};
 use crate::mesh::Mesh;
 use crate::num::predicates;
 use rayon::prelude::*;
@@ -53,7 +54,7 @@ pub(super) fn connect(mesh: &Mesh, fans: &Fans, shells: &Sets, level: Level) -> 
                 Level::Avx512 => unsafe { avx512(&mut part, fans, range) },
                 #[cfg(target_arch = "x86_64")]
                 Level::Avx2 => unsafe { avx2(&mut part, fans, range) },
-                _ => part.vertices::<Plain>(fans, range),
+                _ => part.vertices::<Plain<W>>(fans, range),
             }
             part.found
         })
@@ -74,13 +75,13 @@ pub(super) fn connect(mesh: &Mesh, fans: &Fans, shells: &Sets, level: Level) -> 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,popcnt")]
 fn avx2(part: &mut Part, fans: &Fans, vertices: std::ops::Range<u32>) {
-    part.vertices::<Avx2>(fans, vertices);
+    part.vertices::<A16>(fans, vertices);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,bmi1,popcnt")]
 fn avx512(part: &mut Part, fans: &Fans, vertices: std::ops::Range<u32>) {
-    part.vertices::<Avx512>(fans, vertices);
+    part.vertices::<Z16>(fans, vertices);
 }
 
 impl Part<'_> {

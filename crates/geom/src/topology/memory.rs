@@ -55,3 +55,21 @@ pub(crate) fn triples(v: Vec<AtomicU32>) -> Vec<[u32; 3]> {
     // allocation's layout is that of the new vector; `v` is not dropped.
     unsafe { Vec::from_raw_parts(v.as_mut_ptr().cast(), length, capacity) }
 }
+
+/// A pointer through which several threads write, each to places of its own.
+pub(crate) struct Shared<T>(*mut T);
+
+// SAFETY: the pointer is only handed out; whoever writes through it keeps the places apart.
+unsafe impl<T: Send> Sync for Shared<T> {}
+
+impl<T> Shared<T> {
+    /// The places of `v`, up to its capacity.
+    pub(crate) fn of(v: &mut Vec<T>) -> Shared<T> {
+        Shared(v.as_mut_ptr())
+    }
+    /// Place `i`.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> *mut T {
+        self.0.wrapping_add(i)
+    }
+}

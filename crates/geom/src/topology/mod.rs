@@ -9,13 +9,13 @@
 
 mod connect;
 mod fans;
-mod memory;
+pub(crate) mod memory;
 mod properties;
-mod same;
+pub(crate) mod same;
 mod soundness;
 #[cfg(test)]
-mod tests;
-mod union;
+pub(crate) mod tests;
+pub(crate) mod union;
 pub mod weld;
 
 pub use properties::Properties;

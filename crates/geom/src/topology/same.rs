@@ -1,6 +1,8 @@
 //! Comparing sixteen vertex numbers at once.
 #![allow(unsafe_code, reason = "vendor intrinsics")]
 
+use crate::closest::lanes::Plain;
+
 /// Numbers compared together.
 pub(crate) const W: usize = 16;
 
@@ -18,10 +20,7 @@ pub(crate) trait Same {
     unsafe fn same(row: &Row<u32>, x: u32) -> u32;
 }
 
-/// Plain Rust.
-pub(crate) struct Plain;
-
-impl Same for Plain {
+impl Same for Plain<W> {
     #[inline(always)]
     unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
         (0..W).fold(0, |m, i| m | u32::from(row.0[i] == x) << i)
@@ -29,16 +28,12 @@ impl Same for Plain {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{Avx2, Avx512};
-
-#[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::{Row, Same};
+    use crate::closest::lanes_x86::{A16, Z16};
     use std::arch::x86_64::*;
 
-    pub(crate) struct Avx2;
-
-    impl Same for Avx2 {
+    impl Same for A16 {
         #[inline(always)]
         unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
             // SAFETY: the caller answers for AVX2; a row is 64 aligned bytes.
@@ -53,9 +48,7 @@ mod x86 {
         }
     }
 
-    pub(crate) struct Avx512;
-
-    impl Same for Avx512 {
+    impl Same for Z16 {
         #[inline(always)]
         unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
             // SAFETY: the caller answers for AVX-512F; a row is 64 aligned bytes.

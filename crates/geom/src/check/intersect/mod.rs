@@ -1,0 +1,233 @@
+//! All pairs of facets that cross, touch or overlap where they should not.
+//!
+//! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
+//! that overlap its children; sixteen boxes in one comparison. No walk ever starts at the root. At the bottom the
+//! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
+//! alike (see `filter`). *Exact*: the rest is decided by `meet`.
+#![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
+
+mod filter;
+mod meet;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+use crate::closest::Level;
+use crate::closest::lanes::Plain;
+#[cfg(target_arch = "x86_64")]
+use crate::closest::lanes_x86::{A16, Z16};
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress};
+use crate::topology::Topology;
+use crate::topology::same::W;
+use filter::Wide;
+use rayon::prelude::*;
+use tree::{Boxes, Leaf, Tree};
+
+const EVERYWHERE: [f32; 6] = {
+    let i = f32::INFINITY;
+    [-i, -i, -i, i, i, i]
+};
+
+/// Pairs of facets of a welded mesh that meet anywhere else than in the vertices or the edge they share: the lower
+/// facet first, sorted.
+///
+/// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
+/// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
+/// a facet on a scan. Facets done are told to `progress`. The result is the same for any number of threads.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn self_intersections(
+    mesh: &Mesh,
+    topology: &Topology,
+    progress: &dyn Progress,
+) -> Result<Vec<[u32; 2]>, Cancelled> {
+    with(mesh, topology, progress, Level::detect())
+}
+
+fn with(
+    mesh: &Mesh,
+    topology: &Topology,
+    progress: &dyn Progress,
+    level: Level,
+) -> Result<Vec<[u32; 2]>, Cancelled> {
+    let tree = Tree::build(mesh, |f| topology.shell_of[f] != u32::MAX);
+    let walk = Walk { mesh, tree: &tree, progress };
+    let top = tree.levels.len() - 1;
+    let mut pairs = vec![];
+    if !tree.leaves.is_empty() {
+        match level {
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => avx2(&walk, top, 0, &[0], &mut pairs),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => avx512(&walk, top, 0, &[0], &mut pairs),
+            _ => plain(&walk, top, 0, &[0], &mut pairs),
+        }
+    }
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    pairs.par_sort_unstable();
+    Ok(pairs)
+}
+
+struct Walk<'a> {
+    mesh: &'a Mesh,
+    tree: &'a Tree,
+    progress: &'a dyn Progress,
+}
+
+type Pairs = Vec<[u32; 2]>;
+type Deeper = fn(&Walk, usize, usize, &[u32], &mut Pairs);
+
+fn plain(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+    // SAFETY: plain Rust.
+    unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
+    fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+        // SAFETY: the instructions are those of this function.
+        unsafe { walk.descend::<A16>(level, i, list, out, avx2) }
+    }
+    // SAFETY: reached from `with` only, for a level that the processor has.
+    unsafe { run(walk, level, i, list, out) }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn avx512(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt")]
+    fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+        // SAFETY: the instructions are those of this function.
+        unsafe { walk.descend::<Z16>(level, i, list, out, avx512) }
+    }
+    // SAFETY: as above.
+    unsafe { run(walk, level, i, list, out) }
+}
+
+#[inline(always)]
+fn lane(b: &Boxes, i: usize) -> [f32; 6] {
+    std::array::from_fn(|k| b.0[k].0[i])
+}
+
+impl Walk<'_> {
+    /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
+    ///
+    /// # Safety
+    /// The processor has the instructions of `L`.
+    #[inline(always)]
+    unsafe fn descend<L: Wide>(&self, level: usize, i: usize, list: &[u32], out: &mut Pairs, deeper: Deeper) {
+        if level == 0 {
+            // SAFETY: handed on.
+            return unsafe { self.leaf_pairs::<L>(i, list, out) };
+        }
+        let children = 0..W.min(self.tree.levels[level - 1].len() - i * W);
+        if level == 1 {
+            if self.progress.cancelled() {
+                return;
+            }
+            let mut next = vec![];
+            for a in children.clone() {
+                next.clear();
+                // SAFETY: handed on.
+                unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
+                deeper(self, level - 1, i * W + a, &next, out);
+            }
+            self.progress.advance((children.len() * W) as u64);
+            return;
+        }
+        let mut lists = vec![];
+        for a in children {
+            let mut next = vec![];
+            // SAFETY: handed on.
+            unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
+            lists.push((i * W + a, next));
+        }
+        let parts = lists.into_par_iter().map(|(child, next)| {
+            let mut part = vec![];
+            deeper(self, level - 1, child, &next, &mut part);
+            part
+        });
+        parts.collect::<Vec<_>>().into_iter().for_each(|part| out.extend(part));
+    }
+
+    /// The list of child `a` of node `i`, made from the node's.
+    ///
+    /// # Safety
+    /// The processor has the instructions of `L`.
+    #[inline(always)]
+    unsafe fn inherit<L: Wide>(&self, level: usize, i: usize, a: usize, list: &[u32], next: &mut Vec<u32>) {
+        let b = lane(&self.tree.levels[level][i], a);
+        for &j in list {
+            // SAFETY: handed on.
+            let mut m = unsafe { filter::overlap::<L>(&self.tree.levels[level][j as usize], &b) };
+            if i == j as usize {
+                m &= u32::MAX << a;
+            }
+            while m != 0 {
+                next.push(j * W as u32 + m.trailing_zeros());
+                m &= m - 1;
+            }
+        }
+    }
+
+    /// Pairs between leaf `i` and the leaves of `list`.
+    ///
+    /// # Safety
+    /// The processor has the instructions of `L`.
+    #[inline(always)]
+    unsafe fn leaf_pairs<L: Wide>(&self, i: usize, list: &[u32], out: &mut Pairs) {
+        let t = self.tree;
+        let (l, own) = (&t.leaves[i], &t.levels[0][i]);
+        let planes = filter::planes(self.mesh, &t.frame, l);
+        for j in list.iter().map(|&j| j as usize) {
+            let (q, boxes) = (&t.leaves[j], &t.levels[0][j]);
+            // Box of the other leaf; unknown where there is one leaf only, and then all is decided exactly.
+            let other = t.levels.get(1).map_or(EVERYWHERE, |up| lane(&up[j / W], j % W));
+            // SAFETY: handed on.
+            let mut rows = unsafe { filter::overlap::<L>(own, &other) };
+            while rows != 0 {
+                let a = rows.trailing_zeros() as usize;
+                rows &= rows - 1;
+                let b = lane(own, a);
+                // SAFETY: handed on.
+                let mut among = unsafe { filter::overlap::<L>(boxes, &b) };
+                if i == j {
+                    among &= u32::MAX << a << 1;
+                }
+                if among == 0 || b[0] > b[3] {
+                    continue; // an empty box has no area, or fills up
+                }
+                let mut reach = 0.0;
+                for k in 0..3 {
+                    reach += if other[k + 3] > b[k + 3] { other[k + 3] } else { b[k + 3] }
+                        - if other[k] < b[k] { other[k] } else { b[k] };
+                }
+                // SAFETY: handed on.
+                let left =
+                    unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
+                self.decide((l, a), q, left, out);
+            }
+        }
+    }
+
+    /// Decides exactly about the pairs of triangle `a` of leaf `l` and those of leaf `q` that are `left`.
+    #[inline(always)]
+    fn decide(&self, (l, a): (&Leaf, usize), q: &Leaf, mut left: u32, out: &mut Pairs) {
+        let triangle = |leaf: &Leaf, i: usize| {
+            let face = self.mesh.faces[leaf.face.0[i] as usize];
+            (face.map(|v| self.mesh.positions[v as usize]), face)
+        };
+        while left != 0 {
+            let c = left.trailing_zeros() as usize;
+            left &= left - 1;
+            if meet::meet(&triangle(l, a), &triangle(q, c)) {
+                let (x, y) = (l.face.0[a], q.face.0[c]);
+                out.push([x.min(y), x.max(y)]);
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+use super::*;
+use crate::num::predicates;
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::space::Point;
+use crate::topology::tests::{levels, on_threads};
+use crate::topology::weld;
+use std::collections::HashMap;
+
+type Facet = [Point; 3];
+
+/// Compares all levels with all pairs, one by one; returns their number.
+fn check(name: &str, facets: &[Facet]) -> usize {
+    let mesh = weld::corners(facets.len(), |f, k| facets[f][k]).unwrap();
+    let topology = Topology::of(&mesh).unwrap();
+    let corners = |f: &[u32; 3]| f.map(|v| mesh.positions[v as usize]);
+    let flat = |f: &[u32; 3]| predicates::axis(&corners(f)).is_none();
+    let mut want = vec![];
+    for (j, g) in mesh.faces.iter().enumerate().filter(|(_, g)| !flat(g)) {
+        for (i, f) in mesh.faces[..j].iter().enumerate().filter(|(_, f)| !flat(f)) {
+            if meet::meet(&(corners(f), *f), &(corners(g), *g)) {
+                want.push([i as u32, j as u32]);
+            }
+        }
+    }
+    want.sort_unstable();
+    for (level, threads) in levels().flat_map(|l| [(l, 1), (l, 3)]) {
+        let got = on_threads(threads, || with(&mesh, &topology, &Silent, level)).unwrap();
+        assert!(got == want, "{name} {level:?} {threads}: {} instead of {}", got.len(), want.len());
+    }
+    want.len()
+}
+
+#[test]
+fn whole_numbers_touch_overlap_and_degenerate() {
+    let random = &mut Random::new(1);
+    for (n, side) in [(0, 2), (1, 2), (9, 2), (40, 3), (300, 4), (500, 9), (700, 40)] {
+        let mut corner = || std::array::from_fn(|_| random.below(side) as f64 - 1.0);
+        let facets: Vec<Facet> = (0..n).map(|_| std::array::from_fn(|_| corner())).collect();
+        check(&format!("whole numbers {side}"), &facets);
+        let shifted: Vec<Facet> = facets.iter().map(|f| f.map(|p| p.map(|x| x * 0.1 + 1e3))).collect();
+        check(&format!("tenths {side}"), &shifted);
+    }
+}
+
+#[test]
+fn loose_facets_in_both_precisions() {
+    let random = &mut Random::new(2);
+    for (n, size) in [(800, 0.1), (800, 0.5), (1200, 1e-3)] {
+        let facets: Vec<Facet> = (0..n)
+            .map(|_| {
+                let c: Point = std::array::from_fn(|_| random.unit());
+                std::array::from_fn(|_| std::array::from_fn(|k| c[k] + size * random.unit()))
+            })
+            .collect();
+        let single: Vec<Facet> = facets.iter().map(|f| f.map(|p| p.map(|x| f64::from(x as f32)))).collect();
+        let pairs = [check(&format!("soup {size}"), &facets), check(&format!("single soup {size}"), &single)];
+        assert!(size < 0.5 || pairs[0] > 100);
+    }
+}
+
+/// Nearly flat, and one plane at a slope: everything hangs on signs that rounding cannot tell.
+#[test]
+fn planes_that_rounding_cannot_tell_apart() {
+    let random = &mut Random::new(3);
+    let cases = [
+        ("plane", 1.0, 0.0, 0.0),
+        ("rough", 1e-3, 1e3, 1e-7),
+        ("far", 1e-3, 1e9, 1e-4),
+        ("tiny", 1e-30, 0.0, 0.01),
+        ("huge", 1e30, 0.0, 0.01),
+    ];
+    for ((name, scale, offset, noise), single) in cases.into_iter().flat_map(|c| [(c, true), (c, false)]) {
+        let (n, mut at, mut facets) = (20, HashMap::new(), vec![]);
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let mut p = |i: i32, j: i32| -> Point {
+                *at.entry((i, j)).or_insert_with(|| {
+                    let (x, y) = (f64::from(i), f64::from(j));
+                    let p = [
+                        (x + noise * random.unit()) * scale + offset,
+                        y * scale,
+                        ((x + y) * 0.1 + noise * random.unit()) * scale,
+                    ];
+                    if single { p.map(|x| f64::from(x as f32)) } else { p }
+                })
+            };
+            let (a, b, c, e) = (p(i, j), p(i + 1, j), p(i + 1, j + 1), p(i, j + 1));
+            facets.extend([[a, b, c], [a, c, e]]);
+        }
+        facets.push([at[&(3, 3)], at[&(9, 4)], at[&(5, 12)]]);
+        facets.push([at[&(0, 0)], at[&(1, 0)], at[&(2, 1)]]);
+        let pairs = check(&format!("{name} {single}"), &facets);
+        assert!(pairs > 10 || name == "far", "{name} {single} {pairs}");
+    }
+}
+
+#[test]
+fn a_cancelled_search_says_so() {
+    struct Never;
+    impl Progress for Never {
+        fn cancelled(&self) -> bool {
+            true
+        }
+    }
+    let mesh = crate::topology::tests::block(5, 1.0);
+    let topology = Topology::of(&mesh).unwrap();
+    assert_eq!(self_intersections(&mesh, &topology, &Never), Err(Cancelled));
+    assert_eq!(self_intersections(&mesh, &topology, &Silent), Ok(vec![]));
+}

@@ -1,0 +1,219 @@
+//! Triangles in space-filling order, sixteen to a leaf, leaves sixteen to a node, and so on: no pointers.
+//!
+//! Coordinates are kept in single precision. Where those of the mesh are single precision (any STL), that is exact.
+//! Otherwise they are moved and scaled (by a power of two) into [−1, 1] before they are rounded, and `slack` bounds what
+//! rounding has done: boxes are that much larger, and the filter that much more careful.
+#![expect(unsafe_code, reason = "arrays written by several threads, each place once")]
+#![expect(clippy::needless_range_loop, reason = "axes and lanes are indices into several arrays at once")]
+
+use crate::mesh::Mesh;
+use crate::num::predicates;
+use crate::space::{Aabb, Point};
+use crate::topology::memory::{Shared, large_pages};
+use crate::topology::same::{Row, W};
+use rayon::prelude::*;
+
+/// Buckets of the first pass of the sort, as a power of two.
+const TOP: u32 = 12;
+const CHUNK: usize = 1 << 15;
+/// Key of a face that stays out.
+const LEFT_OUT: u64 = u64::MAX;
+
+/// Boxes of the sixteen children of a node (least and greatest coordinates); empty boxes fill up.
+#[derive(Clone, Copy)]
+pub(super) struct Boxes(pub [Row<f32>; 6]);
+
+/// Sixteen triangles: nine coordinates, three corners, face.
+#[derive(Clone, Copy)]
+pub(super) struct Leaf {
+    pub at: [[Row<f32>; 3]; 3],
+    pub corner: [Row<u32>; 3],
+    pub face: Row<u32>,
+}
+
+/// From the mesh to single precision: `(p - origin) * scale`, off by at most `slack` in each coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub origin: Point,
+    pub scale: f64,
+    pub slack: f32,
+}
+
+/// `levels[0][i]` holds the boxes of the triangles of leaf `i`, `levels[k][i]` those of `levels[k - 1][16 i..]`.
+pub(super) struct Tree {
+    pub leaves: Vec<Leaf>,
+    pub levels: Vec<Vec<Boxes>>,
+    pub frame: Frame,
+}
+
+impl Frame {
+    /// The frame for vertices at finite places.
+    fn of(positions: &[Point]) -> Frame {
+        // Far enough from the ends of single precision that products of three differences stay inside.
+        const LARGEST: f64 = 1e9;
+        let single = |x: &f64| x.abs() < LARGEST && f64::from(*x as f32) == *x || !x.is_finite();
+        if positions.par_iter().all(|p| p.iter().all(single)) {
+            return Frame { origin: [0.0; 3], scale: 1.0, slack: 0.0 };
+        }
+        let bounds = Aabb::of(positions.iter().filter(|p| p.iter().all(|x| x.is_finite())));
+        let origin: Point = std::array::from_fn(|k| bounds.min[k] / 2.0 + bounds.max[k] / 2.0);
+        let reach = (0..3).map(|k| bounds.max[k] / 2.0 - bounds.min[k] / 2.0).fold(f64::MIN_POSITIVE, f64::max);
+        // 2^-23 is four times the rounding of a number below 1.
+        Frame { origin, scale: 0.5 * 2f64.powi(-(reach.log2().ceil() as i32)), slack: 1.0 / (1 << 23) as f32 }
+    }
+
+    /// A place in the frame, not rounded yet.
+    #[inline(always)]
+    pub fn place(&self, p: &Point) -> Point {
+        std::array::from_fn(|k| (p[k] - self.origin[k]) * self.scale)
+    }
+}
+
+/// Spreads twelve bits, two places between them.
+fn spread(x: u32) -> u64 {
+    let x = u64::from(x);
+    let x = (x | x << 16) & 0xFF00_00FF;
+    let x = (x | x << 8) & 0x00F0_0F00_F00F;
+    let x = (x | x << 4) & 0x0C30_C30C_30C3;
+    (x | x << 2) & 0x2492_4924_9249
+}
+
+/// Faces that are `wanted`, sorted by the Morton code of the centres of their boxes, as keys; and how many low bits of
+/// a key are the face.
+fn sorted(mesh: &Mesh, frame: &Frame, wanted: &(impl Fn(usize) -> bool + Sync)) -> (Vec<u64>, u32) {
+    // 28 bits for the face and 36 for the place, or 31 and 33.
+    let face_bits = if mesh.faces.len() <= 1 << 28 { 28 } else { 31 };
+    let bounds = Aabb::of(mesh.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())));
+    let extent = bounds.sides().into_iter().fold(f64::MIN_POSITIVE, f64::max) * frame.scale;
+    let low = frame.place(&bounds.min);
+    let factor = f64::from(1 << 12) * 0.99999 / extent * 0.5;
+    let key = |i: usize, face: &[u32; 3]| {
+        let p = face.map(|v| frame.place(&mesh.positions[v as usize]));
+        let cell = |k: usize| {
+            let (a, b) = (p[0][k].min(p[1][k]).min(p[2][k]), p[0][k].max(p[1][k]).max(p[2][k]));
+            spread((((a - low[k]) + (b - low[k])) * factor) as u32 & 0xFFF)
+        };
+        let code = cell(0) << 2 | cell(1) << 1 | cell(2);
+        (code >> (face_bits - 28)) << face_bits | i as u64
+    };
+    let bucket = |k: u64| (k >> (64 - TOP)) as usize;
+    let mut keys = large_pages(vec![0u64; mesh.faces.len()]);
+    let counts: Vec<Vec<u32>> = (keys.par_chunks_mut(CHUNK).zip(mesh.faces.par_chunks(CHUNK)).enumerate())
+        .map(|(i, (keys, faces))| {
+            let mut count = vec![0; 1 << TOP];
+            for (j, (k, f)) in keys.iter_mut().zip(faces).enumerate() {
+                let face = i * CHUNK + j;
+                *k = if wanted(face) { key(face, f) } else { LEFT_OUT };
+                count[bucket(*k)] += u32::from(*k != LEFT_OUT);
+            }
+            count
+        })
+        .collect();
+    let (mut ends, mut total) = (vec![0; 1 << TOP], 0);
+    let mut starts = counts;
+    for (b, end) in ends.iter_mut().enumerate() {
+        for s in &mut starts {
+            total += std::mem::replace(&mut s[b], total);
+        }
+        *end = total as usize;
+    }
+    let mut out = large_pages(vec![0u64; total as usize]);
+    let to = Shared::of(&mut out);
+    keys.par_chunks(CHUNK).zip(starts).for_each(|(keys, mut at)| {
+        for &k in keys.iter().filter(|&&k| k != LEFT_OUT) {
+            let a = &mut at[bucket(k)];
+            // SAFETY: the counts above give every key a place of its own below `total`.
+            unsafe { to.at(*a as usize).write(k) };
+            *a += 1;
+        }
+    });
+    let (mut rest, mut parts, mut start) = (&mut out[..], vec![], 0);
+    for e in ends {
+        let (part, later) = rest.split_at_mut(e - start);
+        (rest, start) = (later, e);
+        parts.push(part);
+    }
+    parts.into_par_iter().for_each(|p| p.sort_unstable());
+    (out, face_bits)
+}
+
+const NOTHING: Boxes = Boxes([
+    Row([f32::INFINITY; W]),
+    Row([f32::INFINITY; W]),
+    Row([f32::INFINITY; W]),
+    Row([f32::NEG_INFINITY; W]),
+    Row([f32::NEG_INFINITY; W]),
+    Row([f32::NEG_INFINITY; W]),
+]);
+
+/// A leaf and its boxes. Flat triangles keep an empty box and are never found.
+fn leaf(mesh: &Mesh, frame: &Frame, faces: impl Iterator<Item = usize>) -> (Leaf, Boxes) {
+    let mut leaf =
+        Leaf { at: [[Row([0.0; W]); 3]; 3], corner: [Row([u32::MAX; W]); 3], face: Row([u32::MAX; W]) };
+    let mut boxes = NOTHING;
+    for (i, number) in faces.enumerate() {
+        let face = mesh.faces[number];
+        let corners = face.map(|v| mesh.positions[v as usize]);
+        let p = corners.map(|p| frame.place(&p).map(|x| x as f32));
+        if !predicates::is_flat(&corners) {
+            for k in 0..3 {
+                boxes.0[k].0[i] = p[0][k].min(p[1][k]).min(p[2][k]) - frame.slack;
+                boxes.0[k + 3].0[i] = p[0][k].max(p[1][k]).max(p[2][k]) + frame.slack;
+            }
+        }
+        leaf.face.0[i] = number as u32;
+        for j in 0..3 {
+            leaf.corner[j].0[i] = face[j];
+            for k in 0..3 {
+                leaf.at[j][k].0[i] = p[j][k];
+            }
+        }
+    }
+    (leaf, boxes)
+}
+
+/// Box of all children.
+fn hull(b: &Boxes) -> [f32; 6] {
+    let pick = |r: &Row<f32>, f: fn(f32, f32) -> f32| r.0.into_iter().fold(r.0[0], f);
+    std::array::from_fn(|k| {
+        if k < 3 {
+            pick(&b.0[k], |a, b| if b < a { b } else { a })
+        } else {
+            pick(&b.0[k], |a, b| if b > a { b } else { a })
+        }
+    })
+}
+
+impl Tree {
+    /// The tree of the faces that are `wanted`: they must have finite corners. Uses the current rayon pool.
+    pub fn build(mesh: &Mesh, wanted: impl Fn(usize) -> bool + Sync) -> Tree {
+        let frame = Frame::of(&mesh.positions);
+        let (keys, face_bits) = sorted(mesh, &frame, &wanted);
+        let face = |key: &u64| (key & ((1 << face_bits) - 1)) as usize;
+        let n = keys.len().div_ceil(W);
+        let mut leaves: Vec<Leaf> = large_pages(Vec::with_capacity(n));
+        let mut boxes: Vec<Boxes> = large_pages(Vec::with_capacity(n));
+        let (l, b) = (Shared::of(&mut leaves), Shared::of(&mut boxes));
+        keys.par_chunks(W).enumerate().for_each(|(i, part)| {
+            let (leaf, boxes) = leaf(mesh, &frame, part.iter().map(face));
+            // SAFETY: each of the `n` places allocated is written once.
+            unsafe { (l.at(i).write(leaf), b.at(i).write(boxes)) };
+        });
+        // SAFETY: all written above.
+        unsafe { (leaves.set_len(n), boxes.set_len(n)) };
+        let mut levels = vec![boxes];
+        while levels[levels.len() - 1].len() > 1 {
+            let up = levels[levels.len() - 1].par_chunks(W).map(|part| {
+                let mut b = NOTHING;
+                for (i, c) in part.iter().enumerate() {
+                    for (k, x) in hull(c).into_iter().enumerate() {
+                        b.0[k].0[i] = x;
+                    }
+                }
+                b
+            });
+            levels.push(up.collect());
+        }
+        Tree { leaves, levels, frame }
+    }
+}

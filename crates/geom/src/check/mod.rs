@@ -1,0 +1,3 @@
+//! Everything that is wrong with a mesh, found exactly and with its place.
+
+pub mod intersect;
