@@ -10,8 +10,10 @@
 //! | closest points, distances, signs | [`closest`] |
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | elements fitted to points | [`fit`] |
+//! | all defects of a mesh | [`check`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod check;
 pub mod closest;
 pub mod cloud;
 pub mod deviation;

@@ -1,3 +1,199 @@
 //! Everything that is wrong with a mesh, found exactly and with its place.
+//!
+//! [`check`] looks for every kind of defect in [`KINDS`]: one file and one line each. A check never fails, it returns
+//! [`Finding`]s: kind, place and size as data, not text. What geometry decides (orientation, intersection, collinearity)
+//! is decided exactly. What only a tolerance can decide has one in [`Options`], with a default that follows from the
+//! precision of the coordinates.
 
+mod boundary_edges;
+mod cracks;
+mod dangling_facets;
+mod degenerate_facets;
+mod duplicate_facets;
+mod finding;
+mod free_edges;
+mod holes;
+mod inconsistent_orientation;
+mod inside_out_shells;
 pub mod intersect;
+mod islands;
+mod near;
+mod nesting;
+mod non_manifold_edges;
+mod non_manifold_vertices;
+mod not_finite_facets;
+mod precision;
+mod reversed_normals;
+mod self_intersections;
+mod sliver_facets;
+mod t_junctions;
+#[cfg(test)]
+mod tests;
+mod unshared_vertices;
+
+pub use finding::{Finding, Found, Inspected, Kind, Severity};
+pub use precision::spacing;
+
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress};
+use crate::topology::weld::WeldError;
+use crate::topology::{Properties, Soundness, Topology};
+use free_edges::FreeEdges;
+
+/// All kinds of defect, in the order in which they are told.
+pub const KINDS: [&Kind; 17] = [
+    &boundary_edges::KIND,
+    &holes::KIND,
+    &cracks::KIND,
+    &dangling_facets::KIND,
+    &non_manifold_edges::KIND,
+    &non_manifold_vertices::KIND,
+    &duplicate_facets::KIND,
+    &degenerate_facets::KIND,
+    &sliver_facets::KIND,
+    &reversed_normals::KIND,
+    &inconsistent_orientation::KIND,
+    &inside_out_shells::KIND,
+    &self_intersections::KIND,
+    &t_junctions::KIND,
+    &unshared_vertices::KIND,
+    &islands::KIND,
+    &not_finite_facets::KIND,
+];
+
+/// What to look for and from where on it counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Findings of each kind that are listed; all are counted.
+    pub limit: usize,
+    /// Look for self-intersections, which takes as long as all the rest.
+    pub self_intersections: bool,
+    /// Distance, mm, up to which two places may have been meant as one: for T-junctions and unshared vertices. `None`:
+    /// eight times the spacing of single-precision numbers at the largest coordinate.
+    pub gap: Option<f64>,
+    /// Facets with a smaller angle than this, radians, are slivers.
+    pub sliver_angle: f64,
+    /// Shells with a smaller diagonal than this share of the diagonal of the whole are islands.
+    pub island_share: f64,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            limit: 1000,
+            self_intersections: true,
+            gap: None,
+            sliver_angle: 0.1f64.to_radians(),
+            island_share: 0.01,
+        }
+    }
+}
+
+/// What [`check`] found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// No finding of a kind that is an [`Severity::Error`].
+    pub sound: bool,
+    /// The verdict that the signs of deviations hang on.
+    pub soundness: Soundness,
+    /// Size and place.
+    pub properties: Properties,
+    /// Vertices that a facet uses.
+    pub vertices: usize,
+    /// Edges.
+    pub edges: usize,
+    /// V − E + F.
+    pub euler_characteristic: i64,
+    /// Number of handles of all shells together; `None` unless the mesh is a closed surface, consistently oriented.
+    pub genus: Option<i64>,
+    /// The gap used, mm.
+    pub gap: f64,
+    /// Findings by kind, in the order of [`KINDS`]; `None` where a kind was not looked for.
+    pub defects: Vec<(&'static Kind, Option<Found>)>,
+}
+
+impl Report {
+    /// Findings of the kind with this name.
+    pub fn found(&self, name: &str) -> Option<&Found> {
+        self.defects.iter().find(|(kind, _)| kind.name == name).and_then(|(_, found)| found.as_ref())
+    }
+}
+
+/// Why there is no report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CheckError {
+    /// The faces cannot be connected.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+    /// The check was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Looks for every kind of defect.
+///
+/// `mesh` must be welded, as the readers of files and [`weld`](crate::topology::weld) leave it: vertices at the same
+/// place are otherwise different vertices. `stored_normals` are those a file holds with its facets, in the order of the
+/// faces, of any length; a zero or NaN one says nothing. Any mesh will do, however broken. The report is the same for any
+/// number of threads. A scan of 1.6 million facets takes about half a second on two cores, half of it for
+/// self-intersections; `progress` is told facets as they pass that search.
+///
+/// # Errors
+/// [`CheckError`].
+pub fn check(
+    mesh: &Mesh,
+    stored_normals: Option<&[[f32; 3]]>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Report, CheckError> {
+    let topology = Topology::of(mesh)?;
+    let properties = Properties::of(mesh, &topology);
+    let crossings = match options.self_intersections {
+        true => Some(intersect::self_intersections(mesh, &topology, progress)?),
+        false => None,
+    };
+    let soundness = Soundness::from_parts(&topology, &properties);
+    let gap = options.gap.unwrap_or(8.0 * spacing(&properties.bounds));
+    let free_edges = FreeEdges::of(&topology);
+    let inspected = Inspected {
+        mesh,
+        topology: &topology,
+        properties: &properties,
+        free_edges: &free_edges,
+        stored_normals,
+        crossings: crossings.as_deref(),
+        options,
+        gap,
+    };
+    let mut defects = vec![];
+    for kind in KINDS {
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        defects.push((kind, (kind.find)(&inspected)));
+    }
+    let broken = |(kind, found): &(&Kind, Option<Found>)| {
+        kind.severity == Severity::Error && found.as_ref().is_some_and(|f| f.count > 0)
+    };
+    let euler_characteristic = topology.euler_characteristic();
+    Ok(Report {
+        sound: topology.counting_facets > 0 && !defects.iter().any(broken),
+        genus: genus(&topology, &soundness),
+        soundness,
+        vertices: topology.used_vertices(),
+        edges: topology.edges,
+        euler_characteristic,
+        gap,
+        properties,
+        defects,
+    })
+}
+
+/// From V − E + F = 2 (shells − handles), which holds for closed oriented surfaces.
+fn genus(topology: &Topology, soundness: &Soundness) -> Option<i64> {
+    let surface = soundness.closed
+        && soundness.consistently_oriented
+        && soundness.non_manifold_edges == 0
+        && soundness.non_manifold_vertices == 0;
+    surface.then(|| topology.shells as i64 - topology.euler_characteristic() / 2)
+}

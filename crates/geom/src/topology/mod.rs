@@ -139,9 +139,14 @@ impl Topology {
         facets
     }
 
+    /// Number of vertices that a counting facet uses.
+    pub fn used_vertices(&self) -> usize {
+        self.fans.used()
+    }
+
     /// V − E + F, over vertices that a facet uses and facets that count.
     pub fn euler_characteristic(&self) -> i64 {
-        self.fans.used() as i64 - self.edges as i64 + self.counting_facets as i64
+        self.used_vertices() as i64 - self.edges as i64 + self.counting_facets as i64
     }
 }
 

@@ -19,8 +19,7 @@ fn in_triangle(k: usize, p: &Point, t: &[Point; 3]) -> bool {
 /// Whether two segments of one plane meet, seen along axis `k`.
 fn segments(k: usize, [a, b]: [&Point; 2], [c, d]: [&Point; 2]) -> bool {
     let (x, y) = ((k + 1) % 3, (k + 2) % 3);
-    let within =
-        |a: &Point, b: &Point, p: &Point, i: usize| a[i].min(b[i]) <= p[i] && p[i] <= a[i].max(b[i]);
+    let within = |a: &Point, b: &Point, p: &Point, i: usize| a[i].min(b[i]) <= p[i] && p[i] <= a[i].max(b[i]);
     let on = |o: i32, a: &Point, b: &Point, p: &Point| o == 0 && within(a, b, p, x) && within(a, b, p, y);
     let (oc, od) = (side_of_line(k, a, b, c), side_of_line(k, a, b, d));
     let (oa, ob) = (side_of_line(k, c, d, a), side_of_line(k, c, d, b));
@@ -66,8 +65,7 @@ pub(super) fn meet((t, i): &Triangle, (u, j): &Triangle) -> bool {
         (&[a], &[b]) => {
             let (e, f) = (&t[(a + 1) % 3], &t[(a + 2) % 3]);
             side_of_plane(&t[0], &t[1], &t[2], &u[b]) == 0
-                && axis(t)
-                    .is_some_and(|k| side_of_line(k, e, f, &t[a]) * side_of_line(k, e, f, &u[b]) > 0)
+                && axis(t).is_some_and(|k| side_of_line(k, e, f, &t[a]) * side_of_line(k, e, f, &u[b]) > 0)
         }
         _ => false,
     }

@@ -207,8 +207,7 @@ impl Walk<'_> {
                         - if other[k] < b[k] { other[k] } else { b[k] };
                 }
                 // SAFETY: handed on.
-                let left =
-                    unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
+                let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
         }

@@ -57,7 +57,8 @@ impl Frame {
         }
         let bounds = Aabb::of(positions.iter().filter(|p| p.iter().all(|x| x.is_finite())));
         let origin: Point = std::array::from_fn(|k| bounds.min[k] / 2.0 + bounds.max[k] / 2.0);
-        let reach = (0..3).map(|k| bounds.max[k] / 2.0 - bounds.min[k] / 2.0).fold(f64::MIN_POSITIVE, f64::max);
+        let reach =
+            (0..3).map(|k| bounds.max[k] / 2.0 - bounds.min[k] / 2.0).fold(f64::MIN_POSITIVE, f64::max);
         // 2^-23 is four times the rounding of a number below 1.
         Frame { origin, scale: 0.5 * 2f64.powi(-(reach.log2().ceil() as i32)), slack: 1.0 / (1 << 23) as f32 }
     }

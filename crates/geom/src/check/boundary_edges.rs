@@ -1,0 +1,15 @@
+//! Edges with one facet only.
+
+use super::{Kind, Severity};
+
+pub(super) const KIND: Kind = Kind {
+    name: "boundary_edges",
+    severity: Severity::Error,
+    about: "Edges with one facet: the surface has a rim there. Vertices run as the facet does.",
+    size: "length, mm",
+    find: |m| {
+        m.each(&m.topology.boundary_edges, |e| {
+            m.finding(vec![e.facet], e.vertices.to_vec(), m.distance(e.vertices))
+        })
+    },
+};

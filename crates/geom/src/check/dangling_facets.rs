@@ -1,0 +1,16 @@
+//! Facets with fewer than three neighbours.
+
+use super::{Kind, Severity};
+
+pub(super) const KIND: Kind = Kind {
+    name: "dangling_facets",
+    severity: Severity::Error,
+    about: "Facets with fewer than three neighbours.",
+    size: "neighbours missing",
+    find: |m| {
+        let mut facets: Vec<u32> = m.topology.boundary_edges.iter().map(|e| e.facet).collect();
+        facets.sort_unstable();
+        let missing: Vec<&[u32]> = facets.chunk_by(|a, b| a == b).collect();
+        m.each(&missing, |f| m.finding(vec![f[0]], vec![], f.len() as f64))
+    },
+};

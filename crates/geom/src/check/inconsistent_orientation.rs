@@ -1,0 +1,16 @@
+//! Neighbours that face different ways.
+
+use super::{Kind, Severity};
+
+pub(super) const KIND: Kind = Kind {
+    name: "inconsistent_orientation",
+    severity: Severity::Error,
+    about: "Edges whose two facets run along them in the same direction: one of them looks inwards.",
+    size: "length, mm",
+    find: |m| {
+        m.each(&m.topology.inconsistent_edges, |e| {
+            let facets = m.topology.facets_at_edge(m.mesh, e.vertices);
+            m.finding(facets, e.vertices.to_vec(), m.distance(e.vertices))
+        })
+    },
+};

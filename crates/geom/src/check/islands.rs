@@ -1,0 +1,46 @@
+//! Shells so small that they are likely dust.
+
+use super::{Inspected, Kind, Severity};
+use crate::space::Aabb;
+
+pub(super) const KIND: Kind = Kind {
+    name: "islands",
+    severity: Severity::Warning,
+    about: "Shells that are small beside the whole: dust of a scan, or crumbs of a conversion. \
+            Facets: the first of the shell.",
+    size: "diagonal, mm",
+    find: |m| {
+        let bounds = shell_bounds(m);
+        let limit = m.options.island_share * m.properties.bounds.diagonal();
+        let small: Vec<usize> = (0..bounds.len()).filter(|&s| bounds[s].1.diagonal() < limit).collect();
+        // A mesh that is all dust has no islands.
+        let small = if small.len() == bounds.len() { vec![] } else { small };
+        m.each(&small, |&s| {
+            let (first, bounds) = bounds[s];
+            let mut finding = m.finding(vec![first], vec![], bounds.diagonal());
+            finding.position = std::array::from_fn(|k| bounds.min[k] / 2.0 + bounds.max[k] / 2.0);
+            finding.bounds = bounds;
+            finding.measures = vec![("shell", s as f64), ("area", m.properties.shell_areas[s])];
+            finding
+        })
+    },
+};
+
+/// The lowest facet and the box of each shell.
+pub(super) fn shell_bounds(m: &Inspected) -> Vec<(u32, Aabb)> {
+    let mut bounds = vec![(u32::MAX, Aabb::EMPTY); m.topology.shells];
+    if let [(first, only)] = &mut bounds[..] {
+        // Nearly every mesh; its facets need not be looked at one by one.
+        *first = m.topology.shell_of.iter().position(|&s| s == 0).unwrap_or(0) as u32;
+        *only = m.properties.bounds;
+        return bounds;
+    }
+    for (f, &shell) in (0..).zip(&m.topology.shell_of) {
+        if shell != u32::MAX {
+            let (first, all) = &mut bounds[shell as usize];
+            *first = (*first).min(f);
+            *all = all.union(&Aabb::of(&m.corners(f)));
+        }
+    }
+    bounds
+}

@@ -1,0 +1,107 @@
+//! Places near something, without looking at all of them: a balanced tree of boxes over points.
+
+use crate::space::{Aabb, Point};
+
+/// Points of a leaf, at most.
+const LEAF: usize = 8;
+
+/// Points with a number each.
+pub(super) struct Near {
+    points: Vec<(Point, u32)>,
+    /// Box of each node; the children of node `i` are `2 i + 1` and `2 i + 2`, each with half of its points.
+    boxes: Vec<Aabb>,
+}
+
+impl Near {
+    /// n log n.
+    pub(super) fn new(points: Vec<(Point, u32)>) -> Near {
+        let mut near = Near { boxes: vec![], points };
+        let count = near.points.len();
+        let mut leaves = 1;
+        while count.div_ceil(leaves) > LEAF {
+            leaves *= 2;
+        }
+        near.boxes = vec![Aabb::EMPTY; 2 * leaves - 1];
+        build(&mut near.points, &mut near.boxes, 0);
+        near
+    }
+
+    /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
+    pub(super) fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
+        let mut stack = vec![(0, 0..self.points.len())];
+        while let Some((node, range)) = stack.pop() {
+            if range.is_empty() || !reaches(&self.boxes[node]) {
+                continue;
+            }
+            if 2 * node + 1 >= self.boxes.len() {
+                self.points[range].iter().for_each(|(p, number)| take(p, *number));
+                continue;
+            }
+            let middle = range.start + range.len() / 2;
+            stack.push((2 * node + 2, middle..range.end));
+            stack.push((2 * node + 1, range.start..middle));
+        }
+    }
+}
+
+/// Sorts the points of node `node` into its subtree.
+fn build(points: &mut [(Point, u32)], boxes: &mut [Aabb], node: usize) {
+    let all = Aabb::of(points.iter().map(|(p, _)| p));
+    boxes[node] = all;
+    if 2 * node + 1 >= boxes.len() || points.is_empty() {
+        return;
+    }
+    let sides = all.sides();
+    let axis = (0..3).max_by(|&a, &b| sides[a].total_cmp(&sides[b])).unwrap_or(0);
+    let middle = points.len() / 2;
+    points.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+    let (low, high) = points.split_at_mut(middle);
+    build(low, boxes, 2 * node + 1);
+    build(high, boxes, 2 * node + 2);
+}
+
+/// Whether the segment from `a` to `b` comes within `gap` of the box, in each coordinate.
+pub(super) fn segment_reaches(a: Point, b: Point, gap: f64, bounds: &Aabb) -> bool {
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for k in 0..3 {
+        let (low, high) = (bounds.min[k] - gap - a[k], bounds.max[k] + gap - a[k]);
+        let along = b[k] - a[k];
+        if along == 0.0 {
+            if low > 0.0 || high < 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let (x, y) = (low / along, high / along);
+        (from, to) = (from.max(x.min(y)), to.min(x.max(y)));
+    }
+    // The divisions round; a box just missed costs little.
+    from <= to + 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    #[test]
+    fn finds_what_looking_at_all_finds() {
+        let random = &mut Random::new(5);
+        for n in [0, 1, 8, 9, 300] {
+            let points: Vec<(Point, u32)> =
+                (0..n).map(|i| (std::array::from_fn(|_| (random.unit() * 20.0).floor()), i)).collect();
+            let near = Near::new(points.clone());
+            for _ in 0..50 {
+                let [a, b]: [Point; 2] =
+                    std::array::from_fn(|_| std::array::from_fn(|_| random.unit() * 20.0));
+                let gap = random.unit();
+                let point = |p: &Point| segment_reaches(a, b, gap, &Aabb { min: *p, max: *p });
+                let mut got = vec![];
+                near.visit(|x| segment_reaches(a, b, gap, x), |p, i| got.extend(point(p).then_some(i)));
+                got.sort_unstable();
+                let want: Vec<u32> = points.iter().filter(|(p, _)| point(p)).map(|(_, i)| *i).collect();
+                assert_eq!(got, want);
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Facets that cross, touch or overlap.
+
+use super::{Finding, Inspected, Kind, Severity};
+use crate::space::Aabb;
+
+pub(super) const KIND: Kind = Kind {
+    name: "self_intersections",
+    severity: Severity::Error,
+    about: "Pairs of facets that meet anywhere else than in the vertices or the edge they share, decided exactly.",
+    size: "diagonal of the box that the two have in common, mm",
+    find: |m| m.each(m.crossings?, |pair| crossing(m, *pair)),
+};
+
+fn crossing(m: &Inspected, pair: [u32; 2]) -> Finding {
+    let mut finding = m.finding(pair.to_vec(), vec![], 0.0);
+    let [a, b] = pair.map(|f| Aabb::of(&m.corners(f)));
+    let common = Aabb {
+        min: std::array::from_fn(|k| a.min[k].max(b.min[k])),
+        max: std::array::from_fn(|k| a.max[k].min(b.max[k])),
+    };
+    finding.bounds = common;
+    finding.position = std::array::from_fn(|k| common.min[k] / 2.0 + common.max[k] / 2.0);
+    finding.size = common.diagonal();
+    finding
+}

@@ -1,0 +1,61 @@
+//! Vertices that lie on somebody else's edge.
+
+use super::near::segment_reaches;
+use super::{Inspected, Kind, Severity};
+use crate::space::{Point, dot, minus, norm, plus, times};
+use rayon::prelude::*;
+
+pub(super) const KIND: Kind = Kind {
+    name: "t_junctions",
+    severity: Severity::Error,
+    about: "Vertices on the boundary that lie within the gap of a boundary edge of another facet, away from its ends. \
+            Vertices: the one, then the ends of the edge.",
+    size: "distance, mm",
+    find: |m| {
+        let near = m.free_edges.near(m.mesh);
+        let found: Vec<Junction> = (m.topology.boundary_edges.par_iter())
+            .flat_map_iter(|e| {
+                let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
+                let mut found = vec![];
+                near.visit(
+                    |bounds| segment_reaches(a, b, m.gap, bounds),
+                    |p, vertex| {
+                        let distance = offset(*p, a, b, m.gap).filter(|_| !e.vertices.contains(&vertex));
+                        found.extend(distance.map(|d| Junction {
+                            vertex,
+                            edge: e.vertices,
+                            facet: e.facet,
+                            distance: d,
+                        }));
+                    },
+                );
+                found.sort_unstable_by_key(|j| j.vertex);
+                found
+            })
+            .collect();
+        m.each(&found, |j| junction(m, j))
+    },
+};
+
+struct Junction {
+    vertex: u32,
+    edge: [u32; 2],
+    facet: u32,
+    distance: f64,
+}
+
+fn junction(m: &Inspected, j: &Junction) -> super::Finding {
+    let mut finding = m.finding(vec![j.facet], vec![j.vertex, j.edge[0], j.edge[1]], j.distance);
+    finding.position = m.mesh.positions[j.vertex as usize];
+    finding
+}
+
+/// Distance of `p` from the line of `a` and `b` if it is at most `gap`, and `p` is farther than that from both ends and
+/// between them.
+fn offset(p: Point, a: Point, b: Point, gap: f64) -> Option<f64> {
+    let (along, to) = (minus(b, a), minus(p, a));
+    let t = dot(to, along) / dot(along, along);
+    let distance = norm(minus(p, plus(a, times(t, along))));
+    let away = norm(to) > gap && norm(minus(p, b)) > gap;
+    (t > 0.0 && t < 1.0 && distance <= gap && away).then_some(distance)
+}
