@@ -96,6 +96,25 @@ fn soups_equal_brute_force() {
     check("small triangles", soup(d, 3000, small), d, 1500);
 }
 
+/// Few points make one wide block, whose outer points have other winners than its centre.
+#[test]
+fn wide_blocks_equal_brute_force() {
+    let d = &mut Dice(7);
+    for round in 0..3000 {
+        let small = |d: &mut Dice| {
+            let c = d.point([0.5, 2.0, 3.0][round % 3]);
+            std::array::from_fn(|_| plus(c, d.point(0.02)))
+        };
+        let mesh = soup(d, 2 + round % 30, small);
+        let points: Vec<Point> = (0..2 + round % 15).map(|_| d.point(1.0)).collect();
+        let tree = Tree::build(&mesh).unwrap();
+        for (p, h) in points.iter().zip(hits(&tree, &points, &Query::default())) {
+            let h = h.unwrap();
+            assert_eq!((h.distance_squared, h.face), brute::closest(&mesh, p), "round {round} at {p:?}");
+        }
+    }
+}
+
 #[test]
 fn degenerate_triangles_equal_brute_force() {
     let d = &mut Dice(4);

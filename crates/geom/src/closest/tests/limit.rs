@@ -39,6 +39,8 @@ fn the_limit_itself_counts() {
     for d in [0.1, 0.7, 1e-300, 3e7, 1e-9] {
         let p = [0.5, 0.25, 1.0 + d];
         let true_distance = p[2] - 1.0;
+        let query = Query { max_distance: true_distance, ..Query::default() };
+        assert_eq!(tree.distances(&[p], &query, &Silent), Ok(vec![true_distance]), "{d}");
         assert!(tree.closest(&p, true_distance).unwrap().is_some(), "{d}");
         assert!(
             true_distance == 0.0 || tree.closest(&p, true_distance.next_down()).unwrap().is_none(),

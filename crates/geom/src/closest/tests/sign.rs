@@ -95,8 +95,11 @@ fn free_edges_hold_what_is_beside_the_mesh() {
 
 #[test]
 fn an_edge_of_three_faces_is_loose_but_not_free() {
-    let positions = vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]];
+    let positions = vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]];
     let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 1, 3], [0, 1, 4]] };
     let tree = Tree::build(&mesh).unwrap();
-    assert_eq!((FreeEdges::new(&tree).count(), Signs::new(&tree).loose_edges()), (6, 9));
+    let rim = FreeEdges::new(&tree);
+    assert_eq!((rim.count(), Signs::new(&tree).loose_edges()), (6, 9));
+    let place = tree.closest(&[-1.0, 0.1, 0.5], f64::INFINITY).unwrap().unwrap();
+    assert!(matches!(place.feature, Feature::Edge(_)) && !rim.holds(&place), "{place:?}");
 }
