@@ -2,11 +2,13 @@
 //!
 //! | task | where |
 //! |---|---|
+//! | deviations from references | [`compare`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 
+pub mod compare;
 pub mod report;
 pub mod results;
 pub mod scale;

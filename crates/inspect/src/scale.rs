@@ -119,6 +119,49 @@ impl Scale {
     }
 }
 
+/// Why a scale cannot colour anything.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ScaleError {
+    /// The ends are not numbers, or the wrong way round.
+    #[error("`lower` ({0}) must be a number below `upper` ({1})")]
+    Ends(f64, f64),
+    /// No bands, or more than anyone can tell apart.
+    #[error("`bands` is {0}; it must be from 1 to 99")]
+    Bands(u32),
+    /// The zone is empty or sticks out.
+    #[error("`tolerance` [{0}, {1}] must rise and lie within `lower` and `upper`")]
+    Tolerance(f64, f64),
+    /// There is no such palette.
+    #[error("`palette` is ‘{0}’; there are {list}", list = palette::NAMES.join(", "))]
+    Palette(String),
+}
+
+impl Scale {
+    /// Makes sure that a scale from a file can be used.
+    ///
+    /// # Errors
+    /// See [`ScaleError`].
+    pub fn check(&self) -> Result<(), ScaleError> {
+        let (lower, upper) = (self.lower, self.upper);
+        if !(lower.is_finite() && upper.is_finite() && lower < upper) {
+            return Err(ScaleError::Ends(lower, upper));
+        }
+        if !(1..=99).contains(&self.bands) {
+            return Err(ScaleError::Bands(self.bands));
+        }
+        if let Some([l, u]) = self.tolerance
+            && !(lower <= l && l < u && u <= upper)
+        {
+            return Err(ScaleError::Tolerance(l, u));
+        }
+        if palette::NAMES.contains(&self.palette.as_str()) {
+            Ok(())
+        } else {
+            Err(ScaleError::Palette(self.palette.clone()))
+        }
+    }
+}
+
 /// See [`Scale::slot`].
 pub(crate) fn slot(limits: &[f64], deviation: f64) -> usize {
     let middle = limits.len() / 2;

@@ -7,5 +7,7 @@ pub mod paired;
 pub mod paper;
 pub mod quantiles;
 pub mod sample;
+pub mod sign_choice;
 pub mod sketch;
 pub mod statistics;
+pub mod surface;

@@ -152,6 +152,8 @@ pub struct Summary {
     pub positive: Statistics,
     /// Those below zero.
     pub negative: Statistics,
+    /// 95 % of the absolute values are no greater; the range of a colour scale.
+    pub p95_abs: Number,
     /// Values that are exactly zero: in `all`, in neither of the others.
     pub zeros: u64,
     /// NaN and infinite values: left out everywhere.
@@ -280,7 +282,12 @@ impl SignedMoments {
             [&positive, &negative].map(|m| m.mean.value().abs() * (m.count as f64 / all.count as f64));
         let [of_all, of_positive, of_negative] =
             ordered(values, [&all, &positive, &negative], negative.count + zeros);
+        let sizes = values.distances_at(Part::All, &all, 0.0, &neighbours(0, all.count, 95.0));
         Summary {
+            p95_abs: match sizes[..] {
+                [a, b] => Ok(interpolate(a, b, position(all.count, 95.0).1)),
+                _ => Err(Missing::NoValues),
+            },
             all: Statistics::new(&all, shares[0] + shares[1], of_all),
             positive: Statistics::new(&positive, positive.mean.value(), of_positive),
             negative: Statistics::new(&negative, -negative.mean.value(), of_negative),

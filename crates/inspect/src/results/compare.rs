@@ -214,17 +214,15 @@ pub struct Percentiles {
 /// Whether a reference is a sound mesh: the precondition of the statistics.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Soundness {
-    /// Two facets at every edge, a closed fan at every vertex, no coincident or degenerate facets, one orientation.
+    /// Two facets at every edge, a closed fan at every vertex, no coincident facets, all facing outward.
     pub sound: bool,
     /// No free edge.
     pub closed: bool,
     /// Neighbours agree on which side is outside.
     pub consistently_oriented: bool,
-    /// Facets.
-    pub facets: u64,
-    /// Distinct vertices in use.
-    pub vertices: u64,
-    /// Facets connected through edges.
+    /// The enclosed volume is positive.
+    pub outward: bool,
+    /// Parts connected through edges.
     pub shells: u64,
     /// Edges with one facet.
     pub boundary_edges: u64,
@@ -234,8 +232,10 @@ pub struct Soundness {
     pub non_manifold_vertices: u64,
     /// Facets on the same three vertices as an earlier one.
     pub duplicate_facets: u64,
-    /// Facets with a repeated vertex.
+    /// Facets with a repeated vertex or all corners on one line; they break no rule.
     pub degenerate_facets: u64,
+    /// Facets with a coordinate that is not finite, left out.
+    pub not_finite_facets: u64,
     /// Edges that both neighbours pass in the same direction.
     pub inconsistent_edges: u64,
 }
@@ -328,8 +328,10 @@ pub struct Paired {
     pub interval: Option<[f64; 2]>,
     /// Standard deviation of the differences.
     pub std_dev: Option<f64>,
-    /// Two-sided p value of the mean difference being zero.
+    /// Two-sided p value of the mean difference being zero (Student).
     pub p_value: Option<f64>,
+    /// Two-sided p value of Wilcoxon's signed-rank test.
+    pub wilcoxon_p_value: Option<f64>,
     /// Why numbers are missing.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub reason: Option<String>,

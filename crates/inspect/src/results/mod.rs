@@ -76,3 +76,13 @@ impl Verdict {
         }
     }
 }
+
+/// Name and JSON schema of every result document, as kept under `docs/schema/`.
+pub fn schemas() -> Vec<(&'static str, String)> {
+    let text = |schema: schemars::Schema| {
+        let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+        text.push('\n');
+        text
+    };
+    vec![("compare", text(schemars::schema_for!(compare::CompareDocument)))]
+}

@@ -1,0 +1,72 @@
+//! The measured side: a cloud as a stream, or the vertices or samples of a mesh.
+
+use crate::exit::Usage;
+use crate::read;
+use anyhow::Context;
+use std::path::Path;
+use trueness_files::{Body, PointSource, ReadError, ReadOptions};
+use trueness_geom::cloud::PointStream;
+use trueness_geom::deviation::sample::sample as sample_mesh;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+use trueness_inspect::results::{InputRecord, Role};
+
+/// What is compared.
+pub struct Measured {
+    /// The points in their order.
+    pub points: PointSource,
+    /// The mesh that they are the vertices or samples of.
+    pub mesh: Option<Mesh>,
+    /// `points`, `vertices` or `samples`.
+    pub kind: &'static str,
+    /// What the document says about the file.
+    pub record: InputRecord,
+}
+
+impl Measured {
+    /// Opens the file; `sample` asks for that many points on a mesh's surface instead of its vertices.
+    ///
+    /// A mesh keeps its vertices as they stand in the file, so that results can be put back beside it; only the corners of
+    /// an STL, which has no vertices of its own, are welded.
+    pub fn open(
+        path: &Path,
+        reading: &ReadOptions,
+        sample: Option<u64>,
+        seed: u64,
+    ) -> anyhow::Result<Measured> {
+        let input = trueness_files::open(path, reading)?;
+        let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
+        let mesh = match input.body {
+            Body::Points(_) if sample.is_some() => {
+                let shown = path.display();
+                return Err(Usage(format!("--sample needs a measured mesh, but {shown} holds points")).into());
+            }
+            Body::Points(points) => return Ok(Measured { points, mesh: None, kind: "points", record }),
+            Body::Mesh(mesh) => mesh.mesh,
+        };
+        record.facets = Some(mesh.faces.len() as u64);
+        let (points, kind) = match sample {
+            Some(n) => {
+                let samples =
+                    sample_mesh(&mesh, n as usize, seed).with_context(|| path.display().to_string())?;
+                (samples.into_iter().map(|s| s.point).collect(), "samples")
+            }
+            None => (mesh.positions.clone(), "vertices"),
+        };
+        Ok(Measured { points: Box::new(Once(Some(points))), mesh: Some(mesh), kind, record })
+    }
+}
+
+/// Points that are all there, in one block.
+struct Once(Option<Vec<Point>>);
+
+impl PointStream for Once {
+    type Error = ReadError;
+    fn expected(&self) -> Option<u64> {
+        Some(self.0.as_ref().map_or(0, |p| p.len() as u64))
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<(), ReadError> {
+        *block = self.0.take().unwrap_or_default();
+        Ok(())
+    }
+}

@@ -1,0 +1,241 @@
+//! `trueness compare`: how far is every measured point from the reference?
+
+mod measured;
+mod output;
+mod table;
+
+use crate::command::Common;
+use crate::exit::{Outcome, Usage};
+use crate::progress::Stage;
+use crate::tolerance::ToleranceArg;
+use crate::{console, read};
+use clap::{Args, ValueEnum};
+use measured::Measured;
+use output::PointFiles;
+use std::path::{Path, PathBuf};
+use trueness_files::{Columns, ReadError, ReadOptions, Unit, WriteError};
+use trueness_geom::closest::QueryError;
+use trueness_geom::deviation::sign_choice::SignRequest;
+use trueness_geom::deviation::surface::SurfaceOptions;
+use trueness_geom::mesh::Mesh;
+use trueness_inspect::compare::{self, Inputs, Method, Options, Reference, View};
+use trueness_inspect::results::Verdict;
+use trueness_inspect::results::compare::{Reverse, Sampling};
+use trueness_inspect::scale::Scale;
+
+/// Deviations of measured points (or a mesh) from one or several reference meshes
+///
+/// Every point's exact distance to the nearest facet, + outside the reference, − inside, with its statistics. Several
+/// references are ranked by their root mean square.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness compare scan.ply nominal.stl
+  trueness compare scan.xyz nominal.stl --tolerance -0.1,+0.2 --html report.html
+  trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
+  trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5")]
+pub struct CompareArgs {
+    /// The scan: points or a mesh (its vertices are compared); `-` reads stdin
+    measured: PathBuf,
+    /// The nominal, or the mesh under test; several are ranked side by side
+    #[arg(required = true)]
+    references: Vec<PathBuf>,
+    /// How distances are computed
+    #[arg(long, value_enum, default_value = "exact")]
+    method: MethodArg,
+    /// How inside and outside are told apart
+    #[arg(long, value_enum, default_value = "auto")]
+    sign: SignArg,
+    /// Allowed deviation: T for ±T, or -L,+U; the exit status is then the verdict
+    #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
+    tolerance: Option<ToleranceArg>,
+    /// Share of the points that must lie within the tolerance, in percent
+    #[arg(long, value_name = "PERCENT", default_value = "100", requires = "tolerance")]
+    inside: f64,
+    /// Exclude (and count) points farther than this, mm
+    #[arg(long, value_name = "MM")]
+    max_distance: Option<f64>,
+    /// Exclude (and count) points whose nearest place is a free edge of the reference
+    #[arg(long)]
+    skip_boundary: bool,
+    /// Compare N points spread evenly over the measured mesh's area instead of its vertices
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    sample: Option<u64>,
+    /// Also from the reference to the measured mesh: Hausdorff and mean distance
+    #[arg(long)]
+    both: bool,
+    /// Add bootstrap intervals, a normality test, the best distribution, Moran's I
+    #[arg(long)]
+    research: bool,
+    /// Unit of files that do not say theirs [default: mm]
+    #[arg(long, value_name = "UNIT")]
+    units: Option<Unit>,
+    /// Unit of the references, if another than the measured file's
+    #[arg(long, value_name = "UNIT")]
+    reference_units: Option<Unit>,
+    /// Columns of a text file, e.g. x,y,z or -,x,y,z
+    #[arg(long, value_name = "LIST")]
+    columns: Option<Columns>,
+    #[command(flatten)]
+    output: output::OutputArgs,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum MethodArg {
+    /// The true minimum over all facets.
+    Exact,
+    /// The nearest-vertex method of the literature, beside the exact one.
+    Paper,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SignArg {
+    /// The method that is valid for the reference.
+    Auto,
+    /// Angle-weighted pseudonormals.
+    Pseudonormal,
+    /// Generalised winding number.
+    Winding,
+    /// Distances without a sign.
+    None,
+}
+
+impl CompareArgs {
+    fn options(&self, common: &Common) -> anyhow::Result<Options> {
+        if !(0.0..=100.0).contains(&self.inside) {
+            return Err(Usage(format!("--inside {}: a share is from 0 to 100 percent", self.inside)).into());
+        }
+        let max_distance = self.max_distance.unwrap_or(f64::INFINITY);
+        if max_distance.is_nan() || max_distance < 0.0 {
+            return Err(Usage(format!("--max-distance {max_distance}: a distance is 0 mm or more")).into());
+        }
+        Ok(Options {
+            method: match self.method {
+                MethodArg::Exact => Method::Exact,
+                MethodArg::Paper => Method::Paper,
+            },
+            surface: SurfaceOptions {
+                sign: match self.sign {
+                    SignArg::Auto => SignRequest::Auto,
+                    SignArg::Pseudonormal => SignRequest::Pseudonormal,
+                    SignArg::Winding => SignRequest::Winding,
+                    SignArg::None => SignRequest::None,
+                },
+                max_distance,
+                skip_boundary: self.skip_boundary,
+            },
+            tolerance: self.tolerance.map(|t| t.0),
+            required_share: self.inside / 100.0,
+            shown: if self.output.html.is_some() { SHOWN } else { 0 },
+            research: self.research,
+            seed: common.seed,
+            ..Options::default()
+        })
+    }
+}
+
+/// Points that a report has at its disposal.
+const SHOWN: usize = 1_000_000;
+
+/// Runs the command.
+pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options(common)?;
+    args.output.check()?;
+    let scale = args.output.read_scale()?;
+    let reading = ReadOptions { units: args.units, columns: args.columns.clone(), ..ReadOptions::default() };
+    let mut measured = Measured::open(&args.measured, &reading, args.sample, common.seed)?;
+    if args.both && measured.mesh.is_none() {
+        return Err(
+            Usage("--both needs a measured mesh: points have no facets to measure back to".into()).into()
+        );
+    }
+    let reading = ReadOptions { units: args.reference_units.or(args.units), ..reading };
+    let (mut meshes, mut files) = (vec![], vec![measured.record.clone()]);
+    for path in &args.references {
+        let (mesh, record) = read::mesh(path, &reading)?;
+        meshes.push(mesh.mesh);
+        files.push(record);
+    }
+    let references: Vec<Reference> =
+        files[1..].iter().zip(&meshes).map(|(f, mesh)| Reference { name: f.path.clone(), mesh }).collect();
+    let early_scale = scale
+        .clone()
+        .or_else(|| options.tolerance.map(|t| Scale::for_deviations(0.0, Some([t.lower, t.upper]))));
+    let mut points_files = match &args.output.out {
+        Some(path) => Some(PointFiles::create(path, references.len(), early_scale)?),
+        None => None,
+    };
+    let stage = Stage::new(common.progress, "comparing", "points", total(&measured, references.len()));
+    let (hashes, found) =
+        rayon::join(
+            || files.iter_mut().try_for_each(read::hash),
+            || {
+                compare::run(&mut *measured.points, &references, &options, &stage, |block| {
+                    match &mut points_files {
+                        Some(files) => files.write(block),
+                        None => Ok(()),
+                    }
+                })
+            },
+        );
+    drop(stage);
+    let found = found.map_err(|e| in_file(e, &args.measured))?;
+    hashes?;
+    files[0].points = found.count;
+    let reverse = match &measured.mesh {
+        Some(mesh) if args.both => reverse(mesh, &references, &found, common)?,
+        _ => vec![],
+    };
+    let inputs = Inputs { files, kind: measured.kind, scale, reverse };
+    let mut document = compare::document(&found, inputs, &options);
+    if args.output.html.is_some() {
+        let shown = if measured.kind == "vertices" { found.count } else { found.shown.points.len() as u64 };
+        document.sampling = Some(Sampling { shown, total: found.count });
+    }
+    if let Some(files) = points_files {
+        files.finish()?;
+    }
+    args.output.write_json(&document)?;
+    let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());
+    let view = View::new(&document.inputs[0].path, drawn, &references, &found);
+    args.output.write_html(&document, &view)?;
+    if !args.output.json_on_stdout() {
+        console::table(&table::text(&document));
+    }
+    Ok(match document.verdict {
+        None | Some(Verdict::Pass) => Outcome::Conforming,
+        Some(_) => Outcome::NotConforming,
+    })
+}
+
+/// Points times references, where the number of points is known.
+fn total(measured: &Measured, references: usize) -> Option<u64> {
+    measured.points.expected().map(|n| n * references as u64)
+}
+
+/// A comparison that failed, with the file that it failed on.
+fn in_file(error: compare::CompareError<ReadError, WriteError>, measured: &Path) -> anyhow::Error {
+    use compare::CompareError::{NoPoints, Query, Reference, Sink, Stream};
+    match error {
+        Stream(e) => e.into(),
+        Sink(e) => e.into(),
+        Query(QueryError::Cancelled(e)) => e.into(),
+        e @ (Query(_) | NoPoints) => anyhow::anyhow!("{}: {e}", measured.display()),
+        e @ Reference { .. } => e.into(),
+    }
+}
+
+/// Both directions together.
+fn reverse(
+    mesh: &Mesh,
+    references: &[Reference],
+    found: &compare::Comparisons,
+    common: &Common,
+) -> anyhow::Result<Vec<Option<Reverse>>> {
+    let stage = Stage::new(common.progress, "measuring back", "points", None);
+    let back = |(r, forth): (&Reference, &compare::Compared)| {
+        compare::reverse(mesh, r.mesh, forth, &stage).map(Some)
+    };
+    let all: Result<Vec<_>, _> = references.iter().zip(&found.references).map(back).collect();
+    Ok(all?)
+}

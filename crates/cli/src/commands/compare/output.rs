@@ -1,0 +1,208 @@
+//! Where the answer goes: document, points with deviations, report.
+
+use crate::console;
+use crate::exit::Usage;
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use trueness_files::write::{self, Layout, PointsFile};
+use trueness_files::{AtomicFile, WriteError};
+use trueness_inspect::compare;
+use trueness_inspect::report::{self, Language, ReportError, ReportInput, ReportOptions, Up};
+use trueness_inspect::results::compare::CompareDocument;
+use trueness_inspect::scale::Scale;
+
+/// Files that a comparison can write.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct OutputArgs {
+    /// Write the result document; `-` for stdout, then without a table
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write x, y, z, deviation of every point in input order (.csv .ply .parquet .npz .vtp); with several
+    /// references one file each: name.1.csv, name.2.csv …
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write a self-contained report with a 3D map
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Largest size of the report in MB
+    #[arg(long, value_name = "MB", default_value = "10", value_parser = clap::value_parser!(u32).range(2..))]
+    pub html_budget: u32,
+    /// Colour scale of the report (an object trueness/scale/1)
+    #[arg(long, value_name = "FILE")]
+    pub scale: Option<PathBuf>,
+    /// Language of the report: en, de, ru, zh
+    #[arg(long, value_name = "LANG", default_value = "en", value_parser = language)]
+    pub lang: Language,
+    /// Decimal sign of the report: . or ,
+    #[arg(long, value_name = "SIGN", value_parser = decimal_sign)]
+    pub decimal: Option<char>,
+    /// The model's axis that points up in the report
+    #[arg(long, value_enum, default_value = "z")]
+    pub up: UpArg,
+    /// Head of the report
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// Part, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    pub part: Option<String>,
+    /// Serial number, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    pub serial: Option<String>,
+    /// Operator, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    pub operator: Option<String>,
+}
+
+/// Which axis points up.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum UpArg {
+    /// As in scanned figures.
+    Y,
+    /// As in technical drawings.
+    Z,
+}
+
+impl From<UpArg> for Up {
+    fn from(up: UpArg) -> Up {
+        match up {
+            UpArg::Y => Up::Y,
+            UpArg::Z => Up::Z,
+        }
+    }
+}
+
+fn language(code: &str) -> Result<Language, String> {
+    Language::from_code(code).ok_or_else(|| "there are en, de, ru and zh".into())
+}
+
+fn decimal_sign(sign: &str) -> Result<char, String> {
+    match sign {
+        "." => Ok('.'),
+        "," => Ok(','),
+        _ => Err("it is . or ,".into()),
+    }
+}
+
+impl OutputArgs {
+    /// Refuses two outputs on the same stream or in the same file.
+    pub fn check(&self) -> Result<(), Usage> {
+        let files: Vec<&PathBuf> = [&self.json, &self.out, &self.html].into_iter().flatten().collect();
+        for (i, a) in files.iter().enumerate() {
+            if files[..i].contains(a) {
+                return Err(Usage(format!(
+                    "{}: two outputs go to the same file; give each its own",
+                    a.display()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The colour scale of `--scale`.
+    pub fn read_scale(&self) -> anyhow::Result<Option<Scale>> {
+        let Some(path) = &self.scale else { return Ok(None) };
+        let shown = path.display();
+        let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
+        let scale: Scale = serde_json::from_str(&text).with_context(|| {
+            format!("{shown}: not a colour scale (an object trueness/scale/1 as in a result's key `scale`)")
+        })?;
+        scale.check().with_context(|| format!("{shown}: not a usable colour scale"))?;
+        Ok(Some(scale))
+    }
+
+    /// The document on stdout or in its file.
+    pub fn write_json(&self, document: &CompareDocument) -> anyhow::Result<()> {
+        let Some(path) = &self.json else { return Ok(()) };
+        let mut text = serde_json::to_string_pretty(document)?;
+        text.push('\n');
+        if path == Path::new("-") {
+            return Ok(console::document(&text)?);
+        }
+        whole_file(path, |file| file.write_all(text.as_bytes()))
+    }
+
+    /// The report in its file.
+    pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
+        let Some(path) = &self.html else { return Ok(()) };
+        let options = ReportOptions {
+            title: self.title.clone(),
+            part: self.part.clone(),
+            serial: self.serial.clone(),
+            operator: self.operator.clone(),
+            budget: self.html_budget as usize * 1_000_000,
+            language: self.lang,
+            decimal: self.decimal,
+            up: self.up.into(),
+        };
+        let input = ReportInput { result: document, objects: &view.objects(), options: &options };
+        whole_file(path, |mut file| match report::write(&input, &mut file) {
+            Ok(_) => Ok(()),
+            Err(ReportError::Write(e)) => Err(e),
+            Err(e) => Err(std::io::Error::other(e)),
+        })
+    }
+
+    /// True if the table would mix with the document.
+    pub fn json_on_stdout(&self) -> bool {
+        self.json.as_deref() == Some(Path::new("-"))
+    }
+}
+
+/// Writes a file that appears whole or not at all.
+pub fn whole_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> anyhow::Result<()> {
+    let make = || {
+        let mut file = BufWriter::new(AtomicFile::create(path)?);
+        write(&mut file)?;
+        file.into_inner().map_err(|e| e.into_error())?.commit()
+    };
+    make().with_context(|| format!("{}: cannot be written; nothing of it was left behind", path.display()))
+}
+
+/// The per-point files of `--out`: one a reference.
+pub struct PointFiles {
+    files: Vec<PointsFile>,
+    scale: Option<Scale>,
+}
+
+impl PointFiles {
+    /// Begins `path`, or `name.1.ext`, `name.2.ext` … for several references. Points are coloured where the scale is
+    /// known beforehand.
+    pub fn create(path: &Path, references: usize, scale: Option<Scale>) -> Result<PointFiles, WriteError> {
+        let layout = Layout { deviation: true, colour: scale.is_some() };
+        let name = |i: usize| match references {
+            1 => path.to_path_buf(),
+            _ => {
+                let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+                path.with_extension(format!("{}.{extension}", i + 1))
+            }
+        };
+        let files = (0..references).map(|i| write::points(&name(i), layout)).collect::<Result<_, _>>()?;
+        Ok(PointFiles { files, scale })
+    }
+
+    /// Adds a block to every file.
+    pub fn write(&mut self, block: &compare::Block) -> Result<(), WriteError> {
+        for (file, deviations) in self.files.iter_mut().zip(block.deviations) {
+            let deviation: Vec<f64> =
+                deviations.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect();
+            let colour: Vec<[u8; 3]> = match &self.scale {
+                Some(scale) => deviations.par_iter().map(|&d| scale.color(d)).collect(),
+                None => vec![],
+            };
+            file.write(&write::Block { points: block.points, deviation: &deviation, colour: &colour })?;
+        }
+        Ok(())
+    }
+
+    /// Puts the files in their places.
+    pub fn finish(self) -> Result<(), WriteError> {
+        self.files.into_iter().try_for_each(|f| f.finish().map(drop))
+    }
+}

@@ -1,0 +1,235 @@
+//! The comparison as a table for people.
+
+use crate::console::{columns, grouped};
+use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics};
+
+/// The whole text.
+pub fn text(d: &CompareDocument) -> String {
+    let mut out = head(d);
+    match &d.comparisons[..] {
+        [only] => out.push_str(&one(only)),
+        several => out.push_str(&ranking(d, several)),
+    }
+    out
+}
+
+fn head(d: &CompareDocument) -> String {
+    let mut rows = vec![];
+    for input in &d.inputs {
+        let facets = input.facets.map(|f| format!(", {} facets", grouped(f))).unwrap_or_default();
+        let what =
+            format!("{} points{facets} ({}, {})", grouped(input.points), input.format, input.unit_assumed);
+        rows.push((format!("{:?}", input.role).to_lowercase(), format!("{}  {what}", input.path)));
+        rows.extend(input.warnings.iter().map(|w| (String::new(), format!("! {w}"))));
+    }
+    rows.push(("method".into(), d.method.clone()));
+    for c in &d.comparisons {
+        let of = if d.comparisons.len() > 1 { format!("{}: ", short(&c.reference)) } else { String::new() };
+        let disagreement = match c.sign.disagreement {
+            Some(x) if x > 0.0 => format!("; both methods disagree on {} % of a sample", number(100.0 * x)),
+            _ => String::new(),
+        };
+        rows.push(("sign".into(), format!("{of}{}: {}{disagreement}", c.sign.method, c.sign.reason)));
+        if !c.soundness.sound {
+            rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
+        }
+        for (reason, n) in c.excluded.iter().filter(|(_, n)| **n > 0) {
+            rows.push((
+                "excluded".into(),
+                format!("{of}{} points ({})", grouped(*n), reason.replace('_', " ")),
+            ));
+        }
+    }
+    let mut out = String::new();
+    let mut last = String::new();
+    for (name, text) in rows {
+        let shown = if name == last { "" } else { name.as_str() };
+        out.push_str(&format!("{shown:<10} {text}\n"));
+        last = name;
+    }
+    out.push('\n');
+    out
+}
+
+/// What is wrong with a reference, in words.
+fn unsound(c: &Comparison) -> String {
+    let s = &c.soundness;
+    let faults = [
+        (s.boundary_edges, "free edges"),
+        (s.non_manifold_edges, "edges with more than two facets"),
+        (s.non_manifold_vertices, "vertices that are no closed fan"),
+        (s.inconsistent_edges, "edges between facets of opposite orientation"),
+        (s.duplicate_facets, "coincident facets"),
+        (s.degenerate_facets, "facets with a repeated vertex"),
+    ];
+    let named: Vec<String> =
+        faults.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{} {what}", grouped(*n))).collect();
+    named.join(", ")
+}
+
+type Row = (&'static str, fn(&Statistics) -> Option<f64>);
+const ROWS: &[Row] = &[
+    ("mean", |s| s.mean),
+    ("standard deviation σ", |s| s.std_dev),
+    ("6 σ", |s| s.six_sigma),
+    ("variance", |s| s.variance),
+    ("coefficient of variation", |s| s.cv),
+    ("root mean square", |s| s.rms),
+    ("mean of |d|", |s| s.mean_abs),
+    ("median", |s| s.median),
+    ("MAD", |s| s.mad),
+    ("min", |s| s.min),
+    ("max", |s| s.max),
+    ("range", |s| s.range),
+    ("skewness", |s| s.skewness),
+    ("excess kurtosis", |s| s.kurtosis),
+    ("0.1 %", |s| s.percentiles.p0_1),
+    ("1 %", |s| s.percentiles.p1),
+    ("2.5 %", |s| s.percentiles.p2_5),
+    ("5 %", |s| s.percentiles.p5),
+    ("25 %", |s| s.percentiles.p25),
+    ("75 %", |s| s.percentiles.p75),
+    ("95 %", |s| s.percentiles.p95),
+    ("97.5 %", |s| s.percentiles.p97_5),
+    ("99 %", |s| s.percentiles.p99),
+    ("99.9 %", |s| s.percentiles.p99_9),
+];
+
+/// One reference: statistics in rows, sides in columns.
+fn one(c: &Comparison) -> String {
+    let signed = c.sign.method != "none";
+    let sides: Vec<&Statistics> = if signed {
+        vec![&c.deviation.all, &c.deviation.positive, &c.deviation.negative]
+    } else {
+        vec![&c.deviation.all]
+    };
+    let mut rows = vec![vec!["deviation, mm".to_string(), "all".into()]];
+    if signed {
+        rows[0].extend(["+ outside".into(), "− inside".into()]);
+    }
+    let line = |name: &str, f: &dyn Fn(&Statistics) -> String| {
+        std::iter::once(name.to_string()).chain(sides.iter().map(|s| f(s))).collect::<Vec<String>>()
+    };
+    rows.push(line("points", &|s| grouped(s.count)));
+    for (name, get) in ROWS {
+        rows.push(line(name, &|s| get(s).map(number).unwrap_or_else(|| "–".into())));
+    }
+    let mut out = columns(&rows);
+    if let Some(r) = &c.reverse {
+        out.push_str("\nfrom the reference to the measured mesh, mm\n");
+        let rows: Vec<Vec<String>> = [
+            ("mean", r.deviation.mean),
+            ("max", r.deviation.max),
+            ("both ways: mean", r.mean),
+            ("both ways: Hausdorff distance", r.hausdorff),
+        ]
+        .iter()
+        .map(|(name, x)| vec![name.to_string(), x.map(number).unwrap_or_else(|| "–".into())])
+        .collect();
+        out.push_str(&columns(&rows));
+    }
+    if let Some(p) = &c.paper_vs_exact {
+        out.push_str(&format!(
+            "\npaper against exact: {} of {} points differ ({} too small), by {} mm at most\n",
+            grouped(p.differing),
+            grouped(p.count),
+            grouped(p.too_small),
+            number(p.max_difference)
+        ));
+    }
+    if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
+        out.push_str(&format!(
+            "\ntolerance {} … {} mm: {} % inside, {} % above, {} % below: {}\n",
+            signed_number(t.lower),
+            signed_number(t.upper),
+            percent(t.inside),
+            percent(t.above),
+            percent(t.below),
+            v.word().to_uppercase()
+        ));
+    }
+    out
+}
+
+/// Several references: one row each, the best first; then the paired differences.
+fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
+    let names =
+        ["rank", "reference", "points", "rms", "mean", "σ", "mean |d|", "median", "95 %", "min", "max"];
+    let mut rows = vec![names.map(String::from).to_vec()];
+    let tolerance = several.iter().any(|c| c.tolerance.is_some());
+    if tolerance {
+        rows[0].extend(["inside %".into(), "verdict".into()]);
+    }
+    let mut order: Vec<&Comparison> = several.iter().collect();
+    order.sort_by_key(|c| c.rank);
+    for c in order {
+        let s = &c.deviation.all;
+        let mut row = vec![c.rank.to_string(), short(&c.reference).to_string(), grouped(s.count)];
+        let numbers = [s.rms, s.mean, s.std_dev, s.mean_abs, s.median, s.percentiles.p95, s.min, s.max];
+        row.extend(numbers.map(|x| x.map(number).unwrap_or_else(|| "–".into())));
+        if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
+            row.extend([percent(t.inside), v.word().to_string()]);
+        }
+        rows.push(row);
+    }
+    let mut out = columns(&rows);
+    out.push_str("\npaired differences of |d| on the same points, mm (negative: the first is nearer)\n");
+    let mut rows = vec![["pair", "mean difference", "95 % interval", "p"].map(String::from).to_vec()];
+    for p in &d.paired {
+        let name = |i: usize| several.get(i).map(|c| short(&c.reference)).unwrap_or("?");
+        let interval = p.interval.map(|[a, b]| format!("{} … {}", signed_number(a), signed_number(b)));
+        rows.push(vec![
+            format!("{} − {}", name(p.better), name(p.other)),
+            p.mean_difference.map(signed_number).unwrap_or_else(|| "–".into()),
+            interval.unwrap_or_else(|| "–".into()),
+            p.p_value.map(p_value).unwrap_or_else(|| "–".into()),
+        ]);
+    }
+    out.push_str(&columns(&rows));
+    out
+}
+
+/// The file's name without its folder.
+fn short(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+/// Six significant digits, as people read them; the document has all of them.
+fn number(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let digits = (5 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = if (1e-6..1e9).contains(&x.abs()) { format!("{x:.digits$}") } else { format!("{x:.5e}") };
+    text.replace('-', "−")
+}
+
+fn signed_number(x: f64) -> String {
+    if x > 0.0 { format!("+{}", number(x)) } else { number(x) }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.3}", 100.0 * share)
+}
+
+fn p_value(p: f64) -> String {
+    if p < 1e-4 { "< 0.0001".into() } else { format!("{p:.4}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn six_digits_of_any_size() {
+        for (x, text) in [
+            (0.0, "0"),
+            (0.123456789, "0.123457"),
+            (-79.1114, "−79.1114"),
+            (1234567.8, "1234568"),
+            (1e-9, "1.00000e−9"),
+        ] {
+            assert_eq!(number(x), text);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Exit status: what a script learns from a run.
+
+use crate::console;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+use trueness_geom::progress::Cancelled;
+
+/// What a command that ran to its end found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Done and conforming.
+    Conforming,
+    /// Done, but out of tolerance, not sound or undecided.
+    NotConforming,
+}
+
+/// Wrong use of an option that the parser of the command line cannot see.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Usage(pub String);
+
+/// A fault of the program itself.
+#[derive(Debug, thiserror::Error)]
+#[error("internal error: {0}. Please report it with the command and the files that caused it.")]
+pub struct Internal(pub String);
+
+/// Runs `work`; a panic becomes an [`Internal`] error.
+pub fn catch(work: impl FnOnce() -> anyhow::Result<Outcome>) -> anyhow::Result<Outcome> {
+    std::panic::set_hook(Box::new(|_| {}));
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|cause| {
+        let text = cause
+            .downcast_ref::<String>()
+            .cloned()
+            .or_else(|| cause.downcast_ref::<&str>().map(|s| s.to_string()))
+            .unwrap_or_else(|| "no message".into());
+        Err(Internal(text).into())
+    })
+}
+
+/// Prints the error, if any, and chooses the exit status.
+pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
+    let error = match outcome {
+        Ok(Outcome::Conforming) => return ExitCode::SUCCESS,
+        Ok(Outcome::NotConforming) => return ExitCode::from(1),
+        Err(error) => error,
+    };
+    console::error(&error);
+    let is = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
+    ExitCode::from(if is(|e| e.is::<Usage>()) {
+        2
+    } else if is(|e| e.is::<Cancelled>()) {
+        130
+    } else if is(|e| e.is::<Internal>()) {
+        4
+    } else {
+        3
+    })
+}

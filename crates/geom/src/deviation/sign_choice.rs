@@ -1,0 +1,174 @@
+//! Which sign method is valid for a reference, and why.
+//!
+//! Pseudonormals (Bærentzen & Aanæs 2005) are exact wherever every edge has two facets that agree on the outside.
+//! The generalised winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
+//! a volume; on an open sheet it never reaches one half. What tells the two apart is the *vector area*: the sum of
+//! the facets' area vectors is zero for a closed surface, and as long as the area itself for a flat sheet.
+
+use crate::mesh::Mesh;
+use crate::space::{Vector, cross, minus, norm, plus};
+use crate::topology::Soundness;
+use rayon::prelude::*;
+use std::fmt;
+
+/// What the user asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum SignRequest {
+    /// The valid method for this reference.
+    #[default]
+    Auto,
+    /// Angle-weighted pseudonormals, valid or not.
+    Pseudonormal,
+    /// Generalised winding number.
+    Winding,
+    /// Unsigned distances.
+    None,
+}
+
+/// What is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SignMethod {
+    /// Side of the angle-weighted pseudonormal of the facet, edge or vertex hit.
+    Pseudonormal,
+    /// Inside where the winding number exceeds one half.
+    Winding,
+    /// No sign: distances.
+    None,
+}
+
+/// The method and the reason for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignChoice {
+    /// What was asked for.
+    pub requested: SignRequest,
+    /// The method.
+    pub method: SignMethod,
+    /// Why.
+    pub reason: SignReason,
+    /// The reference encloses a negative volume: it is inside out, and its signs are taken the other way round.
+    pub inside_out: bool,
+}
+
+/// Why a sign method was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SignReason {
+    /// It was asked for.
+    Requested,
+    /// It was asked for, and the reference is not closed and consistently oriented.
+    RequestedUnsound,
+    /// The reference is closed and consistently oriented.
+    Closed,
+    /// The reference has gaps, but nearly encloses a volume.
+    NearlyClosed {
+        /// Edges with one facet.
+        boundary_edges: usize,
+    },
+    /// The reference is closed, but facets disagree about the outside, coincide, or meet more than two at an edge.
+    Inconsistent,
+    /// The reference is an open sheet: no volume, but two sides.
+    OpenSheet {
+        /// Length of the summed area vectors over the area, 0 (closed) to 1 (flat).
+        openness: f64,
+    },
+}
+
+/// Above this ratio of vector area to area a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
+/// scanned figure open at its foot 0.01 to 0.1.
+const SHEET: f64 = 0.25;
+
+impl SignChoice {
+    /// Chooses for a mesh of this soundness. Cost: linear in the facets.
+    ///
+    /// # Panics
+    /// If a facet names a vertex that does not exist.
+    pub fn new(requested: SignRequest, soundness: &Soundness, mesh: &Mesh) -> SignChoice {
+        let openness = openness(mesh);
+        let oriented = soundness.consistently_oriented
+            && soundness.non_manifold_edges == 0
+            && soundness.duplicate_facets == 0;
+        let (method, reason) = match requested {
+            SignRequest::None => (SignMethod::None, SignReason::Requested),
+            SignRequest::Winding => (SignMethod::Winding, SignReason::Requested),
+            SignRequest::Pseudonormal if soundness.closed && oriented => {
+                (SignMethod::Pseudonormal, SignReason::Requested)
+            }
+            SignRequest::Pseudonormal => (SignMethod::Pseudonormal, SignReason::RequestedUnsound),
+            SignRequest::Auto if soundness.closed && oriented => {
+                (SignMethod::Pseudonormal, SignReason::Closed)
+            }
+            SignRequest::Auto if soundness.closed => (SignMethod::Winding, SignReason::Inconsistent),
+            SignRequest::Auto if openness > SHEET => {
+                (SignMethod::Pseudonormal, SignReason::OpenSheet { openness })
+            }
+            SignRequest::Auto => {
+                (SignMethod::Winding, SignReason::NearlyClosed { boundary_edges: soundness.boundary_edges })
+            }
+        };
+        let encloses = method != SignMethod::None && openness <= SHEET;
+        SignChoice { requested, method, reason, inside_out: encloses && !soundness.outward }
+    }
+}
+
+/// Length of the mesh's vector area over its area: 0 closed, 1 flat; 0 for a mesh without area.
+fn openness(mesh: &Mesh) -> f64 {
+    let of = |part: &[[u32; 3]]| {
+        part.iter().fold(([0.0; 3], 0.0), |(vector, area): (Vector, f64), f| {
+            let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+            let n = cross(minus(b, a), minus(c, a));
+            (plus(vector, n), area + norm(n))
+        })
+    };
+    let parts: Vec<(Vector, f64)> = mesh.faces.par_chunks(1 << 12).map(of).collect();
+    let (vector, area) = parts.iter().fold(([0.0; 3], 0.0), |s, p| (plus(s.0, p.0), s.1 + p.1));
+    if area > 0.0 { norm(vector) / area } else { 0.0 }
+}
+
+impl SignRequest {
+    /// The word of the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            SignRequest::Auto => "auto",
+            SignRequest::Pseudonormal => "pseudonormal",
+            SignRequest::Winding => "winding",
+            SignRequest::None => "none",
+        }
+    }
+}
+
+impl SignMethod {
+    /// The word of the result document.
+    pub fn name(self) -> &'static str {
+        match self {
+            SignMethod::Pseudonormal => "pseudonormal",
+            SignMethod::Winding => "winding",
+            SignMethod::None => "none",
+        }
+    }
+}
+
+impl fmt::Display for SignChoice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.reason {
+            SignReason::Requested => write!(f, "asked for")?,
+            SignReason::RequestedUnsound => {
+                write!(f, "asked for, although the reference is not closed and consistently oriented")?
+            }
+            SignReason::Closed => write!(f, "the reference is closed and consistently oriented")?,
+            SignReason::NearlyClosed { boundary_edges } => {
+                write!(f, "the reference is open at {boundary_edges} edges, but nearly encloses a volume")?
+            }
+            SignReason::Inconsistent => write!(
+                f,
+                "the reference's facets disagree about the outside, coincide, or meet more than two at an edge"
+            )?,
+            SignReason::OpenSheet { openness } => write!(
+                f,
+                "the reference is an open sheet (vector area {openness:.2} of its area): side of the nearest facet"
+            )?,
+        }
+        if self.inside_out {
+            write!(f, "; it is inside out, and signs are taken for the outward side")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,188 @@
+//! A reference surface, ready to be measured against: exact, signed, with points excluded where asked.
+
+use super::sign_choice::{SignChoice, SignMethod, SignRequest};
+use crate::closest::{FreeEdges, Hit, Query, QueryError, Signs, Tree, Winding};
+use crate::mesh::Mesh;
+use crate::progress::{Progress, Silent};
+use crate::space::Point;
+use crate::topology::Soundness;
+use crate::topology::weld::WeldError;
+
+/// What is asked of a [`Surface`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceOptions {
+    /// Sign method.
+    pub sign: SignRequest,
+    /// Points farther than this are excluded, millimetres.
+    pub max_distance: f64,
+    /// Points whose nearest place lies on a free edge are excluded: the part may go on where the mesh ends.
+    pub skip_boundary: bool,
+}
+
+impl Default for SurfaceOptions {
+    fn default() -> Self {
+        SurfaceOptions { sign: SignRequest::Auto, max_distance: f64::INFINITY, skip_boundary: false }
+    }
+}
+
+/// Why a point has no deviation.
+///
+/// Among deviations an excluded point is a value that is not finite, so that it keeps its place and needs no second list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Exclusion {
+    /// Farther than the greatest distance asked for; infinite among deviations.
+    MaxDistance,
+    /// The nearest place lies on a free edge; NaN among deviations.
+    FreeEdge,
+}
+
+impl Exclusion {
+    /// All, in the order of reports.
+    pub const ALL: [Exclusion; 2] = [Exclusion::MaxDistance, Exclusion::FreeEdge];
+
+    /// What a value among deviations stands for; `None` for a deviation.
+    pub fn of(value: f64) -> Option<Exclusion> {
+        if value.is_finite() {
+            None
+        } else if value.is_nan() {
+            Some(Exclusion::FreeEdge)
+        } else {
+            Some(Exclusion::MaxDistance)
+        }
+    }
+
+    /// The value that stands for it.
+    pub fn value(self) -> f64 {
+        match self {
+            Exclusion::MaxDistance => f64::INFINITY,
+            Exclusion::FreeEdge => f64::NAN,
+        }
+    }
+
+    /// The word of the result document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Exclusion::MaxDistance => "max_distance",
+            Exclusion::FreeEdge => "free_edge",
+        }
+    }
+}
+
+/// A reference mesh with all that its deviations need: built once, asked often.
+pub struct Surface<'t> {
+    tree: &'t Tree,
+    choice: SignChoice,
+    soundness: Soundness,
+    side: Side<'t>,
+    free_edges: Option<FreeEdges>,
+    max_distance: f64,
+}
+
+enum Side<'t> {
+    Pseudonormal(Signs<'t>),
+    Winding(Winding<'t>),
+    None,
+}
+
+impl<'t> Surface<'t> {
+    /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
+    ///
+    /// # Errors
+    /// Those of [`Soundness::of`].
+    pub fn new(tree: &'t Tree, mesh: &Mesh, options: &SurfaceOptions) -> Result<Surface<'t>, WeldError> {
+        let soundness = Soundness::of(mesh)?;
+        let choice = SignChoice::new(options.sign, &soundness, mesh);
+        let side = match choice.method {
+            SignMethod::Pseudonormal => Side::Pseudonormal(Signs::new(tree)),
+            SignMethod::Winding => Side::Winding(Winding::new(tree)),
+            SignMethod::None => Side::None,
+        };
+        let free_edges = (options.skip_boundary && !soundness.closed).then(|| FreeEdges::new(tree));
+        Ok(Surface { tree, choice, soundness, side, free_edges, max_distance: options.max_distance })
+    }
+
+    /// The search tree.
+    pub fn tree(&self) -> &'t Tree {
+        self.tree
+    }
+    /// The sign method and why.
+    pub fn sign(&self) -> &SignChoice {
+        &self.choice
+    }
+    /// What the topology says about the mesh.
+    pub fn soundness(&self) -> &Soundness {
+        &self.soundness
+    }
+
+    /// The deviation of each point, millimetres, in the order of `points`: + outside, − inside, unsigned without a
+    /// sign method; see [`Exclusion`] for points that have none.
+    ///
+    /// # Errors
+    /// [`QueryError::BadPoint`] for a point that is not finite, [`QueryError::Cancelled`]. `progress` hears of points.
+    pub fn deviations(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, QueryError> {
+        self.map(points, progress, |_, deviation, _| deviation)
+    }
+
+    /// `f(index, deviation, hit)` of each point, in the order of `points`; the hit is missing beyond the greatest distance.
+    ///
+    /// # Errors
+    /// Those of [`Surface::deviations`].
+    pub fn map<T: Copy + Send>(
+        &self,
+        points: &[Point],
+        progress: &dyn Progress,
+        f: impl Fn(usize, f64, Option<&Hit>) -> T + Sync,
+    ) -> Result<Vec<T>, QueryError> {
+        let numbers = match &self.side {
+            Side::Winding(w) => w.numbers(points, &Silent)?,
+            _ => vec![],
+        };
+        let outward = if self.choice.inside_out { -1.0 } else { 1.0 };
+        let query = Query { max_distance: self.max_distance, ..Query::default() };
+        self.tree.map_closest(points, &query, progress, |i, hit| {
+            let Some(hit) = hit else { return f(i, Exclusion::MaxDistance.value(), None) };
+            if let Some(edges) = &self.free_edges
+                && edges.holds(&self.tree.place(&points[i], &hit))
+            {
+                return f(i, Exclusion::FreeEdge.value(), Some(&hit));
+            }
+            let sign = match &self.side {
+                Side::Pseudonormal(signs) => outward * signs.sign(&points[i], &hit),
+                Side::Winding(_) if outward * numbers[i] > 0.5 => -1.0,
+                Side::Winding(_) | Side::None => 1.0,
+            };
+            f(i, sign * hit.distance(), Some(&hit))
+        })
+    }
+}
+
+/// Share of points on which the two sign methods differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disagreement {
+    /// Points compared.
+    pub sample: u64,
+    /// Points with different signs.
+    pub differing: u64,
+}
+
+impl Surface<'_> {
+    /// Asks both sign methods about `points`, whichever is in use. Cost: that of preparing the other method, and of the
+    /// points.
+    ///
+    /// # Errors
+    /// Those of [`Surface::deviations`].
+    pub fn disagreement(&self, points: &[Point]) -> Result<Disagreement, QueryError> {
+        let outward = if self.choice.inside_out { -1.0 } else { 1.0 };
+        let sides = match &self.side {
+            Side::Pseudonormal(s) => s.distances(points, &Query::default(), &Silent)?,
+            _ => Signs::new(self.tree).distances(points, &Query::default(), &Silent)?,
+        };
+        let numbers = match &self.side {
+            Side::Winding(w) => w.numbers(points, &Silent)?,
+            _ => Winding::new(self.tree).numbers(points, &Silent)?,
+        };
+        let differs = |(d, w): (&f64, &f64)| (outward * d < 0.0) != (outward * w > 0.5);
+        let differing = sides.iter().zip(&numbers).filter(|&(d, w)| differs((d, w))).count();
+        Ok(Disagreement { sample: points.len() as u64, differing: differing as u64 })
+    }
+}

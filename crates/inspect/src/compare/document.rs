@@ -1,0 +1,236 @@
+//! From what was found to the result document.
+
+use super::reference::{Compared, WorstPlace};
+use super::{Comparisons, Options};
+use crate::results::compare::*;
+use crate::results::{InputRecord, UNITS, VERSION, Verdict};
+use crate::scale::Scale;
+use std::collections::BTreeMap;
+use trueness_geom::deviation::histogram::Limits;
+use trueness_geom::deviation::paper::Differences;
+use trueness_geom::deviation::sign_choice::SignChoice;
+
+mod geom {
+    pub use trueness_geom::deviation::histogram::Histogram;
+    pub use trueness_geom::deviation::paired::Paired;
+    pub use trueness_geom::deviation::statistics::Statistics;
+}
+use trueness_geom::deviation::surface::Disagreement;
+
+/// What the document says about the files, which this crate does not know.
+pub struct Inputs {
+    /// The measured file, then the references.
+    pub files: Vec<InputRecord>,
+    /// `points`, `vertices` or `samples`.
+    pub kind: &'static str,
+    /// The scale to use instead of the default one.
+    pub scale: Option<Scale>,
+    /// One entry a reference where both directions were asked for.
+    pub reverse: Vec<Option<Reverse>>,
+}
+
+/// Makes the document.
+pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> CompareDocument {
+    let names: Vec<String> = inputs.files.iter().skip(1).map(|f| f.path.clone()).collect();
+    let ranks = ranks(&found.references);
+    let mut reverse = inputs.reverse.into_iter();
+    let comparisons: Vec<Comparison> = found
+        .references
+        .iter()
+        .zip(names)
+        .zip(ranks)
+        .map(|((c, name), rank)| comparison(c, name, rank, reverse.next().flatten(), options))
+        .collect();
+    let worst_verdict = |a: Verdict, b: Verdict| if a == Verdict::Pass { b } else { a };
+    CompareDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs: inputs.files,
+        measured: Measured {
+            kind: inputs.kind.into(),
+            count: found.count,
+            bounds: Some(Bounds { min: found.bounds.min, max: found.bounds.max }),
+        },
+        method: options.method.name().into(),
+        sign: overall_sign(&comparisons, options),
+        max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),
+        skip_boundary: options.surface.skip_boundary,
+        paired: found.paired.iter().map(|(a, b, p)| paired(*a, *b, p)).collect(),
+        scale: inputs.scale.unwrap_or_else(|| scale(found, options)),
+        verdict: comparisons.iter().filter_map(|c| c.verdict).reduce(worst_verdict),
+        comparisons,
+        sampling: None,
+        seed: options.seed,
+    }
+}
+
+fn comparison(
+    c: &Compared,
+    reference: String,
+    rank: u32,
+    reverse: Option<Reverse>,
+    options: &Options,
+) -> Comparison {
+    let tolerance = c.limits.as_ref().map(|l| shares(l, options.required_share));
+    Comparison {
+        reference,
+        rank,
+        sign: sign(&c.sign, c.disagreement.as_ref()),
+        soundness: soundness(c),
+        deviation: BySide {
+            all: statistics(&c.summary.all, c.summary.quantile_error),
+            positive: statistics(&c.summary.positive, c.summary.quantile_error),
+            negative: statistics(&c.summary.negative, c.summary.quantile_error),
+        },
+        excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
+        verdict: tolerance.as_ref().map(|t| match c.summary.all.count {
+            0 => Verdict::NotMeasured,
+            _ if t.inside >= t.required => Verdict::Pass,
+            _ => Verdict::Fail,
+        }),
+        tolerance,
+        histogram: c.histogram.as_ref().map(histogram),
+        worst: c.worst.iter().map(worst).collect(),
+        reverse,
+        paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
+    }
+}
+
+/// Rank 1 is the least root mean square; equal values share a rank, a reference without deviations comes last.
+fn ranks(references: &[Compared]) -> Vec<u32> {
+    let rms: Vec<f64> = references.iter().map(|c| c.summary.all.rms.unwrap_or(f64::INFINITY)).collect();
+    rms.iter().map(|x| 1 + rms.iter().filter(|y| y.total_cmp(x).is_lt()).count() as u32).collect()
+}
+
+fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord {
+    let share = disagreement.filter(|d| d.sample > 0).map(|d| d.differing as f64 / d.sample as f64);
+    SignRecord {
+        requested: choice.requested.name().into(),
+        method: choice.method.name().into(),
+        reason: choice.to_string(),
+        disagreement: share,
+        disagreement_reason: share.is_none().then(|| "distances are unsigned".into()),
+        sample: disagreement.map_or(0, |d| d.sample),
+    }
+}
+
+/// What holds for all references: their common method, their greatest disagreement.
+fn overall_sign(comparisons: &[Comparison], options: &Options) -> SignRecord {
+    let first = comparisons.first().map(|c| c.sign.clone());
+    let same = |f: fn(&SignRecord) -> &String| comparisons.windows(2).all(|w| f(&w[0].sign) == f(&w[1].sign));
+    let mut out = first.unwrap_or_else(|| SignRecord {
+        requested: options.surface.sign.name().into(),
+        method: "none".into(),
+        reason: "there is no reference".into(),
+        disagreement: None,
+        disagreement_reason: Some("there is no reference".into()),
+        sample: 0,
+    });
+    if !same(|s| &s.method) {
+        out.method = "several".into();
+    }
+    if !same(|s| &s.reason) {
+        out.reason = "see each comparison".into();
+    }
+    out.disagreement = comparisons.iter().filter_map(|c| c.sign.disagreement).reduce(f64::max);
+    out
+}
+
+fn soundness(c: &Compared) -> Soundness {
+    let s = &c.soundness;
+    Soundness {
+        sound: s.sound,
+        closed: s.closed,
+        consistently_oriented: s.consistently_oriented,
+        outward: s.outward,
+        shells: s.shells as u64,
+        boundary_edges: s.boundary_edges as u64,
+        non_manifold_edges: s.non_manifold_edges as u64,
+        non_manifold_vertices: s.non_manifold_vertices as u64,
+        duplicate_facets: s.duplicate_facets as u64,
+        degenerate_facets: s.degenerate_facets as u64,
+        not_finite_facets: s.not_finite_facets as u64,
+        inconsistent_edges: s.inconsistent_edges as u64,
+    }
+}
+
+/// The document's form of a set of statistics; `quantile_error` is the relative error of order statistics.
+pub fn statistics(s: &geom::Statistics, quantile_error: f64) -> Statistics {
+    macro_rules! fill {
+        ($($name:ident $reason:ident,)*) => {
+            Statistics {
+                count: s.count,
+                $($name: s.$name.ok(), $reason: s.$name.err().map(|e| e.to_string()),)*
+                percentiles: percentiles(s),
+                percentile_error: quantile_error,
+            }
+        };
+    }
+    fill! {
+        min min_reason, max max_reason, range range_reason, mean mean_reason, variance variance_reason,
+        std_dev std_dev_reason, six_sigma six_sigma_reason, cv cv_reason, rms rms_reason,
+        mean_abs mean_abs_reason, median median_reason, mad mad_reason, skewness skewness_reason,
+        kurtosis kurtosis_reason,
+    }
+}
+
+fn percentiles(s: &geom::Statistics) -> Percentiles {
+    let [p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9] = s.percentiles.map(Result::ok);
+    Percentiles { p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9 }
+}
+
+/// Shares of the points against the tolerance; all zero where there is no point.
+fn shares(limits: &Limits, required: f64) -> ToleranceShares {
+    let [below, inside, above] = limits.shares().unwrap_or_default();
+    ToleranceShares { lower: limits.lower, upper: limits.upper, inside, above, below, required }
+}
+
+fn histogram(h: &geom::Histogram) -> Histogram {
+    Histogram { edges: h.edges().to_vec(), counts: h.counts().to_vec(), below: h.below(), above: h.above() }
+}
+
+fn worst(w: &WorstPlace) -> Worst {
+    Worst {
+        sign: if w.place.deviation > 0.0 { 1 } else { -1 },
+        index: w.place.index,
+        point: w.place.point,
+        nearest: w.nearest,
+        normal: w.normal,
+        deviation: w.place.deviation,
+    }
+}
+
+/// The better reference first; the sign of the difference follows.
+fn paired(first: usize, second: usize, p: &geom::Paired) -> Paired {
+    let c = p.comparison();
+    let swap = c.mean.is_ok_and(|m| m > 0.0);
+    let turn = |x: f64| if swap { -x } else { x };
+    Paired {
+        better: if swap { second } else { first },
+        other: if swap { first } else { second },
+        count: c.count,
+        mean_difference: c.mean.ok().map(turn),
+        interval: c.interval.ok().map(|[a, b]| if swap { [-b, -a] } else { [a, b] }),
+        std_dev: c.std_dev.ok(),
+        p_value: c.t_test.ok(),
+        wilcoxon_p_value: c.wilcoxon.ok(),
+        reason: c.t_test.err().map(|e| e.to_string()),
+    }
+}
+
+fn paper_vs_exact(p: &Differences) -> PaperVsExact {
+    PaperVsExact {
+        count: p.count,
+        differing: p.differing,
+        too_small: p.too_small,
+        max_difference: p.max_difference,
+        median_difference: p.median_difference(),
+    }
+}
+
+/// The scale that all comparisons share: by the tolerance, else by the first reference's 95th percentile of |d|.
+fn scale(found: &Comparisons, options: &Options) -> Scale {
+    let p95 = found.references.first().and_then(|c| c.summary.p95_abs.ok()).unwrap_or(0.0);
+    Scale::for_deviations(p95, options.tolerance.map(|t| [t.lower, t.upper]))
+}

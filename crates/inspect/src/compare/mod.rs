@@ -1,0 +1,225 @@
+//! One measured set against one or several references, in one pass over the points.
+
+mod document;
+mod reference;
+mod reverse;
+mod shown;
+mod vertex_map;
+mod view;
+mod worst;
+
+pub use document::{Inputs, document};
+pub use reference::{Compared, ReferenceError, Values, WorstPlace};
+pub use reverse::reverse;
+pub use shown::ShownPoints;
+pub use vertex_map::VertexMap;
+pub use view::View;
+pub use worst::Place;
+
+use crate::tolerance::Tolerance;
+use reference::Running;
+use trueness_geom::closest::{QueryError, Tree};
+use trueness_geom::cloud::PointStream;
+use trueness_geom::deviation::paired::Paired;
+use trueness_geom::deviation::paper::PaperError;
+use trueness_geom::deviation::surface::SurfaceOptions;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Aabb, Point};
+
+/// How distances are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// The true minimum over all facets.
+    #[default]
+    Exact,
+    /// The nearest-vertex method of the paper, see [`trueness_geom::deviation::paper`].
+    Paper,
+}
+
+impl Method {
+    /// The word of the result document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Exact => "exact",
+            Method::Paper => "paper",
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// How distances are computed.
+    pub method: Method,
+    /// Sign and exclusions.
+    pub surface: SurfaceOptions,
+    /// The zone that deviations must keep.
+    pub tolerance: Option<Tolerance>,
+    /// Share of the points that must lie within it (0 to 1).
+    pub required_share: f64,
+    /// Points that a report can show; 0 without a report.
+    pub shown: usize,
+    /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
+    /// a sketch with a stated error.
+    pub kept_values: usize,
+    /// Intervals, tests and models.
+    pub research: bool,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            method: Method::Exact,
+            surface: SurfaceOptions::default(),
+            tolerance: None,
+            required_share: 1.0,
+            shown: 0,
+            kept_values: 1 << 27,
+            research: false,
+            seed: 0,
+        }
+    }
+}
+
+/// A mesh that points are compared with.
+#[derive(Clone, Debug)]
+pub struct Reference<'a> {
+    /// For messages and documents: its path.
+    pub name: String,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+}
+
+/// A block of points with their deviations, on its way to a file.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<'a> {
+    /// The points, in file order.
+    pub points: &'a [Point],
+    /// For each reference, one deviation a point; not finite where the point is excluded
+    /// (see [`trueness_geom::deviation::surface::Exclusion`]).
+    pub deviations: &'a [Vec<f64>],
+}
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError<S, K> {
+    /// A reference cannot be measured against.
+    #[error("{reference}: {error}")]
+    Reference {
+        /// Its name.
+        reference: String,
+        /// Why.
+        error: ReferenceError,
+    },
+    /// A point cannot be measured, or the work was stopped.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// The measured points broke off.
+    #[error("{0}")]
+    Stream(#[source] S),
+    /// What takes the deviations refused them.
+    #[error("{0}")]
+    Sink(#[source] K),
+    /// There is nothing to compare.
+    #[error("there are no measured points")]
+    NoPoints,
+}
+
+/// All that the comparison found.
+pub struct Comparisons {
+    /// Number of points.
+    pub count: u64,
+    /// Their box.
+    pub bounds: Aabb,
+    /// One entry a reference.
+    pub references: Vec<Compared>,
+    /// `(first, second, differences)` for every pair of references.
+    pub paired: Vec<(usize, usize, Paired)>,
+    /// Sample for the report.
+    pub shown: ShownPoints,
+}
+
+/// Compares all points of `measured` with every reference and hands each block to `sink`.
+///
+/// `progress` hears of points times references. Memory: the references with their trees, one block of points, and the
+/// kept deviations. The result depends on nothing but points, references and options.
+///
+/// # Errors
+/// See [`CompareError`].
+pub fn run<S: PointStream + ?Sized, K>(
+    measured: &mut S,
+    references: &[Reference],
+    options: &Options,
+    progress: &dyn Progress,
+    mut sink: impl FnMut(&Block) -> Result<(), K>,
+) -> Result<Comparisons, CompareError<S::Error, K>> {
+    let mut trees = vec![];
+    for r in references {
+        trees.push(Tree::build(r.mesh).map_err(|e| refused(r, e.into()))?);
+    }
+    let keep = options.kept_values / references.len().max(1);
+    let mut running = vec![];
+    for (r, tree) in references.iter().zip(&trees) {
+        running.push(Running::new(r.mesh, tree, options, keep).map_err(|e| refused(r, e))?);
+    }
+    let mut paired = vec![];
+    for second in 1..references.len() {
+        paired.extend((0..second).map(|first| (first, second, Paired::new())));
+    }
+    let mut out = Comparisons {
+        count: 0,
+        bounds: Aabb::EMPTY,
+        references: vec![],
+        paired,
+        shown: ShownPoints::new(options.shown, references.len()),
+    };
+    let mut sample = ShownPoints::new(SIGN_SAMPLE, 0);
+    let mut points = vec![];
+    loop {
+        measured.next_block(&mut points).map_err(CompareError::Stream)?;
+        if points.is_empty() {
+            break;
+        }
+        let mut deviations = vec![];
+        for r in &mut running {
+            deviations.push(r.block(out.count, &points, progress).map_err(|e| in_block(e, out.count))?);
+        }
+        for (first, second, p) in &mut out.paired {
+            p.push(&deviations[*first], &deviations[*second]);
+        }
+        if options.shown > 0 {
+            let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
+            out.shown.add(out.count, &points, &lists);
+        }
+        sample.add(out.count, &points, &[]);
+        sink(&Block { points: &points, deviations: &deviations }).map_err(CompareError::Sink)?;
+        out.bounds = out.bounds.union(&Aabb::of(&points));
+        out.count += points.len() as u64;
+    }
+    if out.count == 0 {
+        return Err(CompareError::NoPoints);
+    }
+    out.references = running.into_iter().map(|r| r.finish(&sample.points)).collect::<Result<_, _>>()?;
+    Ok(out)
+}
+
+fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S, K> {
+    CompareError::Reference { reference: reference.name.clone(), error }
+}
+
+/// Points, at most, on which both sign methods are asked.
+const SIGN_SAMPLE: usize = 4096;
+
+/// What broke off a block whose first point has number `start`; the number of a bad point counts from the stream's start.
+fn in_block<S, K>(error: PaperError, start: u64) -> CompareError<S, K> {
+    match error {
+        PaperError::Query(QueryError::BadPoint(i)) => {
+            CompareError::Query(QueryError::BadPoint(start as usize + i))
+        }
+        PaperError::Query(e) => CompareError::Query(e),
+        other => CompareError::Reference { reference: String::new(), error: other.into() },
+    }
+}

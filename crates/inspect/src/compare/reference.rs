@@ -1,0 +1,239 @@
+//! The running comparison with one reference.
+
+use super::vertex_map::{VertexMap, weights};
+use super::worst::{Place, WorstPlaces};
+use super::{Method, Options};
+use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
+use trueness_geom::deviation::histogram::{Histogram, Limits, nice_edges};
+use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
+use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
+use trueness_geom::deviation::statistics::{Accumulator, Statistics, Summary};
+use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Point, Vector, cross, minus, unit};
+use trueness_geom::topology::Soundness;
+use trueness_geom::topology::weld::WeldError;
+
+/// What was found about one reference.
+pub struct Compared {
+    /// How the sign was found.
+    pub sign: SignChoice,
+    /// How both sign methods agree on a sample; absent for unsigned distances.
+    pub disagreement: Option<Disagreement>,
+    /// Whether the mesh is sound.
+    pub soundness: Soundness,
+    /// Statistics of all deviations and of each side.
+    pub summary: Summary,
+    /// The deviations, or what is left of them when there were too many to keep.
+    pub values: Values,
+    /// Counts of the deviations from the 0.1st to the 99.9th percentile, between round edges.
+    pub histogram: Option<Histogram>,
+    /// Counts against the tolerance, where there is one.
+    pub limits: Option<Limits>,
+    /// Points without a deviation.
+    pub excluded: Vec<(Exclusion, u64)>,
+    /// The worst places, highest first, then lowest first.
+    pub worst: Vec<WorstPlace>,
+    /// The paper's method beside the exact distance.
+    pub paper_vs_exact: Option<Differences>,
+    /// Mean deviations at the vertices, for a report.
+    pub vertex_map: Option<VertexMap>,
+}
+
+/// One of the worst places, with where it is on the reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPlace {
+    /// The measured point.
+    pub place: Place,
+    /// The nearest place on the reference.
+    pub nearest: Point,
+    /// Unit normal of the facet there; `None` if it has no area.
+    pub normal: Option<Vector>,
+}
+
+/// Deviations in file order, excluded points included; or the sketch of them when they are too many.
+pub enum Values {
+    /// All of them.
+    All(Vec<f64>),
+    /// Counts and moments.
+    Many(Box<Accumulator>),
+}
+
+/// Why a reference cannot be measured against.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    /// Its facets or coordinates do not allow it.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Its topology cannot be told.
+    #[error(transparent)]
+    Topology(#[from] WeldError),
+    /// The paper's method refuses it.
+    #[error(transparent)]
+    Paper(#[from] PaperError),
+}
+
+/// Places of each sign that a result names.
+const WORST: usize = 3;
+
+/// A comparison under way.
+pub struct Running<'a> {
+    mesh: &'a Mesh,
+    surface: Surface<'a>,
+    values: Values,
+    keep: usize,
+    limits: Option<Limits>,
+    excluded: [u64; Exclusion::ALL.len()],
+    worst: WorstPlaces,
+    paper: Option<(Paper, Differences)>,
+    map: Option<VertexMap>,
+}
+
+impl<'a> Running<'a> {
+    /// Nothing measured yet; at most `keep` deviations stay in memory.
+    pub fn new(
+        mesh: &'a Mesh,
+        tree: &'a Tree,
+        options: &Options,
+        keep: usize,
+    ) -> Result<Running<'a>, ReferenceError> {
+        let paper = match options.method {
+            Method::Exact => None,
+            Method::Paper => Some((Paper::new(mesh)?, Differences::default())),
+        };
+        Ok(Running {
+            surface: Surface::new(tree, mesh, &options.surface)?,
+            values: Values::All(vec![]),
+            keep,
+            limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
+            excluded: Default::default(),
+            worst: WorstPlaces::new(&mesh.bounds()),
+            paper,
+            map: (options.shown > 0).then(|| VertexMap::new(mesh.positions.len())),
+            mesh,
+        })
+    }
+
+    /// The deviations of the next block, whose first point has number `start`.
+    pub fn block(
+        &mut self,
+        start: u64,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<f64>, PaperError> {
+        let mut deviations = match &mut self.map {
+            None => self.surface.deviations(points, progress)?,
+            Some(map) => mapped(&self.surface, self.mesh, map, points, progress)?,
+        };
+        if let Some((paper, versus)) = &mut self.paper {
+            let theirs = paper.values(points, progress)?;
+            let size = |d: &f64| if d.is_finite() { d.abs() } else { f64::NAN };
+            versus.push(&theirs, &deviations.iter().map(size).collect::<Vec<f64>>());
+            // The paper has no sign: its distances get the exact method's.
+            for (d, t) in deviations.iter_mut().zip(theirs).filter(|(d, _)| d.is_finite()) {
+                *d = t.distance.copysign(*d);
+            }
+        }
+        for e in deviations.iter().filter_map(|&d| Exclusion::of(d)) {
+            self.excluded[e as usize] += 1;
+        }
+        if let Some(limits) = &mut self.limits {
+            limits.push(&deviations);
+            // An infinite value stands for a point that is not there, and does not lie above.
+            limits.above -= deviations.iter().filter(|d| d.is_infinite()).count() as u64;
+        }
+        self.worst.add(start, points, &deviations);
+        self.values.push(&deviations, self.keep);
+        Ok(deviations)
+    }
+
+    /// The end of the points; `sample` is an even sample of them.
+    pub fn finish(self, sample: &[Point]) -> Result<Compared, QueryError> {
+        let choice = *self.surface.sign();
+        let signed = choice.method != SignMethod::None;
+        let summary = self.values.summary();
+        Ok(Compared {
+            histogram: self.values.histogram(&summary.all),
+            limits: self.limits,
+            sign: choice,
+            disagreement: if signed { Some(self.surface.disagreement(sample)?) } else { None },
+            soundness: self.surface.soundness().clone(),
+            summary,
+            worst: worst(&self.surface, self.mesh, &self.worst)?,
+            values: self.values,
+            excluded: Exclusion::ALL.iter().map(|&e| (e, self.excluded[e as usize])).collect(),
+            paper_vs_exact: self.paper.map(|(_, versus)| versus),
+            vertex_map: self.map,
+        })
+    }
+}
+
+impl Values {
+    fn push(&mut self, deviations: &[f64], keep: usize) {
+        if let Values::All(all) = self {
+            if all.len() + deviations.len() <= keep {
+                return all.extend_from_slice(deviations);
+            }
+            let mut many = Box::new(Accumulator::new());
+            many.push(all);
+            *self = Values::Many(many);
+        }
+        if let Values::Many(many) = self {
+            many.push(deviations);
+        }
+    }
+
+    fn histogram(&self, all: &Statistics) -> Option<Histogram> {
+        let edges = nice_edges(all)?;
+        match self {
+            Values::All(values) => {
+                let mut histogram = Histogram::new(edges).ok()?;
+                histogram.push(values);
+                Some(histogram)
+            }
+            Values::Many(many) => many.sketch().histogram(&edges).ok(),
+        }
+    }
+
+    fn summary(&self) -> Summary {
+        match self {
+            Values::All(all) => Summary::of(all),
+            Values::Many(many) => many.summary(),
+        }
+    }
+}
+
+/// Deviations of a block that also go into the map of the reference's vertices.
+fn mapped(
+    surface: &Surface,
+    mesh: &Mesh,
+    map: &mut VertexMap,
+    points: &[Point],
+    progress: &dyn Progress,
+) -> Result<Vec<f64>, QueryError> {
+    let tree = surface.tree();
+    let found = surface.map(points, progress, |i, deviation, hit| {
+        let place = hit.filter(|_| deviation.is_finite()).map(|h| tree.place(&points[i], h));
+        (deviation, place.map(|p| (p.face, weights(&p))))
+    })?;
+    for (deviation, place) in &found {
+        if let Some((face, weights)) = place {
+            map.add(&mesh.faces[*face as usize], *weights, *deviation);
+        }
+    }
+    Ok(found.into_iter().map(|(deviation, _)| deviation).collect())
+}
+
+/// The worst places with their nearest places on the reference.
+fn worst(surface: &Surface, mesh: &Mesh, places: &WorstPlaces) -> Result<Vec<WorstPlace>, QueryError> {
+    let mut out = vec![];
+    for place in places.pick(WORST).into_iter().flatten() {
+        if let Some(Closest { point, face, .. }) = surface.tree().closest(&place.point, f64::INFINITY)? {
+            let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
+            let normal = unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n);
+            out.push(WorstPlace { place, nearest: point, normal });
+        }
+    }
+    Ok(out)
+}

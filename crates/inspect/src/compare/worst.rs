@@ -1,0 +1,136 @@
+//! The worst places, far from one another, out of any number of points in one pass.
+//!
+//! The surroundings of the reference are cut into cells; each cell keeps its highest and its lowest deviation. What is asked
+//! for in the end is picked from these, so a single bad region does not fill the list however many points it has.
+
+use rayon::prelude::*;
+use trueness_geom::space::{Aabb, Point, minus, norm};
+
+/// Cells along each side.
+const SIDE: usize = 32;
+/// Points that one task sorts into cells of its own.
+const TASK: usize = 1 << 18;
+/// Picked places are at least this share of the reference's diagonal apart.
+const APART: f64 = 0.05;
+
+/// A measured point with its deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Number of the point, from 0 in file order.
+    pub index: u64,
+    /// The point, millimetres.
+    pub point: Point,
+    /// Its deviation, millimetres.
+    pub deviation: f64,
+}
+
+/// Highest and lowest deviation of each cell around a reference.
+pub struct WorstPlaces {
+    origin: Point,
+    per_cell: Point,
+    diagonal: f64,
+    cells: Vec<Option<Place>>,
+}
+
+impl WorstPlaces {
+    /// For a reference of these bounds. Points outside count for the nearest cell at the rim.
+    pub fn new(bounds: &Aabb) -> WorstPlaces {
+        let sides = bounds.sides();
+        let per_cell = sides.map(|s| if s > 0.0 { SIDE as f64 / s } else { 0.0 });
+        WorstPlaces { origin: bounds.min, per_cell, diagonal: bounds.diagonal(), cells: Self::empty() }
+    }
+
+    fn empty() -> Vec<Option<Place>> {
+        vec![None; 2 * SIDE * SIDE * SIDE]
+    }
+
+    /// Takes a block of points whose first has number `start`. A NaN deviation is passed over.
+    pub fn add(&mut self, start: u64, points: &[Point], deviations: &[f64]) {
+        let sort = |n: usize, (points, deviations): (&[Point], &[f64])| {
+            let mut cells = Self::empty();
+            for (i, (point, &deviation)) in points.iter().zip(deviations).enumerate() {
+                let place = Place { index: start + (n * TASK + i) as u64, point: *point, deviation };
+                if deviation > 0.0 {
+                    keep(&mut cells[2 * self.cell(point)], place);
+                } else if deviation < 0.0 {
+                    keep(&mut cells[2 * self.cell(point) + 1], place);
+                }
+            }
+            cells
+        };
+        let parts = points.par_chunks(TASK).zip(deviations.par_chunks(TASK)).enumerate();
+        let found: Vec<_> = parts.map(|(n, part)| sort(n, part)).collect();
+        for place in found {
+            for (mine, other) in self.cells.iter_mut().zip(place) {
+                if let Some(p) = other {
+                    keep(mine, p);
+                }
+            }
+        }
+    }
+
+    fn cell(&self, p: &Point) -> usize {
+        let at = |k: usize| (((p[k] - self.origin[k]) * self.per_cell[k]) as usize).min(SIDE - 1);
+        (at(0) * SIDE + at(1)) * SIDE + at(2)
+    }
+
+    /// The `n` highest and the `n` lowest places that are not near one another, worst first.
+    pub fn pick(&self, n: usize) -> [Vec<Place>; 2] {
+        [0, 1].map(|side| {
+            let mut all: Vec<Place> = self.cells.iter().skip(side).step_by(2).flatten().copied().collect();
+            all.sort_by(|a, b| b.deviation.abs().total_cmp(&a.deviation.abs()).then(a.index.cmp(&b.index)));
+            let mut picked: Vec<Place> = vec![];
+            for p in all {
+                let apart = picked.iter().all(|q| norm(minus(p.point, q.point)) >= APART * self.diagonal);
+                if picked.len() < n && apart {
+                    picked.push(p);
+                }
+            }
+            picked
+        })
+    }
+}
+
+/// The larger deviation stays; of equal ones, the first in the file.
+fn keep(cell: &mut Option<Place>, p: Place) {
+    let better = cell.is_none_or(|c| {
+        let (new, old) = (p.deviation.abs(), c.deviation.abs());
+        new > old || (new == old && p.index < c.index)
+    });
+    if better {
+        *cell = Some(p);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_regions_and_not_neighbours() {
+        let bounds = Aabb { min: [0.0; 3], max: [100.0, 100.0, 0.0] };
+        let mut w = WorstPlaces::new(&bounds);
+        // A plate with two dents and one bump, 10,000 points a block, in two blocks.
+        let height = |x: f64, y: f64| {
+            let hill = |cx: f64, cy: f64, h: f64| h * (-((x - cx).powi(2) + (y - cy).powi(2)) / 8.0).exp();
+            hill(20.0, 20.0, 0.5) - hill(70.0, 30.0, 0.4) - hill(80.0, 90.0, 0.6)
+        };
+        let points: Vec<Point> =
+            (0..20_000).map(|i| [(i % 200) as f64 * 0.5, (i / 200) as f64, 0.0]).collect();
+        let deviations: Vec<f64> = points.iter().map(|p| height(p[0], p[1])).collect();
+        w.add(0, &points[..9_000], &deviations[..9_000]);
+        w.add(9_000, &points[9_000..], &deviations[9_000..]);
+        let [high, low] = w.pick(2);
+        assert_eq!(high[0].point, [20.0, 20.0, 0.0]);
+        assert_eq!(high[0].index, 20 * 200 + 40);
+        assert_eq!((low[0].point, low[1].point), ([80.0, 90.0, 0.0], [70.0, 30.0, 0.0]));
+    }
+
+    #[test]
+    fn first_in_the_file_wins_a_tie() {
+        let mut w = WorstPlaces::new(&Aabb { min: [0.0; 3], max: [1.0; 3] });
+        w.add(0, &[[0.5; 3], [0.5001; 3], [f64::MAX; 3]], &[1.0, 1.0, f64::NAN]);
+        let [high, low] = w.pick(3);
+        assert_eq!((high.len(), high[0].index, low.len()), (1, 0, 0));
+    }
+}
