@@ -20,7 +20,7 @@ const BINS: usize = 16;
 /// because least, most and count do not depend on it.
 const SHARE: usize = 1 << 16;
 /// Ranges larger than this are built by a task of their own.
-const TASK: usize = 8192;
+const TASK: usize = 1 << 15;
 /// Boxes are widened by this (scaled units), more than the rounding of a corner to single precision.
 const PAD: f32 = 1.2e-7;
 
@@ -246,7 +246,6 @@ fn partition(items: &mut [Item], left: impl Fn(&Item) -> bool) -> usize {
 }
 
 /// Nodes (children before or after, indices local to this list) and leaf ranges `(first slot, count)`.
-#[derive(Default)]
 struct Subtree {
     nodes: Vec<Node>,
     leaves: Vec<(u32, u32)>,
@@ -286,7 +285,11 @@ impl Subtree {
             let grown: Vec<(Subtree, i32)> = parts
                 .into_par_iter()
                 .map(|p| {
-                    let mut t = Subtree::default();
+                    // Room for more than it will have: memory that is not touched costs nothing, moving the list does.
+                    let mut t = Subtree {
+                        nodes: Vec::with_capacity(p.items.len() / 16),
+                        leaves: Vec::with_capacity(p.items.len() / 4),
+                    };
                     let root = t.grow(p);
                     (t, root)
                 })
@@ -335,7 +338,7 @@ pub fn build(mesh: &Mesh) -> Tree {
         b
     };
     let mut items: Vec<Item> = mesh.faces.par_iter().enumerate().map(item).collect();
-    let mut t = Subtree::default();
+    let mut t = Subtree { nodes: vec![], leaves: vec![] };
     let root = t.grow(Range::new(&mut items, 0));
     let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
     drop(items);

@@ -122,7 +122,8 @@ impl<'a> Winding<'a> {
                 // SAFETY: the features above are those of the type.
                 unsafe { solid_angle::numbers::<Z16>(w, p, len, s) }
             }
-            match level {
+            // No more than there is, whatever is asked for.
+            match level.min(Level::detect()) {
                 // SAFETY: `Level::detect` found these features.
                 Level::Avx512 => return unsafe { avx512(self, points, len, stack) },
                 // SAFETY: `Level::detect` found these features.
@@ -130,6 +131,7 @@ impl<'a> Winding<'a> {
                 Level::Plain => {}
             }
         }
+        let _ = level; // other processors have one way only
         // SAFETY: plain Rust needs no special instructions.
         unsafe { solid_angle::numbers::<Plain<16>>(self, points, len, stack) }
     }
