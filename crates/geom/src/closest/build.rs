@@ -1,9 +1,11 @@
 //! Building the tree: parallel binned surface-area heuristic, straight into nodes of eight.
 //!
-//! A range of triangles is split in two where the *surface-area heuristic* (MacDonald & Booth 1990), evaluated at
-//! 16 bins per axis (Wald 2007), is least; the cost of a side is its box area times the number of full leaves it
-//! needs, which favours splits at multiples of eight. To make a node of eight children, the child with the largest
-//! box is split again until there are eight (Wald, Benthin & Boulos 2008); no binary tree is ever stored.
+//! A range of triangles is split in two where the *surface-area heuristic* (MacDonald & Booth 1990), evaluated at 16 bins
+//! per axis (Wald 2007), is least; the cost of a side is its box area times the number of full leaves it needs, which
+//! favours splits at multiples of eight. A large range is judged by a sample; of a small one, the axes of its largest
+//! extent are enough; a few triangles are sorted and every cut tried, which costs less than bins. To make a node of
+//! eight children, the child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008); no
+//! binary tree is ever stored.
 //! Large children are built in parallel and their node lists joined in a fixed order, so the tree does not depend
 //! on the number of threads.
 
@@ -16,8 +18,8 @@ use rayon::prelude::*;
 /// Triangles per leaf at most.
 const LEAF: usize = 8;
 const BINS: usize = 16;
-/// Ranges larger than this are boxed and binned by several threads: blocks of this many items, merged in any order,
-/// because least, most and count do not depend on it.
+/// Ranges larger than this are boxed by several threads: blocks of this many items, merged in any order, because least
+/// and most do not depend on it.
 const SHARE: usize = 1 << 16;
 /// Ranges larger than this are built by a task of their own.
 const TASK: usize = 1 << 15;
@@ -245,7 +247,7 @@ fn partition(items: &mut [Item], left: impl Fn(&Item) -> bool) -> usize {
     middle
 }
 
-/// Nodes (children before or after, indices local to this list) and leaf ranges `(first slot, count)`.
+/// Nodes (parents before their children, indices local to this list) and leaf ranges `(first slot, count)`.
 struct Subtree {
     nodes: Vec<Node>,
     leaves: Vec<(u32, u32)>,
