@@ -8,7 +8,7 @@
 //!
 //! Values come into being only through `splat` and `load`, which are unsafe because they need the instructions; all
 //! else is safe on a value that exists. The methods are `inline(always)` and become vector instructions once inlined
-//! into a function with the matching `#[target_feature]` (see `dispatch` in the module `query`).
+//! into a function with the matching `#[target_feature]` (see `answer_items` in the module `query`).
 #![expect(unsafe_code, reason = "constructing a vector needs instructions that the processor may lack")]
 
 use std::ops::{Add, Div, Mul, Sub};

@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use rayon::prelude::*;
 
-/// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 48 bytes a face.
+/// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 36 bytes a face.
 ///
 /// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
 /// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to

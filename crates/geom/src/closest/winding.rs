@@ -36,7 +36,7 @@ struct Dipole {
     radius: f64,
 }
 
-/// A tree with the dipoles of its groups: ready for winding numbers. 30 bytes a face.
+/// A tree with the dipoles of its groups: ready for winding numbers. 11 bytes a face.
 pub struct Winding<'a> {
     pub(super) tree: &'a Tree,
     pub(super) groups: Vec<Group>,
