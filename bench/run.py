@@ -4,6 +4,7 @@
 run.py closest --mesh MESH.ply [--points P.npy | --kind scan|far --count N] [--mode unsigned|signed|winding]
 run.py read FILE…                    reading a mesh (and welding it) or a cloud
 run.py compare MEASURED REFERENCE    the whole command, wall time and peak memory
+run.py fit [--count N]               least-squares elements, beside SciPy
 run.py table --data FOLDER           all of it, against the goals; FOLDER as `inputs.py all` makes it
 
 See README.md. Ratios above 1 mean: the rival needs that many times longer than we do.
@@ -16,7 +17,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
-from harness import closest, command, data, machine, readers, report, table  # noqa: E402
+from harness import closest, command, data, fit, machine, readers, report, table  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -24,7 +25,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 def main():
     o = arguments()
     tools = Tools(o)
-    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "table": do_table}[o.job](o, tools)
+    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "fit": do_fit, "table": do_table}[o.job](o, tools)
     if o.record:
         report.record(o.record, tools.describe(), o.date, rows)
 
@@ -55,6 +56,8 @@ def arguments():
     three = jobs.add_parser("compare", parents=[shared])
     three.add_argument("measured")
     three.add_argument("reference")
+    five = jobs.add_parser("fit", parents=[shared])
+    five.add_argument("--count", type=int, default=100_000)
     four = jobs.add_parser("table", parents=[shared])
     four.add_argument("--data", required=True)
     four.add_argument("--only", help="lines whose name contains this")
@@ -75,6 +78,7 @@ class Tools:
         rival = lambda name: [self.python, os.path.join(HERE, "rivals", f"with_{name}.py")]
         known = {"open3d": rival("open3d"), "meshlib": rival("meshlib"), "parry3d": [binary("parry")]}
         self.reader = [binary("read")]
+        self.fitters = {"trueness": [binary("fit")], "scipy": rival("scipy")}
         self.programs = {"trueness": [binary("closest")]}
         for added in o.add:
             name, _, words = added.partition("=")
@@ -94,7 +98,7 @@ class Tools:
         return [os.path.join(target(root), "release", "trueness")]
 
     def describe(self):
-        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy"])
+        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy", "scipy"])
         packages["parry3d"] = machine.crate_version(os.path.join(HERE, "Cargo.lock"), "parry3d")
         return {"machine": machine.describe(), "versions": packages}
 
@@ -131,6 +135,17 @@ def do_read(o, tools):
 def do_compare(o, tools):
     rows = [command.measure(tools.command_line(), o.measured, o.reference, o.rounds, o.threads)]
     print(report.markdown(rows, command.COLUMNS))
+    return rows
+
+
+def do_fit(o, tools):
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for shape in fit.TRUTH:
+            path = os.path.join(folder, f"{shape}.npy")
+            np.save(path, fit.points(shape, o.count))
+            rows += fit.measure(shape, path, tools.fitters, o.rounds, o.repeat, o.threads)
+    print(report.markdown(rows, fit.COLUMNS))
     return rows
 
 
