@@ -4,6 +4,7 @@
 run.py closest --mesh MESH.ply [--points P.npy | --kind scan|far --count N] [--mode unsigned|signed|winding]
 run.py read FILE…                    reading a mesh (and welding it) or a cloud
 run.py compare MEASURED REFERENCE    the whole command, wall time and peak memory
+run.py check MESH…                   loading, welding, checking, beside MeshLib and ADMesh
 run.py fit [--count N]               least-squares elements, beside SciPy
 run.py table --data FOLDER           all of it, against the goals; FOLDER as `inputs.py all` makes it
 
@@ -17,7 +18,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
-from harness import closest, command, data, fit, machine, readers, report, table  # noqa: E402
+from harness import check, closest, command, data, fit, machine, readers, report, table  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -25,7 +26,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 def main():
     o = arguments()
     tools = Tools(o)
-    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "fit": do_fit, "table": do_table}[o.job](o, tools)
+    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "check": do_check, "fit": do_fit, "table": do_table}[o.job](o, tools)
     if o.record:
         report.record(o.record, tools.describe(), o.date, rows)
 
@@ -56,6 +57,8 @@ def arguments():
     three = jobs.add_parser("compare", parents=[shared])
     three.add_argument("measured")
     three.add_argument("reference")
+    six = jobs.add_parser("check", parents=[shared])
+    six.add_argument("meshes", nargs="+")
     five = jobs.add_parser("fit", parents=[shared])
     five.add_argument("--count", type=int, default=100_000)
     four = jobs.add_parser("table", parents=[shared])
@@ -75,10 +78,11 @@ class Tools:
         if not o.no_build:
             cargo("build", "--release", "--bins", folder=HERE)
         binary = lambda name: os.path.join(target(HERE), "release", name)
-        rival = lambda name: [self.python, os.path.join(HERE, "rivals", f"with_{name}.py")]
-        known = {"open3d": rival("open3d"), "meshlib": rival("meshlib"), "parry3d": [binary("parry")]}
+        rival = lambda name: [self.python, os.path.join(HERE, "rivals", f"{name}.py")]
+        known = {"open3d": rival("distance_open3d"), "meshlib": rival("distance_meshlib"), "parry3d": [binary("parry")]}
         self.reader = [binary("read")]
-        self.fitters = {"trueness": [binary("fit")], "scipy": rival("scipy")}
+        self.checkers = {"trueness": [binary("check")], "meshlib": rival("check_meshlib")}
+        self.fitters = {"trueness": [binary("fit")], "scipy": rival("fit_scipy")}
         self.programs = {"trueness": [binary("closest")]}
         for added in o.add:
             name, _, words = added.partition("=")
@@ -135,6 +139,14 @@ def do_read(o, tools):
 def do_compare(o, tools):
     rows = [command.measure(tools.command_line(), o.measured, o.reference, o.rounds, o.threads)]
     print(report.markdown(rows, command.COLUMNS))
+    return rows
+
+
+def do_check(o, tools):
+    rows = []
+    for mesh in o.meshes:
+        rows += check.measure(mesh, tools.checkers, o.rounds, o.repeat, o.threads)
+    print(report.markdown(rows, check.COLUMNS))
     return rows
 
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import program
 
-# Parameters as rivals/with_scipy.py has them: tilts of the axis from z, places and radii in mm.
+# Parameters as rivals/fit_scipy.py has them: tilts of the axis from z, places and radii in mm.
 TRUTH = {
     "plane": [0.1, -0.2, 30.0],
     "sphere": [10.0, 20.0, -30.0, 40.0],

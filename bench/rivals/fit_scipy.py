@@ -1,6 +1,6 @@
 """SciPy: least_squares (MINPACK's Levenberg-Marquardt) on orthogonal distances, started near the answer.
 
-`with_scipy.py POINTS.npy SHAPE THREADS REPEAT`. The start is what a user would have to find first; ours gets none.
+`fit_scipy.py POINTS.npy SHAPE THREADS REPEAT`. The start is what a user would have to find first; ours gets none.
 """
 import json
 import os
