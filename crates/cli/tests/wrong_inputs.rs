@@ -96,7 +96,7 @@ fn not_a_mesh() {
 fn directory_missing_and_unreadable() {
     let f = Folder::new();
     let (points, cube) = (f.write("p.xyz", POINTS), f.write("c.off", CUBE));
-    refused(&f, &points, &f.0.clone(), 3, &[f.0.to_str().unwrap(), "director"]);
+    refused(&f, &points, &f.0.clone(), 3, &[f.0.to_str().unwrap(), "folder"]);
     refused(&f, &f.file("none.ply"), &cube, 3, &["none.ply"]);
     #[cfg(unix)]
     {

@@ -268,6 +268,7 @@ fn comparison(
         worst: worst(body, field),
         reverse: None,
         paper_vs_exact: None,
+        research: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! From what was found to the result document.
 
 use super::reference::{Compared, WorstPlace};
+use super::research::research;
 use super::{Comparisons, Options};
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
@@ -34,13 +35,18 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
     let names: Vec<String> = inputs.files.iter().skip(1).map(|f| f.path.clone()).collect();
     let ranks = ranks(&found.references);
     let mut reverse = inputs.reverse.into_iter();
-    let comparisons: Vec<Comparison> = found
+    let mut comparisons: Vec<Comparison> = found
         .references
         .iter()
         .zip(names)
         .zip(ranks)
         .map(|((c, name), rank)| comparison(c, name, rank, reverse.next().flatten(), options))
         .collect();
+    if options.research {
+        for (i, (c, found_for)) in comparisons.iter_mut().zip(&found.references).enumerate() {
+            c.research = Some(research(found_for, &found.shown, i, options.seed));
+        }
+    }
     let worst_verdict = |a: Verdict, b: Verdict| if a == Verdict::Pass { b } else { a };
     CompareDocument {
         schema: SCHEMA.into(),
@@ -94,6 +100,7 @@ fn comparison(
         worst: c.worst.iter().map(worst).collect(),
         reverse,
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
+        research: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod document;
 mod reference;
+mod research;
 mod reverse;
 mod shown;
 mod vertex_map;
@@ -169,12 +170,13 @@ pub fn run<S: PointStream + ?Sized, K>(
     for second in 1..references.len() {
         paired.extend((0..second).map(|first| (first, second, Paired::new())));
     }
+    let places = if options.research { options.shown.max(research::PLACES) } else { options.shown };
     let mut out = Comparisons {
         count: 0,
         bounds: Aabb::EMPTY,
         references: vec![],
         paired,
-        shown: ShownPoints::new(options.shown, references.len()),
+        shown: ShownPoints::new(places, references.len()),
     };
     let mut sample = ShownPoints::new(SIGN_SAMPLE, 0);
     let mut points = vec![];
@@ -184,13 +186,14 @@ pub fn run<S: PointStream + ?Sized, K>(
             break;
         }
         let mut deviations = vec![];
-        for r in &mut running {
-            deviations.push(r.block(out.count, &points, progress).map_err(|e| in_block(e, out.count))?);
+        for (r, reference) in running.iter_mut().zip(references) {
+            let block = r.block(out.count, &points, progress);
+            deviations.push(block.map_err(|e| in_block(e, reference, out.count))?);
         }
         for (first, second, p) in &mut out.paired {
             p.push(&deviations[*first], &deviations[*second]);
         }
-        if options.shown > 0 {
+        if places > 0 {
             let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
             out.shown.add(out.count, &points, &lists);
         }
@@ -214,12 +217,12 @@ fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S
 const SIGN_SAMPLE: usize = 4096;
 
 /// What broke off a block whose first point has number `start`; the number of a bad point counts from the stream's start.
-fn in_block<S, K>(error: PaperError, start: u64) -> CompareError<S, K> {
+fn in_block<S, K>(error: PaperError, reference: &Reference, start: u64) -> CompareError<S, K> {
     match error {
         PaperError::Query(QueryError::BadPoint(i)) => {
             CompareError::Query(QueryError::BadPoint(start as usize + i))
         }
         PaperError::Query(e) => CompareError::Query(e),
-        other => CompareError::Reference { reference: String::new(), error: other.into() },
+        other => refused(reference, other.into()),
     }
 }

@@ -17,6 +17,8 @@ use trueness_geom::topology::weld::WeldError;
 
 /// What was found about one reference.
 pub struct Compared {
+    /// Diagonal of the reference's box, millimetres.
+    pub diagonal: f64,
     /// How the sign was found.
     pub sign: SignChoice,
     /// How both sign methods agree on a sample; absent for unsigned distances.
@@ -154,6 +156,7 @@ impl<'a> Running<'a> {
         let signed = choice.method != SignMethod::None;
         let summary = self.values.summary();
         Ok(Compared {
+            diagonal: self.mesh.bounds().diagonal(),
             histogram: self.values.histogram(&summary.all),
             limits: self.limits,
             sign: choice,

@@ -1,5 +1,6 @@
 //! `trueness/compare/1`: deviations of measured points from one or several references.
 
+use super::research::Research;
 use super::{InputRecord, Verdict};
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -115,6 +116,9 @@ pub struct Comparison {
     /// How the paper's method differs from the exact distance; only with `--method paper`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub paper_vs_exact: Option<PaperVsExact>,
+    /// Intervals, tests and models; only with `--research`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub research: Option<Research>,
 }
 
 /// Statistics of all deviations and of each side.

@@ -2,6 +2,7 @@
 
 use crate::console::{columns, grouped};
 use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics};
+use trueness_inspect::results::research::{Finding, Research, Test};
 
 /// The whole text.
 pub fn text(d: &CompareDocument) -> String {
@@ -137,6 +138,9 @@ fn one(c: &Comparison) -> String {
             number(p.max_difference)
         ));
     }
+    if let Some(r) = &c.research {
+        out.push_str(&research(r));
+    }
     if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
         out.push_str(&format!(
             "\ntolerance {} … {} mm: {} % inside, {} % above, {} % below: {}\n",
@@ -147,6 +151,42 @@ fn one(c: &Comparison) -> String {
             percent(t.below),
             v.word().to_uppercase()
         ));
+    }
+    out
+}
+
+/// The findings of `--research`, a line each.
+fn research(r: &Research) -> String {
+    fn line<T>(name: &str, finding: &Finding<T>, text: impl Fn(&T) -> String) -> Vec<String> {
+        let text = match finding {
+            Finding::Found(x) => text(x),
+            Finding::Missing { reason } => format!("– ({reason})"),
+        };
+        vec![name.to_string(), text]
+    }
+    let interval = |[a, b]: [f64; 2]| format!("{} … {}", signed_number(a), signed_number(b));
+    let test = |t: &Test| format!("{} (p {}, {} points)", number(t.statistic), p_value(t.p_value), grouped(t.count));
+    let rows = [
+        line("95 % interval of the mean", &r.bootstrap, |b| interval(b.mean)),
+        line("95 % interval of σ", &r.bootstrap, |b| interval(b.std_dev)),
+        line("… of the mean, correlated in space", &r.block_mean, |b| {
+            format!("{} (as {} independent points)", interval(b.interval), number(b.effective_count.round()))
+        }),
+        line("normal? D'Agostino–Pearson K²", &r.normality.d_agostino, test),
+        line("normal? Anderson–Darling A²", &r.normality.anderson_darling, test),
+        line("best distribution", &r.distributions, |all| match &all[..] {
+            [best, ..] => format!("{} (location {}, scale {})", best.family, number(best.location), number(best.scale)),
+            [] => "–".into(),
+        }),
+        line("Moran's I", &r.moran, |m| {
+            format!("{:.4} over {} mm (p {})", m.i, number(m.neighbour_distance), p_value(m.p_value))
+        }),
+    ];
+    let width = rows.iter().map(|r| r[0].chars().count()).max().unwrap_or(0);
+    let mut out = String::from("\nresearch, mm\n");
+    for row in rows {
+        let pad = " ".repeat(width - row[0].chars().count());
+        out.push_str(&format!("{}{pad}  {}\n", row[0], row[1]));
     }
     out
 }
