@@ -6,6 +6,7 @@ pub mod neighbours;
 pub mod paired;
 pub mod paper;
 pub mod quantiles;
+pub mod research;
 pub mod sample;
 pub mod sign_choice;
 pub mod sketch;

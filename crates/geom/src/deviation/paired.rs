@@ -2,6 +2,7 @@
 //!
 //! All tests treat the points as independent. Neighbouring points of a scan are not: their deviations go together, so
 //! the true uncertainty is larger than stated and small p values mean little where the deviations are smooth.
+//! [`super::research::blocks`] gives an interval that allows for it.
 
 use super::sketch::Sketch;
 use super::statistics::{Accumulator, Missing, Number, Statistics, Summary};

@@ -14,6 +14,9 @@ pub enum Missing {
     /// Spread of a single value.
     #[error("one value has no spread; at least two are needed")]
     OneValue,
+    /// A method that needs more values.
+    #[error("at least {0} values are needed")]
+    TooFew(u64),
     /// Shape of a distribution whose values are all equal.
     #[error("all values are equal")]
     NoSpread,

@@ -44,6 +44,40 @@ impl Random {
             }
         }
     }
+    /// A Poisson number of this mean; 0 for a mean that is not positive.
+    ///
+    /// Products of uniform numbers for small means, transformed rejection for others (Hörmann, The transformed rejection
+    /// method for generating Poisson random variables, 1993, algorithm PTRS).
+    pub fn poisson(&mut self, mean: f64) -> f64 {
+        if mean < 10.0 {
+            let limit = libm::exp(-mean.max(0.0));
+            let (mut product, mut count) = (self.unit(), 0.0);
+            while product > limit {
+                product *= self.unit();
+                count += 1.0;
+            }
+            return count;
+        }
+        let b = 0.931 + 2.53 * mean.sqrt();
+        let a = 0.02483 * b - 0.059;
+        let scale = libm::log(1.1239 + 1.1328 / (b - 3.4));
+        let log_mean = libm::log(mean);
+        loop {
+            let (u, v) = (self.unit() - 0.5, self.unit());
+            let edge = 0.5 - u.abs();
+            let count = ((2.0 * a / edge + b) * u + mean + 0.43).floor();
+            if edge >= 0.07 && v <= 0.9277 - 3.6224 / (b - 2.0) {
+                return count;
+            }
+            if count < 0.0 || (edge < 0.013 && v > edge) {
+                continue;
+            }
+            let hat = libm::log(v) + scale - libm::log(a / (edge * edge) + b);
+            if hat <= count * log_mean - mean - libm::lgamma(count + 1.0) {
+                return count;
+            }
+        }
+    }
     /// `count` different numbers below `total`, ascending, each set equally likely; all of them where there are no
     /// more. Floyd's algorithm (Bentley, Programming Pearls: a sample of brilliance, 1987); time and memory grow with
     /// `count` only.
@@ -96,6 +130,25 @@ mod tests {
         assert!(counts.iter().all(|c| c.abs_diff(10_000) < 463), "{counts:?}");
         assert_eq!(random.below(1), 0);
         assert_eq!(random.below(0), 0);
+    }
+
+    #[test]
+    fn poisson_numbers_have_their_moments() {
+        let mut random = Random::new(17);
+        for mean in [0.0, 0.7, 9.9, 10.0, 250.0, 1e7] {
+            let (n, mut sum, mut squares) = (40_000.0, 0.0, 0.0);
+            for _ in 0..40_000 {
+                let d = random.poisson(mean) - mean;
+                sum += d;
+                squares += d * d;
+            }
+            // Five standard deviations of the mean and of the variance.
+            assert!(sum.abs() <= 5.0 * (mean * n).sqrt(), "mean {mean}: {sum}");
+            let spread = mean * ((2.0 + 1.0 / mean.max(1e-9)) * n).sqrt();
+            assert!((squares - mean * n).abs() <= 5.0 * spread, "mean {mean}: {squares}");
+        }
+        let none = (0..40_000).filter(|_| random.poisson(0.7) == 0.0).count() as f64 / 40_000.0;
+        assert!((none - (-0.7f64).exp()).abs() < 0.0125);
     }
 
     #[test]
