@@ -113,8 +113,8 @@ impl Tree {
         }
         let query = Query { max_distance, ..Query::default() };
         let answer = std::cell::Cell::new(Hit::NONE);
-        answer_items(self, &query, std::slice::from_ref(p), &[0], &mut Scratch::default(), &|_, h| {
-            answer.set(h)
+        answer_items(self, &query, std::slice::from_ref(p), &[0], &mut Scratch::default(), &|_, hits| {
+            answer.set(hits[0])
         });
         let hit = answer.get();
         Ok((hit.distance() <= max_distance).then(|| self.place(p, &hit)))
@@ -139,8 +139,10 @@ impl Tree {
     ) -> Result<(), QueryError> {
         check_distance(query.max_distance)?;
         order::for_each_bucket(points, progress, |scratch: &mut Scratch, slice, base, items| {
-            answer_items(self, query, slice, items, scratch, &|i, hit: Hit| {
-                sink(base + i, (hit.distance() <= query.max_distance).then_some(hit));
+            answer_items(self, query, slice, items, scratch, &|items, hits| {
+                for (&i, hit) in items.iter().zip(hits) {
+                    sink(base + i as u32 as usize, (hit.distance() <= query.max_distance).then_some(*hit));
+                }
             });
         })
     }
@@ -193,7 +195,7 @@ fn answer_items(
     points: &[Point],
     items: &[u64],
     scratch: &mut Scratch,
-    sink: &impl Fn(usize, Hit),
+    sink: walk::Sink,
 ) {
     use crate::closest::lanes::Plain;
     let far = query.max_distance;
@@ -201,12 +203,12 @@ fn answer_items(
     {
         use crate::closest::lanes_x86::{A4d, A8, A16, Z8d, Z16};
         #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-        fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: &impl Fn(usize, Hit)) {
+        fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: walk::Sink) {
             // SAFETY: the features above are those of the types.
             unsafe { walk::all::<A8, A16, A4d>(t, p, i, far, s, f) }
         }
         #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-        fn avx512(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: &impl Fn(usize, Hit)) {
+        fn avx512(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: walk::Sink) {
             // SAFETY: the features above are those of the types.
             unsafe { walk::all::<A8, Z16, Z8d>(t, p, i, far, s, f) }
         }

@@ -12,6 +12,10 @@ use crate::closest::triangle;
 use crate::closest::{dense::dense, settle::settle, wave::wave};
 use crate::space::Point;
 
+/// Takes the answers of a block: items, and as many hits. Not generic, so that the search is compiled once for each
+/// instruction set and not once more for everybody who asks.
+pub type Sink<'a> = &'a dyn Fn(&[u64], &[Hit]);
+
 /// Answers the points named by `items` (their low 32 bits), in that order. Beyond `max_distance` an answer may be
 /// missing ([`Hit::NONE`]) or too far.
 #[inline(always)]
@@ -21,7 +25,7 @@ pub unsafe fn all<V: Lanes<8>, W: Lanes<16>, D: Real>(
     items: &[u64],
     max_distance: f64,
     s: &mut Scratch,
-    sink: &impl Fn(usize, Hit),
+    sink: Sink,
 ) {
     for (n, part) in items.chunks(BLOCK).enumerate() {
         // The points lie scattered in memory, a third of them across two cache lines: ask early for the block after next.
@@ -38,9 +42,7 @@ pub unsafe fn all<V: Lanes<8>, W: Lanes<16>, D: Real>(
         }
         let mut hits = [Hit::NONE; BLOCK];
         unsafe { block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
-        for (h, &i) in hits.iter().zip(part) {
-            sink(i as u32 as usize, *h);
-        }
+        sink(part, &hits[..part.len()]);
     }
 }
 

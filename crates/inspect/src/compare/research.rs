@@ -60,10 +60,7 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
     }
 }
 
-fn intervals(
-    c: &Compared,
-    seed: u64,
-) -> Result<Bootstrap, trueness_geom::deviation::statistics::Missing> {
+fn intervals(c: &Compared, seed: u64) -> Result<Bootstrap, trueness_geom::deviation::statistics::Missing> {
     let options = bootstrap::Options { seed, ..bootstrap::Options::default() };
     let found = match &c.values {
         Values::All(values) => bootstrap::bootstrap(values, &options),

@@ -50,7 +50,13 @@ pub struct CompareArgs {
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArg>,
     /// Share of the points that must lie within the tolerance, in percent
-    #[arg(long, value_name = "PERCENT", default_value = "100", requires = "tolerance", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value = "100",
+        requires = "tolerance",
+        allow_hyphen_values = true
+    )]
     inside: f64,
     /// Exclude (and count) points farther than this, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]

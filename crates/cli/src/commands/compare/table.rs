@@ -165,7 +165,8 @@ fn research(r: &Research) -> String {
         vec![name.to_string(), text]
     }
     let interval = |[a, b]: [f64; 2]| format!("{} … {}", signed_number(a), signed_number(b));
-    let test = |t: &Test| format!("{} (p {}, {} points)", number(t.statistic), p_value(t.p_value), grouped(t.count));
+    let test =
+        |t: &Test| format!("{} (p {}, {} points)", number(t.statistic), p_value(t.p_value), grouped(t.count));
     let rows = [
         line("95 % interval of the mean", &r.bootstrap, |b| interval(b.mean)),
         line("95 % interval of σ", &r.bootstrap, |b| interval(b.std_dev)),
@@ -175,7 +176,9 @@ fn research(r: &Research) -> String {
         line("normal? D'Agostino–Pearson K²", &r.normality.d_agostino, test),
         line("normal? Anderson–Darling A²", &r.normality.anderson_darling, test),
         line("best distribution", &r.distributions, |all| match &all[..] {
-            [best, ..] => format!("{} (location {}, scale {})", best.family, number(best.location), number(best.scale)),
+            [best, ..] => {
+                format!("{} (location {}, scale {})", best.family, number(best.location), number(best.scale))
+            }
             [] => "–".into(),
         }),
         line("Moran's I", &r.moran, |m| {
