@@ -26,7 +26,10 @@ fn main() {
         "off" => Err("TRUENESS_VIEWER=off".to_string()),
         "auto" | "require" if env::var_os("DOCS_RS").is_some() => Err("documentation build".to_string()),
         "auto" | "require" => bundle(&web, &out.join("web")),
-        path => Ok(PathBuf::from(path)),
+        path => {
+            println!("cargo::rerun-if-changed={path}");
+            Ok(PathBuf::from(path))
+        }
     };
     let script = built.and_then(|p| fs::read_to_string(&p).map_err(|e| format!("{}: {e}", p.display())));
     let target = out.join("viewer.js");

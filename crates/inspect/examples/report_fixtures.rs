@@ -8,12 +8,12 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
-use trueness_inspect::report::{self, Geometry, NoValue, ReportInput, ReportOptions, ViewField, ViewObject};
+use trueness_inspect::report::{
+    self, Geometry, NoValue, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
+};
 use trueness_inspect::results::compare::*;
 use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
 use trueness_inspect::scale::Scale;
@@ -35,7 +35,7 @@ fn main() {
 }
 
 /// A body with one value a vertex for each reference.
-struct Body {
+pub struct Body {
     measured: Mesh,
     fields: Vec<Vec<f64>>,
     references: Vec<Mesh>,
@@ -44,7 +44,7 @@ struct Body {
 }
 
 /// Radius 10, 2n² triangles; the deviation is 0.1·z/r.
-fn sphere(n: u32) -> Body {
+pub fn sphere(n: u32) -> Body {
     let measured = uv_sphere(n);
     let values = measured.positions.iter().map(|p| 0.01 * p[2]).collect();
     Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
@@ -80,12 +80,14 @@ fn uv_sphere(n: u32) -> Mesh {
     mesh
 }
 
-/// 20 mm; +x face +0.2, −y face −0.15, the others 0. Faces share no vertex, so each has its one value.
+/// 20 mm; +x face +0.2, −y face −0.15, +z face the tolerance's 0.1, −z face two storing steps more, the others 0.
+/// Faces share no vertex, so each has its one value.
 fn cube() -> Body {
     let mut measured = Mesh::default();
     let mut values = vec![];
     for (axis, side) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
-        let value = [[0.2, 0.0], [0.0, -0.15], [0.0, 0.0]][axis][usize::from(side < 0.0)];
+        let value =
+            [[0.2, 0.0], [0.0, -0.15], [0.1, 0.1 + 2.0 * 0.2 / 32_760.0]][axis][usize::from(side < 0.0)];
         // The hair's breadth keeps equal places of neighbouring faces apart.
         let half = 10.0 - 1e-9;
         let first = measured.positions.len() as u32;
@@ -138,12 +140,24 @@ fn write(
     measured: &str,
     reference: &str,
 ) {
+    let options = ReportOptions { serial: Some(format!("{name} 4711")), ..ReportOptions::default() };
+    let (page, summary) = page(body, tolerance, [measured, reference], &options);
+    let path = folder.join(format!("{name}.html"));
+    std::fs::write(&path, page).unwrap();
+    println!("{}: {} bytes", path.display(), summary.bytes);
+}
+
+/// The report of a body, with names of the measured and the reference file.
+pub fn page(
+    body: &Body,
+    tolerance: Option<[f64; 2]>,
+    [measured, reference]: [&str; 2],
+    options: &ReportOptions,
+) -> (Vec<u8>, ReportSummary) {
     let result = document(body, tolerance, measured, reference);
     let reasons = vec![NoValue::MaxDistance; body.measured.positions.len()];
-    let fields =
-        |fields: &'_ [Vec<f64>]| -> Vec<(usize, Vec<f64>)> { fields.iter().cloned().enumerate().collect() };
-    let all = fields(&body.fields);
-    let view = |comparison: usize| ViewField { comparison, values: &all[comparison].1, reasons: &reasons };
+    let view =
+        |comparison: usize| ViewField { comparison, values: &body.fields[comparison], reasons: &reasons };
     let geometry =
         if body.cloud { Geometry::Points(&body.measured.positions) } else { Geometry::Mesh(&body.measured) };
     let mut objects = vec![ViewObject {
@@ -162,12 +176,10 @@ fn write(
             fields: if body.cloud { vec![view(n)] } else { vec![] },
         });
     }
-    let options = ReportOptions { part: Some(format!("{name} 4711")), ..ReportOptions::default() };
-    let input = ReportInput { result: &result, objects: &objects, options: &options };
-    let path = folder.join(format!("{name}.html"));
-    let mut out = BufWriter::new(File::create(&path).unwrap());
-    let summary = report::write(&input, &mut out).unwrap();
-    println!("{}: {} bytes", path.display(), summary.bytes);
+    let mut page = vec![];
+    let summary =
+        report::write(&ReportInput { result: &result, objects: &objects, options }, &mut page).unwrap();
+    (page, summary)
 }
 
 fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference: &str) -> CompareDocument {

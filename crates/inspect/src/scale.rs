@@ -199,9 +199,9 @@ fn round_up(x: f64) -> f64 {
     candidates.into_iter().map(of).find(|c| *c >= x).unwrap_or(x)
 }
 
-/// Digits after the point so that a hundredth of `upper` still shows; at least 1, at most 6.
+/// Digits after the point: micrometres, and more where a hundredth of `upper` is finer; at most 6.
 fn decimals(upper: f64) -> u32 {
-    (2.0 - upper.log10().floor()).clamp(1.0, 6.0) as u32
+    (2.0 - upper.log10().floor()).clamp(3.0, 6.0) as u32
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ pub use text::Language;
 
 use crate::results::Role;
 use crate::results::compare::CompareDocument;
+use payload::Payload;
 use std::io::{self, Write};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
@@ -184,6 +185,9 @@ pub enum ReportError {
     Encoding(String),
 }
 
+/// Bytes that an object's entry in the manifest may take, names apart.
+const MANIFEST_ENTRY: usize = 4000;
+
 /// Writes the report of a comparison as one HTML file.
 ///
 /// Objects may be empty, fields may be NaN throughout, names may hold any text. Deterministic for any number of threads.
@@ -198,9 +202,9 @@ pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary,
     let scale = &input.result.scale;
     let range = scale.tolerance.map_or(scale.upper - scale.lower, |[l, u]| u - l);
     let picture = payload::base64(&picture::png(input.objects, scale, input.options.up));
-    let text = trueness_viewer::SCRIPT.len() + trueness_viewer::STYLE.len() + trueness_viewer::TEXTS.len();
-    let fixed = text + picture.len() + serde_json::to_string(input.result)?.len() + 60_000;
-    let payload = payload::pack(input.objects, range, input.options.budget.saturating_sub(fixed))?;
+    // What the page takes without its 3D part is left of the budget first.
+    let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
+    let payload = payload::pack(input.objects, range, input.options.budget.saturating_sub(bare))?;
     let html = page::page(input, &payload, &picture)?;
     out.write_all(html.as_bytes())?;
     out.flush()?;

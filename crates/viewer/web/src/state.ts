@@ -30,8 +30,12 @@ export class State {
     return this.manifest.result.comparisons[this.comparison]
   }
 
-  get distribution(): Distribution {
-    return new Distribution(this.manifest.quantiles[this.comparison] ?? [])
+  /** Share of the deviations in a range: the result's own number for the tolerance zone, else from the distribution. */
+  share(from: number, to: number): number | null {
+    const zone = this.current?.tolerance
+    if (zone && from === zone.lower && to === zone.upper) return zone.inside
+    const distribution = new Distribution(this.manifest.quantiles[this.comparison] ?? [])
+    return distribution.known ? distribution.between(from, to) : null
   }
 
   listen(listener: (what: Change) => void): void {

@@ -12,6 +12,8 @@ const RIGHT: f64 = WIDTH - 34.0;
 const FOOT: f64 = 96.0;
 const BARS: f64 = 84.0;
 const STRIP: f64 = 14.0;
+/// Room that a number under the strip needs.
+const LABEL: f64 = 48.0;
 /// Length of a cap.
 const CAP: f64 = 22.0;
 
@@ -74,18 +76,22 @@ fn strip(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
     piece(RIGHT - CAP, CAP, &hex(colors[colors.len() - 1]));
 }
 
+/// Ticks at all limits; numbers where there is room, first at the tolerance, then at the ends.
 fn ticks(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
     let zone = scale.tolerance.unwrap_or([f64::NAN; 2]);
-    let style = h.style;
-    for limit in scale.limits() {
+    let mut limits = scale.limits();
+    limits.sort_by_key(|l| (!zone.contains(l), *l != scale.lower && *l != scale.upper));
+    let mut written: Vec<f64> = vec![];
+    for limit in limits {
         let x = at(limit);
         let (top, class) = if zone.contains(&limit) { (6.0, "limit") } else { (FOOT, "tick") };
-        h.raw(&format!(
-            "<line class=\"{class}\" x1=\"{x:.2}\" x2=\"{x:.2}\" y1=\"{top}\" y2=\"{}\"/>",
-            FOOT + STRIP + 5.0
-        ));
-        let text = style.signed(limit, scale.decimals as usize);
-        h.raw(&format!("<text class=\"{class}\" x=\"{x:.2}\" y=\"{}\">{text}</text>", FOOT + STRIP + 18.0));
+        let foot = FOOT + STRIP + 5.0;
+        h.raw(&format!("<line class=\"{class}\" x1=\"{x:.2}\" x2=\"{x:.2}\" y1=\"{top}\" y2=\"{foot}\"/>"));
+        if written.iter().all(|w| (w - x).abs() >= LABEL) {
+            written.push(x);
+            let text = h.style.signed(limit, scale.decimals as usize);
+            h.raw(&format!("<text class=\"{class}\" x=\"{x:.2}\" y=\"{}\">{text}</text>", foot + 13.0));
+        }
     }
 }
 

@@ -100,8 +100,10 @@ pub fn header(h: &mut Html, input: &ReportInput) {
 
 fn identification(h: &mut Html, input: &ReportInput) {
     let o = input.options;
-    let given = [("part", &o.part), ("serial", &o.serial), ("operator", &o.operator)];
-    let mut given = given.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))).peekable();
+    // Without a title the part's name is the heading already.
+    let part = o.part.as_ref().filter(|_| o.title.is_some());
+    let given = [("part", part), ("serial", o.serial.as_ref()), ("operator", o.operator.as_ref())];
+    let mut given = given.into_iter().filter_map(|(key, value)| Some((key, value?))).peekable();
     if given.peek().is_none() {
         return;
     }
@@ -143,9 +145,10 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     item(h, "points", "", |h| h.count(all.count));
     let excluded: u64 = c.excluded.values().sum();
     item(h, "excluded", if excluded > 0 { "warn" } else { "" }, |h| h.count(excluded));
-    if !c.soundness.sound {
-        item(h, "reference", "warn", |h| h.raw("⚠\u{a0}").word("not_sound"));
-    }
+    item(h, "sign.method", "", |h| h.text(&c.sign.method));
+    let (class, sign, state) =
+        if c.soundness.sound { ("", "✓\u{a0}", "sound.short") } else { ("warn", "⚠\u{a0}", "not_sound") };
+    item(h, "soundness", class, |h| h.raw(sign).word(state));
     h.raw("</dl>");
 }
 

@@ -48,25 +48,29 @@ impl Ordered {
             .flatten()
             .collect();
         let mut error = 0.0;
-        if corners.len() > 3 * limit {
+        if corners.len() / 3 > limit {
             let locked: Vec<u32> = keep.iter().filter_map(|k| one.get(*k as usize).copied()).collect();
             (corners, error) = collapse(&corners, &positions, &locked, limit);
         }
         Ordered::from_corners(corners, positions, source, error)
     }
 
+    /// Brings triangles into an order that uses few vertices at a time, and numbers the vertices as they are first used.
     fn from_corners(corners: Vec<u32>, positions: Vec<Point>, source: Vec<u32>, error: f64) -> Ordered {
         let corners = meshopt::optimize_vertex_cache(&corners, positions.len());
-        let place = meshopt::optimize_vertex_fetch_remap(&corners, positions.len());
-        let used = place.iter().filter(|p| **p != u32::MAX).count();
-        let mut old_of = vec![0usize; used];
-        for (old, new) in place.iter().enumerate() {
-            if let Some(slot) = old_of.get_mut(*new as usize) {
-                *slot = old;
+        let mut number = vec![u32::MAX; positions.len()];
+        let mut old_of = vec![];
+        let mut renumbered = Vec::with_capacity(corners.len());
+        for &old in &corners {
+            let number = &mut number[old as usize];
+            if *number == u32::MAX {
+                *number = old_of.len() as u32;
+                old_of.push(old as usize);
             }
+            renumbered.push(*number);
         }
         Ordered {
-            triangles: triples(&corners.iter().map(|c| place[*c as usize]).collect::<Vec<_>>()),
+            triangles: triples(&renumbered),
             positions: old_of.iter().map(|o| positions[*o]).collect(),
             source: old_of.iter().map(|o| source[*o]).collect(),
             error,
@@ -161,4 +165,70 @@ fn flat(triangles: &[[u32; 3]]) -> Vec<u32> {
 
 fn triples(corners: &[u32]) -> Vec<[u32; 3]> {
     corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wavy sheet of `n` × `n` squares, some vertices doubled, some faces broken.
+    fn sheet(n: u32) -> Mesh {
+        let mut mesh = Mesh::default();
+        for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (f64::from(i), f64::from(j)))) {
+            mesh.positions.push([i, j, (0.3 * i).sin() * (0.2 * j).cos()]);
+        }
+        let at = |i: u32, j: u32| i * (n + 1) + j;
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            mesh.faces.extend([[a, b, c], [a, c, d]]);
+        }
+        let copy = mesh.positions.len() as u32;
+        mesh.positions.extend([mesh.positions[0], [f64::NAN; 3]]);
+        mesh.faces[0][0] = copy;
+        mesh.faces.extend([[0, 1, copy + 1], [0, 1, 99_999], [0, 1, 1]]);
+        mesh
+    }
+
+    fn unpack(bytes: &[u8], count: usize, plane: usize) -> Vec<i32> {
+        let folded =
+            |i: usize| i32::from(bytes[plane * count + i]) | (i32::from(bytes[(plane + 1) * count + i]) << 8);
+        (0..count).map(|i| (folded(i) >> 1) ^ -(folded(i) & 1)).collect()
+    }
+
+    /// Reads back what was packed, as the page's script does.
+    #[test]
+    fn positions_and_values_come_back() {
+        let mesh = sheet(40);
+        let ordered = Ordered::of(&mesh, &[], usize::MAX);
+        assert_eq!((ordered.positions.len(), ordered.triangles.len()), (41 * 41, 2 * 40 * 40));
+        let grid = Grid::over(&Aabb::of(&ordered.positions), 16);
+        let bytes = MeshBytes::of(&ordered, &grid).unwrap();
+        let corners =
+            meshopt::decode_index_buffer::<u32>(&bytes.triangles, 3 * ordered.triangles.len()).unwrap();
+        let (count, rules) = (ordered.positions.len(), rules(&triples(&corners), ordered.positions.len()));
+        for k in 0..3 {
+            let mut read: Vec<i32> = vec![];
+            for (v, d) in unpack(&bytes.positions, count, 2 * k).into_iter().enumerate() {
+                let place = rules[v].position(|u| read[u as usize]) + d;
+                read.push(place & 0xffff);
+                assert_eq!(read[v], i32::from(grid.place(&ordered.positions[v])[k]));
+            }
+        }
+        let value = |v: u32| ordered.positions[v as usize][2];
+        let codes = Codes::for_values(&[1.0], 2.0);
+        let field = bytes.field(&codes, |v| (value(v), NoValue::Unknown));
+        let mut read: Vec<i32> = vec![];
+        for (v, d) in unpack(&field, count, 0).into_iter().enumerate() {
+            read.push(rules[v].value(|u| read[u as usize]) + d);
+            assert!((f64::from(read[v]) * codes.step - value(v as u32)).abs() <= 0.5001 * codes.step);
+        }
+    }
+
+    #[test]
+    fn collapsing_keeps_what_must_stay() {
+        let mesh = sheet(60);
+        let ordered = Ordered::of(&mesh, &[1234], 1000);
+        assert!(ordered.triangles.len() <= 1100 && ordered.error > 0.0, "{}", ordered.triangles.len());
+        assert!(ordered.positions.contains(&mesh.positions[1234]));
+    }
 }

@@ -30,7 +30,7 @@ export function scaleColumn(state: State, words: Words): void {
     only.replaceChildren()
     if (state.only) {
       const [from, to] = state.only.map((v) => words.signed(v, state.scale.decimals))
-      const share = words.percent(state.distribution.between(...state.only), 1)
+      const share = words.percent(state.share(...state.only) ?? 0, 1)
       only.append(el('span', {}, `${words.of('scale.only')} ${from} … ${to}: `), el('strong', {}, share))
       const clear = el('button', { type: 'button' }, words.of('scale.all'))
       clear.addEventListener('click', () => state.setOnly(null))

@@ -30,9 +30,10 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   }
   const value = (pixel: number) => domain[0] + ((upright ? length - pixel : pixel) / length) * (domain[1] - domain[0])
   const [w, h] = upright ? [breadth, length] : [length, breadth]
-  target.setAttribute('viewBox', `0 0 ${w} ${h}`)
+  // Lying, the numbers at both ends reach beyond the axis.
+  target.setAttribute('viewBox', upright ? `0 0 ${w} ${h}` : `-44 0 ${w + 88} ${h}`)
   target.replaceChildren(svg('title', {}, words.of('figure.title')))
-  const strip = upright ? LABEL : breadth - LABEL + 18
+  const strip = upright ? LABEL : breadth - LABEL + 8
   const bars = strip + (upright ? STRIP + 4 : -4)
   const room = upright ? breadth - bars : bars
 
@@ -86,12 +87,16 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   // Ticks at the limits, the tolerance across the bars, zero and mean.
   const [near, far] = upright ? [strip - TICK, strip] : [strip + STRIP, strip + STRIP + TICK]
   const end = upright ? breadth : 0
-  for (const limit of [...limits].sort((a, b) => Math.abs(a) - Math.abs(b))) {
-    const isLimit = scale.tolerance?.includes(limit) ?? false
+  const rank = (v: number) => (scale.tolerance?.includes(v) ? 0 : v === scale.lower || v === scale.upper ? 1 : 2)
+  const written: number[] = []
+  for (const limit of [...limits].sort((a, b) => rank(a) - rank(b))) {
+    const isLimit = rank(limit) === 0
     target.append(across(limit, near, far, 'tick'))
     if (isLimit) target.append(across(limit, far, end, 'limit'))
+    if (written.some((w) => Math.abs(w - at(limit)) < (upright ? 12 : 84))) continue
+    written.push(at(limit))
     const label = words.signed(limit, scale.decimals)
-    target.append(text(limit, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, label, isLimit ? 'tick bold' : 'tick'))
+    target.append(text(limit, upright ? strip - TICK - 3 : strip + STRIP + TICK + 14, label, isLimit ? 'tick bold' : 'tick'))
   }
   if (limits.length % 2 === 0 && limits[0] < 0 && limits[limits.length - 1] > 0) {
     target.append(across(0, near, end, 'zero'))
@@ -102,12 +107,10 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
 
   // Shares beside the bands, over the bars.
   if (upright) {
-    const tolerance = state.current?.tolerance
-    const shares = state.distribution
-    for (let i = 0; i + 1 < edges.length && shares.known; i++) {
-      const [from, to] = [i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1]]
-      const zone = tolerance && from === tolerance.lower && to === tolerance.upper
-      const share = zone ? tolerance.inside : shares.between(from, to)
+    for (let i = 0; i + 1 < edges.length; i++) {
+      const share = state.share(i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1])
+      if (share === null) break
+      const zone = scale.tolerance?.[0] === edges[i]
       // Above the middle of the zone, where the lines of zero and mean are.
       const middle = value((at(edges[i]) + at(edges[i + 1])) / 2 - (zone ? 11 : 0))
       if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.percent(share, share > 0 && share < 0.001 ? 2 : 1), 'share'))

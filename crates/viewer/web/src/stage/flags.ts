@@ -7,6 +7,8 @@ import type { Stage } from './stage'
 
 /** Room between flags of one column. */
 const GAP = 6
+/** Height that the view cube takes in the corner at the right. */
+const CUBE = 110
 
 interface Flag {
   worst: Worst
@@ -115,7 +117,7 @@ export class Flags {
       c.top = Math.max(free, c.y - tall / 2)
       free = c.top + tall + GAP
     }
-    let limit = height - 8
+    let limit = height - (right && width > 600 ? CUBE : 8)
     for (const c of [...column].reverse()) {
       c.top = Math.min(c.top, limit - tall)
       limit = c.top - GAP
@@ -149,7 +151,8 @@ function uncross(column: Placed[], start: (c: Placed) => [number, number]): void
 
 type Spot = [number, number]
 
-export function cross(a: Spot, b: Spot, c: Spot, d: Spot): boolean {
+/** The inner parts of two lines meet. */
+function cross(a: Spot, b: Spot, c: Spot, d: Spot): boolean {
   const side = (p: Spot, q: Spot, r: Spot) => Math.sign((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
-  return side(a, b, c) !== side(a, b, d) && side(c, d, a) !== side(c, d, b)
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0
 }

@@ -92,7 +92,8 @@ export class Stage {
     this.eye.width = Math.max(1, width)
     this.eye.pixels = Math.max(1, height)
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
-    this.renderer.setSize(this.eye.width, this.eye.pixels, false)
+    // The canvas takes whole pixels, however the page's columns fall: else the picture is resampled and blurs.
+    this.renderer.setSize(this.eye.width, this.eye.pixels, true)
     if (first) this.fit()
     this.values.clear()
     this.drawNow()
@@ -176,7 +177,9 @@ export class Stage {
     }
   }
 
+  /** What follows when nothing more happens: the picture in full, then its values. Until then the stage is busy. */
   private rest(): void {
+    this.canvas.ariaBusy = 'true'
     clearTimeout(this.restTimer)
     this.restTimer = window.setTimeout(() => {
       if (this.moving) {
@@ -190,7 +193,9 @@ export class Stage {
   private async read(): Promise<void> {
     if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
     await this.values.draw(this.scene, this.parts, this.eye)
-    if (this.values.ready) for (const listener of this.listeners) listener()
+    if (!this.values.ready) return
+    this.canvas.ariaBusy = 'false'
+    for (const listener of this.listeners) listener()
   }
 }
 

@@ -1,0 +1,117 @@
+// The colour on the part is the colour on the scale, at the pixel.
+import assert from 'node:assert/strict'
+import { hex, near, screen, settled, stageBox, tool } from '../browser.mjs'
+
+const GREEN = [0x2f, 0xa8, 0x4a]
+const HIGH_CAP = [0x65, 0x08, 0x12]
+const LAST_BAND = [0xd3, 0x20, 0x1f]
+const key = async (page, k) => {
+  await page.keyboard.press(k)
+  await settled(page)
+}
+/** Colour in the middle of the stage, seen in a standard view without light. */
+const middle = async (page, view) => {
+  await key(page, view)
+  const box = await stageBox(page)
+  return (await screen(page)).at(box.cx, box.cy)
+}
+/** Colour of the scale's strip at a deviation. */
+const legend = (page, value) =>
+  page.evaluate((value) => {
+    const bars = [...document.querySelectorAll('.chart .bar')]
+    void bars
+    const chart = document.querySelector('.chart svg')
+    const box = chart.getBoundingClientRect()
+    const ticks = [...chart.querySelectorAll('text.tick')].map((t) => [Number(t.textContent.replace('\u2212', '-').replace('+', '')), Number(t.getAttribute('y'))])
+    const [low, high] = [ticks.reduce((a, b) => (a[0] < b[0] ? a : b)), ticks.reduce((a, b) => (a[0] > b[0] ? a : b))]
+    const y = low[1] + ((value - low[0]) / (high[0] - low[0])) * (high[1] - low[1])
+    const band = [...chart.querySelectorAll('.band')].find((r) => {
+      const top = Number(r.getAttribute('y'))
+      return y >= top && y <= top + Number(r.getAttribute('height'))
+    })
+    void box
+    const c = band.getAttribute('fill')
+    return [1, 3, 5].map((k) => parseInt(c.slice(k, k + 2), 16))
+  }, value)
+
+export const colors = [
+  [
+    'flat colours equal the scale: cube, each face',
+    async (session) => {
+      const page = await session.report('cube')
+      await tool(page, 'Flat')
+      for (const [view, value] of [['4', 0.19999], ['1', -0.15 + 1e-4], ['2', 0], ['3', 0]]) {
+        const [got, want] = [await middle(page, view), await legend(page, value)]
+        assert.ok(near(got, want, 2), `view ${view}: ${hex(got)} is not ${hex(want)}`)
+      }
+    },
+  ],
+  [
+    'a value on the tolerance limit is green, a step beyond it is not',
+    async (session) => {
+      const page = await session.report('cube')
+      await tool(page, 'Flat')
+      assert.ok(near(await middle(page, '5'), GREEN, 2))
+      assert.ok(!near(await middle(page, '6'), GREEN, 20))
+    },
+  ],
+  [
+    'beyond the scale is the cap, not the last band',
+    async (session) => {
+      const page = await session.report('cube')
+      await tool(page, 'Flat')
+      assert.ok(near(await middle(page, '4'), LAST_BAND, 2), 'on the upper end')
+      const range = page.locator('.controls input[type=text]')
+      await range.fill('0,15')
+      await range.press('Enter')
+      await page.locator('canvas').focus()
+      assert.ok(near(await middle(page, '4'), HIGH_CAP, 2), 'beyond it')
+    },
+  ],
+  [
+    'no value is grey and hatched',
+    async (session) => {
+      const page = await session.report('missing')
+      await tool(page, 'Flat')
+      await key(page, '2')
+      const box = await stageBox(page)
+      const picture = await screen(page)
+      const seen = new Set()
+      for (let i = 0; i < 12; i++) for (let j = 0; j < 12; j++) seen.add(hex(picture.at(box.cx + i, box.cy + j)))
+      assert.ok(seen.has('#9aa0a6') && seen.size >= 2, [...seen].join(' '))
+    },
+  ],
+  [
+    'band edges are iso-lines: sphere, along the meridian',
+    async (session) => {
+      const page = await session.report('sphere')
+      await tool(page, 'Flat')
+      await key(page, '1')
+      const box = await stageBox(page)
+      const picture = await screen(page)
+      const height = await view(page)
+      const pixelOf = (value) => box.cy - ((value / 0.01) * box.height) / height
+      // Beside the leaders and off the middle, where the flags' anchors lie.
+      const x = box.cx - 30
+      for (const limit of [0.05, 0.0625, 0.075, -0.05, -0.0625]) {
+        // On this line z is what it is in the middle: the view is orthographic.
+        const y = pixelOf(limit)
+        const outward = Math.sign(-limit)
+        const [inside, outside] = [picture.at(x, Math.floor(y - 2 * outward)), picture.at(x, Math.floor(y + 2 * outward))]
+        assert.notEqual(hex(inside), hex(outside), `no edge at ${limit}`)
+        for (const d of [3, 4, 5]) {
+          assert.equal(hex(picture.at(x, Math.floor(y - d * outward))), hex(inside))
+          assert.equal(hex(picture.at(x, Math.floor(y + d * outward))), hex(outside))
+        }
+      }
+    },
+  ],
+]
+
+/** Millimetres from the stage's foot to its top, from the link that the page keeps. */
+export async function view(page) {
+  await page.waitForFunction(() => location.hash.startsWith('#v='))
+  await page.waitForTimeout(700)
+  const link = await page.evaluate(() => decodeURIComponent(location.hash.slice(3)))
+  return JSON.parse(link).eye[7]
+}

@@ -1,0 +1,33 @@
+// Four languages, narrow and wide.
+import assert from 'node:assert/strict'
+
+export const words = [
+  [
+    'four languages: no raw key, no overflow, decimals as written there',
+    async (session) => {
+      for (const [width, height] of [[1280, 800], [390, 844]]) {
+        const page = await session.report('sphere', { width, height })
+        for (const [language, sign] of [['en', '33.67'], ['de', '33,67'], ['ru', '33,67'], ['zh-Hans', '33.67']]) {
+          await page.locator('#tools select').selectOption(language)
+          const text = await page.locator('body').innerText()
+          assert.ok(text.includes(sign), `${language}: ${sign}`)
+          assert.doesNotMatch(text, /\b(verdict|reason|scale|tool|stage|view|ends|keys|state)\.[a-z]/, language)
+          const wide = await page.evaluate(() =>
+            [...document.querySelectorAll('body, header, .list, .scale, .controls > *, .stage-tools > *, .key-numbers > *, .status')]
+              .filter((e) => e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0)
+              .map((e) => `${e.tagName}.${e.className} ${e.scrollWidth} > ${e.clientWidth}`),
+          )
+          assert.deepEqual(wide, [], `${language} at ${width}`)
+        }
+      }
+    },
+  ],
+  [
+    'every place of the page that a number stands in keeps the number with a point',
+    async (session) => {
+      const page = await session.report('sphere')
+      const bad = await page.evaluate(() => [...document.querySelectorAll('[data-n]')].filter((e) => !Number.isFinite(Number(e.dataset.n))).length)
+      assert.equal(bad, 0)
+    },
+  ],
+]
