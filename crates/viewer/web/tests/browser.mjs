@@ -18,6 +18,8 @@ export async function open(executablePath, folder) {
     async report(name, { width = 1280, height = 800, scripts = true, init, hash = '', live = true, ...rest } = {}) {
       const context = await browser.newContext({ viewport: { width, height }, javaScriptEnabled: scripts, ...rest })
       contexts.push(context)
+      // Software rendering on a busy machine is slow, and slow is not wrong.
+      context.setDefaultTimeout(120_000)
       const page = await context.newPage()
       page.seen = { requests: [], errors: [], dialogs: 0 }
       page.on('request', (r) => page.seen.requests.push(r.url()))
@@ -43,8 +45,8 @@ export async function open(executablePath, folder) {
 
 /** Waits until the part is shown and the values under the cursor can be read. */
 export async function settled(page) {
-  await page.waitForSelector('.stage.live', { timeout: 30_000 })
-  await page.waitForSelector('canvas[aria-busy=false]', { timeout: 30_000 })
+  await page.waitForSelector('.stage.live', { timeout: 120_000 })
+  await page.waitForSelector('canvas[aria-busy=false]', { timeout: 120_000 })
 }
 
 /** Pixels of the screen as `at(x, y) → [r, g, b]`. */
