@@ -42,6 +42,10 @@ pub(super) trait Family<const P: usize>: Sync {
     fn settled(element: Element) -> Element {
         element.facing_up(2)
     }
+    /// Further elements to start from where those of [`Family::starts`] lead to no good fit: a wider, slower search.
+    fn more_starts(_points: &[Point]) -> Vec<Element> {
+        Vec::new()
+    }
     /// The element in the frame of the points.
     fn shape(element: &Element, sample: &Sample) -> Shape;
     /// The element of a shape given by the caller; `None` if it is of another family or has no direction.

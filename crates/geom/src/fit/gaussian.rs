@@ -15,6 +15,9 @@ const FEW: usize = 256;
 /// Points that a start is improved on before all are looked at.
 const SOME: usize = 8192;
 
+/// A root mean square distance in the unit frame that looks like a wrong minimum.
+const POOR: f64 = 5e-3;
+
 /// The least-squares fit.
 pub(super) fn gaussian<const P: usize, F: Family<P>>(
     sample: &Sample,
@@ -35,6 +38,7 @@ pub(super) fn gaussian<const P: usize, F: Family<P>>(
         residuals,
         covariance,
         touching: Vec::new(),
+        outliers: 0,
         iterations: optimum.steps,
         converged: optimum.converged,
     })
@@ -81,6 +85,13 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
     Ok(optimum)
 }
 
+/// The least-squares element of the few points given, good enough to be compared with others.
+pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Element> {
+    let starts = F::starts(&sample.units().collect::<Vec<Point>>());
+    let ends = starts.iter().filter_map(|start| minimise::<P, F, _>(start, sample, &Alike, ROUGH));
+    ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square)).map(|o| o.element)
+}
+
 /// The best of the starts, improved on as many points as that needs.
 fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) -> Option<Element> {
     let improved = |start: &Element, count: usize, effort: Effort| {
@@ -90,8 +101,19 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
         [one] if sample.len() <= 2 * FEW => *one,
         [one] => improved(one, FEW, ROUGH).map_or(*one, |o| o.element),
         many => {
-            let ends = many.iter().filter_map(|start| improved(start, FEW, ROUGH));
-            ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))?.element
+            let few = sample.thinned(FEW);
+            let best = |starts: &[Element]| {
+                let ends = starts.iter().filter_map(|start| minimise::<P, F, _>(start, &few, &Alike, ROUGH));
+                ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
+            };
+            let first = best(many);
+            if first.is_some_and(|o| o.sums.square <= POOR * POOR * few.len() as f64) {
+                first?.element
+            } else {
+                let further = best(&F::more_starts(&few.units().collect::<Vec<Point>>()));
+                let both = first.into_iter().chain(further);
+                both.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))?.element
+            }
         }
     };
     if sample.len() <= 2 * SOME {
@@ -109,7 +131,7 @@ fn determined<const P: usize>(optimum: &Optimum<P>) -> bool {
 }
 
 /// The reason why there is no element.
-fn nothing(sample: &Sample, kind: Kind) -> FitError {
+pub(super) fn nothing(sample: &Sample, kind: Kind) -> FitError {
     let scatter = Scatter::of(&sample.units().collect::<Vec<Point>>());
     let width = (scatter.variance[1].max(0.0) / scatter.variance[2]).sqrt();
     if width < 1e4 * f64::EPSILON { FitError::Collinear { kind } } else { FitError::Undetermined { kind } }
@@ -118,15 +140,24 @@ fn nothing(sample: &Sample, kind: Kind) -> FitError {
 /// Statistics of the distances of all points.
 pub(super) fn residuals<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Residuals {
     let extremes = survey::extremes::<P, F>(element, sample);
-    let count = sample.len();
+    statistics::<P, F>(sample, sample.len(), extremes.square, extremes.least, extremes.greatest)
+}
+
+/// Statistics from sums and extremes in the unit frame.
+pub(super) fn statistics<const P: usize, F: Family<P>>(
+    sample: &Sample,
+    count: usize,
+    square: f64,
+    min: (f64, usize),
+    max: (f64, usize),
+) -> Residuals {
     let size = 1.0 / sample.scale;
     let distances = if F::SIGNED { count } else { 2 * count };
     let left = distances.saturating_sub(P);
-    let (min, max) = (extremes.least, extremes.greatest);
     Residuals {
         count,
-        rms: (extremes.square / count as f64).sqrt() * size,
-        std_dev: (left > 0).then(|| (extremes.square / left as f64).sqrt() * size),
+        rms: (square / count as f64).sqrt() * size,
+        std_dev: (left > 0).then(|| (square / left as f64).sqrt() * size),
         min: (min.0 * size, min.1),
         max: (max.0 * size, max.1),
         form_error: if F::SIGNED { max.0 - min.0 } else { 2.0 * max.0 } * size,
@@ -135,7 +166,7 @@ pub(super) fn residuals<const P: usize, F: Family<P>>(element: &Element, sample:
 
 /// Covariance of the parameters from the normal matrix of the unknowns of `element` and the standard deviation
 /// of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
-fn covariance<const P: usize, F: Family<P>>(
+pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
     normal: &[[f64; P]; P],
     std_dev: f64,

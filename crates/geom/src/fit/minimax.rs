@@ -38,6 +38,11 @@ pub(super) struct Low {
 
 /// A fall that rounding of the distances hides, in the unit frame.
 const NOTHING: f64 = 2e-16;
+/// Most linear programs of one search.
+const MOST_STEPS: usize = 120;
+/// Box in which the multipliers of the optimum are found: larger than the error of the optimum, smaller than
+/// anything that matters.
+const CERTIFICATE: f64 = 1e-7;
 
 /// All functions of the points at one element.
 fn functions<const P: usize, F: Family<P>>(
@@ -94,7 +99,7 @@ pub(super) fn minimax<const P: usize, F: Family<P>>(
     let mut element = *start;
     let mut reach = first_reach;
     let mut value = greatest::<P, F>(&element, points, aim);
-    for steps in 1..120 {
+    for steps in 1..=MOST_STEPS {
         let (mut all, origin) = functions::<P, F>(&element, points, aim);
         let unit = scales(&all);
         for f in &mut all {
@@ -104,8 +109,10 @@ pub(super) fn minimax<const P: usize, F: Family<P>>(
         }
         let program = lowest(&all, reach)?;
         let fall = value - program.value;
-        if fall <= NOTHING || reach < 1e-15 {
-            return Some(finished(element, value, &program, &all, &origin, steps));
+        if fall <= NOTHING || reach < 1e-15 || steps == MOST_STEPS {
+            // In a box that has become tiny its sides would hold the program, not the points.
+            let certificate = lowest(&all, CERTIFICATE)?;
+            return Some(finished(element, value, &certificate, &all, &origin, steps));
         }
         let try_step = |x: &[f64; P]| -> Option<(Element, f64)> {
             let step = std::array::from_fn(|k| x[k] * unit[k]);

@@ -12,7 +12,9 @@
 //! | `revolution`, `round`, `scatter` | where to start |
 //! | `normal`, `gauss`, `gaussian` | least squares |
 //! | `linear`, `minimax`, `zone` | least greatest distance |
+//! | `robust` | scans with outliers |
 //! | `survey` | distances of all points |
+//! | `derived` | planes, lines, points, angles and distances made of fitted elements |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
@@ -20,6 +22,7 @@ mod circle;
 mod cone;
 mod cylinder;
 mod dense;
+pub mod derived;
 mod ellipse;
 mod family;
 mod gauss;
@@ -31,6 +34,7 @@ mod normal;
 mod plane;
 mod pose;
 mod revolution;
+mod robust;
 mod round;
 mod sample;
 mod scalar;
@@ -39,6 +43,8 @@ mod shape;
 mod solution;
 mod sphere;
 mod survey;
+#[cfg(test)]
+mod tests;
 mod torus;
 mod zone;
 
@@ -60,12 +66,19 @@ pub enum Method {
     MinimumCircumscribed,
     /// The largest circle, sphere or cylinder free of points, near the least-squares one.
     MaximumInscribed,
+    /// Least sum of a loss that grows no more beyond a few standard deviations: outliers of a scan do not count.
+    Robust,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 4] =
-        [Method::Gaussian, Method::MinimumZone, Method::MinimumCircumscribed, Method::MaximumInscribed];
+    pub const ALL: [Method; 5] = [
+        Method::Gaussian,
+        Method::MinimumZone,
+        Method::MinimumCircumscribed,
+        Method::MaximumInscribed,
+        Method::Robust,
+    ];
     /// The word for it: `gaussian`, `minimum-zone`, …
     pub fn name(self) -> &'static str {
         match self {
@@ -73,6 +86,7 @@ impl Method {
             Method::MinimumZone => "minimum-zone",
             Method::MinimumCircumscribed => "minimum-circumscribed",
             Method::MaximumInscribed => "maximum-inscribed",
+            Method::Robust => "robust",
         }
     }
 }
@@ -85,6 +99,8 @@ pub struct Options {
     /// Where to start: an element of the kind asked for, near the one sought. Without it all starts are
     /// looked for.
     pub start: Option<Shape>,
+    /// Seed of the random choices: of the trials of a robust fit, of the further starts of a zone.
+    pub seed: u64,
 }
 
 /// Why there is no element.
@@ -184,9 +200,11 @@ pub fn fit(
     };
     let sample = sample::Sample::new(points)?;
     use gaussian::gaussian;
+    use robust::robust;
     use zone::zone;
     match options.method {
         Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
+        Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
         _ => with_family!(kind, zone(&sample, kind, options, progress)),
     }
 }

@@ -20,21 +20,27 @@ pub(super) struct Sums<const P: usize> {
     pub normal: [[f64; P]; P],
     /// Σ w·g·d.
     pub gradient: [f64; P],
-    /// Σ w·d².
+    /// Σ of the losses: of d², where every point counts alike.
     pub square: f64,
     /// Σ w.
     pub weight: f64,
 }
 
-/// Weight of a row with residual `d`.
+/// What a distance costs.
 pub(super) trait Weighing: Sync {
-    /// Lane by lane.
+    /// What is summed and made least.
+    fn loss<S: Scalar>(&self, d: S) -> S;
+    /// Derivative of the loss by d²: the weight of the point's rows.
     fn weight<S: Scalar>(&self, d: S) -> S;
 }
 
 /// Every point counts alike.
 pub(super) struct Alike;
 impl Weighing for Alike {
+    #[inline(always)]
+    fn loss<S: Scalar>(&self, d: S) -> S {
+        d * d
+    }
     #[inline(always)]
     fn weight<S: Scalar>(&self, _: S) -> S {
         S::of(1.0)
@@ -92,8 +98,10 @@ impl<S: Scalar, const P: usize> Accumulator<S, P> {
     }
     #[inline(always)]
     fn add<F: Family<P>, W: Weighing>(&mut self, size: [f64; 2], q: [S; 3], weigh: &W) {
-        self.present = weigh.weight(F::distance(size, q));
+        let distance = F::distance(size, q);
+        self.present = weigh.weight(distance);
         self.weight = self.weight + self.present;
+        self.square = self.square + weigh.loss(distance);
         F::rows(size, q, self);
     }
 }
@@ -102,7 +110,6 @@ impl<S: Scalar, const P: usize> Rows<S, P> for Accumulator<S, P> {
     #[inline(always)]
     fn row(&mut self, d: S, g: [S; P]) {
         let heavy = self.present * d;
-        self.square = self.square + heavy * d;
         for i in 0..P {
             self.gradient[i] = self.gradient[i] + heavy * g[i];
             let row = self.present * g[i];

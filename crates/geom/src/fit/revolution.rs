@@ -136,7 +136,7 @@ impl Powers {
 
     /// The best axis for each of an even grid of directions and for those in `first`.
     pub(super) fn grid(&self, profile: Profile, first: &[Vector]) -> Vec<Axis> {
-        let directions = first.iter().copied().chain((0..GRID).map(grid_direction));
+        let directions = first.iter().copied().chain(directions());
         directions.filter_map(|w| self.axis(w, profile)).filter(|a| a.error.is_finite()).collect()
     }
 
@@ -201,6 +201,11 @@ fn apart(mut all: Vec<Axis>, count: usize) -> Vec<Axis> {
 
 /// Directions of the even grid over the half sphere: about 15° apart.
 const GRID: usize = 80;
+
+/// The directions of the grid.
+pub(super) fn directions() -> impl Iterator<Item = Vector> {
+    (0..GRID).map(grid_direction)
+}
 
 /// The `k`-th direction of the grid: a spiral of the golden angle.
 fn grid_direction(k: usize) -> Vector {

@@ -17,6 +17,8 @@ pub struct Fit {
     pub covariance: Option<Covariance>,
     /// The points that hold a minimum zone, circumscribed or inscribed element; empty for least squares.
     pub touching: Vec<Touching>,
+    /// Points that a robust fit left out, for lying too far off: they do not count in the residuals.
+    pub outliers: usize,
     /// Steps of the solver on all points.
     pub iterations: usize,
     /// Whether the last step changed nothing that shows. False only where the points hardly determine the element.
@@ -26,7 +28,7 @@ pub struct Fit {
 /// Signed distances of the points from the element; distances from curves in space have no sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
-    /// Number of points.
+    /// Number of points; of a robust fit, those that are no outliers.
     pub count: usize,
     /// Root mean square.
     pub rms: f64,

@@ -2,7 +2,7 @@
 
 use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
-use super::revolution::{Powers, Profile};
+use super::revolution::{Powers, Profile, directions};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
 use super::scalar::Scalar;
@@ -50,17 +50,21 @@ impl Family<7> for Torus {
         // A piece of a torus often looks more like a cylinder about a wrong axis: no direction is left out
         // before its torus is known.
         let axes = [Profile::Parabola, Profile::Constant].map(|profile| powers.grid(profile, &principal));
-        let mut ranked: Vec<(f64, Element)> = axes
-            .into_iter()
-            .flatten()
-            .flat_map(|axis| about(&axis.pose, points))
-            .map(|element| {
-                let square = |&p: &Point| Torus::distance::<f64>(element.size, element.pose.local(p)).powi(2);
-                (points.iter().map(square).sum(), element)
+        ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, STARTS)
+    }
+    fn more_starts(points: &[Point]) -> Vec<Element> {
+        // A short thick piece tells little about its axis: look all round it, near and far.
+        const TURNS: usize = 12;
+        let scatter = Scatter::of(points);
+        let frames = scatter.axes.into_iter().chain(directions()).flat_map(|w| {
+            let frame = Pose::along(scatter.mean, w);
+            (0..TURNS).flat_map(move |k| {
+                let (sin, cos) = (k as f64 / TURNS as f64 * std::f64::consts::TAU).sin_cos();
+                [0.3, 0.6, 1.0, 1.7, 3.0].map(|far| frame.moved([far * cos, far * sin, 0.0], [0.0; 2], 0.0))
             })
-            .collect();
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-        ranked.into_iter().take(STARTS).map(|(_, element)| element).collect()
+        });
+        let judges: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(60)).collect();
+        ranked(frames, &judges, 3 * STARTS)
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         Shape::Torus {
@@ -80,6 +84,17 @@ impl Family<7> for Torus {
 
 /// Starts that are improved.
 const STARTS: usize = 16;
+
+/// The `count` best tori about the axes of the frames.
+fn ranked(frames: impl Iterator<Item = Pose>, points: &[Point], count: usize) -> Vec<Element> {
+    let square = |element: &Element| -> f64 {
+        points.iter().map(|&p| Torus::distance::<f64>(element.size, element.pose.local(p)).powi(2)).sum()
+    };
+    let mut all: Vec<(f64, Element)> =
+        frames.flat_map(|frame| about(&frame, points)).map(|e| (square(&e), e)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.into_iter().take(count).map(|(_, element)| element).collect()
+}
 
 /// Tori about the axis of `frame`: circles through height over distance from it.
 fn about(frame: &Pose, points: &[Point]) -> Vec<Element> {

@@ -40,7 +40,7 @@ pub(super) fn zone<const P: usize, F: Family<P>>(
     let mut search = Search::<P, F>::new(sample, aim, &first);
     // The greatest distance from a centre is a convex function of it.
     search.only_one = aim.outer && aim.pinned && kind != Kind::Cylinder;
-    let best = search.best(&first, progress)?.ok_or(FitError::Undetermined { kind })?;
+    let best = search.best(&first, options.seed, progress)?.ok_or(FitError::Undetermined { kind })?;
     progress.advance(sample.len() as u64);
     let mut element = best.element;
     if aim.pinned {
@@ -62,6 +62,7 @@ pub(super) fn zone<const P: usize, F: Family<P>>(
         residuals: gaussian::residuals::<P, F>(&element, sample),
         covariance: None,
         touching,
+        outliers: 0,
         iterations: best.steps,
         converged: best.slack < 1e-6,
     })
@@ -179,9 +180,9 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
     }
 
     /// The best of the optima reached from `first` and from starts scattered about it.
-    fn best(&mut self, first: &Element, progress: &dyn Progress) -> Result<Option<Low>, FitError> {
+    fn best(&mut self, first: &Element, seed: u64, progress: &dyn Progress) -> Result<Option<Low>, FitError> {
         let mut best = self.all_points(first, f64::INFINITY);
-        let mut random = Random::new(0);
+        let mut random = Random::new(seed);
         let further = if self.only_one { 0 } else { STARTS };
         for k in 0..further {
             if progress.cancelled() {

@@ -4,6 +4,7 @@
 //! beside a reason; NaN and infinity never appear.
 
 pub mod compare;
+pub mod fit;
 pub mod research;
 
 use schemars::JsonSchema;

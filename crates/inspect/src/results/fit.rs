@@ -1,0 +1,173 @@
+//! `trueness/fit/1`: an element fitted to points.
+
+use super::{InputRecord, UNITS, VERSION};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use trueness_geom::fit::{Fit, Parameter};
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/fit/1";
+
+/// The whole document. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FitDocument {
+    /// `trueness/fit/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The file read.
+    pub inputs: Vec<InputRecord>,
+    /// `line`, `plane`, `circle`, `ellipse`, `sphere`, `cylinder`, `cone` or `torus`.
+    pub shape: String,
+    /// True if the element lies in the plane z = 0, as points of two columns do.
+    pub planar: bool,
+    /// `gaussian`, `minimum-zone`, `minimum-circumscribed`, `maximum-inscribed` or `robust`.
+    pub method: String,
+    /// The element, by names: `point`, `direction`, `normal`, `center`, `apex`, `radius`, `half_angle`,
+    /// `major_radius`, `minor_radius`, as the shape has them.
+    pub parameters: BTreeMap<String, Number>,
+    /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate.
+    pub uncertainty: Option<BTreeMap<String, Number>>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncertainty_reason: Option<String>,
+    /// Greatest less least signed distance, or the width of the zone; of a curve in space, twice the greatest distance.
+    pub form_error: f64,
+    /// Root mean square of the distances.
+    pub rms: f64,
+    /// Sum of squares over the distances left after the unknowns, its root.
+    pub std_dev: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub std_dev_reason: Option<String>,
+    /// Number of points; with `robust`, of those that are no outliers.
+    pub count: u64,
+    /// Points left out by `robust`.
+    pub outliers: u64,
+    /// Point with the least signed distance.
+    pub minimum: Extreme,
+    /// Point with the greatest signed distance.
+    pub maximum: Extreme,
+    /// Points that hold a zone, a circumscribed or an inscribed element.
+    pub touching: Vec<Touching>,
+    /// Steps of the solver on all points.
+    pub iterations: u64,
+    /// Whether the last step changed nothing that shows.
+    pub converged: bool,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// A number, or a place or direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Number {
+    /// Millimetres or radians.
+    One(f64),
+    /// A place in millimetres or a unit direction.
+    Three([f64; 3]),
+}
+
+/// A point and its signed distance.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Extreme {
+    /// Distance from the element, millimetres.
+    pub distance: f64,
+    /// Index of the point in the file, counted from 0.
+    pub point: u64,
+}
+
+/// A point that touches.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Touching {
+    /// Index of the point in the file, counted from 0.
+    pub point: u64,
+    /// 1 on the outer boundary, −1 on the inner one.
+    pub side: i8,
+    /// Its share in holding the element: positive, all sum to 1.
+    pub multiplier: f64,
+}
+
+fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
+    let number = |p| match p {
+        Parameter::Number(x) => Number::One(x),
+        Parameter::Vector(v) => Number::Three(v),
+    };
+    parameters.into_iter().map(|(name, p)| (name.to_string(), number(p))).collect()
+}
+
+impl FitDocument {
+    /// The document of a fit to the points of `inputs`.
+    pub fn new(fit: &Fit, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
+        let residuals = &fit.residuals;
+        let extreme = |(distance, point): (f64, usize)| Extreme { distance, point: point as u64 };
+        let uncertainty = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
+        let none_left = "there are no more points than unknowns";
+        let uncertainty_reason = match (&uncertainty, fit.touching.is_empty()) {
+            (Some(_), _) => None,
+            (None, true) => Some(none_left.to_string()),
+            (None, false) => Some("the element rests on its few touching points".to_string()),
+        };
+        FitDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            inputs,
+            shape: fit.shape.kind().name().into(),
+            planar: fit.shape.kind().is_flat(),
+            method: fit.method.name().into(),
+            parameters: named(fit.shape.parameters()),
+            uncertainty,
+            uncertainty_reason,
+            form_error: residuals.form_error,
+            rms: residuals.rms,
+            std_dev: residuals.std_dev,
+            std_dev_reason: residuals.std_dev.is_none().then(|| none_left.into()),
+            count: residuals.count as u64,
+            outliers: fit.outliers as u64,
+            minimum: extreme(residuals.min),
+            maximum: extreme(residuals.max),
+            touching: fit
+                .touching
+                .iter()
+                .map(|t| Touching { point: t.point as u64, side: t.side, multiplier: t.multiplier })
+                .collect(),
+            iterations: fit.iterations as u64,
+            converged: fit.converged,
+            seed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueness_geom::fit::{Kind, Method, Options, fit};
+    use trueness_geom::progress::Silent;
+
+    #[test]
+    fn a_document_is_read_back_as_it_was_written() {
+        let points: Vec<[f64; 3]> = (0..12)
+            .map(|k| {
+                let (a, r) = (f64::from(k), 10.0 + 0.01 * f64::from(k % 3));
+                [r * a.cos(), r * a.sin(), 0.0]
+            })
+            .collect();
+        for method in Method::ALL {
+            let options = Options { method, ..Options::default() };
+            let fit = fit(&points, Kind::Circle2, &options, &Silent).unwrap();
+            let document = FitDocument::new(&fit, vec![], 0);
+            let text = serde_json::to_string(&document).unwrap();
+            let back: FitDocument = serde_json::from_str(&text).unwrap();
+            assert_eq!(back.parameters, document.parameters);
+            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+            assert_eq!(value["shape"], "circle");
+            assert_eq!(value["parameters"]["center"].as_array().unwrap().len(), 3);
+            assert_eq!(value["uncertainty"].is_null(), value["uncertainty_reason"].is_string());
+            assert_eq!(value["touching"].as_array().unwrap().is_empty(), fit.touching.is_empty());
+        }
+    }
+}
