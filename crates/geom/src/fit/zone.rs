@@ -171,19 +171,29 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
             let before = self.working.len();
             let worst = self.join(&low.element, low.value + TOUCHES, &blocks);
             if worst <= low.value + TOUCHES || self.working.len() == before {
-                let near = self.only_one || range(&blocks) <= ASTRAY * self.range.max(TOUCHES);
-                return near.then_some(low);
+                return self.near(&low, &blocks).then_some(low);
             }
             element = low.element;
         }
         None
     }
 
+    /// Whether the optimum belongs to the feature: it has not left through a gap between the points, and its
+    /// distances range not much farther than those of the first element.
+    fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
+        let most = ASTRAY * self.range.max(TOUCHES);
+        self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))
+    }
+
     /// The best of the optima reached from `first` and from starts scattered about it.
     fn best(&mut self, first: &Element, seed: u64, progress: &dyn Progress) -> Result<Option<Low>, FitError> {
         let mut best = self.all_points(first, f64::INFINITY);
         let mut random = Random::new(seed);
-        let further = if self.only_one { 0 } else { STARTS };
+        let further = match self.sample.len() {
+            _ if self.only_one => 0,
+            0..=1000 => 4 * STARTS,
+            _ => STARTS,
+        };
         for k in 0..further {
             if progress.cancelled() {
                 return Err(FitError::Cancelled);
