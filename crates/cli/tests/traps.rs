@@ -133,3 +133,16 @@ fn documents_stay_as_they_are() {
         assert!(text == kept, "{name}: the document changed:\n{text}");
     }
 }
+
+/// The vertices of a measured mesh are compared as they stand in the file, doubled ones too; only an STL is welded.
+#[test]
+fn vertices_of_a_mesh_keep_their_order() {
+    let f = Folder::new();
+    let doubled = "OFF\n6 2 0\n0 0 2\n1 0 3\n0 1 4\n1 0 3\n1 1 5\n0 1 4\n3 0 1 2\n3 3 4 5\n";
+    let (m, r, out) = (f.write("m.off", doubled), f.write("r.off", CUBE), f.file("out.csv"));
+    let o = trueness(["compare".as_ref(), m.as_os_str(), r.as_os_str(), "--out".as_ref(), out.as_os_str()]);
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let text = std::fs::read_to_string(out).unwrap();
+    let d: Vec<f64> = text.lines().skip(1).map(|l| l.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(d, [1.0, 2.0, 3.0, 2.0, 4.0, 3.0]);
+}

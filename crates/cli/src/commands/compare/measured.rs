@@ -9,6 +9,7 @@ use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
+use trueness_geom::topology::weld;
 use trueness_inspect::results::{InputRecord, Role};
 
 /// What is compared.
@@ -34,7 +35,7 @@ impl Measured {
         sample: Option<u64>,
         seed: u64,
     ) -> anyhow::Result<Measured> {
-        let input = trueness_files::open(path, reading)?;
+        let input = trueness_files::open(path, &ReadOptions { weld: false, ..reading.clone() })?;
         let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
         let mesh = match input.body {
             Body::Points(_) if sample.is_some() => {
@@ -42,6 +43,9 @@ impl Measured {
                 return Err(Usage(format!("--sample needs a measured mesh, but {shown} holds points")).into());
             }
             Body::Points(points) => return Ok(Measured { points, mesh: None, kind: "points", record }),
+            Body::Mesh(mesh) if input.provenance.format.starts_with("stl") => {
+                weld::mesh(&mesh.mesh).with_context(|| path.display().to_string())?.mesh
+            }
             Body::Mesh(mesh) => mesh.mesh,
         };
         record.facets = Some(mesh.faces.len() as u64);
