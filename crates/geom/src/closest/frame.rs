@@ -68,6 +68,22 @@ fn any_perpendicular(x: Vector) -> Vector {
     unit(reject(e, x)).map_or([0.0, 1.0, 0.0], |(y, _)| y)
 }
 
+/// The direction of the part of `ac` perpendicular to the unit vector `x`, `base` being about as long as `ac`.
+///
+/// What is left of a needle is mostly rounding and not yet perpendicular: it is taken again. If little is left once more, the
+/// rounding pointed along `x`; then the three corners lie on a line, and any perpendicular will do.
+fn perpendicular(ac: Vector, base: f64, x: Vector) -> Vector {
+    const CLEAR: f64 = 1e-3;
+    match unit(reject(ac, x)) {
+        Some((y, h)) if h > CLEAR * base => y,
+        Some((y, _)) => match unit(reject(y, x)) {
+            Some((y, h)) if h > CLEAR => y,
+            _ => any_perpendicular(x),
+        },
+        None => any_perpendicular(x),
+    }
+}
+
 /// The frame of one triangle, field by field.
 fn frame(v: [Point; 3], mut put: impl FnMut(usize, f64)) {
     let length2 = |i: usize| {
@@ -78,14 +94,7 @@ fn frame(v: [Point; 3], mut put: impl FnMut(usize, f64)) {
     let (a, b, c) = (v[i], v[(i + 1) % 3], v[(i + 2) % 3]);
     let (ab, ac) = (minus(b, a), minus(c, a));
     let (x, base) = unit(ab).unwrap_or(([1.0, 0.0, 0.0], 0.0));
-    // The first rejection of a needle is mostly rounding and not yet perpendicular: do it again.
-    let first = unit(reject(ac, x));
-    let y = if first.is_some_and(|(_, h)| h > 1e-3 * base) {
-        first
-    } else {
-        first.and_then(|(y, _)| unit(reject(y, x)))
-    };
-    let y = y.map_or_else(|| any_perpendicular(x), |(y, _)| y);
+    let y = perpendicular(ac, base, x);
     let z = cross(x, y);
     let (cx, cy) = (dot(ac, x), dot(ac, y));
     for (axis, e) in [x, y, z].into_iter().enumerate() {

@@ -133,6 +133,13 @@ fn degenerate_triangles_equal_brute_force() {
         [c, plus(c, e), if d.unit() > 0.0 { c } else { plus(c, times(0.5, e)) }]
     };
     check("segments", soup(d, 1000, segment), d, 1500);
+    // As in drawings: what is left of a side after taking its part along another is rounding that points along it.
+    let on_a_line = |d: &mut Dice| {
+        let whole = |p: Point| p.map(f64::round);
+        let (c, e) = (whole(d.point(20.0)), whole(d.point(3.0)));
+        [c, plus(c, times(2.0, e)), plus(c, e)]
+    };
+    check("corners on a line of a grid", soup(d, 1000, on_a_line), d, 1500);
     check("points", soup(d, 1000, |d| [d.point(10.0); 3]), d, 1000);
     check("all in one place", soup(d, 100, |_| [[1.0, 2.0, 3.0]; 3]), d, 200);
 }
