@@ -1,0 +1,103 @@
+//! Every file of the corpus is read as an independent program says it should be.
+
+mod common;
+
+use common::{Folder, gzip, read};
+use trueness_files::{Body, ReadOptions, open};
+
+const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpus");
+
+/// A line of `expected.tsv`.
+struct Expected {
+    file: String,
+    result: String,
+    note: String,
+    faces: Option<usize>,
+    vertices: Option<usize>,
+}
+
+fn expected() -> Vec<Expected> {
+    let table = std::fs::read_to_string(format!("{CORPUS}/expected.tsv")).unwrap();
+    let lines = table.lines().skip(1).map(|line| {
+        let c: Vec<&str> = line.split('\t').collect();
+        let text = |i: usize| c[i].to_string();
+        Expected {
+            file: text(0),
+            result: text(1),
+            note: text(2),
+            faces: c[3].parse().ok(),
+            vertices: c[4].parse().ok(),
+        }
+    });
+    lines.collect()
+}
+
+#[test]
+fn every_file_gives_the_reference_result() {
+    let list = expected();
+    assert_eq!(list.len(), 113);
+    for e in &list {
+        let path = format!("{CORPUS}/{}", e.file);
+        let (result, warned, faces, vertices) = match read(path.as_ref()) {
+            Ok(r) => (r.kind, r.warnings > 0, r.faces, r.points.len()),
+            Err(error) => {
+                assert_eq!(e.result, "refused", "{error}");
+                let text = error.to_string();
+                assert!(text.starts_with(&path) && text.contains("; "), "{text}");
+                assert!(e.note == "-" || text.contains(&format!(", {}: ", e.note)), "{text}, expected {}", e.note);
+                continue;
+            }
+        };
+        assert_eq!(result, e.result, "{path}");
+        assert!(e.note == "*" || warned == (e.note == "warned"), "{path}: warned {warned}");
+        assert_eq!(Some(vertices), e.vertices, "{path}: vertices");
+        assert_eq!(if result == "mesh" { Some(faces) } else { None }, e.faces, "{path}: faces");
+    }
+}
+
+#[test]
+fn no_file_is_missing_from_the_table() {
+    let listed: Vec<String> = expected().into_iter().map(|e| e.file).collect();
+    for folder in ["broken", "shapes"] {
+        for entry in std::fs::read_dir(format!("{CORPUS}/{folder}")).unwrap() {
+            let name = format!("{folder}/{}", entry.unwrap().file_name().to_str().unwrap());
+            assert!(listed.contains(&name), "{name} has no line in expected.tsv");
+        }
+    }
+}
+
+#[test]
+fn a_packed_file_reads_as_the_file_itself() {
+    let folder = Folder::new();
+    for e in expected().iter().filter(|e| e.result != "refused") {
+        let plain = std::fs::read(format!("{CORPUS}/{}", e.file)).unwrap();
+        let name = e.file.rsplit('/').next().unwrap();
+        let packed = folder.path().join(format!("{name}.gz"));
+        std::fs::write(&packed, gzip(&plain)).unwrap();
+        let a = read(format!("{CORPUS}/{}", e.file).as_ref()).unwrap();
+        let b = read(&packed).unwrap_or_else(|error| panic!("{error}"));
+        assert!(b.gzip && !a.gzip);
+        assert_eq!((a.format, &a.points, a.faces), (b.format, &b.points, b.faces), "{}", e.file);
+    }
+}
+
+#[test]
+fn the_example_has_the_stated_numbers() {
+    let points = read(format!("{CORPUS}/bunny/scans.ply").as_ref()).unwrap();
+    assert_eq!((points.kind, points.points.len()), ("points", 362_272));
+    for (i, faces) in [69_451, 16_301, 3_851, 948].into_iter().enumerate() {
+        let mesh = read(format!("{CORPUS}/bunny/zipper_res{}.ply", i + 1).as_ref()).unwrap();
+        assert_eq!((mesh.kind, mesh.faces), ("mesh", faces));
+    }
+}
+
+#[test]
+fn without_welding_the_vertices_are_those_of_the_file() {
+    let options = ReadOptions { weld: false, ..ReadOptions::default() };
+    let vertices = |file: &str| match open(format!("{CORPUS}/shapes/{file}").as_ref(), &options).unwrap().body {
+        Body::Mesh(m) => m.mesh.positions.len(),
+        Body::Points(_) => panic!("points"),
+    };
+    assert_eq!(vertices("assimp__cube_uv.ply"), 24);
+    assert_eq!(vertices("trimesh__unit_cube.STL"), 36);
+}
