@@ -1,5 +1,6 @@
 //! The words of the command line: global options and the list of commands.
 
+use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 
@@ -50,5 +51,6 @@ pub enum ProgressStyle {
 /// What the program can do: one file each in `commands/`.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    Check(CheckArgs),
     Compare(CompareArgs),
 }

@@ -21,6 +21,7 @@ fn main() -> ExitCode {
             rayon::ThreadPoolBuilder::new().num_threads(n.into()).build_global()?;
         }
         match &arguments.command {
+            Command::Check(args) => commands::check::run(args, &arguments.common),
             Command::Compare(args) => commands::compare::run(args, &arguments.common),
         }
     });

@@ -2,12 +2,14 @@
 //!
 //! | task | where |
 //! |---|---|
+//! | defects of a mesh | [`check`] |
 //! | deviations from references | [`compare`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 
+pub mod check;
 pub mod compare;
 pub mod report;
 pub mod results;

@@ -3,6 +3,7 @@
 //! Every document starts with the same header and names its inputs. A number that does not exist is `null`
 //! beside a reason; NaN and infinity never appear.
 
+pub mod check;
 pub mod compare;
 pub mod fit;
 pub mod research;
@@ -86,5 +87,8 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         text.push('\n');
         text
     };
-    vec![("compare", text(schemars::schema_for!(compare::CompareDocument)))]
+    vec![
+        ("check", text(schemars::schema_for!(check::CheckDocument))),
+        ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+    ]
 }

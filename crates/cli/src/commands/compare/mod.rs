@@ -1,7 +1,7 @@
 //! `trueness compare`: how far is every measured point from the reference?
 
 mod measured;
-mod output;
+pub mod output;
 mod table;
 
 use crate::command::Common;

@@ -1,0 +1,117 @@
+//! `trueness check`: is this mesh sound, and if not, where not?
+
+mod table;
+
+use crate::command::Common;
+use crate::commands::compare::output::whole_file;
+use crate::exit::{Outcome, Usage};
+use crate::progress::Stage;
+use crate::{console, read};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use trueness_files::{Body, Input, ReadOptions, SourceMesh, Unit};
+use trueness_geom::check::{self, CheckError, Options};
+use trueness_inspect::results::check::CheckDocument;
+use trueness_inspect::results::{InputRecord, Role};
+
+/// Size and defects of a mesh
+///
+/// Tells what the mesh is (facets, shells, area, volume, genus) and finds every defect with its place. The exit status
+/// is 1 if the mesh is not sound.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness check part.stl
+  trueness check part.stl --json defects.json --items 100000
+  trueness check scan.ply --gap 0.01 --no-self-intersections")]
+pub struct CheckArgs {
+    /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
+    mesh: PathBuf,
+    /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
+    #[arg(long, value_name = "MM")]
+    gap: Option<f64>,
+    /// Facets with a smaller angle than this are slivers, degrees
+    #[arg(long, value_name = "DEGREES", default_value = "0.1")]
+    sliver_angle: f64,
+    /// Shells with a smaller diagonal than this share of the whole are islands, percent
+    #[arg(long, value_name = "PERCENT", default_value = "1")]
+    island: f64,
+    /// Do not look for self-intersections
+    #[arg(long)]
+    no_self_intersections: bool,
+    /// Defects of each kind to list in the document; all are counted
+    #[arg(long, value_name = "N", default_value = "1000")]
+    items: usize,
+    /// Unit of the file if it does not say its own [default: mm]
+    #[arg(long, value_name = "UNIT")]
+    units: Option<Unit>,
+    /// Write the result document; `-` for stdout, then no table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl CheckArgs {
+    fn options(&self) -> Result<Options, Usage> {
+        let not_negative = |name: &str, x: f64| match x.is_finite() && x >= 0.0 {
+            true => Ok(x),
+            false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
+        };
+        Ok(Options {
+            limit: self.items,
+            self_intersections: !self.no_self_intersections,
+            gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
+            sliver_angle: not_negative("sliver-angle", self.sliver_angle)?.min(60.0).to_radians(),
+            island_share: not_negative("island", self.island)? / 100.0,
+        })
+    }
+}
+
+/// Runs the command.
+pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options()?;
+    let (source, mut record) = read(&args.mesh, args.units)?;
+    let facets = source.mesh.faces.len() as u64;
+    let stage = Stage::new(common.progress, "checking", "facets", Some(facets));
+    let (hash, report) = rayon::join(
+        || read::hash(&mut record),
+        || check::check(&source.mesh, source.stored_normals.as_deref(), &options, &stage),
+    );
+    drop(stage);
+    let report = report.map_err(|e| match e {
+        CheckError::Cancelled(e) => e.into(),
+        e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
+    })?;
+    hash?;
+    let left_out = source.nonfinite_facets;
+    let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
+    write_json(args.json.as_deref(), &document)?;
+    if args.json.as_deref() != Some(Path::new("-")) {
+        console::table(&table::text(&document, &check::KINDS));
+    }
+    Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
+}
+
+fn read(path: &Path, units: Option<Unit>) -> anyhow::Result<(SourceMesh, InputRecord)> {
+    let Input { provenance, body, warnings } =
+        trueness_files::open(path, &ReadOptions { units, ..ReadOptions::default() })?;
+    let Body::Mesh(source) = body else {
+        anyhow::bail!(
+            "{}: it holds points without facets; a check needs a mesh (STL, PLY, OBJ, OFF)",
+            path.display()
+        )
+    };
+    let mut record = read::record(Role::Reference, &provenance, &warnings);
+    record.points = source.mesh.positions.len() as u64;
+    record.facets = Some(source.mesh.faces.len() as u64);
+    Ok((source, record))
+}
+
+fn write_json(path: Option<&Path>, document: &CheckDocument) -> anyhow::Result<()> {
+    let Some(path) = path else { return Ok(()) };
+    let mut text = serde_json::to_string_pretty(document)?;
+    text.push('\n');
+    if path == Path::new("-") {
+        return Ok(console::document(&text)?);
+    }
+    whole_file(path, |file| file.write_all(text.as_bytes()))
+}

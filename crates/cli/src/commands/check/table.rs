@@ -1,0 +1,74 @@
+//! The check as a table for people.
+
+use crate::console::{columns, grouped};
+use trueness_geom::check::Kind;
+use trueness_inspect::results::check::{CheckDocument, Defects};
+
+/// The whole text; kinds in the order given.
+pub fn text(d: &CheckDocument, kinds: &[&Kind]) -> String {
+    let mut out = head(d);
+    let mut rows = vec![];
+    for kind in kinds {
+        let Some(defects) = d.defects.get(kind.name) else { continue };
+        if let Some(row) = row(kind.name, defects) {
+            rows.push(row);
+        }
+    }
+    if !rows.is_empty() {
+        rows.insert(0, ["defect", "", "count", "largest", "at x", "y", "z"].map(String::from).to_vec());
+        out.push('\n');
+        out.push_str(&columns(&rows));
+    }
+    let warned = rows.iter().any(|r| r[1] == "warning");
+    out.push_str(match (d.sound, warned) {
+        (true, false) => "\nsound\n",
+        (true, true) => "\nsound, with warnings\n",
+        (false, _) => "\nNOT SOUND\n",
+    });
+    out
+}
+
+fn head(d: &CheckDocument) -> String {
+    let mut rows: Vec<(&str, String)> = vec![];
+    for input in &d.inputs {
+        rows.push(("mesh", format!("{}  ({}, {})", input.path, input.format, input.unit_assumed)));
+        rows.extend(input.warnings.iter().map(|w| ("!", w.clone())));
+    }
+    let counts = [(d.facets, "facets"), (d.vertices, "vertices"), (d.edges, "edges"), (d.shells, "shells")];
+    rows.push(("", counts.map(|(n, what)| format!("{} {what}", grouped(n))).join(", ")));
+    if let Some([l, b, h]) = d.dimensions {
+        rows.push(("size", format!("{l:.6} × {b:.6} × {h:.6} mm")));
+    }
+    rows.push(("area", format!("{:.6} mm²", d.area)));
+    rows.push((
+        "volume",
+        match (d.volume, &d.volume_reason) {
+            (Some(v), _) => format!("{v:.6} mm³"),
+            (None, reason) => format!("none: {}", reason.as_deref().unwrap_or_default()),
+        },
+    ));
+    if let Some([x, y, z]) = d.centre_of_mass {
+        rows.push(("centre", format!("{x:.6}, {y:.6}, {z:.6} (of mass)")));
+    }
+    let genus = d.genus.map(|g| format!(", genus {g}")).unwrap_or_default();
+    rows.push(("Euler", format!("{}{genus}", d.euler_characteristic)));
+    rows.into_iter().map(|(name, text)| format!("{name:<8} {text}\n")).collect()
+}
+
+/// A row for a kind that was found, or could not be looked for although it belongs to every check.
+fn row(name: &str, defects: &Defects) -> Option<Vec<String>> {
+    let name = name.replace('_', " ");
+    match defects.count {
+        Some(0) => None,
+        None if name == "reversed normals" => None,
+        None => Some(vec![name, "not asked for".into()]),
+        Some(count) => {
+            let mut row = vec![name, defects.severity.clone(), grouped(count)];
+            if let Some(largest) = defects.items.iter().max_by(|a, b| a.size.total_cmp(&b.size)) {
+                row.push(format!("{:.4}", largest.size));
+                row.extend(largest.position.map(|x| format!("{x:.4}")));
+            }
+            Some(row)
+        }
+    }
+}

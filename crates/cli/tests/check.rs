@@ -1,0 +1,54 @@
+//! `trueness check`: verdict, document, table, wrong inputs.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+use common::*;
+use serde_json::json;
+
+#[test]
+fn a_sound_mesh_is_described_and_conforms() {
+    let f = Folder::new();
+    let cube = f.write("cube.off", CUBE);
+    let d = document(["check".as_ref(), cube.as_os_str()]);
+    assert_eq!(d["schema"], "trueness/check/1");
+    assert_eq!((&d["sound"], &d["precondition"]), (&json!(true), &json!(true)));
+    for (key, want) in [("facets", 12), ("vertices", 8), ("edges", 18), ("shells", 1), ("genus", 0)] {
+        assert_eq!(d[key], want, "{key}");
+    }
+    assert_eq!((&d["volume"], &d["area"]), (&json!(1.0), &json!(6.0)));
+    assert_eq!(d["dimensions"], json!([1.0, 1.0, 1.0]));
+    assert_eq!(d["centre_of_mass"], json!([0.5, 0.5, 0.5]));
+    assert_eq!(d["defects"].as_object().unwrap().len(), 17);
+    assert!(d["defects"]["reversed_normals"]["count"].is_null());
+    let o = trueness(["check".as_ref(), cube.as_os_str()]);
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    assert!(stdout(&o).contains("12 facets, 8 vertices, 18 edges, 1 shells"), "{}", stdout(&o));
+    assert!(stdout(&o).ends_with("\nsound\n"), "{}", stdout(&o));
+}
+
+#[test]
+fn a_hole_is_found_with_its_place() {
+    let f = Folder::new();
+    let open = f.write("open.off", CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", ""));
+    let json = f.file("check.json");
+    let o = trueness(["check".as_ref(), open.as_os_str(), "--json".as_ref(), json.as_os_str()]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    assert!(stdout(&o).contains("holes") && stdout(&o).ends_with("NOT SOUND\n"), "{}", stdout(&o));
+    let d: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+    let hole = &d["defects"]["holes"]["items"][0];
+    assert_eq!((&hole["edges"], &hole["area"]), (&json!(3.0), &json!(0.5)));
+    assert_eq!(hole["position"][2], 0.0);
+    assert!(d["volume"].is_null() && d["volume_reason"].is_string() && d["genus"].is_null());
+}
+
+#[test]
+fn wrong_inputs_are_refused_with_a_remedy() {
+    let f = Folder::new();
+    let points = f.write("p.xyz", "0 0 0\n1 1 1\n");
+    let o = trueness(["check".as_ref(), points.as_os_str()]);
+    assert_eq!(status(&o), 3);
+    assert!(stderr(&o).contains("a check needs a mesh"), "{}", stderr(&o));
+    let cube = f.write("cube.off", CUBE);
+    let o = trueness(["check".as_ref(), cube.as_os_str(), "--gap".as_ref(), "nan".as_ref()]);
+    assert_eq!(status(&o), 2, "{}", stderr(&o));
+}

@@ -1,0 +1,97 @@
+//! From the findings of a check to the result document.
+
+use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
+use crate::results::compare::Bounds;
+use crate::results::{InputRecord, UNITS, VERSION};
+use trueness_geom::check::{Finding, Found, Kind, Options, Report, Severity};
+use trueness_geom::space::Aabb;
+
+/// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
+pub fn document(
+    report: &Report,
+    file: InputRecord,
+    facets: u64,
+    left_out: u64,
+    options: &Options,
+) -> CheckDocument {
+    let (p, s) = (&report.properties, &report.soundness);
+    let solid = s.closed && s.consistently_oriented;
+    let why_not =
+        || if s.closed { "neighbours look in different directions" } else { "the mesh is open" }.to_string();
+    let centre = p.centre_of_mass.filter(|_| solid);
+    let defects = report.defects.iter().map(|(kind, found)| {
+        let mut defects = self::defects(kind, found.as_ref());
+        if kind.name == "not_finite_facets" {
+            defects.count = defects.count.map(|n| n + left_out);
+            defects.truncated |= left_out > 0;
+        }
+        (kind.name.to_string(), defects)
+    });
+    CheckDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs: vec![file],
+        facets: facets + left_out,
+        vertices: report.vertices as u64,
+        edges: report.edges as u64,
+        shells: s.shells as u64,
+        bounds: bounds(&p.bounds),
+        dimensions: bounds(&p.bounds).map(|_| p.bounds.sides()),
+        area: p.area,
+        volume: solid.then_some(p.signed_volume),
+        volume_reason: (!solid).then(why_not),
+        centre_of_mass: centre,
+        centre_of_mass_reason: centre
+            .is_none()
+            .then(|| if solid { "the volume is zero".into() } else { why_not() }),
+        euler_characteristic: report.euler_characteristic,
+        genus: report.genus,
+        genus_reason: report.genus.is_none().then(|| match solid {
+            true => "more than two facets meet at an edge, or parts touch at a vertex".into(),
+            false => why_not(),
+        }),
+        sound: report.sound && left_out == 0,
+        precondition: s.sound && left_out == 0,
+        tolerances: Tolerances {
+            gap: report.gap,
+            sliver_angle: options.sliver_angle,
+            island_share: options.island_share,
+        },
+        defects: defects.collect(),
+    }
+}
+
+fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
+    let reason = match kind.name {
+        "reversed_normals" => "the file stores no normals",
+        _ => "not asked for",
+    };
+    Defects {
+        severity: match kind.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        }
+        .into(),
+        count: found.map(|f| f.count as u64),
+        count_reason: found.is_none().then(|| reason.into()),
+        size: kind.size.into(),
+        items: found.map_or(vec![], |f| f.items.iter().map(item).collect()),
+        truncated: found.is_some_and(|f| f.items.len() < f.count),
+    }
+}
+
+fn item(finding: &Finding) -> Item {
+    Item {
+        facets: finding.facets.clone(),
+        vertices: finding.vertices.clone(),
+        position: finding.position,
+        bounds: bounds(&finding.bounds),
+        size: finding.size,
+        measures: finding.measures.iter().map(|(name, x)| (name.to_string(), *x)).collect(),
+    }
+}
+
+fn bounds(b: &Aabb) -> Option<Bounds> {
+    (!b.is_empty()).then_some(Bounds { min: b.min, max: b.max })
+}
