@@ -28,6 +28,25 @@ pub(super) struct Planes {
     offset: [f32; W],
 }
 
+/// The corners of the triangles of a leaf in the frame, in double precision: as exact as the mesh. Apart from [`planes`],
+/// so that the arithmetic there can use vectors.
+#[inline(always)]
+fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
+    if frame.slack == 0.0 {
+        return leaf.at.map(|corner| corner.map(|row| row.0.map(f64::from)));
+    }
+    let mut at = [[[0.0; W]; 3]; 3];
+    for (corner, numbers) in at.iter_mut().zip(&leaf.corner) {
+        for (i, number) in numbers.0.iter().enumerate() {
+            let place = mesh.positions.get(*number as usize).map_or([0.0; 3], |p| frame.place(p));
+            for (row, x) in corner.iter_mut().zip(place) {
+                row[i] = x;
+            }
+        }
+    }
+    at
+}
+
 /// The planes of the triangles of a leaf.
 #[inline(always)]
 pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
@@ -36,13 +55,9 @@ pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
     let mut out = Planes { direction: [[[0.0; W]; 3]; 4], offset: [0.0; W] };
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let size = |x: Point| larger(larger(x[0].abs(), x[1].abs()), x[2].abs());
+    let at = places(mesh, frame, leaf);
     for i in 0..W {
-        let exact = |j: usize| -> Point { std::array::from_fn(|k| f64::from(leaf.at[j][k].0[i])) };
-        let place = |j: usize| {
-            let vertex = mesh.positions.get(leaf.corner[j].0[i] as usize);
-            vertex.map_or([0.0; 3], |p| frame.place(p))
-        };
-        let [a, b, c] = if frame.slack == 0.0 { [0, 1, 2].map(exact) } else { [0, 1, 2].map(place) };
+        let [a, b, c] = [0, 1, 2].map(|j| [at[j][0][i], at[j][1][i], at[j][2][i]]);
         let e = [minus(b, a), minus(c, b), minus(a, c)];
         let n = cross(e[0], e[1]);
         let longest = larger(larger(size(e[0]), size(e[1])), size(e[2]));
