@@ -50,6 +50,7 @@ pub enum ProgressStyle {
 
 /// What the program can do: one file each in `commands/`.
 #[derive(Subcommand, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one for each run of the program")]
 pub enum Command {
     Check(CheckArgs),
     Compare(CompareArgs),

@@ -4,6 +4,7 @@
 //! corners of the other triangle lie all beyond one of them, where corners shared with the first *and in that plane*
 //! count as beyond: then the plane contains all that the two have in common, and that is a shared corner or edge. A
 //! corner counts as beyond when the rounded distance says so by more than its error.
+#![expect(clippy::needless_range_loop, reason = "lanes are indices into several arrays at once")]
 
 use super::tree::{Boxes, Frame, Leaf};
 use crate::closest::lanes::Lanes;
