@@ -2,6 +2,7 @@
 
 use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
+use crate::commands::fit::FitArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 
 /// How far is every measured point from the model?
@@ -50,8 +51,8 @@ pub enum ProgressStyle {
 
 /// What the program can do: one file each in `commands/`.
 #[derive(Subcommand, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one for each run of the program")]
 pub enum Command {
     Check(CheckArgs),
-    Compare(CompareArgs),
+    Compare(Box<CompareArgs>),
+    Fit(FitArgs),
 }

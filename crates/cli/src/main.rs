@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         match &arguments.command {
             Command::Check(args) => commands::check::run(args, &arguments.common),
             Command::Compare(args) => commands::compare::run(args, &arguments.common),
+            Command::Fit(args) => commands::fit::run(args, &arguments.common),
         }
     });
     exit::code(outcome)

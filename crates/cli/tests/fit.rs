@@ -1,0 +1,40 @@
+//! `trueness fit` as users run it.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::{Folder, corpus, document, status, stderr, stdout, trueness};
+
+#[test]
+fn the_document_holds_the_reference_answer() {
+    let points = corpus("reference_fits/cylinder_exact_60.xyz");
+    let answer = document(["fit", points.to_str().unwrap(), "--shape", "cylinder"]);
+    assert_eq!(answer["schema"], "trueness/fit/1");
+    assert_eq!(answer["count"], 60);
+    let radius = answer["parameters"]["radius"].as_f64().unwrap();
+    assert!((radius - 60.0).abs() < 1e-10, "{radius}");
+    assert!((answer["form_error"].as_f64().unwrap() - 1.5).abs() < 1e-10);
+    assert_eq!(answer["inputs"][0]["points"], 60);
+}
+
+#[test]
+fn two_columns_are_fitted_in_the_plane() {
+    let points = corpus("reference_fits/straightness_exact_3.xyz");
+    let words = ["fit", points.to_str().unwrap(), "--shape", "line", "--method", "minimum-zone"];
+    let answer = document(words);
+    assert_eq!(answer["planar"], true);
+    assert!((answer["form_error"].as_f64().unwrap() - 0.3125).abs() < 1e-14);
+    assert_eq!(answer["touching"].as_array().unwrap().len(), 3);
+    let table = trueness(words);
+    assert!(stdout(&table).contains("form error 0.312500000"), "{}", stdout(&table));
+}
+
+#[test]
+fn too_few_points_are_refused_with_the_file() {
+    let folder = Folder::new();
+    let file = folder.write("two.xyz", "0 0 0\n1 2 3\n");
+    let answer = trueness(["fit", file.to_str().unwrap(), "--shape", "plane"]);
+    assert_eq!(status(&answer), 3);
+    let text = stderr(&answer);
+    assert!(text.contains("two.xyz: a plane needs at least 3 points, there are 2"), "{text}");
+}
