@@ -44,7 +44,11 @@ fn every_file_gives_the_reference_result() {
                 assert_eq!(e.result, "refused", "{error}");
                 let text = error.to_string();
                 assert!(text.starts_with(&path) && text.contains("; "), "{text}");
-                assert!(e.note == "-" || text.contains(&format!(", {}: ", e.note)), "{text}, expected {}", e.note);
+                assert!(
+                    e.note == "-" || text.contains(&format!(", {}: ", e.note)),
+                    "{text}, expected {}",
+                    e.note
+                );
                 continue;
             }
         };
@@ -94,7 +98,8 @@ fn the_example_has_the_stated_numbers() {
 #[test]
 fn without_welding_the_vertices_are_those_of_the_file() {
     let options = ReadOptions { weld: false, ..ReadOptions::default() };
-    let vertices = |file: &str| match open(format!("{CORPUS}/shapes/{file}").as_ref(), &options).unwrap().body {
+    let vertices = |file: &str| match open(format!("{CORPUS}/shapes/{file}").as_ref(), &options).unwrap().body
+    {
         Body::Mesh(m) => m.mesh.positions.len(),
         Body::Points(_) => panic!("points"),
     };

@@ -90,5 +90,6 @@ pub fn schemas() -> Vec<(&'static str, String)> {
     vec![
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+        ("fit", text(schemars::schema_for!(fit::FitDocument))),
     ]
 }
