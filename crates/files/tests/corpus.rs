@@ -1,4 +1,5 @@
 //! Every file of the corpus is read as an independent program says it should be.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 

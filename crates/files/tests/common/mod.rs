@@ -7,7 +7,7 @@ use std::{
     sync::atomic::{AtomicU64, Ordering::Relaxed},
 };
 use trueness_files::{Body, ReadError, ReadOptions, open};
-use trueness_geom::{cloud::PointStream, space::Point};
+use trueness_geom::space::Point;
 
 /// An empty folder, removed when it goes out of scope.
 pub struct Folder(PathBuf);

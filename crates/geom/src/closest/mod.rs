@@ -7,7 +7,6 @@
 //! | distance of many points | [`Tree::distances`]; signed: [`Signs::distances`] |
 //! | anything else of many points | [`Tree::for_each_closest`], [`Tree::map_closest`], then [`Tree::place`], [`Signs::sign`] |
 //! | inside or outside of a mesh with holes | [`Winding`] |
-//! | do the two kinds of sign agree? | [`Agreement`] |
 //! | is the closest place on the rim? | [`FreeEdges`] |
 //! | the definition of the answer | [`brute::closest`] |
 //!
@@ -47,7 +46,7 @@ pub use edges::FreeEdges;
 pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
 pub(crate) use limits::{check_mesh, check_points};
 pub use query::{Hit, Level, Query};
-pub use sign::{Agreement, Signs};
+pub use sign::Signs;
 pub use tree::{Closest, Tree};
 pub use triangle::Feature;
 pub use winding::Winding;

@@ -11,7 +11,6 @@ use crate::closest::limits::QueryError;
 use crate::closest::query::{Hit, Query};
 use crate::closest::tree::Tree;
 use crate::closest::triangle::{self, Feature};
-use crate::closest::winding::Winding;
 use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use rayon::prelude::*;
@@ -100,38 +99,5 @@ impl<'a> Signs<'a> {
         self.tree.map_closest(points, query, progress, |i, hit| {
             hit.map_or(f64::NAN, |h| h.distance() * self.sign(&points[i], &h))
         })
-    }
-}
-
-/// How two methods of finding the sign agree on some points.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Agreement {
-    /// Points compared.
-    pub compared: usize,
-    /// Indices, ascending, of the points to which the methods give different signs.
-    pub differing: Vec<usize>,
-    /// Greatest distance from the surface of a differing point, millimetres; 0 if there is none. Differences within
-    /// rounding of the surface mean nothing.
-    pub farthest: f64,
-}
-
-impl Agreement {
-    /// Compares pseudonormals with the winding number (inside above one half), both of one tree.
-    ///
-    /// # Errors
-    /// Those of [`Tree::for_each_closest`].
-    pub fn of(
-        signs: &Signs,
-        winding: &Winding,
-        points: &[Point],
-        progress: &dyn Progress,
-    ) -> Result<Agreement, QueryError> {
-        let distances = signs.distances(points, &Query::default(), progress)?;
-        let numbers = winding.numbers(points, progress)?;
-        let pairs = distances.iter().zip(&numbers).enumerate();
-        let differing: Vec<usize> =
-            pairs.filter(|(_, (d, w))| (**w > 0.5) != (**d < 0.0)).map(|(i, _)| i).collect();
-        let farthest = differing.iter().map(|&i| distances[i].abs()).fold(0.0, f64::max);
-        Ok(Agreement { compared: points.len(), differing, farthest })
     }
 }

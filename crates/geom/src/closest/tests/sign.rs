@@ -1,7 +1,7 @@
 //! The side of the surface, and its rim.
 
 use super::*;
-use crate::closest::{Agreement, Feature, FreeEdges, Signs, Winding};
+use crate::closest::{Feature, FreeEdges, Signs, Winding};
 use crate::space::norm;
 
 #[test]
@@ -12,20 +12,12 @@ fn signs_agree_with_the_winding_number() {
         let (signs, winding) = (Signs::new(&tree), Winding::new(&tree));
         assert_eq!(signs.loose_edges(), 0);
         let points: Vec<_> = (0..20_000).map(|_| d.point(2.0)).collect();
-        let agreement = Agreement::of(&signs, &winding, &points, &Silent).unwrap();
-        assert_eq!((agreement.compared, agreement.differing.len()), (20_000, 0), "{agreement:?}");
+        let distances = signs.distances(&points, &Query::default(), &Silent).unwrap();
+        let numbers = winding.numbers(&points, &Silent).unwrap();
+        for ((p, d), w) in points.iter().zip(distances).zip(numbers) {
+            assert_eq!(d < 0.0, w > 0.5, "{p:?}: distance {d}, winding number {w}");
+        }
     }
-}
-
-#[test]
-fn disagreement_is_found_where_the_mesh_is_inside_out() {
-    let mut mesh = cube(1.0);
-    mesh.faces.iter_mut().for_each(|f| f.swap(0, 1));
-    let tree = Tree::build(&mesh).unwrap();
-    let points = [[0.5; 3], [3.0, 0.5, 0.5], [0.5, 0.25, 0.75]];
-    let agreement = Agreement::of(&Signs::new(&tree), &Winding::new(&tree), &points, &Silent).unwrap();
-    // Both are wrong inside (the winding number is -1, not above one half), only the pseudonormal outside.
-    assert_eq!((agreement.differing, agreement.farthest), (vec![1], 2.0));
 }
 
 #[test]
