@@ -11,7 +11,7 @@ mod worst;
 
 pub use document::{Inputs, document};
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
-pub use reverse::reverse;
+pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use vertex_map::VertexMap;
 pub use view::View;
