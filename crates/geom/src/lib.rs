@@ -18,6 +18,7 @@ pub mod closest;
 pub mod cloud;
 pub mod deviation;
 pub mod fit;
+mod memory;
 pub mod mesh;
 pub mod num;
 pub mod progress;

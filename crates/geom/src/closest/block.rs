@@ -1,12 +1,14 @@
 //! A block of neighbouring points, the buffers of the thread that answers it, and the error bounds.
 
-use crate::closest::tree::Tree;
+use crate::closest::tree::{Node, Tree};
 use crate::space::Point;
 
 /// Points in a block: the width of an AVX-512 register.
 pub const BLOCK: usize = 16;
-/// Up to this many leaves, a block is tested triangle by triangle; above, by a common walk.
+/// Up to this many leaves, a block is tested triangle by triangle; above, by a common walk. (8 and 12 are slower.)
 pub const DENSE: usize = 10;
+/// Leaves and nodes at most to begin the common walk with: children of two nodes. (24 are slower.)
+pub const FRONT: usize = 16;
 /// Unit of the error bounds: a distance computed from lengths up to `l` is right to `ROUNDING * l`. The kernels make
 /// about ten roundings of 2^-24; this allows sixteen.
 pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
@@ -18,6 +20,14 @@ pub struct Candidate {
     pub lane: u32,
     /// The block's centre in the triangle's frame.
     pub centre: [f32; 3],
+}
+
+/// A child of a node: where it leads, and where its box stands.
+#[derive(Clone, Copy)]
+pub struct Seed {
+    pub child: i32,
+    pub parent: u32,
+    pub lane: u32,
 }
 
 /// A leaf tested against one point by the wave.
@@ -34,13 +44,13 @@ pub struct Row {
 #[derive(Default)]
 pub struct Scratch {
     /// Winner of the block before: where to begin. (The answers do not depend on it.)
-    pub warm: Option<u32>,
-    /// Nodes to visit, with the squared distance to their boxes.
-    pub stack: Vec<(f32, i32)>,
-    /// Leaves that can hold the closest triangle of some point, at most a few more than [`DENSE`].
-    pub leaves: Vec<u32>,
-    /// Deepest node that holds all of them.
-    pub cut: i32,
+    pub warm: u32,
+    /// Leaves that can hold the closest triangle of some point.
+    pub leaves: Vec<Seed>,
+    /// Nodes that can hold further ones; together at most [`FRONT`].
+    pub open: Vec<Seed>,
+    /// All of them, as children of nodes of their own: where the wave begins.
+    pub front: Vec<Node>,
     /// (point, node) and (point, leaf) pairs of the wave.
     pub queue: Vec<[i32; 2]>,
     pub found: Vec<[i32; 2]>,

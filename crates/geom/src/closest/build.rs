@@ -11,6 +11,7 @@
 
 use crate::closest::frame;
 use crate::closest::tree::{Node, Tree};
+use crate::memory::large_pages;
 use crate::mesh::Mesh;
 use crate::space::Aabb;
 use rayon::prelude::*;
@@ -273,9 +274,8 @@ impl Subtree {
         }
         parts.sort_by_key(|p| p.start);
         let me = self.nodes.len();
-        let mut node = Node { bounds: [[f32::INFINITY; 8]; 6], child: [0; 8] };
+        let mut node = Node::EMPTY;
         for k in 0..3 {
-            node.bounds[k + 3] = [f32::NEG_INFINITY; 8];
             for (j, p) in parts.iter().enumerate() {
                 node.bounds[k][j] = p.bounds.lo[k] - PAD;
                 node.bounds[k + 3][j] = p.bounds.hi[k] + PAD;
@@ -339,7 +339,8 @@ pub fn build(mesh: &Mesh) -> Tree {
         b.lo[3] = f32::from_bits(ID + i as u32);
         b
     };
-    let mut items: Vec<Item> = mesh.faces.par_iter().enumerate().map(item).collect();
+    let mut items: Vec<Item> = large_pages(Vec::with_capacity(mesh.faces.len()));
+    mesh.faces.par_iter().enumerate().map(item).collect_into_vec(&mut items);
     let mut t = Subtree { nodes: vec![], leaves: vec![] };
     let root = t.grow(Range::new(&mut items, 0));
     let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
@@ -348,7 +349,8 @@ pub fn build(mesh: &Mesh) -> Tree {
     let leaf = |&(first, n): &(u32, u32)| {
         frame::leaf(&slots[first as usize..][..n as usize], &corners, first, scale)
     };
-    let leaves = t.leaves.par_iter().map(leaf).collect();
+    let mut leaves = large_pages(Vec::with_capacity(t.leaves.len()));
+    t.leaves.par_iter().map(leaf).collect_into_vec(&mut leaves);
     Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }
 }
 

@@ -1,26 +1,27 @@
 //! Few leaves: every triangle that survives against all sixteen points of the block at once.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{Block, Candidate, ROUNDING, Scratch, norm};
+use crate::closest::block::{Block, Candidate, DENSE, ROUNDING, Scratch, norm};
 use crate::closest::kernel;
 use crate::closest::lanes::Lanes;
 use crate::closest::tree::Tree;
 
 /// Finds, in `s.leaves`, the triangles near enough to the block, tests each against all points, and lists in `s.pairs`
-/// those worth settling. `near` is the distance from the block's centre to a point of the surface.
+/// those worth settling.
 ///
 /// # Safety
 /// The processor has the instructions of both types.
 #[inline(always)]
-pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, near: f32, s: &mut Scratch) {
+pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, s: &mut Scratch) {
     let mut error: f32 = 0.0;
-    for &l in &s.leaves {
+    for seed in &s.leaves {
+        let l = !seed.child as u32;
         let leaf = &tree.leaves[l as usize];
         error = error.max(ROUNDING * (norm(b.relative(tree, leaf.origin)) + b.reach + leaf.radius));
     }
     // SAFETY: the caller's promise.
     unsafe {
-        candidates::<V>(tree, b, near + 2.0 * b.reach + 4.0 * error, s);
+        candidates::<V>(tree, b, 2.0 * b.reach + 4.0 * error, s);
         let d = [W::load(&b.offset[0]), W::load(&b.offset[1]), W::load(&b.offset[2])];
         let mut least = W::splat(f32::INFINITY);
         s.table.resize(s.table.len().max(s.candidates.len()), [0.0; 16]);
@@ -45,26 +46,34 @@ pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, near: f32
     }
 }
 
-/// Lists in `s.candidates` the triangles up to `limit` from the block's centre; a farther one loses for every point.
+/// Lists in `s.candidates` the triangles that can be nearest to some point: up to `reach` farther from the block's centre than
+/// the nearest of all.
 #[inline(always)]
-unsafe fn candidates<V: Lanes<8>>(tree: &Tree, b: &Block, limit: f32, s: &mut Scratch) {
+unsafe fn candidates<V: Lanes<8>>(tree: &Tree, b: &Block, reach: f32, s: &mut Scratch) {
     // SAFETY: the caller's promise.
     unsafe {
+        let mut tested = [([[0f32; 8]; 3], [0f32; 8]); DENSE];
+        let mut least = V::splat(f32::INFINITY);
+        for (seed, (centre, distance2)) in s.leaves.iter().zip(&mut tested) {
+            let leaf = &tree.leaves[!seed.child as usize];
+            let c = kernel::into_frames::<V>(leaf, b.relative(tree, leaf.origin));
+            let d = kernel::leaf_distance2(leaf, c);
+            least = least.min(d);
+            for (c, out) in c.iter().zip(centre) {
+                c.store(out);
+            }
+            d.store(distance2);
+        }
+        let limit = least.least().sqrt() + reach;
         let limit = V::splat(limit * limit * 1.00001);
         s.candidates.clear();
-        for &l in &s.leaves {
-            let leaf = &tree.leaves[l as usize];
-            let c = kernel::into_frames::<V>(leaf, b.relative(tree, leaf.origin));
-            let mut mask = kernel::leaf_distance2(leaf, c).le(limit);
-            if mask == 0 {
-                continue;
-            }
-            let [x, y, z] = [c[0].array(), c[1].array(), c[2].array()];
+        for (seed, ([x, y, z], distance2)) in s.leaves.iter().zip(&tested) {
+            let mut mask = V::load(distance2).le(limit);
             while mask != 0 {
                 let lane = mask.trailing_zeros();
                 let j = lane as usize & 7;
                 mask &= mask - 1;
-                s.candidates.push(Candidate { leaf: l, lane, centre: [x[j], y[j], z[j]] });
+                s.candidates.push(Candidate { leaf: !seed.child as u32, lane, centre: [x[j], y[j], z[j]] });
             }
         }
     }

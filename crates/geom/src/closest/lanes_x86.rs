@@ -71,6 +71,25 @@ macro_rules! methods {
     )* };
 }
 
+/// For each mask of eight lanes the numbers of the set ones, a byte each. (PDEP and PEXT would make them, but are very slow
+/// on processors before Zen 3.)
+static SET_LANES: [u64; 256] = {
+    let mut table = [0; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut n) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                table[mask] |= lane << (8 * n);
+                n += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    table
+};
+
 impl Lanes<8> for A8 {
     methods!(A8: min = _mm256_min_ps, max = _mm256_max_ps);
     #[inline(always)]
@@ -128,10 +147,7 @@ impl Lanes<8> for A8 {
     #[inline(always)]
     unsafe fn compress(mask: u32, tag: i32, p: &[i32; 8], out: *mut [i32; 2]) {
         unsafe {
-            // One byte per lane; PEXT gathers the numbers of the set lanes (BMI2).
-            let bytes = _pdep_u64(mask as u64, 0x0101_0101_0101_0101) * 0xFF;
-            let order = _pext_u64(0x0706_0504_0302_0100, bytes);
-            let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(order as i64));
+            let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(SET_LANES[mask as usize & 255] as i64));
             let c = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(p.as_ptr().cast()), order);
             let t = _mm256_set1_epi32(tag);
             let (a, b) = (_mm256_unpacklo_epi32(t, c), _mm256_unpackhi_epi32(t, c));

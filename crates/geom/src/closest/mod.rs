@@ -26,6 +26,7 @@ mod build;
 mod dense;
 mod edges;
 mod frame;
+mod front;
 mod kernel;
 pub(crate) mod lanes;
 #[cfg(target_arch = "x86_64")]

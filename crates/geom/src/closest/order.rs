@@ -6,6 +6,7 @@
 #![expect(unsafe_code, reason = "several threads scatter into one list, each to places of its own")]
 
 use crate::closest::limits::{QueryError, sane};
+use crate::memory::{Shared, large_pages};
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use rayon::prelude::*;
@@ -56,24 +57,6 @@ pub fn for_each_bucket<S: Default>(
 struct Buckets {
     items: Vec<u64>,
     limits: Vec<usize>,
-}
-
-/// A pointer that several threads write through, each to its own places.
-pub struct Shared<T>(*mut T);
-// SAFETY: the pointer is only used through `write`, whose caller answers for disjoint places.
-unsafe impl<T: Send> Sync for Shared<T> {}
-
-impl<T: Copy> Shared<T> {
-    /// To the room that `list` has.
-    pub fn new(list: &mut Vec<T>) -> Self {
-        Shared(list.as_mut_ptr())
-    }
-    /// # Safety
-    /// The list still exists, has room for `i`, and no other thread writes to `i`.
-    #[inline(always)]
-    pub unsafe fn write(&self, i: usize, x: T) {
-        unsafe { *self.0.add(i) = x }
-    }
 }
 
 /// Spreads the low 10 bits to every third place.
@@ -133,14 +116,14 @@ fn buckets(points: &[Point]) -> Result<Buckets, usize> {
     };
     let mut counts: Vec<Vec<usize>> = points.par_chunks(chunk).map(count).collect();
     let limits = limits(&mut counts);
-    let mut items: Vec<u64> = Vec::with_capacity(n);
-    let out = Shared::new(&mut items);
+    let mut items: Vec<u64> = large_pages(Vec::with_capacity(n));
+    let out = Shared::of(&mut items);
     points.par_chunks(chunk).zip(counts).enumerate().for_each(|(c, (part, mut next))| {
         for (i, p) in part.iter().enumerate() {
             let k = key(p);
             let at = &mut next[(k >> LOW_BITS) as usize];
             // SAFETY: the counts give every point a place of its own in 0..n.
-            unsafe { out.write(*at, (k as u64) << 32 | (c * chunk + i) as u64) };
+            unsafe { *out.at(*at) = (k as u64) << 32 | (c * chunk + i) as u64 };
             *at += 1;
         }
     });

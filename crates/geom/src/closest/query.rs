@@ -1,10 +1,12 @@
 //! Answering the points: blocks of sixteen neighbours share one walk through the tree.
 //!
 //! For each block (module `walk`):
-//! 1. find the closest surface point `x` to the block's centre, starting from the winner of the block before;
-//! 2. collect the leaves that could hold a triangle closer than `x` to *some* point of the block;
-//! 3. few leaves (points dense compared with triangles): test every triangle that survives against all sixteen points at
-//!    once (`dense`); more: the sixteen points walk the tree in step, each with its own bound (`wave`);
+//! 1. take a surface point `x` near the block: the closest one of the triangle that won in the block before;
+//! 2. collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of the block,
+//!    as long as they are few (`front`);
+//! 3. few leaves and nothing else (points dense compared with triangles): test every triangle that survives against all
+//!    sixteen points at once (`dense`); else the sixteen points walk on from there in step, each with its own bound
+//!    (`wave`);
 //! 4. every triangle within the error bound of a point's best is settled in double precision; ties go to the lowest face
 //!    (`settle`).
 //!
@@ -17,9 +19,10 @@
 
 use crate::closest::block::Scratch;
 use crate::closest::limits::{QueryError, sane};
-use crate::closest::order::{self, Shared};
+use crate::closest::order;
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::walk;
+use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::space::Point;
 
@@ -158,12 +161,12 @@ impl Tree {
         progress: &dyn Progress,
         f: impl Fn(usize, Option<Hit>) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
-        let mut out = Vec::with_capacity(points.len());
-        let places = Shared::new(&mut out);
+        let mut out = large_pages(Vec::with_capacity(points.len()));
+        let places = Shared::of(&mut out);
         self.for_each_closest(points, query, progress, |i, hit| {
             let x = f(i, hit);
             // SAFETY: there is room for all, and each index comes exactly once.
-            unsafe { places.write(i, x) }
+            unsafe { *places.at(i) = x }
         })?;
         // SAFETY: no error: every index has come.
         unsafe { out.set_len(points.len()) };

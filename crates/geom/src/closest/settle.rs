@@ -6,6 +6,7 @@ use crate::closest::lanes::Real;
 use crate::closest::query::Hit;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
+use crate::closest::walk::prefetch;
 
 /// Settles `s.pairs` in double precision; the least wins, then the lowest face.
 ///
@@ -13,6 +14,12 @@ use crate::closest::triangle;
 /// The processor has the instructions of `D`.
 #[inline(always)]
 pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [Hit]) {
+    // The corners lie scattered in memory: ask for all of them before the first is needed.
+    for &(_, slot) in &s.pairs {
+        for v in tree.slots[slot as usize] {
+            prefetch(&tree.corners[v as usize]);
+        }
+    }
     let mut soa = [[0f64; 8]; 12];
     for part in s.pairs.chunks(D::N) {
         for (j, &(i, slot)) in part.iter().enumerate() {

@@ -30,6 +30,21 @@ pub struct Node {
     pub child: [i32; 8],
 }
 
+impl Node {
+    /// No child.
+    pub const EMPTY: Node = Node {
+        bounds: [
+            [f32::INFINITY; 8],
+            [f32::INFINITY; 8],
+            [f32::INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+            [f32::NEG_INFINITY; 8],
+        ],
+        child: [0; 8],
+    };
+}
+
 /// Numbers kept for each triangle of a leaf: see the constants.
 pub const FIELDS: usize = 19;
 /// Frame axes: `x` in fields 0..3, `y` in 3..6, `z` in 6..9.

@@ -1,9 +1,9 @@
 //! Many leaves: the sixteen points walk the tree independently but in step.
 //!
 //! A single walk waits most of the time for its own last result; sixteen independent ones, level by level and without
-//! branches that depend on data, keep the processor busy. First every point descends greedily to one leaf, which gives
-//! it a bound. Then a queue of (point, node) pairs is worked off in order; surviving children are appended by a vector
-//! compress, inner nodes to the queue, leaves to a list.
+//! branches that depend on data, keep the processor busy. All begin at the front that the block has gathered. First every
+//! point descends greedily to one leaf, which gives it a bound. Then a queue of (point, node) pairs is worked off in order;
+//! surviving children are appended by a vector compress, inner nodes to the queue, leaves to a list.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(
@@ -11,17 +11,18 @@
     reason = "loads of vector types need their instructions; growing lists without a branch"
 )]
 
-use crate::closest::block::{BLOCK, Block, ROUNDING, Row, Scratch, norm};
+use crate::closest::block::{BLOCK, Block, FRONT, ROUNDING, Row, Scratch};
 use crate::closest::kernel;
 use crate::closest::lanes::Lanes;
 use crate::closest::tree::{Node, Tree};
+use crate::closest::walk::prefetch;
 use crate::space::Point;
 
 /// What is known of a point's distance.
 #[derive(Clone, Copy, Default)]
 struct Known {
-    /// Least distance found.
-    best: f32,
+    /// Square of the least distance found.
+    best2: f32,
     /// Bound of the rounding error of the distances found.
     error: f32,
 }
@@ -35,19 +36,41 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s:
         for (i, q) in place.iter_mut().enumerate() {
             *q = b.place(i);
         }
-        let here = descend::<V>(tree, &place[..b.len], s.cut);
+        // Distances to the boxes of the front, and the nearest of its children.
+        let mut boxes = [[[0f32; 8]; FRONT / 8]; BLOCK];
+        let mut here = [0; BLOCK];
+        for i in 0..b.len {
+            let q = kernel::splat::<V>(place[i]);
+            let mut least = f32::INFINITY;
+            for (node, out) in s.front.iter().zip(&mut boxes[i]) {
+                let d = kernel::box_distance2::<V>(node, q);
+                d.store(out);
+                let l = d.least();
+                let nearest = node.child[d.le(V::splat(l)).trailing_zeros() as usize & 7];
+                here[i] = if l < least { nearest } else { here[i] };
+                least = if l < least { l } else { least };
+            }
+        }
+        descend::<V>(tree, &place[..b.len], &mut here);
         let x: [f32; 3] = std::array::from_fn(|k| ((x[k] - b.centre[k]) * tree.scale) as f32);
         s.rows.clear();
         let (mut known, mut bound) = ([Known::default(); BLOCK], [0f32; BLOCK]);
         for i in 0..b.len {
-            known[i].best = norm(std::array::from_fn(|k| b.offset[k][i] - x[k])) * 1.00001;
+            let to_x: [f32; 3] = std::array::from_fn(|k| b.offset[k][i] - x[k]);
+            known[i].best2 = to_x.iter().map(|e| e * e).sum::<f32>() * 1.00001;
             probe::<V>(tree, b, i, !here[i] as u32, s, &mut known[i]);
-            bound[i] = b.bound(i, known[i].best.min(limit), known[i].error);
+            bound[i] = b.bound(i, known[i].best2.sqrt().min(limit), known[i].error);
         }
-        // All points start at the deepest node that holds what any of them can need.
         s.queue.clear();
         s.found.clear();
-        s.queue.extend((0..b.len).map(|i| [i as i32, s.cut]));
+        for i in 0..b.len {
+            for (node, d) in s.front.iter().zip(&boxes[i]) {
+                let mask = V::load(d).le(V::splat(bound[i]));
+                let leaf = V::negative(&node.child);
+                push::<V>(mask & !leaf, i as i32, node, &mut s.queue);
+                push::<V>(mask & leaf, i as i32, node, &mut s.found);
+            }
+        }
         let mut next = 0;
         while let Some(&[i, n]) = s.queue.get(next) {
             next += 1;
@@ -69,10 +92,9 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s:
     }
 }
 
-/// For each point the leaf (as a child number) that a greedy walk down from `from` ends in.
+/// Replaces each point's node by the leaf (as a child number) that a greedy walk down from it ends in.
 #[inline(always)]
-unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], from: i32) -> [i32; BLOCK] {
-    let mut here = [from; BLOCK];
+unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], here: &mut [i32; BLOCK]) {
     loop {
         let mut moved = false;
         for (h, q) in here.iter_mut().zip(places) {
@@ -88,7 +110,7 @@ unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], from: i32) -> [
             }
         }
         if !moved {
-            return here;
+            return;
         }
     }
 }
@@ -109,14 +131,17 @@ unsafe fn push<V: Lanes<8>>(mask: u32, i: i32, node: &Node, list: &mut Vec<[i32;
 #[inline(always)]
 unsafe fn probe<V: Lanes<8>>(tree: &Tree, b: &Block, i: usize, l: u32, s: &mut Scratch, known: &mut Known) {
     let leaf = &tree.leaves[l as usize];
+    // If it wins, its corners are needed next.
+    prefetch(&tree.slots[leaf.first as usize]);
     let r = b.relative(tree, leaf.origin);
     let r: [f32; 3] = std::array::from_fn(|k| r[k] + b.offset[k][i % BLOCK]);
     // SAFETY: the caller's promise.
     let d = unsafe { kernel::leaf_distance2(leaf, kernel::into_frames::<V>(leaf, r)) };
     s.rows.push(Row { distance2: d.array(), first: leaf.first, point: i as u32 });
-    let least = d.least().sqrt();
-    known.best = if least < known.best { least } else { known.best };
-    let e = ROUNDING * (norm(r) + 2.0 * b.reach + leaf.radius);
+    let least = d.least();
+    known.best2 = if least < known.best2 { least } else { known.best2 };
+    // The sum is no less than the length of `r`, and needs no root.
+    let e = ROUNDING * (r[0].abs() + r[1].abs() + r[2].abs() + 2.0 * b.reach + leaf.radius);
     known.error = if e > known.error { e } else { known.error };
 }
 
@@ -124,7 +149,7 @@ unsafe fn probe<V: Lanes<8>>(tree: &Tree, b: &Block, i: usize, l: u32, s: &mut S
 #[inline(always)]
 unsafe fn settle_rows<V: Lanes<8>>(known: &[Known; BLOCK], s: &mut Scratch) {
     let limit = known.map(|k| {
-        let l = k.best + 2.0 * k.error;
+        let l = k.best2.sqrt() + 2.0 * k.error;
         l * l * 1.00001
     });
     for row in &s.rows {

@@ -14,10 +14,11 @@
 use crate::closest::block::BLOCK;
 use crate::closest::lanes::Plain;
 use crate::closest::limits::QueryError;
-use crate::closest::order::{self, Shared};
+use crate::closest::order;
 use crate::closest::query::Level;
 use crate::closest::solid_angle::{self, Group};
 use crate::closest::tree::Tree;
+use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, minus, norm, plus, times};
 use rayon::prelude::*;
@@ -80,8 +81,8 @@ impl<'a> Winding<'a> {
     /// [`QueryError::BadPoint`], [`QueryError::Cancelled`].
     pub fn numbers(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, QueryError> {
         let level = Level::detect();
-        let mut out = Vec::with_capacity(points.len());
-        let places = Shared::new(&mut out);
+        let mut out = large_pages(Vec::with_capacity(points.len()));
+        let places = Shared::of(&mut out);
         order::for_each_bucket(points, progress, |stack: &mut Vec<(i32, u32)>, slice, base, items| {
             for part in items.chunks(BLOCK) {
                 let mut block = [[0.0; 3]; BLOCK];
@@ -91,7 +92,7 @@ impl<'a> Winding<'a> {
                 let numbers = self.block(level, &block, part.len(), stack);
                 for (&i, w) in part.iter().zip(numbers) {
                     // SAFETY: there is room for all, and each index comes exactly once.
-                    unsafe { places.write(base + i as u32 as usize, w) }
+                    unsafe { *places.at(base + i as u32 as usize) = w }
                 }
             }
         })?;

@@ -3,7 +3,7 @@
 //! Corner `k` of facet `f` has the number `3 f + k`. For each vertex the number of one of its corners is kept, for each
 //! corner the number of the next one at the same vertex. Building it takes one atomic exchange a corner.
 
-use super::memory::{atomics, large_pages};
+use crate::memory::{atomics, large_pages};
 use crate::mesh::Mesh;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};

@@ -9,7 +9,6 @@
 
 mod connect;
 mod fans;
-pub(crate) mod memory;
 mod properties;
 pub(crate) mod same;
 mod soundness;

@@ -1,6 +1,6 @@
 //! Disjoint sets that several threads join at once.
 
-use super::memory::atomics;
+use crate::memory::atomics;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 

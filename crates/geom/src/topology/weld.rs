@@ -11,7 +11,7 @@
 
 mod bits;
 
-use super::memory::{atomics, large_pages, triples};
+use crate::memory::{atomics, large_pages, triples};
 use crate::mesh::Mesh;
 use bits::Bits;
 use rayon::prelude::*;

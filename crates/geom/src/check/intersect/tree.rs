@@ -6,10 +6,10 @@
 #![expect(unsafe_code, reason = "arrays written by several threads, each place once")]
 #![expect(clippy::needless_range_loop, reason = "axes and lanes are indices into several arrays at once")]
 
+use crate::memory::{Shared, large_pages};
 use crate::mesh::Mesh;
 use crate::num::predicates;
 use crate::space::{Aabb, Point};
-use crate::topology::memory::{Shared, large_pages};
 use crate::topology::same::{Row, W};
 use rayon::prelude::*;
 
