@@ -38,3 +38,32 @@ fn too_few_points_are_refused_with_the_file() {
     let text = stderr(&answer);
     assert!(text.contains("two.xyz: a plane needs at least 3 points, there are 2"), "{text}");
 }
+
+#[test]
+fn what_determines_no_element_is_refused_by_name() {
+    let folder = Folder::new();
+    let equal = folder.write("equal.xyz", "1 2 3\n".repeat(9));
+    let line: String = (0..9).map(|k| format!("{k} {} {}\n", 2 * k, 3 * k)).collect();
+    let line = folder.write("line.xyz", line);
+    let nan = folder.write("nan.xyz", "0 0 0\n1 0 0\n0 nan 0\n1 1 1\n");
+    for (file, shape, reason) in [
+        (&equal, "sphere", "equal.xyz: all points are equal"),
+        (&line, "plane", "line.xyz: all points lie on one straight line: they determine no plane"),
+        (&nan, "plane", "nan.xyz"),
+    ] {
+        let answer = trueness(["fit", file.to_str().unwrap(), "--shape", shape]);
+        let text = stderr(&answer);
+        assert_eq!(status(&answer), 3, "{text}");
+        assert!(text.contains(reason), "{text}");
+        assert!(stdout(&answer).is_empty() && text.lines().count() <= 3, "{text}");
+    }
+}
+
+#[test]
+fn a_method_without_meaning_is_refused() {
+    let points = corpus("reference_fits/cylinder_exact_60.xyz");
+    let words = ["fit", points.to_str().unwrap(), "--shape", "plane", "--method", "maximum-inscribed"];
+    let answer = trueness(words);
+    assert_eq!(status(&answer), 3);
+    assert!(stderr(&answer).contains("maximum-inscribed is not defined for a plane"), "{}", stderr(&answer));
+}

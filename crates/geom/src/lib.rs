@@ -11,6 +11,7 @@
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
+//! | elements found in a mesh or cloud | [`segment`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod check;
@@ -22,5 +23,6 @@ mod memory;
 pub mod mesh;
 pub mod num;
 pub mod progress;
+pub mod segment;
 pub mod space;
 pub mod topology;

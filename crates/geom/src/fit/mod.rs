@@ -50,6 +50,7 @@ mod zone;
 
 use crate::progress::Progress;
 use crate::space::Point;
+pub(crate) use dense::{eigen, solve};
 pub use shape::{Kind, Parameter, Shape};
 pub use solution::{Covariance, Fit, Residuals, Touching};
 

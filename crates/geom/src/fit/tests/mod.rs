@@ -1,6 +1,7 @@
 //! Fits against answers of others, closed forms and their own laws.
 
 mod certificate;
+mod dual;
 mod laws;
 mod recovery;
 mod references;

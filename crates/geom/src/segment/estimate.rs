@@ -1,0 +1,192 @@
+//! Elements from a patch of places with normals, by small linear systems: starts that least squares improves.
+//!
+//! Normals may point to either side. Cylinder: the axis is the direction that the normals avoid. Cone: all tangent
+//! planes meet in the apex. Torus: every normal meets the axis, which is a linear condition on the axis' line
+//! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7). The radius and centre of
+//! spheres, circles and tubes follow from `place = centre + radius · normal`.
+
+use super::points::flattest;
+use crate::fit::{Kind, Shape, eigen, solve};
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+
+/// Places with unit normals.
+pub(super) type Patch = [(Point, Vector)];
+
+/// An element of the kind near the patch; `None` where the patch does not show one.
+pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
+    match kind {
+        Kind::Plane => plane(patch),
+        Kind::Sphere => sphere(patch),
+        Kind::Cylinder => cylinder(patch),
+        Kind::Cone => cone(patch),
+        Kind::Torus => torus(patch),
+        _ => None,
+    }
+}
+
+fn mean(points: impl Iterator<Item = Point> + Clone) -> Point {
+    let count = points.clone().count() as f64;
+    times(1.0 / count, points.fold([0.0; 3], plus))
+}
+
+/// Adds `s · a bᵀ`.
+fn add_outer(matrix: &mut [[f64; 3]; 3], s: f64, a: Vector, b: Vector) {
+    for i in 0..3 {
+        for j in 0..3 {
+            matrix[i][j] += s * a[i] * b[j];
+        }
+    }
+}
+
+/// Sum of the products of the normals' coordinates.
+fn spread(patch: &Patch) -> [[f64; 3]; 3] {
+    let mut normals = [[0.0; 3]; 3];
+    for &(_, n) in patch {
+        add_outer(&mut normals, 1.0, n, n);
+    }
+    normals
+}
+
+fn solved(matrix: [[f64; 3]; 3], right: Vector) -> Option<Vector> {
+    let x = solve(matrix.iter().map(|row| row.to_vec()).collect(), right.to_vec())?;
+    Some([x[0], x[1], x[2]])
+}
+
+fn plane(patch: &Patch) -> Option<Shape> {
+    // The middles of two facets lie on a line: their normals tell.
+    Some(Shape::Plane { point: mean(patch.iter().map(|p| p.0)), normal: eigen(spread(patch)).1[2] })
+}
+
+/// Centre and radius of `place = centre + radius · normal`, all of them in the directions that matter. Normals are
+/// turned to the side of the first one.
+fn round(patch: &Patch) -> Option<(Point, f64)> {
+    let first = patch.first()?.1;
+    let sided = patch.iter().map(|&(p, n)| (p, if dot(n, first) < 0.0 { times(-1.0, n) } else { n }));
+    let (place, normal) = (mean(sided.clone().map(|s| s.0)), mean(sided.clone().map(|s| s.1)));
+    let (mut both, mut square) = (0.0, 0.0);
+    for (p, n) in sided {
+        let n = minus(n, normal);
+        both += dot(minus(p, place), n);
+        square += dot(n, n);
+    }
+    let radius = both / square;
+    radius.is_finite().then(|| (minus(place, times(radius, normal)), radius.abs()))
+}
+
+fn sphere(patch: &Patch) -> Option<Shape> {
+    round(patch).map(|(center, radius)| Shape::Sphere { center, radius })
+}
+
+fn cylinder(patch: &Patch) -> Option<Shape> {
+    let direction = eigen(spread(patch)).1[0];
+    let across = |v: Vector| minus(v, times(dot(v, direction), direction));
+    let section: Vec<(Point, Vector)> = patch.iter().map(|&(p, n)| (across(p), across(n))).collect();
+    let (center, radius) = round(&section)?;
+    let along = dot(mean(patch.iter().map(|p| p.0)), direction);
+    Some(Shape::Cylinder { point: plus(center, times(along, direction)), direction, radius })
+}
+
+fn cone(patch: &Patch) -> Option<Shape> {
+    let middle = mean(patch.iter().map(|p| p.0));
+    let right = patch.iter().fold([0.0; 3], |sum, &(p, n)| plus(sum, times(dot(n, minus(p, middle)), n)));
+    let apex = plus(middle, solved(spread(patch), right)?);
+    // Seen from the apex, the places lie on a circle about the axis.
+    let rays: Vec<Vector> = patch.iter().filter_map(|p| Some(unit(minus(p.0, apex))?.0)).collect();
+    let direction = flattest(&rays);
+    let cosine = dot(mean(rays.into_iter()), direction);
+    let direction = times(cosine.signum(), direction);
+    let half_angle = cosine.abs().min(1.0).acos();
+    let height = dot(minus(middle, apex), direction);
+    let point = plus(apex, times(height, direction));
+    let sound = height > 0.0 && half_angle > 1e-4 && half_angle < 1.55 && norm(direction) > 0.5;
+    sound.then(|| Shape::Cone { apex, direction, half_angle, point, radius: height * half_angle.tan() })
+}
+
+fn torus(patch: &Patch) -> Option<Shape> {
+    let (axis, point) = axis_of_revolution(patch)?;
+    let section: Vec<(Point, Vector)> = (patch.iter())
+        .filter_map(|&(p, n)| {
+            let q = minus(p, point);
+            let height = dot(q, axis);
+            let (out, rho) = unit(minus(q, times(height, axis)))?;
+            Some(([rho, height, 0.0], [dot(n, out), dot(n, axis), 0.0]))
+        })
+        .collect();
+    let (center, minor_radius) = round(&section)?;
+    let major_radius = center[0];
+    (major_radius > minor_radius).then(|| Shape::Torus {
+        center: plus(point, times(center[1], axis)),
+        direction: axis,
+        major_radius,
+        minor_radius,
+    })
+}
+
+/// Direction and a point of the line that the lines along the normals meet best.
+fn axis_of_revolution(patch: &Patch) -> Option<(Vector, Point)> {
+    let middle = mean(patch.iter().map(|p| p.0));
+    let (mut moments, mut mixed) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+    for &(p, n) in patch {
+        let moment = cross(minus(p, middle), n);
+        add_outer(&mut moments, 1.0, moment, moment);
+        add_outer(&mut mixed, 1.0, n, moment);
+    }
+    let normals = spread(patch);
+    // The axis' own moment that is best for a given direction a: −normals⁻¹ · mixed · a.
+    let columns: Vec<Vector> =
+        (0..3).map(|j| solved(normals, std::array::from_fn(|i| -mixed[i][j]))).collect::<Option<_>>()?;
+    let mut rest = moments;
+    for i in 0..3 {
+        for j in 0..3 {
+            rest[i][j] += (0..3).map(|k| mixed[k][i] * columns[j][k]).sum::<f64>();
+        }
+    }
+    let axis = eigen(rest).1[0];
+    let moment = (0..3).fold([0.0; 3], |m, j| plus(m, times(axis[j], columns[j])));
+    Some((axis, plus(middle, cross(axis, moment))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::surface::normal;
+    use super::*;
+
+    /// A piece of each element is recognised from places and normals of either side.
+    #[test]
+    fn patches_give_their_element() {
+        let direction = unit([0.3, -0.5, 0.8]).unwrap().0;
+        let center = [10.0, -4.0, 7.0];
+        let half_angle = 0.3f64;
+        let apex = plus(center, times(-5.0 / half_angle.tan(), direction));
+        let shapes = [
+            Shape::Plane { point: center, normal: direction },
+            Shape::Sphere { center, radius: 5.0 },
+            Shape::Cylinder { point: center, direction, radius: 5.0 },
+            Shape::Cone { apex, direction, half_angle, point: center, radius: 5.0 },
+            Shape::Torus { center, direction, major_radius: 5.0, minor_radius: 2.0 },
+        ];
+        for shape in shapes {
+            let patch: Vec<(Point, Vector)> = (0..60)
+                .map(|k| {
+                    let t = f64::from(k);
+                    let mut p =
+                        plus(center, [4.0 + (0.9 * t).sin(), 2.0 * (1.7 * t).cos(), 1.5 * (2.3 * t).sin()]);
+                    for _ in 0..3 {
+                        p = minus(p, times(shape.distance(p), normal(&shape, p)));
+                    }
+                    let side = if k % 3 == 0 { -1.0 } else { 1.0 };
+                    (p, times(side, normal(&shape, p)))
+                })
+                .collect();
+            let found = estimate(shape.kind(), &patch).unwrap();
+            for (p, _) in &patch {
+                assert!(found.distance(*p).abs() < 1e-9, "{shape:?} {found:?}");
+            }
+            let far = plus(center, times(3.0, direction));
+            assert!(
+                (found.distance(far).abs() - shape.distance(far).abs()).abs() < 1e-7,
+                "{shape:?} {found:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! One region: from a patch to all that belongs to its element.
+
+use super::estimate::estimate;
+use super::flood::{Marks, flood, patch};
+use super::surface::{Band, Surface};
+use crate::fit::{Kind, Options, Shape, fit};
+use crate::progress::Silent;
+use crate::space::Point;
+
+/// Pieces of the first patches: small ones for small faces, large ones against noise.
+const PATCHES: [usize; 2] = [32, 250];
+/// Points that an element is fitted to while it grows.
+const ENOUGH: usize = 1500;
+/// A region may grow this many times before its element is fitted again.
+const GROWTH: usize = 3;
+/// Fits of one growing region. Growth threefold each time, it has covered any surface before.
+const ROUNDS: usize = 30;
+/// Share of a patch that must belong to the element estimated from it.
+const AGREEING: f64 = 0.6;
+
+/// What all regions of a search have in common.
+#[derive(Debug)]
+pub(super) struct Terms<'a> {
+    pub surface: &'a Surface<'a>,
+    /// Elements looked for, simple ones first.
+    pub kinds: &'a [Kind],
+    pub band: Band,
+    /// Standard deviation of the points, millimetres.
+    pub noise: f64,
+    /// Cosine of the angle between neighbours from which on there is an edge between them.
+    pub crease: f64,
+    /// Diagonal of the whole, millimetres.
+    pub size: f64,
+}
+
+/// An element and the pieces that belong to it.
+#[derive(Clone, Debug)]
+pub(super) struct Grown {
+    pub shape: Shape,
+    pub pieces: Vec<u32>,
+    pub weight: f64,
+    /// Root mean square distance of some of its points.
+    pub rms: f64,
+}
+
+/// The least-squares element near `start`, and the root mean square distance.
+pub(super) fn refined(kind: Kind, start: &Shape, points: &[Point]) -> Option<(Shape, f64)> {
+    let options = Options { start: Some(*start), ..Options::default() };
+    let found = fit(points, kind, &options, &Silent).ok()?;
+    Some((found.shape, found.residuals.rms))
+}
+
+impl Terms<'_> {
+    /// The best region around `seed` with at most `most` pieces, over all kinds.
+    pub(super) fn around(
+        &self,
+        seed: u32,
+        most: usize,
+        marks: &mut Marks,
+        free: &(impl Fn(u32) -> bool + Sync),
+    ) -> Option<Grown> {
+        let mut best: Option<Grown> = None;
+        let mut last = 0;
+        for count in PATCHES {
+            let patch = patch(self.surface, seed, count, self.crease, marks, free);
+            if patch.len() <= last {
+                break;
+            }
+            last = patch.len();
+            for &kind in self.kinds {
+                let Some(grown) = self.of_kind(kind, &patch, most, marks, free) else { continue };
+                best = Some(self.better(best, grown));
+            }
+        }
+        best
+    }
+
+    /// The region of `seed` grown to its end: what was found from a small patch tells the other kinds apart better.
+    pub(super) fn whole(
+        &self,
+        seed: u32,
+        marks: &mut Marks,
+        free: &(impl Fn(u32) -> bool + Sync),
+    ) -> Option<Grown> {
+        let mut best = self.around(seed, usize::MAX, marks, free)?;
+        for _ in 0..3 {
+            let before = (best.shape.kind(), best.pieces.len());
+            // Two rings beyond its end show how the surface goes on.
+            let wider = self.widened(&best.pieces, free);
+            for &kind in self.kinds.iter().filter(|&&kind| kind != before.0) {
+                let Some(grown) = self.of_kind(kind, &wider, usize::MAX, marks, free) else { continue };
+                best = self.better(Some(best), grown);
+            }
+            if (best.shape.kind(), best.pieces.len()) == before {
+                break;
+            }
+        }
+        Some(best)
+    }
+
+    /// The pieces and two rings of free neighbours.
+    fn widened(&self, pieces: &[u32], free: &impl Fn(u32) -> bool) -> Vec<u32> {
+        let mut wider = pieces.to_vec();
+        for _ in 0..2 {
+            let ring = wider.iter().flat_map(|&p| self.surface.neighbours(p)).copied();
+            let ring: Vec<u32> = ring.filter(|&p| free(p)).collect();
+            wider.extend(ring);
+            wider.sort_unstable();
+            wider.dedup();
+        }
+        wider
+    }
+
+    /// The region of an element of one kind that the patch shows.
+    fn of_kind(
+        &self,
+        kind: Kind,
+        patch: &[u32],
+        most: usize,
+        marks: &mut Marks,
+        free: &impl Fn(u32) -> bool,
+    ) -> Option<Grown> {
+        let surface = self.surface;
+        let stride = patch.len().div_ceil(ENOUGH);
+        let oriented: Vec<_> = (patch.iter().step_by(stride))
+            .map(|&p| (surface.places[p as usize], surface.normals[p as usize]))
+            .filter(|o| o.1 != [0.0; 3])
+            .collect();
+        let first = estimate(kind, &oriented)?;
+        let points = surface.some_places(patch, ENOUGH);
+        if points.len() < fewest_points(kind) {
+            return None;
+        }
+        let (shape, _) = refined(kind, &first, &points).filter(|f| self.sound(&f.0))?;
+        let agreeing = patch.iter().filter(|&&p| surface.belongs(p, &shape, &self.band)).count();
+        if (agreeing as f64) < AGREEING * patch.len() as f64 {
+            return None;
+        }
+        self.grown(shape, patch, most, marks, free)
+    }
+
+    /// Grows and fits in turns until nothing joins any more.
+    fn grown(
+        &self,
+        mut shape: Shape,
+        patch: &[u32],
+        most: usize,
+        marks: &mut Marks,
+        free: &impl Fn(u32) -> bool,
+    ) -> Option<Grown> {
+        let kind = shape.kind();
+        let mut limit = GROWTH * patch.len();
+        let mut last = 0;
+        for _ in 0..ROUNDS {
+            let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, _| {
+                free(piece) && self.surface.belongs(piece, &shape, &self.band)
+            });
+            let points = self.within(&shape, &pieces);
+            if points.len() < fewest_points(kind) {
+                return None;
+            }
+            let (better, rms) = refined(kind, &shape, &points).filter(|f| self.sound(&f.0))?;
+            let full = pieces.len() >= limit.min(most);
+            if pieces.len() >= most || (!full && pieces.len() <= last + last / 100) {
+                let weight = self.surface.weight(&pieces);
+                return Some(Grown { shape: better, pieces, weight, rms });
+            }
+            shape = better;
+            last = if full { 0 } else { pieces.len() };
+            if full {
+                limit *= GROWTH;
+            }
+        }
+        None
+    }
+
+    /// Some points of the pieces, those that lie within the band.
+    fn within(&self, shape: &Shape, pieces: &[u32]) -> Vec<Point> {
+        let mut points = self.surface.some_places(pieces, ENOUGH);
+        points.retain(|&p| shape.distance(p).abs() <= self.band.distance);
+        points
+    }
+
+    /// Whether the element is of a size that the part can show.
+    fn sound(&self, shape: &Shape) -> bool {
+        let most = 10.0 * self.size;
+        match *shape {
+            Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
+            Shape::Cone { half_angle, radius, .. } => {
+                radius.abs() < most && half_angle < 1.5 && half_angle > 1e-3
+            }
+            Shape::Torus { major_radius, minor_radius, .. } => {
+                major_radius < most && minor_radius < 0.95 * major_radius
+            }
+            _ => true,
+        }
+    }
+
+    /// The one that tells more. An element with more unknowns must cover clearly more, or fit clearly better where the
+    /// simpler one fits worse than noise.
+    fn better(&self, one: Option<Grown>, other: Grown) -> Grown {
+        let Some(one) = one else { return other };
+        let more = |a: &Grown, b: &Grown| a.shape.kind().unknowns() > b.shape.kind().unknowns();
+        let wins = if one.shape.kind() == other.shape.kind() {
+            other.weight > one.weight
+        } else if more(&other, &one) {
+            other.weight > 1.15 * one.weight
+                || (other.weight > 0.95 * one.weight
+                    && one.rms > 1.5 * self.noise
+                    && other.rms < 0.6 * one.rms)
+        } else {
+            other.weight > 0.98 * one.weight
+                && (other.weight > 1.05 * one.weight || other.rms < 0.85 * one.rms)
+        };
+        if wins { other } else { one }
+    }
+}
+
+/// So many points that an element of the kind is more than a coincidence.
+pub(super) fn fewest_points(kind: Kind) -> usize {
+    if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
+}

@@ -1,0 +1,320 @@
+//! Planes, cylinders, cones, spheres and tori in a mesh or cloud, found without a nominal.
+//!
+//! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces (facets, or points with normals); patches of
+//! pieces around random seeds show an element each, which grows over its neighbours and is fitted again in turns;
+//! neighbouring regions that one element explains as well are joined; each region's element is fitted by least squares
+//! in the end. The noise of the data sets how far a piece may lie off.
+//!
+//! | file | what |
+//! |---|---|
+//! | `surface` | pieces and neighbours; `facets` of a mesh, `points` of a cloud |
+//! | `noise` | how far and how much turned a piece of a face may be |
+//! | `estimate` | an element from places and normals |
+//! | `flood`, `grow` | from a patch to a region |
+//! | `seeds`, `search` | where to try, and who comes first |
+//! | `merge`, `settle` | one face, one region; borders |
+
+mod estimate;
+mod facets;
+mod flood;
+mod grow;
+mod merge;
+mod noise;
+mod points;
+mod search;
+mod seeds;
+mod settle;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+use crate::fit::{self, Fit, Kind};
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress, Silent};
+use crate::space::{Aabb, Point};
+use crate::topology::weld::WeldError;
+use grow::{Grown, Terms, fewest_points};
+use noise::Noise;
+use search::{Limits, search};
+use seeds::Seeds;
+use surface::{Band, NONE, Pieces, Surface};
+
+/// The kinds that can be found, the order in which they are tried.
+pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
+
+/// What to look for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Elements looked for; those of [`KINDS`] count.
+    pub kinds: Vec<Kind>,
+    /// Distance up to which a point belongs to an element, millimetres. Without it: eight standard deviations of the
+    /// noise found in the data.
+    pub tolerance: Option<f64>,
+    /// Angle between neighbouring pieces from which on there is an edge between them, radians.
+    pub crease: f64,
+    /// Least share of the area, or of the points of a cloud, that a region must have.
+    pub min_share: f64,
+    /// Fewest measured points of a region.
+    pub min_points: usize,
+    /// Seed of the random choices.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            kinds: KINDS.to_vec(),
+            tolerance: None,
+            crease: 32f64.to_radians(),
+            min_share: 0.002,
+            min_points: 0,
+            seed: 0,
+        }
+    }
+}
+
+/// One element and what belongs to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// The least-squares element of the points named in `points`, its residuals (indices there count within that list)
+    /// and its covariance.
+    pub fit: Fit,
+    /// The measured points that it was fitted to, ascending: those inside the region, or all of it where there are too
+    /// few inside.
+    pub points: Vec<u32>,
+    /// Number of facets, or of points of a cloud.
+    pub pieces: usize,
+    /// Area of those facets, mm²; 0 of a cloud.
+    pub area: f64,
+    /// Share of the area, or of the points of a cloud.
+    pub share: f64,
+    /// Box around the region.
+    pub bounds: Aabb,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segmentation {
+    /// The regions, largest first.
+    pub regions: Vec<Region>,
+    /// For each facet, or each point of a cloud, the number of its region; [`u32::MAX`] where it has none.
+    pub labels: Vec<u32>,
+    /// Standard deviation of the noise found in the data, millimetres.
+    pub noise: f64,
+    /// Distance up to which points belonged to an element, millimetres.
+    pub tolerance: f64,
+}
+
+/// Why nothing could be looked for.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SegmentError {
+    /// No facets or points.
+    #[error("there is nothing to segment: no {0}")]
+    Empty(&'static str),
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is not a finite number; remove it")]
+    NotFinite {
+        /// Index of the first such point.
+        index: usize,
+    },
+    /// No piece has a normal: all facets are without area, or all points lie on one line.
+    #[error("it holds no surface: everything lies on one line or point")]
+    NoSurface,
+    /// An option is out of its range.
+    #[error("{name} {value}: it must be {range}")]
+    WrongOption {
+        /// Which one.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// None of the kinds asked for can be found.
+    #[error("no shape to look for; choose from plane, cylinder, cone, sphere, torus")]
+    NoKind,
+    /// The mesh names a vertex that does not exist, or is too large.
+    #[error(transparent)]
+    Mesh(#[from] WeldError),
+    /// Stopped through the progress argument.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// The elements of a mesh. Facets are neighbours through the vertices they share: weld first what is not welded.
+///
+/// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads; memory
+/// grows with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts
+/// facets that found their region.
+///
+/// # Errors
+/// [`SegmentError`]: no facets, a coordinate that is no number, options out of range.
+pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Segmentation, SegmentError> {
+    check(&mesh.positions, options)?;
+    if mesh.faces.is_empty() {
+        return Err(SegmentError::Empty("facets"));
+    }
+    let vertices = mesh.positions.len();
+    for (facet, face) in mesh.faces.iter().enumerate() {
+        if let Some(&vertex) = face.iter().find(|&&v| v as usize >= vertices) {
+            return Err(WeldError::NoSuchVertex { facet, vertex, vertices }.into());
+        }
+    }
+    segment(facets::surface(mesh), options, progress)
+}
+
+/// The elements of a cloud. Normals come from the nearest neighbours, so edges are known no sharper than the points lie
+/// apart.
+///
+/// Labels are those of points. As [`mesh`] otherwise; about 600 bytes a point.
+///
+/// # Errors
+/// As [`mesh`].
+pub fn cloud(
+    points: &[Point],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Segmentation, SegmentError> {
+    check(points, options)?;
+    segment(points::surface(points), options, progress)
+}
+
+fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
+    if points.is_empty() {
+        return Err(SegmentError::Empty("points"));
+    }
+    if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(SegmentError::NotFinite { index });
+    }
+    let within = |name, value: f64, range, fine: bool| match fine {
+        true => Ok(()),
+        false => Err(SegmentError::WrongOption { name, value, range }),
+    };
+    if let Some(t) = options.tolerance {
+        within("tolerance", t, "a length above 0", t.is_finite() && t > 0.0)?;
+    }
+    let degrees = options.crease.to_degrees();
+    within("crease", degrees, "between 1 and 89 degrees", (1.0..=89.0).contains(&degrees))?;
+    within("share", options.min_share, "between 0 and 1", (0.0..=1.0).contains(&options.min_share))?;
+    if !KINDS.iter().any(|kind| options.kinds.contains(kind)) {
+        return Err(SegmentError::NoKind);
+    }
+    Ok(())
+}
+
+/// Standard deviations of the noise within which points belong to an element: form error comes on top of noise.
+const WIDTH: f64 = 8.0;
+/// Angles between a piece and its element that are always allowed and never exceeded.
+const ANGLES: [f64; 2] = [12.0, 45.0];
+
+fn segment(
+    surface: Surface,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Segmentation, SegmentError> {
+    let all = Seeds::new(&surface, |_| true);
+    if all.is_empty() {
+        return Err(SegmentError::NoSurface);
+    }
+    let crease = options.crease.cos();
+    let Noise { distance, angle } = noise::noise(&surface, crease, options.seed, |random| all.draw(random));
+    let kinds: Vec<Kind> = KINDS.into_iter().filter(|kind| options.kinds.contains(kind)).collect();
+    let bounds = Aabb::of(surface.points);
+    // Coordinates have passed through single precision: they are off by half a step of it.
+    let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0f64, |m, x| m.max(x.abs()));
+    let step = greatest * f64::from(f32::EPSILON);
+    let noise = distance.max(step / 12f64.sqrt());
+    let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
+    let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());
+    let terms = Terms {
+        surface: &surface,
+        kinds: &kinds,
+        band: Band { distance: tolerance, cosine: turned.cos() },
+        noise,
+        crease,
+        size: bounds.diagonal(),
+    };
+    let total = surface.weights.iter().sum::<f64>();
+    let limits = Limits { weight: options.min_share * total, points: options.min_points, seed: options.seed };
+    let (mut regions, mut labels) = search(&terms, &limits, progress)?;
+    merge::merge(&terms, &mut regions, &mut labels);
+    settle::settle(&terms, &regions, &mut labels);
+    let (regions, labels) = finished(&terms, regions, &labels, total, &limits);
+    Ok(Segmentation { regions, labels, noise, tolerance })
+}
+
+/// The regions as they are told, largest first, and their labels.
+fn finished(
+    terms: &Terms,
+    grown: Vec<Grown>,
+    labels: &[u32],
+    total: f64,
+    limits: &Limits,
+) -> (Vec<Region>, Vec<u32>) {
+    let surface = terms.surface;
+    let mut members: Vec<Vec<u32>> = vec![Vec::new(); grown.len()];
+    for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NONE) {
+        members[label as usize].push(piece as u32);
+    }
+    let inner = inner(surface, labels);
+    let mut named: Vec<(u32, Region)> = (grown.iter().zip(&members).zip(0u32..))
+        .filter(|((_, pieces), _)| !pieces.is_empty() && surface.weight(pieces) >= limits.weight)
+        .filter_map(|((grown, pieces), label)| Some((label, region(terms, grown, pieces, &inner, total)?)))
+        .collect();
+    named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
+    let mut renamed = vec![NONE; grown.len()];
+    for (new, (old, _)) in named.iter().enumerate() {
+        renamed[*old as usize] = new as u32;
+    }
+    let labels = labels.iter().map(|&l| renamed.get(l as usize).copied().unwrap_or(NONE)).collect();
+    (named.into_iter().map(|n| n.1).collect(), labels)
+}
+
+fn region(terms: &Terms, grown: &Grown, pieces: &[u32], inner: &[bool], total: f64) -> Option<Region> {
+    let surface = terms.surface;
+    let kind = grown.shape.kind();
+    let all = surface.points_of(pieces.iter().copied());
+    let points: Vec<u32> = all.iter().copied().filter(|&p| inner[p as usize]).collect();
+    let few = points.len() < fewest_points(kind).max(2 * kind.unknowns()).max(all.len() / 5);
+    let fitted = |points: &[u32]| {
+        let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
+        let options = fit::Options { start: Some(grown.shape), ..fit::Options::default() };
+        fit::fit(&places, kind, &options, &Silent).ok()
+    };
+    let points = if few { all } else { points };
+    let fit = fitted(&points)?;
+    let weight = surface.weight(pieces);
+    let is_mesh = matches!(surface.pieces, Pieces::Facets(_));
+    Some(Region {
+        fit,
+        points,
+        pieces: pieces.len(),
+        area: if is_mesh { weight } else { 0.0 },
+        share: weight / total,
+        bounds: surface.bounds(pieces),
+    })
+}
+
+/// For each measured point whether all pieces around it are of one region: at an edge it belongs to no face alone.
+fn inner(surface: &Surface, labels: &[u32]) -> Vec<bool> {
+    match surface.pieces {
+        Pieces::Points => (0..surface.len() as u32)
+            .map(|p| {
+                let near = surface.neighbours(p);
+                let foreign = near.iter().filter(|&&n| labels[n as usize] != labels[p as usize]).count();
+                // Single outliers among the neighbours do not make an edge.
+                4 * foreign <= near.len()
+            })
+            .collect(),
+        Pieces::Facets(faces) => {
+            let mut owner: Vec<Option<u32>> = vec![None; surface.points.len()];
+            let mut inner = vec![true; surface.points.len()];
+            for (face, &label) in faces.iter().zip(labels) {
+                for &v in face {
+                    inner[v as usize] &= *owner[v as usize].get_or_insert(label) == label;
+                }
+            }
+            inner
+        }
+    }
+}

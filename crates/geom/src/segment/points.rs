@@ -1,0 +1,59 @@
+//! The surface of a cloud: points, normals by local planes, neighbours by nearness.
+
+use super::facets::lists;
+use super::surface::{Pieces, Surface};
+use crate::deviation::neighbours::PointTree;
+use crate::fit::eigen;
+use crate::space::{Point, Vector, minus, plus, times};
+use rayon::prelude::*;
+
+/// Neighbours that make a normal.
+const NORMAL: usize = 16;
+/// Neighbours that a region grows to.
+const NEAR: usize = 8;
+
+/// The points of a finite cloud.
+pub(super) fn surface(points: &[Point]) -> Surface<'_> {
+    let tree = PointTree::new(points);
+    let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
+        .map(|(i, p)| {
+            let near = tree.k_nearest(p, NORMAL, Some(i as u32));
+            let pairs = near.iter().take(NEAR).flat_map(|n| [[i as u32, n.1], [n.1, i as u32]]);
+            let places = near.iter().map(|n| points[n.1 as usize]).chain([*p]);
+            (flattest(&places.collect::<Vec<Point>>()), pairs.collect())
+        })
+        .collect();
+    let mut normals = Vec::with_capacity(points.len());
+    let mut pairs = Vec::with_capacity(2 * NEAR * points.len());
+    for (normal, near) in found {
+        normals.push(normal);
+        pairs.extend(near);
+    }
+    let (first, others) = lists(points.len(), pairs);
+    Surface {
+        points,
+        pieces: Pieces::Points,
+        places: points.to_vec(),
+        normals,
+        weights: vec![1.0; points.len()],
+        first,
+        others,
+    }
+}
+
+/// The direction in which the points spread least; zero where they lie on a line or at one place.
+pub(super) fn flattest(points: &[Point]) -> Vector {
+    let share = 1.0 / points.len() as f64;
+    let mean = times(share, points.iter().fold([0.0; 3], |s, &p| plus(s, p)));
+    let mut spread = [[0.0; 3]; 3];
+    for &p in points {
+        let q = minus(p, mean);
+        for i in 0..3 {
+            for j in 0..3 {
+                spread[i][j] += share * q[i] * q[j];
+            }
+        }
+    }
+    let (values, rows) = eigen(spread);
+    if values[1] > 1e-12 * values[2] { rows[0] } else { [0.0; 3] }
+}

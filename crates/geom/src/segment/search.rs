@@ -1,0 +1,119 @@
+//! The search: seeds are tried a batch at a time, the best of a batch take their regions first.
+//!
+//! R. Schnabel, R. Wahl, R. Klein, "Efficient RANSAC for point-cloud shape detection", Computer Graphics Forum 26
+//! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
+//! makes nearly every trial on a face a success; and a region is connected from the first.
+
+use super::flood::{Marks, patch};
+use super::grow::{Grown, Terms, fewest_points};
+use super::seeds::Seeds;
+use super::surface::NONE;
+use crate::num::random::Random;
+use crate::progress::{Cancelled, Progress};
+use rayon::prelude::*;
+
+/// Seeds tried against the same state: the answer depends on it, not on the number of threads.
+const BATCH: u64 = 32;
+/// Pieces that a trial may reach; regions that are taken grow on.
+const TRIAL: usize = 1500;
+/// A neighbourhood that was tried in vain.
+const TRIED: usize = 16;
+/// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-8.
+const TRIALS: f64 = 8.0;
+
+/// What the search is limited by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Least weight of a region.
+    pub weight: f64,
+    /// Fewest measured points of a region.
+    pub points: usize,
+    /// Seed of the random choices.
+    pub seed: u64,
+}
+
+/// The regions found, in the order they were taken, and the region of each piece.
+pub(super) fn search(
+    terms: &Terms,
+    limits: &Limits,
+    progress: &dyn Progress,
+) -> Result<(Vec<Grown>, Vec<u32>), Cancelled> {
+    let surface = terms.surface;
+    let mut found: Vec<Grown> = Vec::new();
+    let mut labels = vec![NONE; surface.len()];
+    let mut tried = vec![false; surface.len()];
+    let mut seeds = Seeds::new(surface, |_| true);
+    let total: f64 = surface.weights.iter().sum();
+    let most = (TRIALS * total / limits.weight.max(1e-6 * total)).ceil() as u64;
+    let (mut trial, mut idle) = (0, 0);
+    let mut marks = Marks::new(surface);
+    while trial < most && !seeds.is_empty() {
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        let open = |piece: u32| labels[piece as usize] == NONE && !tried[piece as usize];
+        let drawn: Vec<u32> = (trial..trial + BATCH)
+            .map(|k| seeds.draw(&mut Random::stream(limits.seed, k)))
+            .filter(|&piece| open(piece))
+            .collect();
+        trial += BATCH;
+        idle += BATCH - drawn.len() as u64;
+        if idle > 4 * BATCH {
+            // Most of the list is taken: draw from what is left.
+            seeds = Seeds::new(surface, open);
+            idle = 0;
+            trial -= 4 * BATCH;
+            continue;
+        }
+        let free = |piece: u32| labels[piece as usize] == NONE;
+        let mut promising: Vec<(u32, f64)> = Vec::new();
+        let trials: Vec<Option<f64>> = (drawn.par_iter())
+            .map_init(
+                || Marks::new(surface),
+                |marks, &seed| Some(terms.around(seed, TRIAL, marks, &free)?.weight),
+            )
+            .collect();
+        for (&seed, weight) in drawn.iter().zip(trials) {
+            match weight {
+                Some(weight) => promising.push((seed, weight)),
+                None => shut(terms, seed, &mut tried, &mut marks),
+            }
+        }
+        promising.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        for (seed, _) in promising {
+            if labels[seed as usize] != NONE || tried[seed as usize] {
+                continue;
+            }
+            let free = |piece: u32| labels[piece as usize] == NONE;
+            let Some(grown) = terms.whole(seed, &mut marks, &free) else {
+                shut(terms, seed, &mut tried, &mut marks);
+                continue;
+            };
+            if !enough(terms, &grown, limits) {
+                shut(terms, seed, &mut tried, &mut marks);
+                grown.pieces.iter().for_each(|&piece| tried[piece as usize] = true);
+                continue;
+            }
+            for &piece in &grown.pieces {
+                labels[piece as usize] = found.len() as u32;
+            }
+            progress.advance(grown.pieces.len() as u64);
+            found.push(grown);
+        }
+    }
+    Ok((found, labels))
+}
+
+fn enough(terms: &Terms, grown: &Grown, limits: &Limits) -> bool {
+    let kind = grown.shape.kind();
+    let points = terms.surface.points_of(grown.pieces.iter().copied()).len();
+    grown.weight >= limits.weight && points >= limits.points.max(fewest_points(kind))
+}
+
+/// Nothing starts from the seed and its nearest neighbours again.
+fn shut(terms: &Terms, seed: u32, tried: &mut [bool], marks: &mut Marks) {
+    for piece in patch(terms.surface, seed, TRIED, terms.crease, marks, |_| true) {
+        tried[piece as usize] = true;
+    }
+    tried[seed as usize] = true;
+}

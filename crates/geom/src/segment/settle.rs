@@ -1,0 +1,48 @@
+//! The borders between regions: each piece goes to the neighbouring region that it fits best.
+
+use super::grow::{Grown, Terms};
+use super::surface::{Band, NONE};
+use rayon::prelude::*;
+
+/// Rings by which a border may move.
+const SWEEPS: usize = 4;
+
+/// Moves borders and lets pieces of no region join a neighbouring one that they nearly belong to: normals at an edge
+/// are those of neither face.
+pub(super) fn settle(terms: &Terms, regions: &[Grown], labels: &mut Vec<u32>) {
+    let surface = terms.surface;
+    // Twice the angle.
+    let loose = Band { cosine: 2.0 * terms.band.cosine * terms.band.cosine - 1.0, ..terms.band };
+    for _ in 0..SWEEPS {
+        let moved: Vec<u32> = (0..surface.len() as u32)
+            .into_par_iter()
+            .map(|piece| {
+                let own = labels[piece as usize];
+                let misfit = |label: u32| {
+                    let shape = &regions[label as usize].shape;
+                    let band = if own == NONE { &loose } else { &terms.band };
+                    surface.belongs(piece, shape, band).then(|| surface.misfit(piece, shape, band))
+                };
+                let mut best = (own, if own == NONE { None } else { misfit(own) });
+                let mut last = own;
+                for &neighbour in surface.neighbours(piece) {
+                    let label = labels[neighbour as usize];
+                    if label == NONE || label == last {
+                        continue;
+                    }
+                    last = label;
+                    if let Some(found) = misfit(label)
+                        && best.1.is_none_or(|b| found < b || (found == b && label < best.0))
+                    {
+                        best = (label, Some(found));
+                    }
+                }
+                best.0
+            })
+            .collect();
+        if moved == *labels {
+            break;
+        }
+        *labels = moved;
+    }
+}
