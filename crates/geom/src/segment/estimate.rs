@@ -2,8 +2,7 @@
 //!
 //! Normals may point to either side. Cylinder: the axis is the direction that the normals avoid. Cone: all tangent
 //! planes meet in the apex. Torus: every normal meets the axis, which is a linear condition on the axis' line
-//! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7). The radius and centre of
-//! spheres, circles and tubes follow from `place = centre + radius · normal`.
+//! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7).
 
 use super::points::flattest;
 use crate::fit::{Kind, Shape, eigen, solve};
@@ -57,9 +56,18 @@ fn plane(patch: &Patch) -> Option<Shape> {
     Some(Shape::Plane { point: mean(patch.iter().map(|p| p.0)), normal: eigen(spread(patch)).1[2] })
 }
 
-/// Centre and radius of `place = centre + radius · normal`, all of them in the directions that matter. Normals are
-/// turned to the side of the first one.
+/// Centre and radius of the circle or sphere through the places, in the directions in which they spread: by their
+/// normals, which tell more of a small patch, or by the places alone, which do not care on which side the normals are.
 fn round(patch: &Patch) -> Option<(Point, f64)> {
+    let square = |&(center, radius): &(Point, f64)| -> f64 {
+        patch.iter().map(|p| (norm(minus(p.0, center)) - radius).powi(2)).sum()
+    };
+    let both = by_normals(patch).into_iter().chain(by_places(patch));
+    both.min_by(|a, b| square(a).total_cmp(&square(b)))
+}
+
+/// From `place = centre + radius · normal`, with normals turned to the side of the first one.
+fn by_normals(patch: &Patch) -> Option<(Point, f64)> {
     let first = patch.first()?.1;
     let sided = patch.iter().map(|&(p, n)| (p, if dot(n, first) < 0.0 { times(-1.0, n) } else { n }));
     let (place, normal) = (mean(sided.clone().map(|s| s.0)), mean(sided.clone().map(|s| s.1)));
@@ -71,6 +79,25 @@ fn round(patch: &Patch) -> Option<(Point, f64)> {
     }
     let radius = both / square;
     radius.is_finite().then(|| (minus(place, times(radius, normal)), radius.abs()))
+}
+
+/// From |q|² = 2 centre · q + constant, for q about the mean (I. Kåsa, 1976).
+fn by_places(patch: &Patch) -> Option<(Point, f64)> {
+    let middle = mean(patch.iter().map(|p| p.0));
+    let (mut matrix, mut right, mut square) = ([[0.0; 3]; 3], [0.0; 3], 0.0);
+    for &(p, _) in patch {
+        let q = minus(p, middle);
+        add_outer(&mut matrix, 2.0, q, q);
+        right = plus(right, times(dot(q, q), q));
+        square += dot(q, q);
+    }
+    // A direction in which there is no spread, across a section, shall be left out.
+    for (k, row) in matrix.iter_mut().enumerate() {
+        row[k] += 1e-12 * square;
+    }
+    let center = solved(matrix, right)?;
+    let radius = (square / patch.len() as f64 + dot(center, center)).sqrt();
+    Some((plus(middle, center), radius))
 }
 
 fn sphere(patch: &Patch) -> Option<Shape> {

@@ -57,7 +57,7 @@ impl Terms<'_> {
         seed: u32,
         most: usize,
         marks: &mut Marks,
-        free: &(impl Fn(u32) -> bool + Sync),
+        free: &impl Fn(u32) -> bool,
     ) -> Option<Grown> {
         let mut best: Option<Grown> = None;
         let mut last = 0;
@@ -70,22 +70,25 @@ impl Terms<'_> {
             for &kind in self.kinds {
                 let Some(grown) = self.of_kind(kind, &patch, most, marks, free) else { continue };
                 best = Some(self.better(best, grown));
+                // No other kind can cover more than all that a trial may reach.
+                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= 1.5 * self.noise) {
+                    return best;
+                }
             }
         }
         best
     }
 
-    /// The region of `seed` grown to its end: what was found from a small patch tells the other kinds apart better.
-    pub(super) fn whole(
-        &self,
-        seed: u32,
-        marks: &mut Marks,
-        free: &(impl Fn(u32) -> bool + Sync),
-    ) -> Option<Grown> {
-        let mut best = self.around(seed, usize::MAX, marks, free)?;
+    /// The region that a trial began, grown to its end. How it goes on beyond tells the kinds apart better than the
+    /// patch did. `enough` is the weight below which the region is of no use.
+    pub(super) fn whole(&self, trial: &Grown, enough: f64, marks: &mut Marks, free: &impl Fn(u32) -> bool) -> Option<Grown> {
+        let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
         for _ in 0..3 {
+            // Another kind may cover more, but not many times as much.
+            if best.weight < 0.3 * enough {
+                break;
+            }
             let before = (best.shape.kind(), best.pieces.len());
-            // Two rings beyond its end show how the surface goes on.
             let wider = self.widened(&best.pieces, free);
             for &kind in self.kinds.iter().filter(|&&kind| kind != before.0) {
                 let Some(grown) = self.of_kind(kind, &wider, usize::MAX, marks, free) else { continue };
@@ -196,21 +199,19 @@ impl Terms<'_> {
         }
     }
 
-    /// The one that tells more. An element with more unknowns must cover clearly more, or fit clearly better where the
-    /// simpler one fits worse than noise.
+    /// The one that tells more. An element with more unknowns must cover clearly more, the more so the more it has, or
+    /// fit clearly better where the simpler one fits worse than noise.
     fn better(&self, one: Option<Grown>, other: Grown) -> Grown {
         let Some(one) = one else { return other };
-        let more = |a: &Grown, b: &Grown| a.shape.kind().unknowns() > b.shape.kind().unknowns();
-        let wins = if one.shape.kind() == other.shape.kind() {
-            other.weight > one.weight
-        } else if more(&other, &one) {
-            other.weight > 1.15 * one.weight
-                || (other.weight > 0.95 * one.weight
-                    && one.rms > 1.5 * self.noise
-                    && other.rms < 0.6 * one.rms)
+        let [unknowns, others] = [&one, &other].map(|g| g.shape.kind().unknowns());
+        let gain = other.weight / one.weight;
+        let wins = if unknowns == others {
+            gain > 1.0
+        } else if others > unknowns {
+            let worth = 1.15 + 0.1 * (others - unknowns) as f64;
+            gain > worth || (gain > 0.95 && one.rms > 1.5 * self.noise && other.rms < 0.6 * one.rms)
         } else {
-            other.weight > 0.98 * one.weight
-                && (other.weight > 1.05 * one.weight || other.rms < 0.85 * one.rms)
+            gain > 0.98 && (gain > 1.05 || other.rms < 0.85 * one.rms)
         };
         if wins { other } else { one }
     }

@@ -3,7 +3,7 @@
 use super::estimate::estimate;
 use super::flood::{Marks, patch};
 use super::grow::refined;
-use super::surface::{NONE, Surface, normal};
+use super::surface::{Surface, normal};
 use crate::fit::{Kind, Shape};
 use crate::num::random::Random;
 use crate::space::{Point, dot};
@@ -11,11 +11,12 @@ use rayon::prelude::*;
 
 /// Patches looked at.
 const PATCHES: u64 = 400;
-/// Pieces of a patch.
-const SIZE: usize = 24;
-/// The share of patches taken for clean: the others may lie on edges or on what is no simple surface.
-const CLEAN: f64 = 0.25;
-/// The standard deviation over that quantile, for normal noise in patches of this size.
+/// Pieces of a patch. Noise that hangs together over a distance shows in large patches only; but those may lie on no
+/// simple surface at all.
+const SIZES: [usize; 2] = [24, 96];
+/// How much more noise large patches may show than small ones, and still be believed.
+const BELIEVED: f64 = 3.0;
+/// The standard deviation over the lower quartile of those found in patches, for normal noise.
 const QUANTILE: f64 = 1.15;
 
 /// What one piece tells by itself, and how well.
@@ -34,32 +35,36 @@ pub(super) fn noise(
     seed: u64,
     pick: impl Fn(&mut Random) -> u32 + Sync,
 ) -> Noise {
+    let [small, large] = SIZES.map(|size| of_patches(surface, size, crease, seed, &pick));
+    let believed = large.distance <= BELIEVED * small.distance;
+    Noise { distance: if believed { large.distance.max(small.distance) } else { small.distance }, ..small }
+}
+
+/// What patches of one size tell.
+fn of_patches(
+    surface: &Surface,
+    size: usize,
+    crease: f64,
+    seed: u64,
+    pick: &(impl Fn(&mut Random) -> u32 + Sync),
+) -> Noise {
     let mut found: Vec<(f64, f64)> = (0..PATCHES)
         .into_par_iter()
         .map_init(
             || Marks::new(surface),
             |marks, k| {
                 let piece = pick(&mut Random::stream(seed, k));
-                (piece != NONE).then(|| {
-                    let pieces = patch(surface, piece, SIZE, crease, marks, |_| true);
-                    best(surface, &pieces)
-                })?
+                best(surface, &patch(surface, piece, size, crease, marks, |_| true))
             },
         )
         .flatten()
         .collect();
-    let quantile = |all: &mut [f64]| {
-        all.sort_by(f64::total_cmp);
-        all.get((CLEAN * all.len() as f64) as usize).copied().unwrap_or(0.0)
-    };
+    // Of the clean half, the median: a quarter of all.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.truncate(found.len().div_ceil(2));
-    let distance = {
-        // A quarter of all is half of the better half.
-        let index = found.len() / 2;
-        found.get(index).map_or(0.0, |f| f.0)
-    };
-    let angle = quantile(&mut found.iter().map(|f| f.1).collect::<Vec<f64>>());
+    let distance = found.get(found.len() / 2).map_or(0.0, |f| f.0);
+    found.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let angle = found.get(found.len() / 2).map_or(0.0, |f| f.1);
     Noise { distance: QUANTILE * distance, angle }
 }
 

@@ -2,13 +2,15 @@
 
 use super::facets::lists;
 use super::surface::{Pieces, Surface};
-use crate::deviation::neighbours::PointTree;
+use crate::deviation::neighbours::{Neighbour, PointTree};
 use crate::fit::eigen;
 use crate::space::{Point, Vector, minus, plus, times};
 use rayon::prelude::*;
 
-/// Neighbours that make a normal.
-const NORMAL: usize = 16;
+/// Neighbours that make a normal, and that make one where so few lie along a line, as on a scanner's row.
+const NORMAL: [usize; 2] = [16, 64];
+/// Mean square width over length of the neighbourhood, below which it is a line.
+const LINE: f64 = 0.03;
 /// Neighbours that a region grows to.
 const NEAR: usize = 8;
 
@@ -17,10 +19,9 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
     let tree = PointTree::new(points);
     let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
         .map(|(i, p)| {
-            let near = tree.k_nearest(p, NORMAL, Some(i as u32));
+            let near = tree.k_nearest(p, NORMAL[0], Some(i as u32));
             let pairs = near.iter().take(NEAR).flat_map(|n| [[i as u32, n.1], [n.1, i as u32]]);
-            let places = near.iter().map(|n| points[n.1 as usize]).chain([*p]);
-            (flattest(&places.collect::<Vec<Point>>()), pairs.collect())
+            (normal(points, &tree, p, &near), pairs.collect())
         })
         .collect();
     let mut normals = Vec::with_capacity(points.len());
@@ -41,8 +42,24 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
     }
 }
 
+/// Normal at `p`, whose nearest neighbours are `near`.
+fn normal(points: &[Point], tree: &PointTree, p: &Point, near: &[Neighbour]) -> Vector {
+    let places = |near: &[Neighbour]| -> Vec<Point> { near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect() };
+    let (values, rows) = spread(&places(near));
+    if values[1] >= LINE * values[2] && values[1] > 0.0 {
+        return rows[0];
+    }
+    flattest(&places(&tree.k_nearest(p, NORMAL[1], None)))
+}
+
 /// The direction in which the points spread least; zero where they lie on a line or at one place.
 pub(super) fn flattest(points: &[Point]) -> Vector {
+    let (values, rows) = spread(points);
+    if values[1] > 1e-12 * values[2] { rows[0] } else { [0.0; 3] }
+}
+
+/// Variances of the points along their principal directions, least first, and those directions.
+fn spread(points: &[Point]) -> ([f64; 3], [Vector; 3]) {
     let share = 1.0 / points.len() as f64;
     let mean = times(share, points.iter().fold([0.0; 3], |s, &p| plus(s, p)));
     let mut spread = [[0.0; 3]; 3];
@@ -54,6 +71,5 @@ pub(super) fn flattest(points: &[Point]) -> Vector {
             }
         }
     }
-    let (values, rows) = eigen(spread);
-    if values[1] > 1e-12 * values[2] { rows[0] } else { [0.0; 3] }
+    eigen(spread)
 }

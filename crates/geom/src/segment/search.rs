@@ -15,11 +15,11 @@ use rayon::prelude::*;
 /// Seeds tried against the same state: the answer depends on it, not on the number of threads.
 const BATCH: u64 = 32;
 /// Pieces that a trial may reach; regions that are taken grow on.
-const TRIAL: usize = 1500;
+const TRIAL: usize = 500;
 /// A neighbourhood that was tried in vain.
 const TRIED: usize = 16;
-/// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-8.
-const TRIALS: f64 = 8.0;
+/// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-4.
+const TRIALS: f64 = 4.0;
 
 /// What the search is limited by.
 #[derive(Clone, Copy, Debug)]
@@ -66,26 +66,25 @@ pub(super) fn search(
             continue;
         }
         let free = |piece: u32| labels[piece as usize] == NONE;
-        let mut promising: Vec<(u32, f64)> = Vec::new();
-        let trials: Vec<Option<f64>> = (drawn.par_iter())
-            .map_init(
-                || Marks::new(surface),
-                |marks, &seed| Some(terms.around(seed, TRIAL, marks, &free)?.weight),
-            )
+        let trials: Vec<Option<Grown>> = (drawn.par_iter())
+            .map_init(|| Marks::new(surface), |marks, &seed| terms.around(seed, TRIAL, marks, &free))
             .collect();
-        for (&seed, weight) in drawn.iter().zip(trials) {
-            match weight {
-                Some(weight) => promising.push((seed, weight)),
-                None => shut(terms, seed, &mut tried, &mut marks),
+        let mut promising: Vec<(u32, Grown)> = Vec::new();
+        for (&seed, trial) in drawn.iter().zip(trials) {
+            match trial {
+                Some(grown) if grown.pieces.len() >= TRIAL || grown.weight >= 0.3 * limits.weight => {
+                    promising.push((seed, grown));
+                }
+                _ => shut(terms, seed, &mut tried, &mut marks),
             }
         }
-        promising.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        for (seed, _) in promising {
+        promising.sort_by(|a, b| b.1.weight.total_cmp(&a.1.weight).then(a.0.cmp(&b.0)));
+        for (seed, trial) in promising {
             if labels[seed as usize] != NONE || tried[seed as usize] {
                 continue;
             }
             let free = |piece: u32| labels[piece as usize] == NONE;
-            let Some(grown) = terms.whole(seed, &mut marks, &free) else {
+            let Some(grown) = terms.whole(&trial, limits.weight, &mut marks, &free) else {
                 shut(terms, seed, &mut tried, &mut marks);
                 continue;
             };

@@ -90,18 +90,21 @@ impl Surface<'_> {
     /// a neighbouring face that is shared at an edge, may be four times as far.
     pub(super) fn belongs(&self, piece: u32, shape: &Shape, band: &Band) -> bool {
         let i = piece as usize;
-        if self.normals[i] == [0.0; 3] {
+        let turned = dot(self.normals[i], normal(shape, self.places[i])).abs();
+        // The normal of a piece without area is zero.
+        if turned.is_nan() || turned < band.cosine.max(f64::MIN_POSITIVE) {
             return false;
         }
         let (corners, count) = self.corners(piece);
-        let (mut outside, mut far) = (0, false);
+        let mut outside = 0;
         for &c in &corners[..count] {
             let d = shape.distance(self.points[c as usize]).abs();
             outside += usize::from(d.is_nan() || d > band.distance);
-            far |= d > 4.0 * band.distance;
+            if d > 4.0 * band.distance || 3 * outside > count {
+                return false;
+            }
         }
-        !far && 3 * outside <= count
-            && dot(self.normals[i], normal(shape, self.places[i])).abs() >= band.cosine
+        true
     }
     /// How badly a piece fits: 1 at the edge of the band in distance or in angle.
     pub(super) fn misfit(&self, piece: u32, shape: &Shape, band: &Band) -> f64 {
