@@ -62,6 +62,27 @@ pub(super) fn flood(
     reached
 }
 
+/// The pieces for which `free` says yes in the first two rings around `pieces`, the inner ring first.
+pub(super) fn rings(
+    surface: &Surface,
+    pieces: &[u32],
+    marks: &mut Marks,
+    free: impl Fn(u32) -> bool,
+) -> Vec<u32> {
+    for &piece in pieces {
+        marks.first(piece);
+    }
+    let mut ring = |from: &[u32]| -> Vec<u32> {
+        let around = from.iter().flat_map(|&p| surface.neighbours(p)).copied();
+        around.filter(|&p| marks.first(p) && free(p)).collect()
+    };
+    let mut found = ring(pieces);
+    let outer = ring(&found);
+    found.extend(outer);
+    marks.clear();
+    found
+}
+
 /// About `most` free pieces around `seed` without a crease between neighbours.
 pub(super) fn patch(
     surface: &Surface,

@@ -1,7 +1,7 @@
 //! One region: from a patch to all that belongs to its element.
 
 use super::estimate::estimate;
-use super::flood::{Marks, flood, patch};
+use super::flood::{Marks, flood, patch, rings};
 use super::surface::{Band, Surface};
 use crate::fit::{Kind, Options, Shape, fit};
 use crate::progress::Silent;
@@ -17,6 +17,10 @@ const GROWTH: usize = 3;
 const ROUNDS: usize = 30;
 /// Share of a patch that must belong to the element estimated from it.
 const AGREEING: f64 = 0.6;
+/// The same for a region with the two rings around it.
+const FITTING: f64 = 0.8;
+/// Share of those rings that must belong to another kind of element before it is tried.
+const GOES_ON: f64 = 0.3;
 
 /// What all regions of a search have in common.
 #[derive(Debug)]
@@ -68,7 +72,8 @@ impl Terms<'_> {
             }
             last = patch.len();
             for &kind in self.kinds {
-                let Some(grown) = self.of_kind(kind, &patch, most, marks, free) else { continue };
+                let Some((shape, _)) = self.shown(kind, &patch, AGREEING) else { continue };
+                let Some(grown) = self.grown(shape, &patch, most, marks, free) else { continue };
                 best = Some(self.better(best, grown));
                 // No other kind can cover more than all that a trial may reach.
                 if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= 1.5 * self.noise) {
@@ -81,7 +86,13 @@ impl Terms<'_> {
 
     /// The region that a trial began, grown to its end. How it goes on beyond tells the kinds apart better than the
     /// patch did. `enough` is the weight below which the region is of no use.
-    pub(super) fn whole(&self, trial: &Grown, enough: f64, marks: &mut Marks, free: &impl Fn(u32) -> bool) -> Option<Grown> {
+    pub(super) fn whole(
+        &self,
+        trial: &Grown,
+        enough: f64,
+        marks: &mut Marks,
+        free: &impl Fn(u32) -> bool,
+    ) -> Option<Grown> {
         let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
         for _ in 0..3 {
             // Another kind may cover more, but not many times as much.
@@ -89,9 +100,14 @@ impl Terms<'_> {
                 break;
             }
             let before = (best.shape.kind(), best.pieces.len());
-            let wider = self.widened(&best.pieces, free);
+            let beyond = rings(self.surface, &best.pieces, marks, free);
+            let wider = [&best.pieces[..], &beyond].concat();
             for &kind in self.kinds.iter().filter(|&&kind| kind != before.0) {
-                let Some(grown) = self.of_kind(kind, &wider, usize::MAX, marks, free) else { continue };
+                let Some((shape, rms)) = self.shown(kind, &wider, FITTING) else { continue };
+                if rms > 0.85 * best.rms && self.agreeing(&shape, &beyond) < GOES_ON {
+                    continue;
+                }
+                let Some(grown) = self.grown(shape, &wider, usize::MAX, marks, free) else { continue };
                 best = self.better(Some(best), grown);
             }
             if (best.shape.kind(), best.pieces.len()) == before {
@@ -101,31 +117,17 @@ impl Terms<'_> {
         Some(best)
     }
 
-    /// The pieces and two rings of free neighbours.
-    fn widened(&self, pieces: &[u32], free: &impl Fn(u32) -> bool) -> Vec<u32> {
-        let mut wider = pieces.to_vec();
-        for _ in 0..2 {
-            let ring = wider.iter().flat_map(|&p| self.surface.neighbours(p)).copied();
-            let ring: Vec<u32> = ring.filter(|&p| free(p)).collect();
-            wider.extend(ring);
-            wider.sort_unstable();
-            wider.dedup();
-        }
-        wider
+    /// The share of the pieces that belong to the element; of many, some are asked.
+    fn agreeing(&self, shape: &Shape, pieces: &[u32]) -> f64 {
+        let some = pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1));
+        let all = some.clone().count().max(1);
+        some.filter(|&&p| self.surface.belongs(p, shape, &self.band)).count() as f64 / all as f64
     }
 
-    /// The region of an element of one kind that the patch shows.
-    fn of_kind(
-        &self,
-        kind: Kind,
-        patch: &[u32],
-        most: usize,
-        marks: &mut Marks,
-        free: &impl Fn(u32) -> bool,
-    ) -> Option<Grown> {
+    /// The element of one kind that the patch shows, if the given share of it agrees, and its root mean square distance.
+    fn shown(&self, kind: Kind, patch: &[u32], share: f64) -> Option<(Shape, f64)> {
         let surface = self.surface;
-        let stride = patch.len().div_ceil(ENOUGH);
-        let oriented: Vec<_> = (patch.iter().step_by(stride))
+        let oriented: Vec<_> = (patch.iter().step_by(patch.len().div_ceil(ENOUGH).max(1)))
             .map(|&p| (surface.places[p as usize], surface.normals[p as usize]))
             .filter(|o| o.1 != [0.0; 3])
             .collect();
@@ -134,12 +136,8 @@ impl Terms<'_> {
         if points.len() < fewest_points(kind) {
             return None;
         }
-        let (shape, _) = refined(kind, &first, &points).filter(|f| self.sound(&f.0))?;
-        let agreeing = patch.iter().filter(|&&p| surface.belongs(p, &shape, &self.band)).count();
-        if (agreeing as f64) < AGREEING * patch.len() as f64 {
-            return None;
-        }
-        self.grown(shape, patch, most, marks, free)
+        let (shape, rms) = refined(kind, &first, &points).filter(|f| self.sound(&f.0))?;
+        (self.agreeing(&shape, patch) >= share).then_some((shape, rms))
     }
 
     /// Grows and fits in turns until nothing joins any more.

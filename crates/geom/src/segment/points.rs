@@ -44,7 +44,9 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
 
 /// Normal at `p`, whose nearest neighbours are `near`.
 fn normal(points: &[Point], tree: &PointTree, p: &Point, near: &[Neighbour]) -> Vector {
-    let places = |near: &[Neighbour]| -> Vec<Point> { near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect() };
+    let places = |near: &[Neighbour]| -> Vec<Point> {
+        near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect()
+    };
     let (values, rows) = spread(&places(near));
     if values[1] >= LINE * values[2] && values[1] > 0.0 {
         return rows[0];

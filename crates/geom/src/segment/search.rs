@@ -104,9 +104,10 @@ pub(super) fn search(
 }
 
 fn enough(terms: &Terms, grown: &Grown, limits: &Limits) -> bool {
-    let kind = grown.shape.kind();
-    let points = terms.surface.points_of(grown.pieces.iter().copied()).len();
-    grown.weight >= limits.weight && points >= limits.points.max(fewest_points(kind))
+    let fewest = limits.points.max(fewest_points(grown.shape.kind()));
+    // Enough to tell, and not a million.
+    let some = &grown.pieces[..grown.pieces.len().min(8 * fewest)];
+    grown.weight >= limits.weight && terms.surface.points_of(some.iter().copied()).len() >= fewest
 }
 
 /// Nothing starts from the seed and its nearest neighbours again.
