@@ -6,6 +6,7 @@ mod console;
 mod exit;
 mod progress;
 mod read;
+mod report;
 mod tolerance;
 
 use clap::Parser;

@@ -1,5 +1,9 @@
 //! From the findings of a check to the result document.
 
+mod view;
+
+pub use view::View;
+
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
 use crate::results::{InputRecord, UNITS, VERSION};

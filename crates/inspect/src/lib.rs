@@ -4,6 +4,7 @@
 //! |---|---|
 //! | defects of a mesh | [`check`] |
 //! | deviations from references | [`compare`] |
+//! | elements through points | [`fit`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
@@ -11,6 +12,7 @@
 
 pub mod check;
 pub mod compare;
+pub mod fit;
 pub mod report;
 pub mod results;
 pub mod scale;

@@ -1,10 +1,12 @@
 //! The report as a file: the same every time, within its budget, and safe whatever the names are.
 
-#[path = "../examples/report_fixtures.rs"]
+#[path = "../examples/report_fixtures/main.rs"]
 #[allow(dead_code, missing_docs, reason = "a program of its own, too")]
 mod fixtures;
 
-use fixtures::{page, sphere};
+use fixtures::{check_document, check_page, defects, fit_page, lobed_cylinder, page, sphere};
+use trueness_geom::fit::Method;
+use trueness_geom::mesh::Mesh;
 use trueness_inspect::report::{Language, ReportOptions};
 
 const NAMES: [&str; 2] = ["scan.stl", "nominal.stl"];
@@ -47,10 +49,84 @@ fn names_are_never_markup() {
 #[test]
 fn every_word_is_in_the_table() {
     let options = ReportOptions { language: Language::De, ..ReportOptions::default() };
-    let text = String::from_utf8(page(&sphere(10), TOLERANCE, NAMES, &options).0).unwrap();
-    for part in text.split("data-t=\"").skip(1) {
-        let (key, rest) = part.split_once("\">").unwrap();
-        assert!(!rest.starts_with(key), "no German word for {key}");
+    let pages = [
+        (page(&sphere(10), TOLERANCE, NAMES, &options).0, ["Nicht in Ordnung", "−0,050"]),
+        (check_page(&defects(), &options), ["Nicht fehlerfrei", "Löcher"]),
+        (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinster Zone"]),
+    ];
+    for (page, known) in pages {
+        let text = String::from_utf8(page).unwrap();
+        for part in text.split("data-t=\"").skip(1) {
+            let (key, rest) = part.split_once("\">").unwrap();
+            assert!(!rest.starts_with(key), "no German word for {key}");
+        }
+        assert!(known.iter().all(|word| text.contains(word)), "{known:?}");
     }
-    assert!(text.contains("Nicht in Ordnung") && text.contains("−0,050"));
+}
+
+/// The manifest that a page carries.
+fn manifest(page: &[u8]) -> serde_json::Value {
+    let text = std::str::from_utf8(page).unwrap();
+    let start = text.split_once("id=\"manifest\">").unwrap().1;
+    serde_json::from_str(start.split_once("</script>").unwrap().0).unwrap()
+}
+
+#[test]
+fn rows_lead_to_the_places_of_the_document() {
+    let document = check_document(&defects());
+    let page = check_page(&defects(), &ReportOptions::default());
+    let manifest = manifest(&page);
+    let text = String::from_utf8(page).unwrap();
+    let picks = manifest["picks"].as_array().unwrap();
+    assert_eq!(text.matches("data-pick=").count(), picks.len());
+    let marks = manifest["objects"].as_array().unwrap().iter().find(|o| o["kind"] == "marks").unwrap();
+    let total: u64 = marks["groups"].as_array().unwrap().iter().map(|g| g["count"].as_u64().unwrap()).sum();
+    assert_eq!(total, document.defects.values().map(|d| d.items.len() as u64).sum::<u64>());
+    // The longest free edge comes first, wherever it stands in the document.
+    let edges = &document.defects["boundary_edges"].items;
+    let longest = edges.iter().max_by(|a, b| a.size.total_cmp(&b.size)).unwrap();
+    assert_eq!(picks[0]["position"], serde_json::json!(longest.position));
+    assert_eq!(picks[0]["mark"], edges.iter().position(|e| e == longest).unwrap());
+}
+
+#[test]
+fn a_long_list_says_how_many_there_are() {
+    // A strip of separate triangles: three free edges each.
+    let mut mesh = Mesh::default();
+    for i in 0..60u32 {
+        let x = f64::from(i);
+        mesh.positions.extend([[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.0]]);
+        mesh.faces.push([3 * i, 3 * i + 1, 3 * i + 2]);
+    }
+    let text = String::from_utf8(check_page(&mesh, &ReportOptions::default())).unwrap();
+    let kind = text.split("data-t=\"defect.boundary_edges\"").nth(1).unwrap();
+    let kind = kind.split("</details>").next().unwrap();
+    assert_eq!(kind.matches("<tr data-pick").count(), 100);
+    assert!(kind.contains(">180</span>") && kind.contains(">100</span> / <span"), "{kind}");
+}
+
+#[test]
+fn a_sound_mesh_has_nothing_to_list() {
+    let page = check_page(&fixtures::uv_sphere(12), &ReportOptions::default());
+    let text = String::from_utf8(page).unwrap();
+    assert!(text.contains("h-pass") && text.contains("Looked for, none found") && !text.contains("<details"));
+    assert!(!text.contains("id=\"scale\""));
+}
+
+#[test]
+fn a_fit_shows_what_its_document_says() {
+    let (page, document) = fit_page(&lobed_cylinder(), Method::MinimumZone, &ReportOptions::default());
+    assert!((document.form_error - 0.2).abs() < 1e-9, "{}", document.form_error);
+    let extent = document.extent.unwrap();
+    assert!((extent.v[1] - extent.v[0] - 30.0).abs() < 1e-9 && extent.u[1] - extent.u[0] > 6.28);
+    let histogram = document.histogram.unwrap();
+    assert_eq!(histogram.counts.iter().sum::<u64>() + histogram.below + histogram.above, document.count);
+    let manifest = manifest(&page);
+    let roles: Vec<&str> =
+        manifest["objects"].as_array().unwrap().iter().map(|o| o["role"].as_str().unwrap()).collect();
+    assert_eq!(roles, ["measured", "element", "touching", "element"]);
+    let picks = manifest["picks"].as_array().unwrap();
+    assert_eq!(picks.len(), 2 + document.touching.len());
+    assert_eq!(picks[2]["position"], serde_json::json!(document.touching[0].position.unwrap()));
+    assert_eq!(picks[0]["value"], document.maximum.distance);
 }

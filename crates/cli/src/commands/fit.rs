@@ -3,6 +3,7 @@
 use crate::command::Common;
 use crate::exit::Outcome;
 use crate::progress::Stage;
+use crate::report::ReportArgs;
 use crate::{console, read};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -12,6 +13,8 @@ use trueness_files::{AtomicFile, Body, Columns, ReadOptions, Unit};
 use trueness_geom::fit::{self, FitError, Kind, Method, Options};
 use trueness_geom::progress::Cancelled;
 use trueness_geom::space::Point;
+use trueness_inspect::fit::View;
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::{FitDocument, Number};
 
@@ -23,7 +26,7 @@ use trueness_inspect::results::fit::{FitDocument, Number};
 #[command(after_help = "\
 Examples:
   trueness fit bore.xyz --shape cylinder
-  trueness fit face.xyz --shape plane --method minimum-zone
+  trueness fit face.xyz --shape plane --method minimum-zone --html report.html
   trueness fit scan_of_ball.ply --shape sphere --method robust --json result.json")]
 pub struct FitArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
@@ -43,6 +46,8 @@ pub struct FitArgs {
     /// Write the result document; `-` for stdout, then without a table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -133,7 +138,7 @@ pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
         FitError::Cancelled => anyhow::Error::from(Cancelled),
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
-    let document = FitDocument::new(&fit, vec![record], common.seed);
+    let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
     let on_stdout = args.json.as_ref().is_some_and(|path| path.as_os_str() == "-");
     if let Some(path) = &args.json {
         let text = serde_json::to_string_pretty(&document)? + "\n";
@@ -146,6 +151,10 @@ pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
                 .with_context(|| format!("{}: cannot write", path.display()))?;
             file.commit().with_context(|| format!("{}: cannot write", path.display()))?;
         }
+    }
+    if args.report.html.is_some() {
+        let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
+        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks)?;
     }
     if !on_stdout {
         console::table(&table(&document));

@@ -193,7 +193,8 @@ fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     ToleranceShares { lower: limits.lower, upper: limits.upper, inside, above, below, required }
 }
 
-fn histogram(h: &geom::Histogram) -> Histogram {
+/// The document's form of a histogram.
+pub(crate) fn histogram(h: &geom::Histogram) -> Histogram {
     Histogram { edges: h.edges().to_vec(), counts: h.counts().to_vec(), below: h.below(), above: h.above() }
 }
 

@@ -9,6 +9,7 @@ mod vertex_map;
 mod view;
 mod worst;
 
+pub(crate) use document::histogram;
 pub use document::{Inputs, document};
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};

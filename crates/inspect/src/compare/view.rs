@@ -1,8 +1,7 @@
 //! What a report draws: the measured object and the references, each with its deviations.
 
 use super::{Comparisons, Reference, Values};
-use crate::report::{Geometry, NoValue, ViewField, ViewObject};
-use crate::results::Role;
+use crate::report::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
 use trueness_geom::deviation::surface::Exclusion;
 use trueness_geom::mesh::Mesh;
 
@@ -54,14 +53,14 @@ impl<'a> View<'a> {
     /// The objects: measured, then the references.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let measured = ViewObject {
-            role: Role::Measured,
+            role: ViewRole::Measured,
             name: self.name,
             comparison: None,
             geometry: self.mesh.map_or(Geometry::Points(&self.found.shown.points), Geometry::Mesh),
             fields: self.measured.iter().enumerate().map(|(i, f)| f.view(i)).collect(),
         };
         let references = self.references.iter().enumerate().map(|(i, r)| ViewObject {
-            role: Role::Reference,
+            role: ViewRole::Reference,
             name: &r.name,
             comparison: Some(i),
             geometry: Geometry::Mesh(r.mesh),

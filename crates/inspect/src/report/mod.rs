@@ -7,19 +7,24 @@
 //! ```
 //! The same input gives the same bytes.
 
+mod documents;
 mod html;
+mod marks;
 mod number;
 mod page;
 mod payload;
 mod picture;
 mod text;
 
+pub use documents::Answer;
+pub use marks::{Mark, MarkGroup, Marks};
 pub use payload::NoValue;
 pub use text::Language;
 
 use crate::results::Role;
-use crate::results::compare::CompareDocument;
+use crate::scale::palette::Rgb;
 use payload::Payload;
+use serde::Serialize;
 use std::io::{self, Write};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
@@ -27,9 +32,11 @@ use trueness_geom::space::Point;
 /// What a report is made of.
 pub struct ReportInput<'a> {
     /// The answer; every number on the page is from here.
-    pub result: &'a CompareDocument,
-    /// What is drawn: the measured object, then the references.
+    pub result: Answer<'a>,
+    /// What is drawn, the first being what the marks lie on. In a comparison: the measured object, then the references.
     pub objects: &'a [ViewObject<'a>],
+    /// What is drawn over it, in the order of the numbers that the list's rows lead to.
+    pub marks: &'a [Marks],
     /// Words and limits.
     pub options: &'a ReportOptions,
 }
@@ -80,10 +87,54 @@ pub enum Up {
     Z,
 }
 
-/// A mesh or a cloud with its deviations.
+/// What an object is to the reader: what it is called, its colour, and what switches it on and off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ViewRole {
+    /// Scan, points, the part as it is.
+    Measured,
+    /// Nominal.
+    Reference,
+    /// A mesh that is looked at by itself.
+    Part,
+    /// The same before it was changed.
+    Before,
+    /// A fitted element, drawn translucent.
+    Element,
+    /// Marks: what is wrong.
+    Defects,
+    /// Marks: the element's rim and lines.
+    Outline,
+    /// Marks: points that hold an element.
+    Touching,
+    /// Marks: what was changed.
+    Changes,
+}
+
+impl From<Role> for ViewRole {
+    fn from(role: Role) -> ViewRole {
+        match role {
+            Role::Measured => ViewRole::Measured,
+            Role::Reference => ViewRole::Reference,
+        }
+    }
+}
+
+impl ViewRole {
+    /// Colour of what has no map: warm grey for what was measured, blue-grey for what it is compared with.
+    pub fn color(self) -> Rgb {
+        match self {
+            ViewRole::Reference | ViewRole::Before => [0x8f, 0xa3, 0xbf],
+            ViewRole::Element => [0x2f, 0x6f, 0xd6],
+            _ => [0xb9, 0xb4, 0xaa],
+        }
+    }
+}
+
+/// A mesh or a cloud with its values.
 pub struct ViewObject<'a> {
-    /// Measured or reference.
-    pub role: Role,
+    /// Measured, reference, …
+    pub role: ViewRole,
     /// Shown to the reader; any text at all.
     pub name: &'a str,
     /// For a reference, its number in the result's `comparisons`.
@@ -188,7 +239,7 @@ pub enum ReportError {
 /// Bytes that an object's entry in the manifest may take, names apart.
 const MANIFEST_ENTRY: usize = 4000;
 
-/// Writes the report of a comparison as one HTML file.
+/// Writes the report of a document as one HTML file.
 ///
 /// Objects may be empty, fields may be NaN throughout, names may hold any text. Deterministic for any number of threads.
 /// Cost: a few passes over the geometry, dominated by compression.
@@ -199,12 +250,13 @@ pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary,
             return Err(ReportError::FieldLength { object, values: f.values.len(), places });
         }
     }
-    let scale = &input.result.scale;
-    let range = scale.tolerance.map_or(scale.upper - scale.lower, |[l, u]| u - l);
-    let picture = payload::base64(&picture::png(input.objects, scale, input.options.up));
+    let scale = input.result.subject().scale();
+    let range = scale.map_or(1.0, |s| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l));
+    let picture = payload::base64(&picture::png(input.objects, input.marks, scale, input.options.up));
     // What the page takes without its 3D part is left of the budget first.
     let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
-    let payload = payload::pack(input.objects, range, input.options.budget.saturating_sub(bare))?;
+    let payload =
+        payload::pack(input.objects, input.marks, range, input.options.budget.saturating_sub(bare))?;
     let html = page::page(input, &payload, &picture)?;
     out.write_all(html.as_bytes())?;
     out.flush()?;

@@ -5,6 +5,7 @@ use super::compare::Bounds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueness_geom::check::KINDS;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/check/1";
@@ -96,7 +97,7 @@ pub struct Defects {
 }
 
 /// One defect.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Item {
     /// Facets concerned, numbered from 0 in the order of the file.
     pub facets: Vec<u32>,
@@ -111,4 +112,16 @@ pub struct Item {
     /// Further numbers, by name: of a hole `edges`, `perimeter`, `area`.
     #[serde(flatten)]
     pub measures: BTreeMap<String, f64>,
+}
+
+impl CheckDocument {
+    /// Kinds that were found: errors first, what only follows from holes and cracks after these, else in the order in which
+    /// the check tells them.
+    pub fn found(&self) -> Vec<(&'static str, &Defects)> {
+        let all = KINDS.iter().filter_map(|k| Some((k.name, self.defects.get(k.name)?)));
+        let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
+        let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);
+        found.sort_by_key(|(kind, d)| (d.severity != "error", follows(kind)));
+        found
+    }
 }

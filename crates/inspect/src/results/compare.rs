@@ -59,7 +59,7 @@ pub struct Measured {
 }
 
 /// An axis-parallel box, millimetres.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bounds {
     /// Least coordinates.
     pub min: [f64; 3],

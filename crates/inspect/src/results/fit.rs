@@ -1,6 +1,8 @@
 //! `trueness/fit/1`: an element fitted to points.
 
+use super::compare::Histogram;
 use super::{InputRecord, UNITS, VERSION};
+use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,6 +55,15 @@ pub struct FitDocument {
     pub maximum: Extreme,
     /// Points that hold a zone, a circumscribed or an inscribed element.
     pub touching: Vec<Touching>,
+    /// The part of the element that the points lie on.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub extent: Option<Extent>,
+    /// Counts of the signed distances of all points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub histogram: Option<Histogram>,
+    /// Colours of the signed distances.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub scale: Option<Scale>,
     /// Steps of the solver on all points.
     pub iterations: u64,
     /// Whether the last step changed nothing that shows.
@@ -78,6 +89,25 @@ pub struct Extreme {
     pub distance: f64,
     /// Index of the point in the file, counted from 0.
     pub point: u64,
+    /// Where the point lies.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub position: Option<[f64; 3]>,
+}
+
+/// The part of an element that its points lie on, in a frame of the element. The two coordinates are lengths, or angles in
+/// radians: of a plane along the first and second axis; of a line, nothing and along the third axis; of what is round,
+/// about the third axis from the first, and (cylinder, cone) along it, (sphere) up from the equator, (torus) around the
+/// tube from its outer side. A circle and an ellipse have the first alone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Extent {
+    /// Where the frame sits.
+    pub origin: [f64; 3],
+    /// Its axes.
+    pub axes: [[f64; 3]; 3],
+    /// Range of the first coordinate; a full turn is 2π.
+    pub u: [f64; 2],
+    /// Range of the second.
+    pub v: [f64; 2],
 }
 
 /// A point that touches.
@@ -89,6 +119,9 @@ pub struct Touching {
     pub side: i8,
     /// Its share in holding the element: positive, all sum to 1.
     pub multiplier: f64,
+    /// Where the point lies.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub position: Option<[f64; 3]>,
 }
 
 fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
@@ -103,7 +136,8 @@ impl FitDocument {
     /// The document of a fit to the points of `inputs`.
     pub fn new(fit: &Fit, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
         let residuals = &fit.residuals;
-        let extreme = |(distance, point): (f64, usize)| Extreme { distance, point: point as u64 };
+        let extreme =
+            |(distance, point): (f64, usize)| Extreme { distance, point: point as u64, position: None };
         let uncertainty = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
         let none_left = "there are no more points than unknowns";
         let uncertainty_reason = match (&uncertainty, fit.touching.is_empty()) {
@@ -133,8 +167,16 @@ impl FitDocument {
             touching: fit
                 .touching
                 .iter()
-                .map(|t| Touching { point: t.point as u64, side: t.side, multiplier: t.multiplier })
+                .map(|t| Touching {
+                    point: t.point as u64,
+                    side: t.side,
+                    multiplier: t.multiplier,
+                    position: None,
+                })
                 .collect(),
+            extent: None,
+            histogram: None,
+            scale: None,
             iterations: fit.iterations as u64,
             converged: fit.converged,
             seed,

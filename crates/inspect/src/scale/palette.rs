@@ -48,6 +48,19 @@ pub fn colors(name: &str, bands: usize) -> Vec<Rgb> {
     all
 }
 
+/// Colours that tell kinds apart, each clear of the grey of a part in light and shade.
+const CATEGORIES: [u32; 10] =
+    [0xd6006c, 0xf07800, 0x0b62e0, 0x00913f, 0x7d3cf0, 0xc81e1e, 0x008fa3, 0x9a6700, 0x5c6b00, 0xff5fa8];
+
+/// The colour of the `n`-th kind. Beyond ten the same come again, lighter or darker.
+pub fn category(n: usize) -> Rgb {
+    let base = bytes(CATEGORIES[n % CATEGORIES.len()]);
+    let round = n / CATEGORIES.len();
+    let toward = if round % 2 == 1 { [255; 3] } else { [0; 3] };
+    // Never so far that it would be white or black.
+    mix(base, toward, (0.22 * round.div_ceil(2) as f64).min(0.66))
+}
+
 fn bytes(hex: u32) -> Rgb {
     [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8]
 }

@@ -1,6 +1,6 @@
-import { Vector3 } from 'three'
 import { el, need } from './dom'
 import { readManifest } from './manifest'
+import { announcer } from './page/announce'
 import { keys } from './page/keys'
 import { keepView, restoreView } from './page/link'
 import { list } from './page/list'
@@ -18,8 +18,10 @@ import { Words } from './words'
 const manifest = readManifest()
 const words = new Words(manifest)
 const state = new State(manifest)
-headerTools(words)
-scaleColumn(state, words)
+headerTools(words, state)
+if (manifest.scale) scaleColumn(state, words)
+const rows = list(state)
+announcer(state)
 void openStage()
 
 /** Puts the 3D stage over the stored picture; where that fails the picture stays, with the reason. */
@@ -39,7 +41,6 @@ async function openStage(): Promise<void> {
   try {
     stage = new Stage(canvas, state)
   } catch {
-    list(state, () => {})
     return say('stage.none')
   }
   const overlay = el('div', { class: 'overlay' })
@@ -49,12 +50,7 @@ async function openStage(): Promise<void> {
   label()
   say('stage.loading')
 
-  const rows = list(state, (n) => {
-    const worst = state.current?.worst[n]
-    if (worst) stage.flyTo(new Vector3(...worst.point).sub(stage.center))
-    flags.mark(n)
-  })
-  const flags = new Flags(overlay, stage, state, words, rows.select)
+  new Flags(overlay, stage, state, words)
   stageTools(overlay, stage, state, words)
   viewCube(overlay, stage, words)
   hover(stage, overlay, state, words)
@@ -63,6 +59,8 @@ async function openStage(): Promise<void> {
   printStage(stage, need('picture') as HTMLImageElement)
   state.listen((what) => {
     if (what !== 'hover' && what !== 'log' && what !== 'flags') stage.applyState()
+    const pick = what === 'pick' ? manifest.picks[state.picked] : null
+    if (pick) stage.flyTo(pick)
   })
   new ResizeObserver(() => stage.resize(section.clientWidth, section.clientHeight)).observe(section)
   stage.resize(section.clientWidth, section.clientHeight)

@@ -4,29 +4,52 @@ export interface Manifest {
   language: string
   decimal: string | null
   up: 'y' | 'z'
-  palettes: Record<string, { bands: string; ramp: string; go_no_go: string }>
-  quantiles: number[][]
-  objects: ViewObject[]
+  scale: ScaleObject | null
+  /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
+  quantity: [string, string, string]
+  palettes: Record<string, { bands: string; ramp: string; go_no_go: string }> | null
+  maps: MapEntry[]
+  picks: Pick[]
+  objects: AnyObject[]
   simplified: boolean
   display_error: number
-  result: Result
 }
 
-export interface ViewObject {
+export type AnyObject = ViewObject | MarksObject
+
+interface Entry {
   id: number
-  role: 'measured' | 'reference'
+  /** What it is to the reader, and the key of its name. */
+  role: string
+  /** Whether the first view has it. */
+  shown: boolean
+  vertices: number
+  origin: [number, number, number]
+  step: number
+  positions: { blob: number }
+}
+
+export interface ViewObject extends Entry {
   kind: 'mesh' | 'points'
   name: string
   comparison: number | null
-  vertices: number
   source_vertices: number
   triangles?: number
-  origin: [number, number, number]
-  step: number
   corners?: { blob: number }
-  positions: { blob: number }
   levels: { triangles?: number; points?: number; blob?: number; error?: number }[]
   fields: Field[]
+}
+
+/** What is drawn over the part: areas, lines and dots, each with the number of its mark. */
+export interface MarksObject extends Entry {
+  kind: 'marks'
+  /** Number of the first mark. */
+  first: number
+  groups: { key: string; color: string; count: number }[]
+  triangles: number
+  segments: number
+  points: number
+  items: { blob: number }
 }
 
 export interface Field {
@@ -55,25 +78,25 @@ export interface Histogram {
   above: number
 }
 
-export interface Worst {
-  sign: 1 | -1
-  index: number
-  point: [number, number, number]
-  nearest: [number, number, number]
-  deviation: number
-}
-
-export interface Comparison {
-  reference: string
-  deviation: { all: { count: number; mean: number | null; std_dev: number | null; min: number | null; max: number | null } }
-  tolerance?: { lower: number; upper: number; inside: number; above: number; below: number }
+/** Values that can be shown as colours, with what the scale draws beside them. */
+export interface MapEntry {
+  name: string
+  count: number
+  mean: number | null
+  tolerance: { lower: number; upper: number; inside: number } | null
   histogram: Histogram | null
-  worst: Worst[]
+  quantiles: number[]
 }
 
-export interface Result {
-  scale: ScaleObject
-  comparisons: Comparison[]
+/** A place that a row of the list leads to. */
+export interface Pick {
+  position: [number, number, number]
+  /** Half the size of what to bring into view. */
+  reach: number | null
+  normal: [number, number, number] | null
+  mark: number | null
+  map: number | null
+  value: number | null
 }
 
 function json<T>(id: string): T {

@@ -1,4 +1,4 @@
-import type { Manifest, ScaleObject } from './manifest'
+import type { Manifest, Pick, ScaleObject } from './manifest'
 import { Colors } from './scale/scale'
 import { Distribution } from './scale/distribution'
 
@@ -6,7 +6,7 @@ import { Distribution } from './scale/distribution'
 export class State {
   scale: ScaleObject
   colors: Colors
-  /** Number of the comparison that is shown. */
+  /** Number of the map that is shown. */
   comparison = 0
   /** Only deviations in this range are coloured. */
   only: [number, number] | null = null
@@ -17,24 +17,43 @@ export class State {
   perspective = false
   flags = true
   log = false
-  visible: Record<'measured' | 'reference', boolean>
+  backfaces = false
+  /** Number of the place chosen in the list; −1 for none. */
+  picked = -1
+  readonly visible: Record<string, boolean> = {}
   private readonly listeners: ((what: Change) => void)[] = []
 
   constructor(readonly manifest: Manifest) {
-    this.scale = { ...manifest.result.scale }
+    this.scale = { ...(manifest.scale ?? NO_SCALE) }
     this.colors = new Colors(manifest, this.scale)
-    this.visible = firstView(manifest)
+    for (const { role, shown } of manifest.objects) this.visible[role] ||= shown
+    this.backfaces = 'part' in this.visible
   }
 
   get current() {
-    return this.manifest.result.comparisons[this.comparison]
+    return this.manifest.maps[this.comparison]
+  }
+
+  /** Places that the list leads to now, with their numbers. */
+  get picks(): [number, Pick][] {
+    return [...this.manifest.picks.entries()].filter(([, p]) => p.map === null || p.map === this.comparison)
+  }
+
+  /** There are surfaces, whose inner side can be shown. */
+  get meshes(): boolean {
+    return this.manifest.objects.some((o) => o.kind === 'mesh' && o.role !== 'element')
+  }
+
+  /** What can be switched on and off. */
+  get roles(): string[] {
+    return Object.keys(this.visible)
   }
 
   /** Share of the deviations in a range: the result's own number for the tolerance zone, else from the distribution. */
   share(from: number, to: number): number | null {
     const zone = this.current?.tolerance
     if (zone && from === zone.lower && to === zone.upper) return zone.inside
-    const distribution = new Distribution(this.manifest.quantiles[this.comparison] ?? [])
+    const distribution = new Distribution(this.current?.quantiles ?? [])
     return distribution.known ? distribution.between(from, to) : null
   }
 
@@ -53,7 +72,7 @@ export class State {
   }
 
   resetScale(): void {
-    this.setScale(this.manifest.result.scale)
+    this.setScale(this.manifest.scale ?? NO_SCALE)
   }
 
   setOnly(range: [number, number] | null): void {
@@ -69,26 +88,27 @@ export class State {
 
   choose(comparison: number): void {
     this.comparison = comparison
+    this.picked = -1
     this.tell('comparison')
   }
 
-  toggle(what: 'map' | 'flat' | 'perspective' | 'flags' | 'log'): void {
-    this[what] = !this[what]
-    this.tell(what === 'flags' ? 'flags' : what === 'log' ? 'log' : 'look')
+  pick(number: number): void {
+    this.picked = number
+    this.tell('pick')
   }
 
-  show(role: 'measured' | 'reference', on: boolean): void {
+  toggle(what: 'map' | 'flat' | 'perspective' | 'flags' | 'log' | 'backfaces'): void {
+    this[what] = !this[what]
+    this.tell(what === 'flags' || what === 'log' ? what : 'look')
+  }
+
+  show(role: string, on: boolean): void {
     this.visible[role] = on
     this.tell('look')
   }
 }
 
-export type Change = 'scale' | 'only' | 'hover' | 'comparison' | 'look' | 'flags' | 'log'
+export type Change = 'scale' | 'only' | 'hover' | 'comparison' | 'look' | 'flags' | 'log' | 'pick'
 
-/** The measured mesh alone; else the reference that carries the map; else the measured points over the reference. */
-function firstView(manifest: Manifest): State['visible'] {
-  const mapped = (role: string) => manifest.objects.some((o) => o.role === role && o.kind === 'mesh' && o.fields.length > 0)
-  if (mapped('measured')) return { measured: true, reference: false }
-  if (mapped('reference')) return { measured: false, reference: true }
-  return { measured: true, reference: true }
-}
+/** Stands in where nothing is mapped. */
+const NO_SCALE: ScaleObject = { mode: 'bands', lower: -1, upper: 1, tolerance: null, bands: 1, palette: '', decimals: 3, unit: 'mm' }

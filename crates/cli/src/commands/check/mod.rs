@@ -6,11 +6,14 @@ use crate::command::Common;
 use crate::commands::compare::output::whole_file;
 use crate::exit::{Outcome, Usage};
 use crate::progress::Stage;
+use crate::report::ReportArgs;
 use crate::{console, read};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueness_files::{Body, Input, ReadOptions, SourceMesh, Unit};
 use trueness_geom::check::{self, CheckError, Options};
+use trueness_inspect::check::View;
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::check::CheckDocument;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -22,6 +25,7 @@ use trueness_inspect::results::{InputRecord, Role};
 #[command(after_help = "\
 Examples:
   trueness check part.stl
+  trueness check part.stl --html report.html
   trueness check part.stl --json defects.json --items 100000
   trueness check scan.ply --gap 0.01 --no-self-intersections")]
 pub struct CheckArgs {
@@ -48,6 +52,8 @@ pub struct CheckArgs {
     /// Write the result document; `-` for stdout, then no table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 impl CheckArgs {
@@ -85,6 +91,10 @@ pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     let left_out = source.nonfinite_facets;
     let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
     write_json(args.json.as_deref(), &document)?;
+    if args.report.html.is_some() {
+        let view = View::new(&document, &document.inputs[0].path, &source.mesh);
+        args.report.write(Answer::Check(&document), &view.objects(), &view.marks)?;
+    }
     if args.json.as_deref() != Some(Path::new("-")) {
         console::table(&table::text(&document, &check::KINDS));
     }

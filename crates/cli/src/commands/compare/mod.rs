@@ -132,7 +132,7 @@ impl CompareArgs {
             },
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
-            shown: if self.output.html.is_some() { SHOWN } else { 0 },
+            shown: if self.output.report.html.is_some() { SHOWN } else { 0 },
             research: self.research,
             seed: common.seed,
             ..Options::default()
@@ -194,7 +194,7 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     };
     let inputs = Inputs { files, kind: measured.kind, scale, reverse };
     let mut document = compare::document(&found, inputs, &options);
-    if args.output.html.is_some() {
+    if args.output.report.html.is_some() {
         let shown = if measured.kind == "vertices" { found.count } else { found.shown.points.len() as u64 };
         document.sampling = Some(Sampling { shown, total: found.count });
     }

@@ -2,15 +2,16 @@
 
 use crate::console;
 use crate::exit::Usage;
+use crate::report::ReportArgs;
 use anyhow::Context;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rayon::prelude::*;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use trueness_files::write::{self, Layout, PointsFile};
 use trueness_files::{AtomicFile, WriteError};
 use trueness_inspect::compare;
-use trueness_inspect::report::{self, Language, ReportError, ReportInput, ReportOptions, Up};
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::compare::CompareDocument;
 use trueness_inspect::scale::Scale;
 
@@ -25,72 +26,17 @@ pub struct OutputArgs {
     /// references one file each: name.1.csv, name.2.csv …
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Write a self-contained report with a 3D map
-    #[arg(long, value_name = "FILE")]
-    pub html: Option<PathBuf>,
-    /// Largest size of the report in MB
-    #[arg(long, value_name = "MB", default_value = "10", value_parser = clap::value_parser!(u32).range(2..))]
-    pub html_budget: u32,
     /// Colour scale of the report (an object trueness/scale/1)
     #[arg(long, value_name = "FILE")]
     pub scale: Option<PathBuf>,
-    /// Language of the report: en, de, ru, zh
-    #[arg(long, value_name = "LANG", default_value = "en", value_parser = language)]
-    pub lang: Language,
-    /// Decimal sign of the report: . or ,
-    #[arg(long, value_name = "SIGN", value_parser = decimal_sign)]
-    pub decimal: Option<char>,
-    /// The model's axis that points up in the report
-    #[arg(long, value_enum, default_value = "z")]
-    pub up: UpArg,
-    /// Head of the report
-    #[arg(long, value_name = "TEXT")]
-    pub title: Option<String>,
-    /// Part, for the head of the report
-    #[arg(long, value_name = "TEXT")]
-    pub part: Option<String>,
-    /// Serial number, for the head of the report
-    #[arg(long, value_name = "TEXT")]
-    pub serial: Option<String>,
-    /// Operator, for the head of the report
-    #[arg(long, value_name = "TEXT")]
-    pub operator: Option<String>,
-}
-
-/// Which axis points up.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum UpArg {
-    /// As in scanned figures.
-    Y,
-    /// As in technical drawings.
-    Z,
-}
-
-impl From<UpArg> for Up {
-    fn from(up: UpArg) -> Up {
-        match up {
-            UpArg::Y => Up::Y,
-            UpArg::Z => Up::Z,
-        }
-    }
-}
-
-fn language(code: &str) -> Result<Language, String> {
-    Language::from_code(code).ok_or_else(|| "there are en, de, ru and zh".into())
-}
-
-fn decimal_sign(sign: &str) -> Result<char, String> {
-    match sign {
-        "." => Ok('.'),
-        "," => Ok(','),
-        _ => Err("it is . or ,".into()),
-    }
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 impl OutputArgs {
     /// Refuses two outputs on the same stream or in the same file.
     pub fn check(&self) -> Result<(), Usage> {
-        let files: Vec<&PathBuf> = [&self.json, &self.out, &self.html].into_iter().flatten().collect();
+        let files: Vec<&PathBuf> = [&self.json, &self.out, &self.report.html].into_iter().flatten().collect();
         for (i, a) in files.iter().enumerate() {
             if files[..i].contains(a) {
                 return Err(Usage(format!(
@@ -127,23 +73,7 @@ impl OutputArgs {
 
     /// The report in its file.
     pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
-        let Some(path) = &self.html else { return Ok(()) };
-        let options = ReportOptions {
-            title: self.title.clone(),
-            part: self.part.clone(),
-            serial: self.serial.clone(),
-            operator: self.operator.clone(),
-            budget: self.html_budget as usize * 1_000_000,
-            language: self.lang,
-            decimal: self.decimal,
-            up: self.up.into(),
-        };
-        let input = ReportInput { result: document, objects: &view.objects(), options: &options };
-        whole_file(path, |mut file| match report::write(&input, &mut file) {
-            Ok(_) => Ok(()),
-            Err(ReportError::Write(e)) => Err(e),
-            Err(e) => Err(std::io::Error::other(e)),
-        })
+        self.report.write(Answer::Compare(document), &view.objects(), &[])
     }
 
     /// True if the table would mix with the document.

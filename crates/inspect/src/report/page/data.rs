@@ -2,7 +2,7 @@
 
 use super::super::html::{Html, json};
 use super::super::payload::Payload;
-use super::super::{ReportError, ReportInput, Up, text};
+use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale};
 use serde_json::{Map, Value, json};
@@ -12,17 +12,21 @@ const QUANTILES: usize = 2000;
 
 /// Writes the data elements.
 pub fn data(h: &mut Html, input: &ReportInput, payload: &Payload) -> Result<(), ReportError> {
+    let subject = input.result.subject();
     let manifest = json!({
         "schema": "trueness/view/1",
         "language": input.options.language.code(),
         "decimal": input.options.decimal,
         "up": if input.options.up == Up::Y { "y" } else { "z" },
-        "palettes": palettes(&input.result.scale),
-        "quantiles": quantiles(input),
+        "scale": subject.scale(),
+        "quantity": subject.quantity(),
+        "palettes": subject.scale().map(palettes),
+        "maps": maps(input),
+        "picks": picks(input),
         "objects": payload.objects,
         "simplified": payload.simplified,
         "display_error": payload.display_error,
-        "result": input.result,
+        "result": subject.json()?,
     });
     element(h, "manifest", &manifest);
     element(h, "texts", &text::table());
@@ -30,6 +34,29 @@ pub fn data(h: &mut Html, input: &ReportInput, payload: &Payload) -> Result<(), 
         h.raw(&format!("<script type=\"application/octet-stream\" id=\"blob-{n}\">{blob}</script>\n"));
     }
     Ok(())
+}
+
+/// The maps that can be shown, with what the scale draws beside them.
+fn maps(input: &ReportInput) -> Value {
+    let all = input.result.subject().maps().into_iter().enumerate().map(|(n, m)| {
+        json!({
+            "name": m.name, "count": m.count, "mean": m.mean, "tolerance": m.tolerance, "histogram": m.histogram,
+            "quantiles": quantiles(input, n),
+        })
+    });
+    all.collect::<Vec<_>>().into()
+}
+
+/// The places of the list, in the order of its rows.
+fn picks(input: &ReportInput) -> Value {
+    let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
+    let all = input.result.subject().picks().into_iter().map(|p| {
+        json!({
+            "position": p.position, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
+            "mark": p.mark, "map": p.map, "value": p.value,
+        })
+    });
+    all.collect::<Vec<_>>().into()
 }
 
 fn element(h: &mut Html, id: &str, value: &Value) {
@@ -51,18 +78,15 @@ fn palettes(scale: &Scale) -> Value {
     Value::Object(Map::from_iter(palette::NAMES.map(|name| (name.to_string(), of(name)))))
 }
 
-/// For each comparison, evenly spaced quantiles of the deviations at hand, least to greatest; empty where there are none.
-fn quantiles(input: &ReportInput) -> Value {
-    let of = |comparison: usize| -> Vec<f64> {
-        let measured = input.objects.iter().filter(|o| o.role == crate::results::Role::Measured);
-        let mut sorted: Vec<f64> = measured
-            .filter_map(|o| o.field(comparison))
-            .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
-            .collect();
-        sorted.sort_unstable_by(f64::total_cmp);
-        let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
-        let steps = QUANTILES.min(last.max(1));
-        (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()
-    };
-    (0..input.result.comparisons.len()).map(of).collect::<Vec<_>>().into()
+/// Evenly spaced quantiles of the values at hand of a map, least to greatest; empty where there are none.
+fn quantiles(input: &ReportInput, map: usize) -> Vec<f64> {
+    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured);
+    let mut sorted: Vec<f64> = valued
+        .filter_map(|o| o.field(map))
+        .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
+        .collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
+    let steps = QUANTILES.min(last.max(1));
+    (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::super::html::Html;
 use super::super::text::word;
-use crate::results::compare::{CompareDocument, Comparison};
+use crate::results::compare::Histogram;
 use crate::scale::Scale;
 
 const WIDTH: f64 = 760.0;
@@ -17,23 +17,19 @@ const LABEL: f64 = 48.0;
 /// Length of a cap.
 const CAP: f64 = 22.0;
 
-/// The first comparison's distribution.
-pub fn figure(h: &mut Html, result: &CompareDocument) {
-    let Some(c) = result.comparisons.first() else { return };
-    let scale = &result.scale;
+/// The distribution of the first map.
+pub fn figure(h: &mut Html, scale: &Scale, histogram: Option<&Histogram>, [_, high, low]: [&str; 3]) {
     let at = axis(scale);
     h.raw(&format!("<svg class=\"distribution\" viewBox=\"0 0 {WIDTH} 162\" role=\"img\"><title>"));
     h.text(word("figure.title", h.language())).raw("</title>");
-    bars(h, c, scale, &at);
+    bars(h, histogram, scale, &at);
     strip(h, scale, &at);
     ticks(h, scale, &at);
-    let (low, high) = (word("ends.low", h.language()), word("ends.high", h.language()));
-    h.raw(&format!("<text class=\"end\" x=\"{LEFT}\" y=\"154\" data-t=\"ends.low\">"))
-        .text(low)
-        .raw("</text>");
-    h.raw(&format!("<text class=\"end r\" x=\"{RIGHT}\" y=\"154\" data-t=\"ends.high\">"))
-        .text(high)
-        .raw("</text></svg>");
+    for (key, class, x) in [(low, "end", LEFT), (high, "end r", RIGHT)] {
+        h.raw(&format!("<text class=\"{class}\" x=\"{x}\" y=\"154\" data-t=\"{key}\">"));
+        h.text(word(key, h.language())).raw("</text>");
+    }
+    h.raw("</svg>");
 }
 
 /// From deviation to place along the axis; the caps take what is beyond the scale.
@@ -44,8 +40,8 @@ fn axis(scale: &Scale) -> impl Fn(f64) -> f64 + use<> {
 }
 
 /// Bars within the scale, each in the colour of its middle; what lies beyond stands as one share at each end.
-fn bars(h: &mut Html, c: &Comparison, scale: &Scale, at: &impl Fn(f64) -> f64) {
-    let Some(histogram) = &c.histogram else { return };
+fn bars(h: &mut Html, histogram: Option<&Histogram>, scale: &Scale, at: &impl Fn(f64) -> f64) {
+    let Some(histogram) = histogram else { return };
     let greatest = histogram.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
     for (edges, count) in histogram.edges.windows(2).zip(&histogram.counts) {
         let (from, to) = (edges[0].max(scale.lower), edges[1].min(scale.upper));

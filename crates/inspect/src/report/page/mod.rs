@@ -1,9 +1,9 @@
 //! The whole HTML page. All of it but the 3D stage can be read with scripts off.
 
+pub mod blocks;
 mod data;
 mod figure;
 mod header;
-mod list;
 mod policy;
 
 use super::html::Html;
@@ -13,7 +13,7 @@ use super::{ReportError, ReportInput};
 
 /// The page around the payload and the picture (base64 of a PNG).
 pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<String, ReportError> {
-    let options = input.options;
+    let (options, subject) = (input.options, input.result.subject());
     let mut h = Html::new(Style { language: options.language, decimal: options.decimal });
     h.raw("<!doctype html>\n<html lang=\"")
         .raw(options.language.code())
@@ -21,17 +21,29 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<Str
     h.raw(&policy::meta())
         .raw("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
     h.raw("<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"referrer\" content=\"no-referrer\">\n<title>");
-    h.text(&format!(
-        "{} · {}",
-        header::verdict(input.result).word_in(options.language),
-        header::title(input)
-    ));
-    h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n</head>\n<body>\n");
+    h.text(&format!("{} · {}", subject.headline().word_in(options.language), header::title(input)));
+    h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n</head>\n");
+    let scale = subject.scale();
+    h.raw(if scale.is_some() { "<body>\n" } else { "<body class=\"no-scale\">\n" });
     header::header(&mut h, input);
-    h.raw("<main>\n");
-    list::list(&mut h, input);
+    h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
+    subject.list(&mut h);
+    blocks::files(&mut h, subject.head().inputs, |input| subject.role(input));
+    blocks::section(&mut h, "method", |h| {
+        subject.method(h);
+        h.raw("<p class=\"note\">trueness ").text(subject.head().version).raw(" · ");
+        h.text(subject.head().schema);
+        if let Some(seed) = subject.seed() {
+            h.raw(" · ").word("seed").raw("\u{a0}").text(&seed.to_string());
+        }
+        h.raw("</p>");
+    });
+    h.raw("</aside>\n");
     stage(&mut h, input, picture);
-    h.raw("<aside id=\"scale\" class=\"scale\" hidden></aside>\n</main>\n");
+    if scale.is_some() {
+        h.raw("<aside id=\"scale\" class=\"scale\" hidden></aside>\n");
+    }
+    h.raw("</main>\n");
     header::status(&mut h, input, payload);
     data::data(&mut h, input, payload)?;
     if trueness_viewer::BUILT {
@@ -43,11 +55,14 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<Str
 
 /// The stored picture and the distribution under it; the script draws over the one and redraws the other.
 fn stage(h: &mut Html, input: &ReportInput, picture: &str) {
+    let subject = input.result.subject();
     h.raw("<section id=\"stage\" class=\"stage\">\n<img id=\"picture\" class=\"picture\" alt=\"");
-    h.text(super::text::word("picture.alt", input.options.language));
-    h.raw("\" src=\"data:image/png;base64,")
-        .raw(picture)
-        .raw("\">\n</section>\n<figure id=\"figure\" class=\"figure\">");
-    figure::figure(h, input.result);
-    h.raw("</figure>\n");
+    h.text(super::text::word(subject.picture(), input.options.language));
+    h.raw("\" src=\"data:image/png;base64,").raw(picture).raw("\">\n</section>\n");
+    if let Some(scale) = subject.scale() {
+        h.raw("<figure id=\"figure\" class=\"figure\">");
+        let histogram = subject.maps().first().and_then(|m| m.histogram);
+        figure::figure(h, scale, histogram, subject.quantity());
+        h.raw("</figure>\n");
+    }
 }

@@ -7,6 +7,7 @@
 mod blob;
 mod field;
 mod grid;
+mod marks;
 mod mesh;
 mod planes;
 mod points;
@@ -15,7 +16,10 @@ mod predict;
 pub use blob::base64;
 pub use field::NoValue;
 
-use super::{Geometry, ReportError, Role, ViewObject};
+use super::marks::Marks;
+use super::picture::first_view;
+use super::{Geometry, ReportError, ViewObject, ViewRole};
+use crate::scale::palette::Rgb;
 use field::Codes;
 use grid::Grid;
 use mesh::{MeshBytes, Ordered};
@@ -68,7 +72,40 @@ struct Quality {
 ///
 /// First everything is kept; then positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
 /// `range` is what the deviations are looked at in: the width of the tolerance zone or of the scale.
-pub fn pack(objects: &[ViewObject], range: f64, budget: usize) -> Result<Payload, ReportError> {
+pub fn pack(
+    objects: &[ViewObject],
+    marks: &[Marks],
+    range: f64,
+    budget: usize,
+) -> Result<Payload, ReportError> {
+    let marks = pack_all_marks(objects, marks);
+    let budget = budget.saturating_sub(marks.len());
+    Ok(join(pack_objects(objects, range, budget)?, marks))
+}
+
+/// Marks are few and are never thinned out. Their objects' numbers follow those of the others.
+fn pack_all_marks(objects: &[ViewObject], marks: &[Marks]) -> Payload {
+    let mut part = Payload::default();
+    let around = objects.first().map_or(Aabb::EMPTY, |o| Aabb::of(o.places().iter().filter(finite)));
+    let mut first = 0;
+    for (n, m) in marks.iter().enumerate() {
+        let mut entry = marks::pack_marks(&mut part, m, &around, first);
+        entry["id"] = json!(objects.len() + n);
+        part.objects.push(entry);
+        first += m.items().count();
+    }
+    part
+}
+
+fn finite(p: &&Point) -> bool {
+    p.iter().all(|x| x.is_finite())
+}
+
+fn hex([r, g, b]: Rgb) -> String {
+    format!("{r:02x}{g:02x}{b:02x}")
+}
+
+fn pack_objects(objects: &[ViewObject], range: f64, budget: usize) -> Result<Payload, ReportError> {
     let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
     let points =
         objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
@@ -105,6 +142,7 @@ fn coarse_grid_is_fine(object: &ViewObject) -> bool {
 }
 
 fn pack_at(objects: &[ViewObject], range: f64, quality: Quality) -> Result<Payload, ReportError> {
+    let shown = first_view(objects);
     let parts: Vec<Payload> = objects
         .par_iter()
         .enumerate()
@@ -116,6 +154,7 @@ fn pack_at(objects: &[ViewObject], range: f64, quality: Quality) -> Result<Paylo
             };
             part.objects.push(entry);
             part.objects[0]["id"] = json!(id);
+            part.objects[0]["shown"] = json!(shown.contains(&id));
             Ok(part)
         })
         .collect::<Result<_, ReportError>>()?;
@@ -229,7 +268,7 @@ fn pack_points(
         })
         .collect();
     part.display_error = grid.error();
-    if object.role == Role::Measured {
+    if object.role == ViewRole::Measured {
         part.points = (count, points.len());
     }
     let ends: Vec<Value> = levels.ends.iter().map(|e| json!({"points": e})).collect();

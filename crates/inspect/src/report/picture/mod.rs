@@ -3,10 +3,12 @@
 //! A plain software rasteriser. Like the script's, it colours each pixel from the value interpolated there.
 
 mod camera;
+mod overlay;
 mod png;
 
-use super::{Geometry, Up, ViewObject};
-use crate::results::Role;
+use super::marks::Marks;
+use super::{Geometry, Up, ViewObject, ViewRole};
+use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use camera::Camera;
 use trueness_geom::mesh::Mesh;
@@ -16,45 +18,60 @@ const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 900;
 /// Samples a pixel and side.
 const FINE: u32 = 2;
-/// Blue-grey of a reference that carries no map.
-const REFERENCE: [u8; 3] = [0x8f, 0xa3, 0xbf];
 /// Least brightness of a surface seen edge-on.
 const DARKEST: f64 = 0.72;
 /// Cosine of the angle beyond which a facet keeps its own normal.
 const SHARP: f64 = 0.866;
 
-/// Which objects the first view shows, and whether with the map: the measured mesh, else the reference that carries the map
-/// of the first comparison, else the measured points over the plain reference.
-pub fn first_view<'a, 'b>(objects: &'b [ViewObject<'a>]) -> Vec<(&'b ViewObject<'a>, bool)> {
-    let mapped = |o: &&ViewObject| o.field(0).is_some();
-    let mesh = |o: &&ViewObject| o.mesh().is_some();
-    let measured = objects.iter().filter(|o| o.role == Role::Measured);
-    if let Some(o) = measured.clone().filter(mesh).find(mapped) {
-        return vec![(o, true)];
-    }
-    let references = objects.iter().filter(|o| o.role == Role::Reference);
-    if let Some(o) = references.clone().filter(mesh).find(mapped) {
-        return vec![(o, true)];
-    }
-    let plain = references.filter(|o| o.comparison.unwrap_or(0) == 0).map(|o| (o, false));
-    plain.chain(measured.map(|o| (o, true))).collect()
+/// Numbers of the objects that the first view shows: the measured mesh with its map, else the reference that carries the
+/// map of the first comparison, else the measured points over the plain reference. Of other things, all but what was there
+/// before a repair.
+pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
+    let mapped = |role| {
+        let fits = |o: &&ViewObject| o.role == role && o.mesh().is_some() && o.field(0).is_some();
+        objects.iter().any(|o| fits(&o))
+    };
+    let (measured, reference) = (mapped(ViewRole::Measured), mapped(ViewRole::Reference));
+    let shown = |o: &ViewObject| match o.role {
+        ViewRole::Measured => measured || !reference,
+        ViewRole::Reference => !measured && (o.comparison.unwrap_or(0) == 0),
+        ViewRole::Before => false,
+        _ => true,
+    };
+    (0..).zip(objects).filter(|(_, o)| shown(o)).map(|(n, _)| n).collect()
 }
 
-/// The first view as a PNG on a transparent ground.
-pub fn png(objects: &[ViewObject], scale: &Scale, up: Up) -> Vec<u8> {
-    let shown = first_view(objects);
+/// The first view as a PNG on a transparent ground. Without a scale there are no maps.
+pub fn png(objects: &[ViewObject], marks: &[Marks], scale: Option<&Scale>, up: Up) -> Vec<u8> {
+    let shown: Vec<&ViewObject> = first_view(objects).into_iter().map(|n| &objects[n]).collect();
     let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-    let places = shown.iter().flat_map(|(o, _)| o.places()).filter(finite);
+    let places = shown.iter().flat_map(|o| o.places()).filter(finite);
     let camera = Camera::isometric(places, up, FINE * WIDTH, FINE * HEIGHT);
     let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
-    for (object, mapped) in shown {
-        let values = object.field(0).filter(|_| mapped).map(|f| f.values);
+    for object in shown {
+        let paint = Paint {
+            base: object.role.color(),
+            values: object.field(0).map(|f| f.values).zip(scale.map(Colors::of)),
+        };
         match object.geometry {
-            Geometry::Mesh(mesh) => canvas.mesh(mesh, values, scale, &camera),
-            Geometry::Points(points) => canvas.points(points, values, scale, &camera),
+            // Translucent things are there as their outlines, which are marks.
+            Geometry::Mesh(_) if object.role == ViewRole::Element => {}
+            Geometry::Mesh(mesh) => canvas.mesh(mesh, &paint, &camera),
+            Geometry::Points(points) => canvas.points(points, &paint, &camera),
         }
     }
+    let all: Vec<_> = marks.iter().flat_map(Marks::colored).collect();
+    // The first marks lie over the others.
+    for (mark, color) in all.into_iter().rev() {
+        overlay::draw(&mut canvas, mark, color, &camera);
+    }
     png::encode(WIDTH, HEIGHT, &canvas.reduced())
+}
+
+/// What an object is coloured by: its values where it has some, else its own colour.
+struct Paint<'a> {
+    base: Rgb,
+    values: Option<(&'a [f64], Colors<'a>)>,
 }
 
 struct Canvas {
@@ -62,12 +79,20 @@ struct Canvas {
     height: u32,
     depth: Vec<f32>,
     color: Vec<[u8; 3]>,
+    /// A mark behind the surface shows here.
+    marked: Vec<bool>,
 }
 
 impl Canvas {
     fn new(width: u32, height: u32) -> Canvas {
         let n = (width * height) as usize;
-        Canvas { width, height, depth: vec![f32::NEG_INFINITY; n], color: vec![[0; 3]; n] }
+        Canvas {
+            width,
+            height,
+            depth: vec![f32::NEG_INFINITY; n],
+            color: vec![[0; 3]; n],
+            marked: vec![false; n],
+        }
     }
 
     fn put(&mut self, x: u32, y: u32, depth: f32, color: impl FnOnce() -> [u8; 3]) {
@@ -79,9 +104,8 @@ impl Canvas {
     }
 
     /// Triangles with a missing or non-finite corner are passed over; one without all three values is drawn as no value.
-    fn mesh(&mut self, mesh: &Mesh, values: Option<&[f64]>, scale: &Scale, camera: &Camera) {
+    fn mesh(&mut self, mesh: &Mesh, paint: &Paint, camera: &Camera) {
         let normals = smooth_normals(mesh);
-        let table = Colors::of(scale);
         for face in &mesh.faces {
             let corner =
                 |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
@@ -92,17 +116,19 @@ impl Canvas {
                 let n = normals[v as usize];
                 dot(if dot(n, facet) < SHARP { facet } else { n }, camera.toward).abs()
             });
-            let value = values.map(|v| face.map(|i| v[i as usize]));
-            self.triangle(&at, |w| {
+            let value = paint.values.as_ref().map(|(v, table)| (face.map(|i| v[i as usize]), table));
+            self.each_sample(&at, |canvas, x, y, depth, w| {
                 let mix = |x: &[f64; 3]| (0..3).map(|k| w[k] * x[k]).sum::<f64>();
-                let base = value.map_or(REFERENCE, |v| table.color(mix(&v)));
-                shade(base, mix(&light))
+                canvas.put(x, y, depth as f32, || {
+                    let base = value.map_or(paint.base, |(v, table)| table.color(mix(&v)));
+                    shade(base, mix(&light))
+                });
             });
         }
     }
 
-    /// Calls `color` with barycentric coordinates for every covered sample that is nearest so far.
-    fn triangle(&mut self, at: &[[f64; 3]; 3], color: impl Fn([f64; 3]) -> [u8; 3]) {
+    /// Calls `put` with place, depth and barycentric coordinates for every sample that a triangle covers.
+    fn each_sample(&mut self, at: &[[f64; 3]; 3], put: impl Fn(&mut Canvas, u32, u32, f64, [f64; 3])) {
         let [a, b, c] = at;
         let edge = |p: &[f64; 3], q: &[f64; 3], x: f64, y: f64| {
             (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
@@ -122,27 +148,37 @@ impl Canvas {
                 let w = [edge(b, c, px, py) / area, edge(c, a, px, py) / area, edge(a, b, px, py) / area];
                 if w.iter().all(|v| *v >= 0.0) {
                     let depth = (0..3).map(|k| w[k] * at[k][2]).sum::<f64>();
-                    self.put(x, y, depth as f32, || color(w));
+                    put(self, x, y, depth, w);
                 }
             }
         }
     }
 
-    /// Small squares.
-    fn points(&mut self, points: &[Point], values: Option<&[f64]>, scale: &Scale, camera: &Camera) {
-        let table = Colors::of(scale);
+    /// Calls `put` for every sample within `radius` of a place.
+    fn disc(&mut self, [cx, cy]: [f64; 2], radius: f64, put: impl Fn(&mut Canvas, u32, u32)) {
+        let span = |c: f64, limit: u32| {
+            let from = (c - radius).ceil().max(0.0) as u32;
+            from..((c + radius).floor().max(-1.0) + 1.0).min(f64::from(limit)) as u32
+        };
+        let (columns, rows) = (span(cx, self.width), span(cy, self.height));
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            if (f64::from(x) - cx).hypot(f64::from(y) - cy) <= radius {
+                put(self, x, y);
+            }
+        }
+    }
+
+    /// Round dots.
+    fn points(&mut self, points: &[Point], paint: &Paint, camera: &Camera) {
+        // Few points are drawn large enough to be seen.
+        let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 9.0);
         for (i, p) in points.iter().enumerate() {
             let [x, y, z] = camera.project(p);
             if !(x.is_finite() && y.is_finite()) {
                 continue;
             }
-            let color = values.map_or(REFERENCE, |v| table.color(v[i]));
-            for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-                let (x, y) = (x as i64 + dx, y as i64 + dy);
-                if (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y) {
-                    self.put(x as u32, y as u32, z as f32, || color);
-                }
-            }
+            let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
+            self.disc([x, y], radius, |canvas, x, y| canvas.put(x, y, z as f32, || color));
         }
     }
 

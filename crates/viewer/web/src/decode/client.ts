@@ -1,5 +1,5 @@
 import code from 'virtual:worker'
-import { blobText, type ViewObject } from '../manifest'
+import { blobText, type AnyObject } from '../manifest'
 import type { DecodedObject, PackedObject } from './object'
 
 /** Starts the worker from the text that the page carries; the page's rules allow no other way. */
@@ -10,7 +10,7 @@ function start(): Worker {
 }
 
 /** Decodes all objects, each reported as it is ready. Rejects when one cannot be read. */
-export async function decodeAll(objects: ViewObject[], ready: (object: ViewObject, decoded: DecodedObject) => void): Promise<void> {
+export async function decodeAll(objects: AnyObject[], ready: (object: AnyObject, decoded: DecodedObject) => void): Promise<void> {
   const worker = start()
   try {
     for (const object of objects) ready(object, await decodeOne(worker, object))
@@ -19,7 +19,7 @@ export async function decodeAll(objects: ViewObject[], ready: (object: ViewObjec
   }
 }
 
-function decodeOne(worker: Worker, object: ViewObject): Promise<DecodedObject> {
+function decodeOne(worker: Worker, object: AnyObject): Promise<DecodedObject> {
   return new Promise((resolve, reject) => {
     worker.onerror = (event) => reject(new Error(event.message))
     worker.onmessage = (event: MessageEvent<{ decoded?: DecodedObject; error?: string }>) =>
@@ -28,10 +28,15 @@ function decodeOne(worker: Worker, object: ViewObject): Promise<DecodedObject> {
   })
 }
 
-function packed(object: ViewObject): PackedObject {
+function packed(object: AnyObject): PackedObject {
+  const { kind, vertices } = object
+  if (object.kind === 'marks') {
+    const triangles = object.triangles + object.segments + object.points
+    return { kind, vertices, triangles, corners: blobText(object.items.blob), positions: blobText(object.positions.blob), levels: [], fields: [] }
+  }
   return {
-    kind: object.kind,
-    vertices: object.vertices,
+    kind,
+    vertices,
     triangles: object.triangles ?? 0,
     corners: object.corners ? blobText(object.corners.blob) : null,
     positions: blobText(object.positions.blob),

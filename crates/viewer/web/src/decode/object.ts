@@ -6,9 +6,11 @@ import { decodeTriangles } from './triangles'
 
 /** What the worker is told about an object: its manifest entry's numbers, and its blobs as text. */
 export interface PackedObject {
-  kind: 'mesh' | 'points'
+  kind: 'mesh' | 'points' | 'marks'
   vertices: number
+  /** Of marks: areas, lines and dots together. */
   triangles: number
+  /** Of marks: the number of the mark that each area, line and dot is of. */
   corners: string | null
   positions: string
   levels: { triangles: number; blob: string }[]
@@ -19,7 +21,7 @@ export interface PackedObject {
 export interface DecodedObject {
   /** Four numbers a vertex: x, y, z on the grid, and the packed normal (0 for points). */
   packed: Uint16Array
-  /** Corners of the full level, then of each coarser one. Empty for points. */
+  /** Corners of the full level, then of each coarser one. Empty for points; the numbers of marks. */
   corners: Uint32Array
   /** One array a field, in millimetres; from 1e30 upwards: no value, for reason value / 1e30 − 1. */
   fields: Float32Array[]
@@ -29,7 +31,12 @@ export interface DecodedObject {
 export const NO_VALUE = 1e30
 
 export async function decodeObject(object: PackedObject): Promise<DecodedObject> {
-  return object.kind === 'mesh' ? decodeMesh(object) : decodePoints(object)
+  if (object.kind === 'mesh') return decodeMesh(object)
+  const points = await decodePoints(object)
+  if (object.kind === 'points') return points
+  const steps = differences(await unpack(object.corners ?? ''), 0, object.triangles, 3)
+  let number = 0
+  return { ...points, corners: Uint32Array.from(steps, (step) => (number += wrapSigned(step, 3))) }
 }
 
 async function decodeMesh(object: PackedObject): Promise<DecodedObject> {

@@ -4,24 +4,46 @@ import { STANDARD } from '../stage/eye'
 import type { State } from '../state'
 import type { Words } from '../words'
 
+/** What switches an object or a layer of marks on and off. */
+export const ROLE_KEYS: Record<string, string> = {
+  measured: 'A', part: 'A', after: 'A', reference: 'N', before: 'N', element: 'N', defects: 'D', touching: 'D', changes: 'D',
+}
+
+interface Key {
+  key: string
+  word: string
+  act: () => void
+}
+
+/** Keys that this page has a use for. */
+function pageKeys(state: State): Key[] {
+  const { maps, picks } = state.manifest
+  const roles = state.roles.map((role) => ({ key: ROLE_KEYS[role], word: role, act: () => state.show(role, !state.visible[role]) }))
+  const toggle = (key: string, word: string, what: Parameters<State['toggle']>[0], has: boolean) => (has ? [{ key, word, act: () => state.toggle(what) }] : [])
+  return [
+    ...roles.filter((r) => r.key),
+    ...toggle('M', 'tool.map', 'map', maps.length > 0),
+    ...toggle('L', 'tool.flat', 'flat', maps.length > 0),
+    ...toggle('G', 'tool.flags', 'flags', picks.some((p) => p.value !== null)),
+    ...toggle('B', 'tool.backfaces', 'backfaces', state.meshes),
+    ...toggle('P', 'tool.perspective', 'perspective', true),
+  ]
+}
+
 /** Keys of the page; those that move the eye belong to the stage itself. */
 export function keys(stage: Stage, state: State, words: Words, step: (by: number) => void): void {
+  const own = Object.fromEntries(pageKeys(state).map((k) => [k.key.toLowerCase(), k.act]))
   document.addEventListener('keydown', (e) => {
     const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement
     if (typing || e.ctrlKey || e.metaKey || e.altKey) return
     const view = STANDARD[Number(e.key) - 1]
     const acts: Record<string, () => void> = {
+      ...own,
       f: () => stage.fit(),
-      n: () => state.show('reference', !state.visible.reference),
-      a: () => state.show('measured', !state.visible.measured),
-      m: () => state.toggle('map'),
-      l: () => state.toggle('flat'),
-      g: () => state.toggle('flags'),
-      p: () => state.toggle('perspective'),
       j: () => step(1),
       k: () => step(-1),
-      '?': () => showKeys(words),
-      escape: () => state.setOnly(null),
+      '?': () => showKeys(words, state),
+      escape: () => (state.picked >= 0 ? state.pick(-1) : state.setOnly(null)),
     }
     const act = view ? () => stage.look(view) : acts[e.key.toLowerCase()]
     if (!act || document.querySelector('dialog[open]')) return
@@ -31,7 +53,7 @@ export function keys(stage: Stage, state: State, words: Words, step: (by: number
 }
 
 /** The list of all keys. */
-export function showKeys(words: Words): void {
+export function showKeys(words: Words, state: State): void {
   const rows: [string, string][] = [
     ['← → ↑ ↓', 'keys.turn'],
     ['Shift ← → ↑ ↓', 'keys.pan'],
@@ -39,12 +61,7 @@ export function showKeys(words: Words): void {
     ['F', 'tool.fit'],
     ['1 … 7', 'tool.views'],
     ['J K', 'keys.next'],
-    ['N', 'keys.nominal'],
-    ['A', 'keys.actual'],
-    ['M', 'tool.map'],
-    ['L', 'tool.flat'],
-    ['G', 'tool.flags'],
-    ['P', 'tool.perspective'],
+    ...pageKeys(state).map((k): [string, string] => [k.key, k.word]),
     ['Esc', 'keys.escape'],
     ['?', 'tool.keys'],
   ]

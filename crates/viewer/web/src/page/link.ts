@@ -35,8 +35,8 @@ export function restoreView(stage: Stage, state: State): void {
   try {
     const view = JSON.parse(decodeURIComponent(match[1])) as View
     const [lower, upper] = view.range.map(Number)
-    if (state.manifest.result.comparisons[view.comparison]) state.choose(view.comparison)
-    if (lower < upper && state.manifest.palettes[view.palette] && ['bands', 'continuous', 'go_no_go'].includes(view.mode))
+    if (state.manifest.maps[view.comparison]) state.choose(view.comparison)
+    if (lower < upper && state.manifest.palettes?.[view.palette] && ['bands', 'continuous', 'go_no_go'].includes(view.mode))
       state.setScale({ lower, upper, palette: view.palette, mode: view.mode })
     if (Array.isArray(view.only)) state.setOnly([Number(view.only[0]), Number(view.only[1])])
     stage.eye.restore(view.eye.map(Number))

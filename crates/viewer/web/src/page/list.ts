@@ -1,38 +1,66 @@
 import type { State } from '../state'
 
-/** The list beside the stage: rows of worst places and of references can be chosen. Returns "choose the next or previous". */
-export function list(state: State, flyTo: (worst: number) => void): { select: (worst: number) => void; step: (by: number) => void } {
-  let selected = -1
-  const rows = () => [...document.querySelectorAll<HTMLElement>(`.comparison[data-comparison="${state.comparison}"] tr[data-worst]`)]
-  const select = (worst: number) => {
-    selected = worst
-    for (const row of document.querySelectorAll('tr[data-worst]')) row.removeAttribute('aria-selected')
-    const row = rows()[worst]
-    row?.setAttribute('aria-selected', 'true')
-    row?.scrollIntoView({ block: 'nearest' })
-    flyTo(worst)
-  }
-  const onRow = (row: HTMLElement, act: () => void) => {
+const rowsOf = (scope: ParentNode) => [...scope.querySelectorAll<HTMLElement>('tr[data-pick]')]
+
+/** The list beside the stage: rows of places and of references can be chosen. Returns "choose the next or previous". */
+export function list(state: State): { step: (by: number) => void } {
+  const choosers = [...document.querySelectorAll<HTMLElement>('tr[data-choose]')]
+  for (const table of document.querySelectorAll<HTMLElement>('table.pick')) walk(table)
+  for (const row of rowsOf(document)) onRow(row, () => state.pick(Number(row.dataset.pick)))
+  for (const row of choosers) {
     row.tabIndex = 0
-    row.addEventListener('click', act)
-    row.addEventListener('keydown', (e) => {
-      if (e.key === 'Enter' || e.key === ' ') {
-        e.preventDefault()
-        act()
-      }
-    })
+    onRow(row, () => state.choose(Number(row.dataset.choose)))
   }
-  for (const row of document.querySelectorAll<HTMLElement>('tr[data-worst]')) onRow(row, () => select(Number(row.dataset.worst)))
-  for (const row of document.querySelectorAll<HTMLElement>('tr[data-choose]')) onRow(row, () => state.choose(Number(row.dataset.choose)))
   state.listen((what) => {
+    if (what === 'pick') mark(state.picked)
     if (what !== 'comparison') return
-    selected = -1
     for (const part of document.querySelectorAll<HTMLElement>('[data-comparison]')) part.hidden = Number(part.dataset.comparison) !== state.comparison
-    for (const row of document.querySelectorAll<HTMLElement>('tr[data-choose]')) row.setAttribute('aria-selected', String(Number(row.dataset.choose) === state.comparison))
+    for (const row of choosers) row.setAttribute('aria-selected', String(Number(row.dataset.choose) === state.comparison))
+    mark(-1)
   })
   const step = (by: number) => {
-    const n = rows().length
-    if (n > 0) select((selected + by + n + (selected < 0 && by < 0 ? 1 : 0)) % n)
+    const numbers = state.picks.map(([n]) => n)
+    if (numbers.length === 0) return
+    const at = numbers.indexOf(state.picked)
+    state.pick(numbers[(at + by + numbers.length + (at < 0 && by < 0 ? 1 : 0)) % numbers.length])
   }
-  return { select, step }
+  return { step }
+}
+
+/** Shows which row is chosen, wherever it lies. */
+function mark(number: number): void {
+  for (const row of rowsOf(document)) row.removeAttribute('aria-selected')
+  const row = document.querySelector<HTMLElement>(`tr[data-pick="${number}"]`)
+  if (!row) return
+  row.closest('details')?.setAttribute('open', '')
+  row.setAttribute('aria-selected', 'true')
+  row.scrollIntoView({ block: 'nearest' })
+}
+
+function onRow(row: HTMLElement, act: () => void): void {
+  row.addEventListener('click', act)
+  row.addEventListener('keydown', (e) => {
+    if (e.key !== 'Enter' && e.key !== ' ') return
+    e.preventDefault()
+    act()
+  })
+}
+
+/** Tab reaches a table once; the arrows go from row to row. */
+function walk(table: HTMLElement): void {
+  const rows = rowsOf(table)
+  rows.forEach((row, i) => {
+    row.tabIndex = i === 0 ? 0 : -1
+    row.addEventListener('keydown', (e) => {
+      const next = { ArrowDown: i + 1, ArrowUp: i - 1, Home: 0, End: rows.length - 1 }[e.key]
+      if (next === undefined || !rows[next]) return
+      e.preventDefault()
+      row.tabIndex = -1
+      rows[next].tabIndex = 0
+      rows[next].focus()
+    })
+    row.addEventListener('focus', () => {
+      for (const other of rows) other.tabIndex = other === row ? 0 : -1
+    })
+  })
 }

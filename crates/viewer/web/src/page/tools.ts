@@ -2,13 +2,13 @@ import { el, need, svg } from '../dom'
 import type { State } from '../state'
 import type { Words } from '../words'
 import type { Stage } from '../stage/stage'
-import { showKeys } from './keys'
+import { ROLE_KEYS, showKeys } from './keys'
 import { toggleTheme } from './theme'
 
 const NAMES: Record<string, string> = { en: 'English', de: 'Deutsch', ru: 'Русский', 'zh-Hans': '中文' }
 
 /** Language, light or dark, print and keys, in the header. */
-export function headerTools(words: Words): void {
+export function headerTools(words: Words, state: State): void {
   const tools = need('tools')
   const language = el('select', {}, ...words.languages.map((code) => el('option', { value: code, selected: code === words.language, lang: code }, NAMES[code] ?? code)))
   language.addEventListener('change', () => words.speak(language.value))
@@ -17,7 +17,7 @@ export function headerTools(words: Words): void {
     b.addEventListener('click', act)
     return b
   }
-  const buttons = [button('tool.theme', '◐', toggleTheme), button('tool.print', printer(), () => window.print()), button('tool.keys', '?', () => showKeys(words))]
+  const buttons = [button('tool.theme', '◐', toggleTheme), button('tool.print', printer(), () => window.print()), button('tool.keys', '?', () => showKeys(words, state))]
   const say = () => {
     language.setAttribute('aria-label', words.of('tool.language'))
     for (const b of buttons) {
@@ -40,7 +40,6 @@ function printer(): SVGElement {
 export function stageTools(overlay: HTMLElement, stage: Stage, state: State, words: Words): void {
   const bar = el('div', { class: 'stage-tools', role: 'toolbar' })
   overlay.append(bar)
-  const roles = new Set(state.manifest.objects.map((o) => o.role))
   const fill = () => {
     const toggle = (key: string, on: boolean, act: () => void, hint: string) => {
       const b = el('button', { type: 'button', 'aria-pressed': String(on), title: `${words.of(key)} (${hint})` }, words.of(key))
@@ -53,15 +52,14 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
       return b
     }
     const items: HTMLElement[] = []
-    if (state.manifest.result.comparisons.length > 1) items.push(chooser(state, words))
-    for (const role of ['measured', 'reference'] as const)
-      if (roles.has(role)) items.push(toggle(role, state.visible[role], () => state.show(role, !state.visible[role]), role === 'measured' ? 'A' : 'N'))
-    items.push(
-      toggle('tool.map', state.map, () => state.toggle('map'), 'M'),
-      toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L'),
-      toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'),
-      act('tool.fit', () => stage.fit(), 'F'),
-    )
+    const { maps, picks } = state.manifest
+    if (maps.length > 1) items.push(chooser(state, words))
+    for (const role of state.roles) items.push(toggle(role, state.visible[role], () => state.show(role, !state.visible[role]), ROLE_KEYS[role] ?? ''))
+    if (maps.length > 0) items.push(toggle('tool.map', state.map, () => state.toggle('map'), 'M'))
+    if (maps.length > 0) items.push(toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L'))
+    if (picks.some((p) => p.value !== null)) items.push(toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'))
+    if (state.meshes) items.push(toggle('tool.backfaces', state.backfaces, () => state.toggle('backfaces'), 'B'))
+    items.push(act('tool.fit', () => stage.fit(), 'F'))
     const focused = [...bar.children].indexOf(document.activeElement as Element)
     bar.replaceChildren(...items)
     if (focused >= 0) (bar.children[focused] as HTMLElement | undefined)?.focus()
@@ -76,7 +74,7 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
 /** Which reference the part is compared with. */
 function chooser(state: State, words: Words): HTMLSelectElement {
   const name = (path: string) => path.split(/[/\\]/).pop() ?? path
-  const options = state.manifest.result.comparisons.map((c, i) => el('option', { value: i, selected: i === state.comparison }, name(c.reference)))
+  const options = state.manifest.maps.map((m, i) => el('option', { value: i, selected: i === state.comparison }, name(m.name)))
   const box = el('select', { 'aria-label': words.of('tool.reference'), title: words.of('tool.reference') }, ...options)
   box.addEventListener('change', () => state.choose(Number(box.value)))
   return box

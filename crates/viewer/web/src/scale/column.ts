@@ -15,7 +15,8 @@ export function scaleColumn(state: State, words: Words): void {
   const high = el('p', { class: 'end high' })
   const controls = el('div', { class: 'controls' })
   column.append(el('p', { class: 'axis' }), high, area, low, only, controls)
-  need('figure').replaceChildren(lying)
+  const ends = el('p', { class: 'ends' })
+  need('figure').replaceChildren(lying, ends)
 
   let drawing: Drawing
   const draw = () => {
@@ -23,10 +24,12 @@ export function scaleColumn(state: State, words: Words): void {
     drawing = drawScale(chart, state, words, Math.max(80, Math.round(box.height)), Math.max(100, Math.round(box.width)), true)
     drawScale(lying, state, words, 760, 130, false)
   }
+  const [quantity, highEnd, lowEnd] = state.manifest.quantity
   const say = () => {
-    column.querySelector('.axis')?.replaceChildren(`${words.of('deviation')} / ${state.scale.unit}`)
-    low.textContent = words.of('ends.low')
-    high.textContent = words.of('ends.high')
+    column.querySelector('.axis')?.replaceChildren(`${words.of(quantity)} / ${state.scale.unit}`)
+    low.textContent = words.of(lowEnd)
+    high.textContent = words.of(highEnd)
+    ends.replaceChildren(...[lowEnd, highEnd].map((key) => el('span', {}, words.of(key))))
     only.replaceChildren()
     if (state.only) {
       const [from, to] = state.only.map((v) => words.signed(v, state.scale.decimals))

@@ -100,9 +100,9 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   }
   if (limits.length % 2 === 0 && limits[0] < 0 && limits[limits.length - 1] > 0) {
     target.append(across(0, near, end, 'zero'))
-    if (Math.abs(at(limits[limits.length / 2]) - at(0)) > 14) target.append(text(0, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, '0', 'tick'))
+    if (written.every((w) => Math.abs(w - at(0)) > (upright ? 14 : 60))) target.append(text(0, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, '0', 'tick'))
   }
-  const mean = state.current?.deviation.all.mean
+  const mean = state.current?.mean
   if (mean !== null && mean !== undefined && mean > domain[0] && mean < domain[1]) target.append(across(mean, bars, end, 'mean'))
 
   // Shares beside the bands, over the bars.

@@ -34,7 +34,7 @@ export class Colors {
     manifest: Manifest,
     readonly scale: ScaleObject,
   ) {
-    const palette = manifest.palettes[scale.palette]
+    const palette = manifest.palettes?.[scale.palette] ?? { bands: '', ramp: '', go_no_go: '' }
     this.limits = limitsOf(scale)
     this.slots = parse(scale.mode === 'go_no_go' ? palette.go_no_go : palette.bands)
     this.ramp = parse(palette.ramp)
@@ -52,7 +52,7 @@ export class Colors {
   }
 }
 
-function parse(text: string): Rgb[] {
+export function parse(text: string): Rgb[] {
   return (text.match(/.{6}/g) ?? []).map((c) => [0, 2, 4].map((k) => parseInt(c.slice(k, k + 2), 16)) as Rgb)
 }
 

@@ -8,6 +8,16 @@ const FILL = 0.86
 export const STANDARD = ['front', 'back', 'left', 'right', 'top', 'bottom', 'iso'] as const
 export type StandardView = (typeof STANDARD)[number]
 
+/** Cosine of the angle beyond which a surface is too oblique to be seen well. */
+const SEEN = 0.35
+
+/** Looks back along `toward`, with `up` upright. */
+function facing(toward: Vector3, up: Vector3): Quaternion {
+  const t = toward.clone().normalize()
+  const r = up.clone().cross(t).normalize()
+  return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(r, t.clone().cross(r), t))
+}
+
 /** Where the reader looks from. Places are relative to the stage's centre, in millimetres. */
 export class Eye {
   /** From the eye's axes (right, up, toward the reader) to the model's. */
@@ -81,11 +91,7 @@ export class Eye {
     const u = this.vertical
     const f = this.up === 'y' ? new Vector3(0, 0, 1) : new Vector3(0, -1, 0)
     const back = f.clone().negate()
-    const of = (toward: Vector3, up: Vector3) => {
-      const t = toward.clone().normalize()
-      const r = up.clone().cross(t).normalize()
-      return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(r, t.clone().cross(r), t))
-    }
+    const of = facing
     switch (view) {
       case 'front':
         return of(f, u)
@@ -102,6 +108,15 @@ export class Eye {
       case 'iso':
         return of(x.clone().add(f).add(u), u)
     }
+  }
+
+  /** The orientation that shows a surface which looks along `normal`: the present one where it does, else obliquely from above. */
+  showing(normal: Vector3): Quaternion {
+    if (this.toward.dot(normal) > SEEN) return this.turn.clone()
+    const up = this.vertical
+    const across = new Vector3(up.y, up.z, up.x)
+    const toward = normal.clone().multiplyScalar(1.6).add(up).addScaledVector(across, 0.4).normalize()
+    return facing(toward, Math.abs(toward.dot(up)) > 0.99 ? across : up)
   }
 
   look(view: StandardView): void {

@@ -1,6 +1,6 @@
 import { Vector3 } from 'three'
 import { el, svg } from '../dom'
-import type { Worst } from '../manifest'
+import type { Pick } from '../manifest'
 import type { State } from '../state'
 import type { Words } from '../words'
 import type { Stage } from './stage'
@@ -11,7 +11,7 @@ const GAP = 6
 const CUBE = 110
 
 interface Flag {
-  worst: Worst
+  number: number
   place: Vector3
   box: HTMLButtonElement
   line: SVGLineElement
@@ -29,20 +29,18 @@ interface Placed {
 export class Flags {
   private flags: Flag[] = []
   private readonly lines = svg('svg', { class: 'leaders', 'aria-hidden': 'true' })
-  private selected = -1
-
   constructor(
     private readonly overlay: HTMLElement,
     private readonly stage: Stage,
     private readonly state: State,
     private readonly words: Words,
-    private readonly select: (worst: number) => void,
   ) {
     overlay.append(this.lines)
     stage.onDraw(() => this.place())
     words.onChange(() => this.rebuild())
     state.listen((what) => {
       if (what === 'comparison' || what === 'flags' || what === 'scale') this.rebuild()
+      if (what === 'pick') this.place()
     })
     this.rebuild()
   }
@@ -50,33 +48,28 @@ export class Flags {
   private rebuild(): void {
     for (const flag of this.flags) flag.box.remove()
     this.lines.replaceChildren()
-    const worst = this.state.flags ? (this.state.current?.worst ?? []) : []
-    this.flags = worst.map((w, n) => this.make(w, n))
+    const valued = this.state.flags ? this.state.picks : []
+    this.flags = valued.flatMap(([number, p], n) => (p.value === null ? [] : [this.make(number, p, p.value, n)]))
     this.place()
   }
 
-  private make(worst: Worst, n: number): Flag {
+  private make(number: number, pick: Pick, value: number, n: number): Flag {
     const zone = this.state.scale.tolerance
-    const out = zone ? worst.deviation < zone[0] || worst.deviation > zone[1] : false
+    const out = zone ? value < zone[0] || value > zone[1] : false
     const box = el(
       'button',
       { type: 'button', class: out ? 'flag out' : 'flag', 'data-flag': n },
       el('span', { class: 'number' }, String(n + 1)),
-      el('strong', {}, this.words.signed(worst.deviation, this.state.scale.decimals)),
+      el('strong', {}, this.words.signed(value, this.state.scale.decimals)),
     )
-    box.style.setProperty('--swatch', this.state.colors.css(worst.deviation))
-    box.addEventListener('click', () => this.select(n))
+    box.style.setProperty('--swatch', this.state.colors.css(value))
+    box.addEventListener('click', () => this.state.pick(number))
     const line = svg('line', { class: 'leader' })
     const dot = svg('circle', { class: 'anchor', r: 3.5 })
     this.lines.append(line, dot)
     this.overlay.append(box)
-    const place = new Vector3(...worst.point.map((x, k) => x - this.stage.center.getComponent(k)))
-    return { worst, place, box, line, dot }
-  }
-
-  mark(n: number): void {
-    this.selected = n
-    this.place()
+    const place = new Vector3(...pick.position.map((x, k) => x - this.stage.center.getComponent(k)))
+    return { number, place, box, line, dot }
   }
 
   /** Puts the flags beside the part, nearest side first, without crossing leaders. */
@@ -91,7 +84,7 @@ export class Flags {
       const hidden = this.hidden(p)
       flag.box.classList.toggle('hidden', hidden)
       flag.line.classList.toggle('hidden', hidden)
-      flag.box.classList.toggle('selected', this.flags.indexOf(flag) === this.selected)
+      flag.box.classList.toggle('selected', flag.number === this.state.picked)
       flag.dot.setAttribute('cx', String(p.x))
       flag.dot.setAttribute('cy', String(p.y))
     }

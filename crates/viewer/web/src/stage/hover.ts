@@ -36,8 +36,8 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     const judged = valued && zone ? (inside ? `✓ ${words.of('state.in')}` : `✕ ${words.of('state.out')}`) : ''
     const role = part ? words.of(part.object.role) : ''
     card.replaceChildren(
-      el('strong', {}, value),
-      el('span', { class: inside ? 'in' : 'out' }, judged || why),
+      ...(value ? [el('strong', {}, value)] : []),
+      ...(judged || why ? [el('span', { class: inside ? 'in' : 'out' }, judged || why)] : []),
       el('span', { class: 'place' }, `x ${xyz[0]}  y ${xyz[1]}  z ${xyz[2]}`),
       el('span', { class: 'place' }, role),
     )

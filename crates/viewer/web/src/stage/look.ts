@@ -4,8 +4,11 @@ import type { Rgb } from '../scale/scale'
 import type { State } from '../state'
 import { FRAGMENT, VALUES, VERTEX } from './shaders'
 
-const MEASURED: Rgb = [0xb9, 0xb4, 0xaa]
-const REFERENCE: Rgb = [0x8f, 0xa3, 0xbf]
+const GREY: Rgb = [0xb9, 0xb4, 0xaa]
+/** Colours of what is not warm grey, by role. */
+const BASES: Record<string, Rgb> = { reference: [0x8f, 0xa3, 0xbf], before: [0x8f, 0xa3, 0xbf], element: [0x2f, 0x6f, 0xd6] }
+/** Opacity of what is looked through, by role. */
+const OPACITIES: Record<string, number> = { element: 0.28 }
 const MOST_LIMITS = 34
 
 const slots = texture(36)
@@ -15,6 +18,7 @@ const ramp = texture(256)
 const shared: Record<string, IUniform> = {
   flatColors: { value: false },
   perspective: { value: false },
+  backfaces: { value: false },
   continuous: { value: false },
   hatch: { value: false },
   limits: { value: new Float32Array(MOST_LIMITS) },
@@ -50,6 +54,7 @@ export function applyLook(state: State): void {
   shared.hatch.value = scale.palette === 'mono'
   shared.flatColors.value = state.flat
   shared.perspective.value = state.perspective
+  shared.backfaces.value = state.backfaces
   paint(slots, colors.slots)
   paint(ramp, colors.ramp)
 }
@@ -58,12 +63,13 @@ export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'opacity', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
-  const base = object.role === 'measured' ? MEASURED : REFERENCE
-  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 } }
+  const base = BASES[object.role] ?? GREY
+  const opacity = OPACITIES[object.role] ?? 1
+  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity } }
   const uniforms = {
     ...shared,
     ...own,
@@ -78,6 +84,8 @@ export function materialsFor(object: ViewObject): Materials {
       fragmentShader,
       uniforms,
       side: 2,
+      transparent: opacity < 1,
+      depthWrite: opacity === 1,
       // Points on a surface stay in front of it.
       polygonOffset: object.kind === 'mesh',
       polygonOffsetFactor: 1,

@@ -47,6 +47,11 @@ export class Part {
     this.materials.own.map.value = on && this.field >= 0
   }
 
+  /** One looks through it. */
+  get translucent(): boolean {
+    return this.materials.picture.transparent
+  }
+
   get hasMap(): boolean {
     return this.field >= 0
   }

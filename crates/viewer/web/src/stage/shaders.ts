@@ -38,7 +38,8 @@ in vec3 vPlace;
 in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
-uniform bool map, flatColors, isPoints, perspective, continuous, hatch;
+uniform bool map, flatColors, isPoints, perspective, continuous, hatch, backfaces;
+uniform float opacity;
 uniform vec3 base;
 uniform float limits[34];
 uniform int limitCount;
@@ -82,11 +83,15 @@ void main() {
     if (dot(p, p) > 1.0) discard;
   }
   float shade = isPoints || flatColors ? 1.0 : light(map ? 0.72 : 0.45);
-  if (!map) {
-    color = vec4(base * (isPoints ? 1.0 : light(0.45)), 1.0);
+  float up = gl_FragCoord.x + gl_FragCoord.y;
+  if (backfaces && !isPoints && !gl_FrontFacing) {
+    color = vec4((line(up) ? vec3(0.62, 0.42, 0.58) : vec3(0.74, 0.58, 0.71)) * light(0.55), opacity);
     return;
   }
-  float up = gl_FragCoord.x + gl_FragCoord.y;
+  if (!map) {
+    color = vec4(base * (isPoints ? 1.0 : light(0.45)), opacity);
+    return;
+  }
   float down = gl_FragCoord.x - gl_FragCoord.y;
   vec3 c;
   if (vMissing.x > 1e-4) {
@@ -98,7 +103,7 @@ void main() {
     if (hatch && slot < limitCount / 2 && line(down)) c = vec3(1.0);
     if (vValue < only.x || vValue > only.y) c = vec3(0.72, 0.74, 0.76);
   }
-  color = vec4(c * shade, 1.0);
+  color = vec4(c * shade, opacity);
 }`
 
 /** The value buffer: value, distance before the eye, object, reason why there is no value (0: there is one). */

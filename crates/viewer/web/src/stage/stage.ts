@@ -1,8 +1,11 @@
 import { ColorManagement, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
 import { decodeAll } from '../decode/client'
+import type { Pick } from '../manifest'
 import type { State } from '../state'
 import { Eye, type StandardView } from './eye'
 import { applyLook } from './look'
+import { Flight } from './flight'
+import { Marks } from './marks'
 import { Part } from './part'
 import { ValueBuffer } from './values'
 
@@ -14,6 +17,8 @@ const REST = 150
 const READ = 120
 /** A frame while moving may take this long, milliseconds. */
 const FRAME = 33
+/** The closest view is this many steps of the drawing's grid high. */
+const FINEST = 500
 /** Room for the flags' columns where the stage is wide. */
 const FLAGS = 150
 
@@ -24,6 +29,7 @@ export class Stage {
   readonly eye: Eye
   readonly values: ValueBuffer
   readonly parts: Part[] = []
+  readonly marks: Marks[] = []
   /** Middle of everything in the model's coordinates. */
   readonly center: Vector3
   private level = 0
@@ -32,6 +38,7 @@ export class Stage {
   private lastFrame = 0
   private restTimer = 0
   private readonly listeners: (() => void)[] = []
+  private readonly flight = new Flight(() => this.flown())
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -53,6 +60,13 @@ export class Stage {
     // What the first view shows comes first.
     const wanted = [...this.state.manifest.objects].sort((a, b) => Number(this.state.visible[b.role]) - Number(this.state.visible[a.role]))
     await decodeAll(wanted, (object, decoded) => {
+      if (object.kind === 'marks') {
+        const marks = new Marks(object, decoded, this.center)
+        this.marks.push(marks)
+        this.scene.add(marks.drawn)
+        this.applyState()
+        return this.fit()
+      }
       const part = new Part(object, decoded, this.center)
       this.parts.push(part)
       this.scene.add(part.drawn)
@@ -82,6 +96,10 @@ export class Stage {
       part.setMap(this.state.map)
       part.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
     }
+    for (const marks of this.marks) {
+      marks.drawn.visible = this.state.visible[marks.object.role]
+      marks.select(this.state.manifest.picks[this.state.picked]?.mark ?? -1)
+    }
     this.values.clear()
     this.draw()
     this.rest()
@@ -109,11 +127,10 @@ export class Stage {
   }
 
   fit(): void {
-    const margin = this.state.flags && this.eye.width > 700 ? FLAGS : 0
-    this.eye.fit(
-      this.shown.flatMap((p) => p.sample(20000)),
-      margin,
-    )
+    const flags = this.state.flags && this.state.picks.some(([, p]) => p.value !== null)
+    const margin = flags && this.eye.width > 700 ? FLAGS : 0
+    const marks = this.marks.filter((m) => m.drawn.visible)
+    this.eye.fit([...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000))], margin)
     this.moved()
   }
 
@@ -122,14 +139,31 @@ export class Stage {
     this.fit()
   }
 
-  /** Brings a place of the model to the middle and as near as `height` millimetres. */
-  flyTo(place: Vector3): void {
-    this.eye.target.copy(place)
-    this.moved()
+  /** Brings a place of the list to the middle: near, where it has a size, and from the side that shows it. */
+  flyTo(pick: Pick): void {
+    const target = new Vector3(...pick.position.map((x, k) => x - this.center.getComponent(k)))
+    const turn = pick.normal ? this.eye.showing(new Vector3(...pick.normal)) : this.eye.turn.clone()
+    this.flight.start(this.eye, { turn, target, height: pick.reach === null ? this.eye.height : this.closeUp(pick.reach) })
+  }
+
+  /** Height of the view for something of half this size: ten times it, within what the drawing can resolve and what fits. */
+  private closeUp(reach: number): number {
+    const step = Math.max(0, ...this.parts.map((p) => p.object.step))
+    return Math.min(Math.max(20 * reach, FINEST * step), Math.max(this.eye.height, FINEST * step, 2 * reach))
+  }
+
+  private flown(): void {
+    for (const marks of this.marks) marks.flash(this.flight.pulse)
+    this.changed()
   }
 
   /** The eye has moved: draws the finest level that keeps up, and everything once it rests. */
   moved(): void {
+    this.flight.stop()
+    this.changed()
+  }
+
+  private changed(): void {
     this.moving = true
     this.values.clear()
     this.draw()
@@ -158,6 +192,7 @@ export class Stage {
   drawNow(): void {
     for (const part of this.parts) part.setLevel(this.moving ? this.level : 0)
     this.updatePointSize()
+    for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
     const ground = getComputedStyle(this.canvas).backgroundColor.match(/\d+/g)?.map(Number) ?? [236, 239, 241]
     this.renderer.setClearColor((ground[0] << 16) | (ground[1] << 8) | ground[2], 1)
     this.renderer.clear()
@@ -192,7 +227,7 @@ export class Stage {
 
   private async read(): Promise<void> {
     if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
-    await this.values.draw(this.scene, this.parts, this.eye)
+    await this.values.draw(this.scene, this.parts, this.eye, this.marks.map((m) => m.drawn))
     if (!this.values.ready) return
     this.canvas.ariaBusy = 'false'
     for (const listener of this.listeners) listener()

@@ -1,4 +1,4 @@
-import { FloatType, NearestFilter, RGBAFormat, WebGLRenderTarget, type Scene, type WebGLRenderer } from 'three'
+import { FloatType, NearestFilter, RGBAFormat, WebGLRenderTarget, type Object3D, type Scene, type WebGLRenderer } from 'three'
 import type { Eye } from './eye'
 import type { Part } from './part'
 
@@ -36,13 +36,16 @@ export class ValueBuffer {
     this.pixels = null
   }
 
-  async draw(scene: Scene, parts: Part[], eye: Eye): Promise<void> {
+  /** What one looks through, and `besides`, has no values. */
+  async draw(scene: Scene, parts: Part[], eye: Eye, besides: Object3D[]): Promise<void> {
     const generation = ++this.generation
     const [width, height] = [Math.max(1, Math.round(eye.width)), Math.max(1, Math.round(eye.pixels))]
     if (!this.target || this.target.width !== width || this.target.height !== height) {
       this.target?.dispose()
       this.target = new WebGLRenderTarget(width, height, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer: true })
     }
+    const hidden = [...besides, ...parts.filter((p) => p.translucent).map((p) => p.drawn)].filter((d) => d.visible)
+    for (const drawn of hidden) drawn.visible = false
     for (const part of parts) part.drawn.material = part.materials.values
     this.renderer.setRenderTarget(this.target)
     this.renderer.setClearColor(0, 0)
@@ -50,6 +53,7 @@ export class ValueBuffer {
     this.renderer.render(scene, eye.camera)
     this.renderer.setRenderTarget(null)
     for (const part of parts) part.drawn.material = part.materials.picture
+    for (const drawn of hidden) drawn.visible = true
     const pixels = new Float32Array(4 * width * height)
     await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, width, height, pixels)
     if (generation !== this.generation) return

@@ -1,9 +1,11 @@
 // Every check of the page: a name and what it does in a browser session.
 import { colors } from './colors.mjs'
+import { defects } from './defects.mjs'
+import { fit } from './fit.mjs'
 import { reading } from './reading.mjs'
 import { scale } from './scale.mjs'
 import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...views, ...words]
+export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...views, ...words]

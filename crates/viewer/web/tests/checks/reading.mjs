@@ -90,13 +90,13 @@ export const reading = [
     'a row of the list brings its place to the middle, and J goes on',
     async (session) => {
       const page = await session.report('sphere')
-      await page.locator('.comparison:not([hidden]) tr[data-worst="4"]').click()
+      await page.locator('.comparison:not([hidden]) tr[data-pick="4"]').click()
       await settled(page)
       const box = await stageBox(page)
       const at = (await flags(page)).leaders[4]
       assert.ok(Math.hypot(at.x2 - box.width / 2, at.y2 - box.height / 2) < 1)
       await page.keyboard.press('j')
-      assert.equal(await page.locator('tr[aria-selected="true"]').getAttribute('data-worst'), '5')
+      assert.equal(await page.locator('tr[aria-selected="true"]').getAttribute('data-pick'), '5')
     },
   ],
   [

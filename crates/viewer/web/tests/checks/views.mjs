@@ -63,13 +63,13 @@ export const views = [
         const at = await page.evaluate(() => {
           const e = document.activeElement
           const visible = getComputedStyle(e).outlineStyle !== 'none'
-          return { name: e.dataset.worst ? `worst ${e.dataset.worst}` : e.tagName + (e.dataset.view ?? e.dataset.flag ?? e.dataset.key ?? ''), visible, body: e === document.body }
+          return { name: e.dataset.pick ? `place ${e.dataset.pick}` : e.tagName + (e.dataset.view ?? e.dataset.flag ?? e.dataset.key ?? ''), visible, body: e === document.body }
         })
         if (at.body) break
         assert.ok(at.visible, `${at.name} shows no focus`)
         reached.add(at.name)
       }
-      for (const name of ['worst 0', 'CANVAS', 'BUTTONtop', 'BUTTON0', 'BUTTONtool.print']) assert.ok(reached.has(name), `${name} in ${[...reached]}`)
+      for (const name of ['place 0', 'CANVAS', 'BUTTONtop', 'BUTTON0', 'BUTTONtool.print']) assert.ok(reached.has(name), `${name} in ${[...reached]}`)
     },
   ],
   [

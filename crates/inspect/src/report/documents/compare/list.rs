@@ -1,17 +1,16 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
-use super::super::ReportInput;
-use super::super::html::{Html, escaped};
-use super::header::{Headline, badge, file_name, in_words};
+use super::super::super::html::Html;
+use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
+use super::{headline, in_words};
 use crate::results::compare::{CompareDocument, Comparison, SignRecord, Statistics};
 
 /// Writes all sections.
-pub fn list(h: &mut Html, input: &ReportInput) {
-    let result = input.result;
-    h.raw("<aside id=\"list\" class=\"list\">\n");
+pub fn list(h: &mut Html, result: &CompareDocument) {
     if result.comparisons.len() > 1 {
         ranking(h, result);
     }
+    let mut first_pick = 0;
     for (n, c) in result.comparisons.iter().enumerate() {
         let hidden = if n == 0 { "" } else { " hidden" };
         h.raw(&format!("<div class=\"comparison\" data-comparison=\"{n}\"{hidden}>\n"));
@@ -22,20 +21,12 @@ pub fn list(h: &mut Html, input: &ReportInput) {
                 .name(file_name(&c.reference))
                 .raw("</p>");
         }
-        worst(h, c, result.scale.decimals as usize);
+        worst(h, c, result.scale.decimals as usize, first_pick);
+        first_pick += c.worst.len();
         statistics(h, c, result.scale.decimals as usize);
         trust(h, result, c);
         h.raw("</div>\n");
     }
-    files(h, result);
-    method(h, result);
-    h.raw("</aside>\n");
-}
-
-fn section(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
-    h.raw(&format!("<section class=\"block b-{key}\"><h2>")).word(key).raw("</h2>\n");
-    body(h);
-    h.raw("</section>\n");
 }
 
 /// Several references side by side, the nearest first.
@@ -58,7 +49,7 @@ fn ranking(h: &mut Html, result: &CompareDocument) {
                 .raw("</td><td class=\"r\">");
             match (&c.tolerance, c.verdict) {
                 (Some(t), Some(v)) => {
-                    badge(h, Headline::Judged(v));
+                    badge(h, headline(Some(v)));
                     h.raw(" ").percent(t.inside, 2);
                 }
                 _ => {
@@ -93,7 +84,7 @@ fn paired(h: &mut Html, result: &CompareDocument) {
     }
 }
 
-fn worst(h: &mut Html, c: &Comparison, decimals: usize) {
+fn worst(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
     if c.worst.is_empty() {
         return;
     }
@@ -105,11 +96,9 @@ fn worst(h: &mut Html, c: &Comparison, decimals: usize) {
             let outside =
                 c.tolerance.as_ref().is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower);
             let class = if outside { " class=\"out\"" } else { "" };
-            h.raw(&format!("<tr data-worst=\"{n}\"{class}><td>{}</td><td class=\"r\">", n + 1));
+            h.raw(&format!("<tr data-pick=\"{}\"{class}><td>{}</td><td class=\"r\">", first_pick + n, n + 1));
             h.number(w.deviation, decimals, true).raw("</td>");
-            for x in w.point {
-                h.raw("<td class=\"r\">").number(x, 2, false).raw("</td>");
-            }
+            place_cells(h, w.point);
             h.raw("</tr>");
         }
         h.raw("</tbody></table>");
@@ -226,63 +215,4 @@ fn soundness(h: &mut Html, c: &Comparison) {
         h.raw("<br>").word(key).raw(": ").count(count);
     }
     h.raw("<br><small>").word("not_sound.means").raw("</small>");
-}
-
-fn fact(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
-    h.raw("<dt>").word(key).raw("</dt><dd>");
-    body(h);
-    h.raw("</dd>");
-}
-
-fn files(h: &mut Html, result: &CompareDocument) {
-    section(h, "files", |h| {
-        for input in &result.inputs {
-            let role = if input.role == crate::results::Role::Measured { "measured" } else { "reference" };
-            h.raw(&format!("<div class=\"file\"><p><span class=\"chip {role}\"><i></i>"))
-                .word(role)
-                .raw("</span> ");
-            h.name(&input.path)
-                .raw("</p><p class=\"note\">")
-                .text(&input.format)
-                .raw(" · ")
-                .count(input.bytes);
-            h.raw("\u{a0}B · ").count(input.points).raw(" ").word(if input.facets.is_some() {
-                "vertices"
-            } else {
-                "points"
-            });
-            if let Some(facets) = input.facets {
-                h.raw(" · ").count(facets).raw(" ").word("facets");
-            }
-            h.raw(" · ").word("unit_assumed").raw(" ").text(&input.unit_assumed).raw("</p>");
-            match &input.sha256 {
-                Some(hash) => h.raw(&format!(
-                    "<p class=\"hash\"><abbr>SHA-256</abbr> <code>{}</code></p>",
-                    escaped(hash)
-                )),
-                None => h
-                    .raw("<p class=\"hash\">")
-                    .text(input.sha256_reason.as_deref().unwrap_or("–"))
-                    .raw("</p>"),
-            };
-            for warning in &input.warnings {
-                h.raw("<p class=\"warning\">⚠ ").text(warning).raw("</p>");
-            }
-            h.raw("</div>");
-        }
-    });
-}
-
-fn method(h: &mut Html, result: &CompareDocument) {
-    section(h, "method", |h| {
-        let text = if result.method == "paper" { "method.paper.text" } else { "method.exact.text" };
-        h.raw("<p>")
-            .word(text)
-            .raw("</p><p>")
-            .word("method.sign.text")
-            .raw("</p><p>")
-            .word("method.map.text");
-        h.raw("</p><p class=\"note\">trueness ").text(&result.version).raw(" · ").text(&result.schema);
-        h.raw(" · ").word("seed").raw("\u{a0}").text(&result.seed.to_string()).raw("</p>");
-    });
 }

@@ -6,13 +6,18 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, reason = "a tool of the tests")]
 
+mod answers;
+
+pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder};
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 use trueness_inspect::report::{
-    self, Geometry, NoValue, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
+    self, Answer, Geometry, NoValue, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
+    ViewRole,
 };
 use trueness_inspect::results::compare::*;
 use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
@@ -31,6 +36,7 @@ fn main() {
     write(folder, "hostile", &sphere(40), tolerance, &hostile, "\u{2067}שלום\" onload=\"x.stl");
     write(folder, "cloud", &cloud(), Some([-0.1, 0.1]), "points.xyz", "nominal.stl");
     write(folder, "two", &two(), tolerance, "points.xyz", "fine.stl");
+    answers::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 
@@ -50,7 +56,8 @@ pub fn sphere(n: u32) -> Body {
     Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
 }
 
-fn uv_sphere(n: u32) -> Mesh {
+/// A sphere of radius 10, twice `n` squared triangles.
+pub fn uv_sphere(n: u32) -> Mesh {
     let (rings, around) = (n, n);
     let mut mesh = Mesh::default();
     for i in 0..=rings {
@@ -141,10 +148,19 @@ fn write(
     reference: &str,
 ) {
     let options = ReportOptions { serial: Some(format!("{name} 4711")), ..ReportOptions::default() };
-    let (page, summary) = page(body, tolerance, [measured, reference], &options);
+    written(folder, name, page(body, tolerance, [measured, reference], &options).0);
+}
+
+fn written(folder: &Path, name: &str, page: Vec<u8>) {
     let path = folder.join(format!("{name}.html"));
+    println!("{}: {} bytes", path.display(), page.len());
     std::fs::write(&path, page).unwrap();
-    println!("{}: {} bytes", path.display(), summary.bytes);
+}
+
+fn bytes(input: &ReportInput) -> Vec<u8> {
+    let mut page = vec![];
+    report::write(input, &mut page).unwrap();
+    page
 }
 
 /// The report of a body, with names of the measured and the reference file.
@@ -161,7 +177,7 @@ pub fn page(
     let geometry =
         if body.cloud { Geometry::Points(&body.measured.positions) } else { Geometry::Mesh(&body.measured) };
     let mut objects = vec![ViewObject {
-        role: Role::Measured,
+        role: ViewRole::Measured,
         name: measured,
         comparison: None,
         geometry,
@@ -169,7 +185,7 @@ pub fn page(
     }];
     for (n, mesh) in body.references.iter().enumerate() {
         objects.push(ViewObject {
-            role: Role::Reference,
+            role: ViewRole::Reference,
             name: reference,
             comparison: Some(n),
             geometry: Geometry::Mesh(mesh),
@@ -177,8 +193,9 @@ pub fn page(
         });
     }
     let mut page = vec![];
-    let summary =
-        report::write(&ReportInput { result: &result, objects: &objects, options }, &mut page).unwrap();
+    let result = Answer::Compare(&result);
+    let input = ReportInput { result, objects: &objects, marks: &[], options };
+    let summary = report::write(&input, &mut page).unwrap();
     (page, summary)
 }
 

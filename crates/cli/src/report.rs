@@ -1,0 +1,94 @@
+//! The report that every command can write: its options, and the writing.
+
+use crate::commands::compare::output::whole_file;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use trueness_inspect::report::{
+    self, Answer, Language, Marks, ReportError, ReportInput, ReportOptions, Up, ViewObject,
+};
+
+/// A self-contained report.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Report")]
+pub struct ReportArgs {
+    /// Write a self-contained report with a 3D view
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Largest size of the report in MB
+    #[arg(long, value_name = "MB", default_value = "10", value_parser = clap::value_parser!(u32).range(2..))]
+    html_budget: u32,
+    /// Language of the report: en, de, ru, zh
+    #[arg(long, value_name = "LANG", default_value = "en", value_parser = language)]
+    lang: Language,
+    /// Decimal sign of the report: . or ,
+    #[arg(long, value_name = "SIGN", value_parser = decimal_sign)]
+    decimal: Option<char>,
+    /// The model's axis that points up in the report
+    #[arg(long, value_enum, default_value = "z")]
+    up: UpArg,
+    /// Head of the report
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Part, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    part: Option<String>,
+    /// Serial number, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    serial: Option<String>,
+    /// Operator, for the head of the report
+    #[arg(long, value_name = "TEXT")]
+    operator: Option<String>,
+}
+
+/// Which axis points up.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum UpArg {
+    /// As in scanned figures.
+    Y,
+    /// As in technical drawings.
+    Z,
+}
+
+impl From<UpArg> for Up {
+    fn from(up: UpArg) -> Up {
+        match up {
+            UpArg::Y => Up::Y,
+            UpArg::Z => Up::Z,
+        }
+    }
+}
+
+fn language(code: &str) -> Result<Language, String> {
+    Language::from_code(code).ok_or_else(|| "there are en, de, ru and zh".into())
+}
+
+fn decimal_sign(sign: &str) -> Result<char, String> {
+    match sign {
+        "." => Ok('.'),
+        "," => Ok(','),
+        _ => Err("it is . or ,".into()),
+    }
+}
+
+impl ReportArgs {
+    /// Writes the report, if one was asked for.
+    pub fn write(&self, result: Answer, objects: &[ViewObject], marks: &[Marks]) -> anyhow::Result<()> {
+        let Some(path) = &self.html else { return Ok(()) };
+        let options = ReportOptions {
+            title: self.title.clone(),
+            part: self.part.clone(),
+            serial: self.serial.clone(),
+            operator: self.operator.clone(),
+            budget: self.html_budget as usize * 1_000_000,
+            language: self.lang,
+            decimal: self.decimal,
+            up: self.up.into(),
+        };
+        let input = ReportInput { result, objects, marks, options: &options };
+        whole_file(path, |mut file| match report::write(&input, &mut file) {
+            Ok(_) => Ok(()),
+            Err(ReportError::Write(e)) => Err(e),
+            Err(e) => Err(std::io::Error::other(e)),
+        })
+    }
+}

@@ -1,0 +1,107 @@
+//! Reports of the other documents: a mesh with planted defects, an element through points with a known form.
+
+use super::{uv_sphere, written};
+use std::f64::consts::TAU;
+use std::path::Path;
+use trueness_geom::check::check;
+use trueness_geom::fit::{self, Kind, Method};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Silent;
+use trueness_geom::space::Point;
+use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
+use trueness_inspect::results::check::CheckDocument;
+use trueness_inspect::results::fit::FitDocument;
+use trueness_inspect::results::{InputRecord, Role};
+
+/// All of them, into `folder`.
+pub fn write_all(folder: &Path) {
+    let options = ReportOptions { serial: Some("4711".into()), ..ReportOptions::default() };
+    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30))] {
+        written(folder, name, check_page(&mesh, &options));
+    }
+    for (name, method) in [("fit", Method::Gaussian), ("zone", Method::MinimumZone)] {
+        written(folder, name, fit_page(&lobed_cylinder(), method, &options).0);
+    }
+}
+
+/// A sphere of radius 10 with a hole in front, a doubled facet, a fin, and a crumb that floats before it.
+pub fn defects() -> Mesh {
+    let mut mesh = uv_sphere(30);
+    let middle = |mesh: &Mesh, f: &[u32; 3]| -> Point {
+        std::array::from_fn(|k| f.iter().map(|v| mesh.positions[*v as usize][k]).sum::<f64>() / 3.0)
+    };
+    let front: Vec<bool> =
+        mesh.faces.iter().map(|f| middle(&mesh, f)).map(|p| p[1] < -9.5 && p[2] > 0.5).collect();
+    let mut keep = front.iter();
+    mesh.faces.retain(|_| !keep.next().unwrap());
+    mesh.faces.push(mesh.faces[200]);
+    let [a, b, _] = mesh.faces[600];
+    let tip = mesh.positions.len() as u32;
+    mesh.positions.push(mesh.positions[a as usize].map(|x| 1.2 * x));
+    mesh.faces.push([a, b, tip]);
+    let first = mesh.positions.len() as u32;
+    let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]];
+    mesh.positions.extend(corners.map(|[x, y, z]| [x - 6.0, y - 13.0, z - 6.0]));
+    mesh.faces.extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].map(|f: [u32; 3]| f.map(|v| first + v)));
+    mesh
+}
+
+/// The report of a check.
+pub fn check_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
+    let document = check_document(mesh);
+    let view = trueness_inspect::check::View::new(&document, "part.stl", mesh);
+    let (objects, marks) = (view.objects(), &view.marks[..]);
+    super::bytes(&ReportInput { result: Answer::Check(&document), objects: &objects, marks, options })
+}
+
+/// What the check says.
+pub fn check_document(mesh: &Mesh) -> CheckDocument {
+    let options = Default::default();
+    let report = check(mesh, None, &options, &Silent).unwrap();
+    trueness_inspect::check::document(
+        &report,
+        file(Role::Reference, "part.stl", mesh),
+        mesh.faces.len() as u64,
+        0,
+        &options,
+    )
+}
+
+/// Radius 10, axis z, 30 long, three lobes of ±0.1: the highest at the front.
+pub fn lobed_cylinder() -> Vec<Point> {
+    let at = |i: u32, z: f64| {
+        let angle = TAU * f64::from(i) / 120.0;
+        let r = 10.0 + 0.1 * (3.0 * (angle + TAU / 4.0)).cos();
+        [r * angle.cos(), r * angle.sin(), z]
+    };
+    (0..=40).flat_map(|j| (0..120).map(move |i| at(i, 0.75 * f64::from(j) - 15.0))).collect()
+}
+
+/// The report of a cylinder through points, and its document.
+pub fn fit_page(points: &[Point], method: Method, options: &ReportOptions) -> (Vec<u8>, FitDocument) {
+    let wish = fit::Options { method, ..fit::Options::default() };
+    let fit = fit::fit(points, Kind::Cylinder, &wish, &Silent).unwrap();
+    let cloud = Mesh { positions: points.to_vec(), faces: vec![] };
+    let files = vec![file(Role::Measured, "bore.xyz", &cloud)];
+    let document = trueness_inspect::fit::document(&fit, points, files, 1);
+    let view = trueness_inspect::fit::View::new(&document, "bore.xyz", &fit.shape, points);
+    let (objects, marks) = (view.objects(), &view.marks[..]);
+    let page =
+        super::bytes(&ReportInput { result: Answer::Fit(&document), objects: &objects, marks, options });
+    (page, document)
+}
+
+fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
+    InputRecord {
+        role,
+        path: path.into(),
+        format: "STL, binary".into(),
+        bytes: 84,
+        sha256: Some("3f".repeat(32)),
+        sha256_reason: None,
+        unit_assumed: "mm".into(),
+        points: mesh.positions.len() as u64,
+        facets: (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64),
+        warnings: vec![],
+    }
+}

@@ -1,0 +1,176 @@
+//! What a report draws of a check: the mesh, and every listed defect on it.
+
+use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::results::check::{CheckDocument, Item};
+use crate::scale::palette::category;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::{Point, cross, minus, plus, unit};
+use trueness_geom::topology::Topology;
+
+/// A checked mesh prepared for drawing.
+pub struct View<'a> {
+    name: &'a str,
+    mesh: &'a Mesh,
+    /// The defects, in the order of the document's kinds found, item by item.
+    pub marks: Vec<Marks>,
+}
+
+/// How the vertices of an item are drawn.
+#[derive(Clone, Copy, PartialEq)]
+enum Drawing {
+    Dots,
+    Line,
+    Ring,
+    /// The first vertex lies on the edge between the others.
+    DotOnLine,
+    Facets,
+    /// All facets connected with the first.
+    Shell,
+}
+
+fn drawing(kind: &str) -> Drawing {
+    match kind {
+        "holes" => Drawing::Ring,
+        "boundary_edges" | "cracks" | "non_manifold_edges" | "inconsistent_orientation" => Drawing::Line,
+        "t_junctions" => Drawing::DotOnLine,
+        "non_manifold_vertices" | "unshared_vertices" => Drawing::Dots,
+        "inside_out_shells" | "islands" => Drawing::Shell,
+        _ => Drawing::Facets,
+    }
+}
+
+impl<'a> View<'a> {
+    /// Of the mesh that the document is of; `name` is shown to the reader.
+    pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh) -> View<'a> {
+        let mut shells = Shells::default();
+        let groups = document.found().into_iter().enumerate().map(|(n, (kind, defects))| MarkGroup {
+            key: format!("defect.{kind}"),
+            color: category(n),
+            items: defects.items.iter().map(|item| mark(mesh, drawing(kind), item, &mut shells)).collect(),
+        });
+        let marks = Marks { role: ViewRole::Defects, groups: groups.collect() };
+        View { name, mesh, marks: vec![marks] }
+    }
+
+    /// The mesh.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let geometry = Geometry::Mesh(self.mesh);
+        vec![ViewObject { role: ViewRole::Part, name: self.name, comparison: None, geometry, fields: vec![] }]
+    }
+}
+
+fn mark(mesh: &Mesh, drawing: Drawing, item: &Item, shells: &mut Shells) -> Mark {
+    let place = |v: &u32| mesh.positions.get(*v as usize).copied();
+    let vertices: Vec<Point> = item.vertices.iter().filter_map(place).collect();
+    let normal = if drawing == Drawing::Ring { opening(&vertices) } else { normal(mesh, &item.facets) };
+    let mut mark = Mark { normal, ..Mark::default() };
+    match (drawing, &vertices[..]) {
+        (Drawing::Dots, all) => mark.points.extend(all),
+        (Drawing::Line, all) => mark.add_line(all, false),
+        (Drawing::Ring, all) => mark.add_line(all, true),
+        (Drawing::DotOnLine, [dot, line @ ..]) => {
+            mark.points.push(*dot);
+            mark.add_line(line, false);
+        }
+        _ if drawing == Drawing::Shell => {
+            let facets = shells.of(mesh, item.facets.first().copied());
+            mark.triangles.extend(facets.into_iter().filter_map(|f| corners(mesh, f)));
+        }
+        _ => item.facets.iter().filter_map(|f| corners(mesh, *f)).for_each(|t| mark.add_facet(t)),
+    }
+    mark.finite()
+}
+
+fn corners(mesh: &Mesh, facet: u32) -> Option<[Point; 3]> {
+    let [a, b, c] = mesh.faces.get(facet as usize)?.map(|v| mesh.positions.get(v as usize).copied());
+    Some([a?, b?, c?])
+}
+
+/// Mean of the facets' normals by area.
+fn normal(mesh: &Mesh, facets: &[u32]) -> Option<Point> {
+    let of = |f: &u32| corners(mesh, *f).map(|[a, b, c]| cross(minus(b, a), minus(c, a)));
+    let sum = facets.iter().filter_map(of).fold([0.0; 3], plus);
+    unit(sum).map(|(n, _)| n).filter(|n| n.iter().all(|x| x.is_finite()))
+}
+
+/// Which way an opening looks: its rim runs as the facets do, so seen from outside it goes clockwise.
+fn opening(ring: &[Point]) -> Option<Point> {
+    let (first, rest) = ring.split_first()?;
+    let fan = rest.windows(2).map(|p| cross(minus(p[1], *first), minus(p[0], *first)));
+    unit(fan.fold([0.0; 3], plus)).map(|(n, _)| n).filter(|n| n.iter().all(|x| x.is_finite()))
+}
+
+/// Which facets hang together; found out when first asked for.
+#[derive(Default)]
+struct Shells(Option<Vec<u32>>);
+
+impl Shells {
+    /// The facets of the shell that `facet` is of.
+    fn of(&mut self, mesh: &Mesh, facet: Option<u32>) -> Vec<u32> {
+        let of = self.0.get_or_insert_with(|| Topology::of(mesh).map_or(vec![], |t| t.shell_of));
+        let Some(shell) = facet.and_then(|f| of.get(f as usize)) else { return vec![] };
+        (0..).zip(of.iter()).filter(|(_, s)| *s == shell).map(|(f, _)| f).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::document;
+    use crate::results::{InputRecord, Role};
+    use trueness_geom::check::{Options, check};
+    use trueness_geom::progress::Silent;
+
+    fn drawn(mesh: &Mesh) -> Vec<(String, Vec<[usize; 3]>)> {
+        let report = check(mesh, None, &Options::default(), &Silent).unwrap();
+        let file = InputRecord {
+            role: Role::Reference,
+            path: "x".into(),
+            format: "STL".into(),
+            bytes: 0,
+            sha256: None,
+            sha256_reason: None,
+            unit_assumed: "mm".into(),
+            points: 0,
+            facets: None,
+            warnings: vec![],
+        };
+        let document = document(&report, file, mesh.faces.len() as u64, 0, &Options::default());
+        let view = View::new(&document, "x", mesh);
+        let sizes = |m: &Mark| [m.triangles.len(), m.segments.len(), m.points.len()];
+        let groups = view.marks[0].groups.iter();
+        groups.map(|g| (g.key.clone(), g.items.iter().map(sizes).collect())).collect()
+    }
+
+    fn tetrahedron(faces: &[[u32; 3]]) -> Mesh {
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Mesh { positions, faces: faces.to_vec() }
+    }
+
+    #[test]
+    fn a_hole_is_a_ring_and_its_edges_are_lines() {
+        let open = tetrahedron(&[[0, 2, 1], [0, 1, 3], [1, 2, 3]]);
+        let drawn = drawn(&open);
+        let of = |key: &str| drawn.iter().find(|(k, _)| k == key).map(|(_, items)| items.clone());
+        assert_eq!(of("defect.holes").unwrap(), [[0, 3, 0]]);
+        assert_eq!(of("defect.boundary_edges").unwrap(), [[0, 1, 0]; 3]);
+        assert_eq!(of("defect.dangling_facets").unwrap(), [[1, 3, 0]; 3]);
+    }
+
+    #[test]
+    fn an_opening_looks_outwards() {
+        // The face that is gone looked down.
+        let open = tetrahedron(&[[0, 1, 3], [1, 2, 3], [0, 3, 2]]);
+        let topology = Topology::of(&open).unwrap();
+        let rim: Vec<[u32; 2]> = topology.boundary_edges.iter().map(|e| e.vertices).collect();
+        let next = |v: u32| rim.iter().find(|e| e[0] == v).unwrap()[1];
+        let ring = [0, next(0), next(next(0))].map(|v| open.positions[v as usize]);
+        assert_eq!(opening(&ring), Some([0.0, 0.0, -1.0]));
+    }
+
+    #[test]
+    fn a_shell_is_all_its_facets() {
+        let inside_out = tetrahedron(&[[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]);
+        assert_eq!(drawn(&inside_out), [("defect.inside_out_shells".to_string(), vec![[4, 0, 0]])]);
+    }
+}

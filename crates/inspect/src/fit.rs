@@ -1,0 +1,47 @@
+//! From an element fitted to points to the result document, and to what a report draws of it.
+
+mod element;
+mod extent;
+mod view;
+
+pub use view::{View, side_color};
+
+use crate::compare::histogram;
+use crate::results::InputRecord;
+use crate::results::fit::FitDocument;
+use crate::scale::Scale;
+use rayon::prelude::*;
+use trueness_geom::deviation::histogram::{Histogram, nice_edges};
+use trueness_geom::deviation::statistics::Summary;
+use trueness_geom::fit::{Fit, Shape};
+use trueness_geom::space::Point;
+
+/// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,
+/// the histogram of their distances, and colours for them.
+///
+/// Cost: some passes over the points, and one number a point.
+pub fn document(fit: &Fit, points: &[Point], inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
+    let mut document = FitDocument::new(fit, inputs, seed);
+    let place = |index: u64| points.get(index as usize).copied();
+    document.minimum.position = place(document.minimum.point);
+    document.maximum.position = place(document.maximum.point);
+    document.touching.iter_mut().for_each(|t| t.position = place(t.point));
+    let distances = distances(&fit.shape, points);
+    let all = Summary::of(&distances).all;
+    document.extent = extent::extent(&fit.shape, points);
+    document.histogram = nice_edges(&all).and_then(|edges| {
+        let mut counted = Histogram::new(edges).ok()?;
+        counted.push(&distances);
+        Some(histogram(&counted))
+    });
+    // A single point far off must not hide the form of the rest.
+    let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
+    let p95 = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
+    document.scale = Some(Scale::for_deviations(p95, None));
+    document
+}
+
+/// Signed distance of each point from the element.
+fn distances(shape: &Shape, points: &[Point]) -> Vec<f64> {
+    points.par_iter().map(|p| shape.distance(*p)).collect()
+}

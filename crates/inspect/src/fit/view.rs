@@ -1,0 +1,62 @@
+//! What a report draws of a fit: the points by their distance, the element through them, the points that hold it.
+
+use super::distances;
+use super::element::element;
+use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::results::fit::FitDocument;
+use crate::scale::palette::category;
+use trueness_geom::fit::Shape;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+
+/// A fit prepared for drawing.
+pub struct View<'a> {
+    name: &'a str,
+    points: &'a [Point],
+    distances: Vec<f64>,
+    body: Mesh,
+    /// Touching points in the document's order, then the element's lines.
+    pub marks: Vec<Marks>,
+}
+
+impl<'a> View<'a> {
+    /// Of the points that the document is of; `name` is shown to the reader.
+    pub fn new(document: &FitDocument, name: &'a str, shape: &Shape, points: &'a [Point]) -> View<'a> {
+        let (body, lines) =
+            document.extent.as_ref().map_or((Mesh::default(), Mark::default()), |e| element(shape, e));
+        let touching = document.touching.iter().map(|t| {
+            let dot = Mark { points: t.position.into_iter().collect(), ..Mark::default() };
+            let key = if t.side > 0 { "touching.outer" } else { "touching.inner" };
+            // One group each: the document's order stays.
+            MarkGroup { key: key.into(), color: side_color(t.side), items: vec![dot.finite()] }
+        });
+        let touching = Marks { role: ViewRole::Touching, groups: touching.collect() };
+        let rim = MarkGroup {
+            key: "element".into(),
+            color: ViewRole::Element.color(),
+            items: vec![lines.finite()],
+        };
+        let rim = Marks { role: ViewRole::Element, groups: vec![rim] };
+        let marks = if touching.groups.is_empty() { vec![rim] } else { vec![touching, rim] };
+        View { name, points, distances: distances(shape, points), body, marks }
+    }
+
+    /// The points, and the body where the element has one.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let distances = ViewField { comparison: 0, values: &self.distances, reasons: &[] as &[NoValue] };
+        let geometry = Geometry::Points(self.points);
+        let (role, name) = (ViewRole::Measured, self.name);
+        let mut objects =
+            vec![ViewObject { role, name, comparison: None, geometry, fields: vec![distances] }];
+        if !self.body.faces.is_empty() {
+            let (role, geometry) = (ViewRole::Element, Geometry::Mesh(&self.body));
+            objects.push(ViewObject { role, name: "", comparison: None, geometry, fields: vec![] });
+        }
+        objects
+    }
+}
+
+/// Colour of a point that touches the outer or the inner boundary.
+pub fn side_color(side: i8) -> crate::scale::palette::Rgb {
+    category(if side > 0 { 0 } else { 4 })
+}

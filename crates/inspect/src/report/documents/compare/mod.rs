@@ -1,0 +1,166 @@
+//! The page of a comparison: deviations, worst places, statistics.
+
+mod list;
+
+use super::super::html::{Html, percent};
+use super::super::page::blocks::{Headline, Tone, key_number};
+use super::super::{number::Style, text::word};
+use super::{Head, Map, Pick, Subject};
+use crate::results::compare::{CompareDocument, Comparison};
+use crate::scale::Scale;
+use serde_json::Value;
+
+impl Subject for CompareDocument {
+    fn head(&self) -> Head<'_> {
+        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
+    }
+
+    fn headline(&self) -> Headline {
+        headline(self.verdict)
+    }
+
+    fn convention(&self) -> Option<&'static str> {
+        Some("sign.short")
+    }
+
+    fn picture(&self) -> &'static str {
+        "picture.alt"
+    }
+
+    fn numbers(&self, h: &mut Html) {
+        for (n, comparison) in self.comparisons.iter().enumerate() {
+            numbers(h, comparison, self.scale.decimals as usize, n);
+        }
+    }
+
+    fn list(&self, h: &mut Html) {
+        list::list(h, self);
+    }
+
+    fn method(&self, h: &mut Html) {
+        let text = if self.method == "paper" { "method.paper.text" } else { "method.exact.text" };
+        for key in [text, "method.sign.text", "method.map.text"] {
+            h.raw("<p>").word(key).raw("</p>");
+        }
+    }
+
+    fn how(&self, h: &mut Html) {
+        let method = if self.method == "paper" { "method.paper" } else { "method.exact" };
+        h.word(method).raw(" · ").word("sign.method").raw(": ").text(&self.sign.method);
+    }
+
+    fn points(&self) -> Option<u64> {
+        Some(self.measured.count)
+    }
+
+    fn seed(&self) -> Option<u64> {
+        Some(self.seed)
+    }
+
+    fn scale(&self) -> Option<&Scale> {
+        Some(&self.scale)
+    }
+
+    fn maps(&self) -> Vec<Map<'_>> {
+        fn of(c: &Comparison) -> Map<'_> {
+            let all = &c.deviation.all;
+            let (tolerance, histogram) = (c.tolerance, c.histogram.as_ref());
+            Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
+        }
+        self.comparisons.iter().map(of).collect()
+    }
+
+    fn picks(&self) -> Vec<Pick> {
+        let of = |(n, c): (usize, &Comparison)| -> Vec<Pick> {
+            let pick = |w: &crate::results::compare::Worst| Pick {
+                position: w.point,
+                normal: w.normal,
+                map: Some(n),
+                value: Some(w.deviation),
+                ..Pick::default()
+            };
+            c.worst.iter().map(pick).collect()
+        };
+        self.comparisons.iter().enumerate().flat_map(of).collect()
+    }
+
+    fn json(&self) -> serde_json::Result<Value> {
+        serde_json::to_value(self)
+    }
+}
+
+/// A verdict, or that there was no tolerance.
+fn headline(verdict: Option<crate::results::Verdict>) -> Headline {
+    verdict.map_or(Headline { key: "not_judged", tone: Tone::Neutral }, Headline::from)
+}
+
+/// The line of key numbers for one comparison; the script shows the one chosen.
+fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
+    let all = &c.deviation.all;
+    let shown = if n == 0 { "" } else { " hidden" };
+    h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{n}\"{shown}>"));
+    match &c.tolerance {
+        Some(t) => {
+            key_number(h, "within", "lead", |h| {
+                h.percent(t.inside, 2);
+            });
+            key_number(h, "tolerance", "", |h| {
+                h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
+            });
+            if t.required < 1.0 {
+                key_number(h, "required", "", |h| {
+                    h.raw("≥\u{a0}").percent(t.required, 2);
+                });
+            }
+        }
+        None => key_number(h, "most_within", "lead", |h| {
+            let p = &all.percentiles;
+            h.optional(p.p2_5, None, decimals, true)
+                .raw("\u{2009}…\u{2009}")
+                .optional(p.p97_5, None, decimals, true);
+        }),
+    }
+    key_number(h, "range", "", |h| {
+        h.optional(all.min, all.min_reason.as_deref(), decimals, true).raw("\u{2009}…\u{2009}");
+        h.optional(all.max, all.max_reason.as_deref(), decimals, true);
+    });
+    let mut optional = |key, value, reason: &Option<String>, signed| {
+        key_number(h, key, "", |h| {
+            h.optional(value, reason.as_deref(), decimals + 1, signed);
+        });
+    };
+    optional("mean", all.mean, &all.mean_reason, true);
+    optional("std_dev", all.std_dev, &all.std_dev_reason, false);
+    let excluded: u64 = c.excluded.values().sum();
+    for (key, count) in [("points", all.count), ("excluded", excluded)] {
+        let class = if key == "excluded" && count > 0 { "warn" } else { "" };
+        key_number(h, key, class, |h| {
+            h.count(count);
+        });
+    }
+    key_number(h, "sign.method", "", |h| {
+        h.text(&c.sign.method);
+    });
+    let (class, sign, state) =
+        if c.soundness.sound { ("", "✓\u{a0}", "sound.short") } else { ("warn", "⚠\u{a0}", "not_sound") };
+    key_number(h, "soundness", class, |h| {
+        h.raw(sign).word(state);
+    });
+    h.raw("</dl>");
+}
+
+/// The map in one sentence, for those who cannot see it.
+fn in_words(c: &Comparison, style: Style) -> Option<String> {
+    let t = c.tolerance?;
+    let language = style.language;
+    let share = |s: f64| format!("{} %", style.fixed(percent(s, 2), 2));
+    Some(format!(
+        "{} {} · {} {} · {} {}",
+        word("within", language),
+        share(t.inside),
+        word("above", language),
+        share(t.above),
+        word("below", language),
+        share(t.below)
+    ))
+}

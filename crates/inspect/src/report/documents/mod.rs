@@ -1,0 +1,133 @@
+//! What a page needs to know of a result document: one file each.
+
+mod check;
+mod compare;
+mod fit;
+
+use super::html::Html;
+use super::page::blocks::{Headline, role_key};
+use crate::results::InputRecord;
+use crate::results::check::CheckDocument;
+use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
+use crate::results::fit::FitDocument;
+use crate::scale::Scale;
+use serde_json::Value;
+use trueness_geom::space::{Point, Vector};
+
+/// The document that a report is of; every number on the page is from it.
+#[derive(Clone, Copy, Debug)]
+pub enum Answer<'a> {
+    /// Is this mesh sound?
+    Check(&'a CheckDocument),
+    /// How far is the measured from the reference?
+    Compare(&'a CompareDocument),
+    /// Which element lies through these points?
+    Fit(&'a FitDocument),
+}
+
+impl Answer<'_> {
+    /// What the page is made of.
+    pub(super) fn subject(&self) -> &dyn Subject {
+        match self {
+            Answer::Check(d) => *d,
+            Answer::Compare(d) => *d,
+            Answer::Fit(d) => *d,
+        }
+    }
+}
+
+/// What all documents begin with.
+pub struct Head<'a> {
+    /// Name of the schema.
+    pub schema: &'a str,
+    /// Version of the program.
+    pub version: &'a str,
+    /// Unit of every length.
+    pub units: &'a str,
+    /// Files read.
+    pub inputs: &'a [InputRecord],
+}
+
+/// A document as the page sees it.
+pub trait Subject {
+    /// What all documents begin with.
+    fn head(&self) -> Head<'_>;
+    /// The first word.
+    fn headline(&self) -> Headline;
+    /// Key of what a file is called.
+    fn role(&self, input: &InputRecord) -> &'static str {
+        role_key(input.role)
+    }
+    /// Key of a convention that every number on the page follows.
+    fn convention(&self) -> Option<&'static str> {
+        None
+    }
+    /// Key of the stored picture's description.
+    fn picture(&self) -> &'static str;
+    /// The line of key numbers under the verdict.
+    fn numbers(&self, h: &mut Html);
+    /// Sections of the list, without files and method. Rows that lead to a place have `data-pick` with their number in
+    /// [`Subject::picks`].
+    fn list(&self, h: &mut Html);
+    /// How it was computed, in words.
+    fn method(&self, h: &mut Html);
+    /// The same in a few words, for the foot of the page.
+    fn how(&self, h: &mut Html);
+    /// Points that were measured, where the page may show fewer.
+    fn points(&self) -> Option<u64> {
+        None
+    }
+    /// Seed of everything random.
+    fn seed(&self) -> Option<u64> {
+        None
+    }
+    /// The colour scale, if values are mapped.
+    fn scale(&self) -> Option<&Scale> {
+        None
+    }
+    /// Keys of the words for what is mapped, and for the high and the low end of the scale.
+    fn quantity(&self) -> [&'static str; 3] {
+        ["deviation", "ends.high", "ends.low"]
+    }
+    /// The maps of values, in the order of the fields' numbers.
+    fn maps(&self) -> Vec<Map<'_>> {
+        vec![]
+    }
+    /// Places that rows of the list lead to.
+    fn picks(&self) -> Vec<Pick> {
+        vec![]
+    }
+    /// The whole document.
+    fn json(&self) -> serde_json::Result<Value>;
+}
+
+/// Values that can be shown as colours.
+pub struct Map<'a> {
+    /// What distinguishes it from the others.
+    pub name: &'a str,
+    /// Number of values.
+    pub count: u64,
+    /// Their mean.
+    pub mean: Option<f64>,
+    /// Shares against the tolerance.
+    pub tolerance: Option<ToleranceShares>,
+    /// Their counts.
+    pub histogram: Option<&'a Histogram>,
+}
+
+/// A place that a row of the list leads to.
+#[derive(Default)]
+pub struct Pick {
+    /// Where to look.
+    pub position: Point,
+    /// Half the size of what to bring into view, millimetres; without it the view keeps its size.
+    pub reach: Option<f64>,
+    /// Which way the surface looks there.
+    pub normal: Option<Vector>,
+    /// Number of what is drawn there, over all marks.
+    pub mark: Option<usize>,
+    /// The map that it belongs to.
+    pub map: Option<usize>,
+    /// The value there, for a flag.
+    pub value: Option<f64>,
+}

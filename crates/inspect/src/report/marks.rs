@@ -1,0 +1,81 @@
+//! What is drawn over the part, always visible: defects, changes, touching points, outlines.
+
+use super::ViewRole;
+use crate::scale::palette::Rgb;
+use trueness_geom::space::{Point, Vector};
+
+/// Marks that can be switched on and off together.
+#[derive(Clone, Debug)]
+pub struct Marks {
+    /// What they show.
+    pub role: ViewRole,
+    /// By kind.
+    pub groups: Vec<MarkGroup>,
+}
+
+/// Marks of one colour.
+#[derive(Clone, Debug)]
+pub struct MarkGroup {
+    /// Key of its name in the table of words.
+    pub key: String,
+    /// Its colour.
+    pub color: Rgb,
+    /// What is drawn; one each for a row of the list, if there are rows.
+    pub items: Vec<Mark>,
+}
+
+/// One thing that is marked, millimetres. Coordinates that are not finite are left out.
+#[derive(Clone, Debug, Default)]
+pub struct Mark {
+    /// Areas.
+    pub triangles: Vec<[Point; 3]>,
+    /// Lines.
+    pub segments: Vec<[Point; 2]>,
+    /// Dots.
+    pub points: Vec<Point>,
+    /// Which way the surface looks there.
+    pub normal: Option<Vector>,
+}
+
+impl Marks {
+    /// All marks, in the order of their numbers.
+    pub fn items(&self) -> impl Iterator<Item = &Mark> {
+        self.groups.iter().flat_map(|g| &g.items)
+    }
+
+    /// All marks with their colours.
+    pub fn colored(&self) -> impl Iterator<Item = (&Mark, Rgb)> {
+        self.groups.iter().flat_map(|g| g.items.iter().map(|m| (m, g.color)))
+    }
+}
+
+impl Mark {
+    /// A line through points; back to the first where it is `closed`.
+    pub fn add_line(&mut self, points: &[Point], closed: bool) {
+        self.segments.extend(points.windows(2).map(|p| [p[0], p[1]]));
+        if let (true, [first, .., last]) = (closed, points) {
+            self.segments.push([*last, *first]);
+        }
+    }
+
+    /// A triangle with its rim, which shows it when it is too small or has no area.
+    pub fn add_facet(&mut self, corners: [Point; 3]) {
+        self.triangles.push(corners);
+        self.add_line(&corners, true);
+    }
+
+    /// Every place it is drawn through.
+    pub fn places(&self) -> impl Iterator<Item = &Point> {
+        let (t, s) = (self.triangles.iter().flatten(), self.segments.iter().flatten());
+        t.chain(s).chain(&self.points)
+    }
+
+    /// Without what has a coordinate that is not finite.
+    pub fn finite(mut self) -> Mark {
+        let fine = |p: &Point| p.iter().all(|x| x.is_finite());
+        self.triangles.retain(|t| t.iter().all(fine));
+        self.segments.retain(|s| s.iter().all(fine));
+        self.points.retain(fine);
+        self
+    }
+}

@@ -1,0 +1,145 @@
+//! Pieces that the pages of all documents are made of.
+
+use super::super::html::{Html, escaped};
+use super::super::text::{Language, word};
+use crate::results::{InputRecord, Role, Verdict};
+
+/// What the page says first: a word in a colour, with an icon, so that colour is never the only sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Headline {
+    /// The word is `verdict.<key>` in the table.
+    pub key: &'static str,
+    /// Its colour and icon.
+    pub tone: Tone,
+}
+
+/// How good the news is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// Conforms.
+    Pass,
+    /// Does not.
+    Fail,
+    /// Nobody can tell.
+    Undecided,
+    /// There is nothing to judge.
+    Unknown,
+    /// No judgement was asked for.
+    Neutral,
+}
+
+impl Tone {
+    /// Name of its colour in the style sheet.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tone::Pass => "pass",
+            Tone::Fail => "fail",
+            Tone::Undecided => "undecided",
+            Tone::Unknown => "not_measured",
+            Tone::Neutral => "not_judged",
+        }
+    }
+
+    fn icon(self) -> &'static str {
+        match self {
+            Tone::Pass => "✓",
+            Tone::Fail => "✕",
+            Tone::Undecided => "?",
+            Tone::Unknown => "–",
+            Tone::Neutral => "i",
+        }
+    }
+}
+
+impl From<Verdict> for Headline {
+    fn from(verdict: Verdict) -> Headline {
+        let (key, tone) = match verdict {
+            Verdict::Pass => ("pass", Tone::Pass),
+            Verdict::Fail => ("fail", Tone::Fail),
+            Verdict::Undecided => ("undecided", Tone::Undecided),
+            Verdict::NotMeasured => ("not_measured", Tone::Unknown),
+        };
+        Headline { key, tone }
+    }
+}
+
+impl Headline {
+    /// The word.
+    pub fn word_in(self, language: Language) -> String {
+        word(&format!("verdict.{}", self.key), language).to_string()
+    }
+}
+
+/// A headline as icon and word in its colour.
+pub fn badge(h: &mut Html, headline: Headline) {
+    let Headline { key, tone } = headline;
+    h.raw(&format!("<span class=\"verdict v-{}\"><span class=\"icon\" aria-hidden=\"true\">", tone.name()));
+    h.raw(tone.icon()).raw("</span> ").word(&format!("verdict.{key}")).raw("</span>");
+}
+
+/// Last part of a path.
+pub fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or(path)
+}
+
+/// A part of the list, under its heading.
+pub fn section(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
+    h.raw(&format!("<section class=\"block b-{key}\"><h2>")).word(key).raw("</h2>\n");
+    body(h);
+    h.raw("</section>\n");
+}
+
+/// A name and what belongs to it, in a list of facts.
+pub fn fact(h: &mut Html, key: &str, body: impl FnOnce(&mut Html)) {
+    h.raw("<dt>").word(key).raw("</dt><dd>");
+    body(h);
+    h.raw("</dd>");
+}
+
+/// A key number under the verdict. `class`: `lead` for the first, `warn` for what needs care.
+pub fn key_number(h: &mut Html, key: &str, class: &str, value: impl FnOnce(&mut Html)) {
+    h.raw(&format!("<div class=\"{class}\"><dt>")).word(key).raw("</dt><dd>");
+    value(h);
+    h.raw("</dd></div>");
+}
+
+/// A place as the last three cells of a row.
+pub fn place_cells(h: &mut Html, place: [f64; 3]) {
+    for x in place {
+        h.raw("<td class=\"r\">").number(x, 2, false).raw("</td>");
+    }
+}
+
+/// What a file is called on the page.
+pub fn role_key(role: Role) -> &'static str {
+    match role {
+        Role::Measured => "measured",
+        Role::Reference => "reference",
+    }
+}
+
+/// The files read.
+pub fn files(h: &mut Html, inputs: &[InputRecord], role: impl Fn(&InputRecord) -> &'static str) {
+    section(h, "files", |h| inputs.iter().for_each(|input| file(h, input, role(input))));
+}
+
+fn file(h: &mut Html, input: &InputRecord, role: &str) {
+    h.raw(&format!("<div class=\"file\"><p><span class=\"chip {role}\"><i></i>")).word(role).raw("</span> ");
+    h.name(&input.path).raw("</p><p class=\"note\">").text(&input.format).raw(" · ").count(input.bytes);
+    let what = if input.facets.is_some() { "vertices" } else { "points" };
+    h.raw("\u{a0}B · ").count(input.points).raw(" ").word(what);
+    if let Some(facets) = input.facets {
+        h.raw(" · ").count(facets).raw(" ").word("facets");
+    }
+    h.raw(" · ").word("unit_assumed").raw(" ").text(&input.unit_assumed).raw("</p>");
+    match &input.sha256 {
+        Some(hash) => {
+            h.raw(&format!("<p class=\"hash\"><abbr>SHA-256</abbr> <code>{}</code></p>", escaped(hash)))
+        }
+        None => h.raw("<p class=\"hash\">").text(input.sha256_reason.as_deref().unwrap_or("–")).raw("</p>"),
+    };
+    for warning in &input.warnings {
+        h.raw("<p class=\"warning\">⚠ ").text(warning).raw("</p>");
+    }
+    h.raw("</div>");
+}

@@ -1,0 +1,73 @@
+//! Marks as blobs: their places on a grid, and for each triangle, line and dot the number of its mark.
+
+use super::super::marks::{Mark, Marks};
+use super::grid::Grid;
+use super::planes::pack;
+use super::{Payload, hex};
+use serde_json::{Value, json};
+use trueness_geom::space::Aabb;
+
+/// Packs marks; their numbers begin at `first`.
+pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize) -> Value {
+    let places = || marks.items().flat_map(Mark::places);
+    let grid = Grid::over(&Aabb::of(places()).union(around), 16);
+    // The first marks are drawn last, over the others.
+    let mut last_first: Vec<(i32, &Mark)> = (0..).zip(marks.items()).collect();
+    last_first.reverse();
+    let items = || last_first.iter().map(|(_, m)| *m);
+    // Areas first, then lines, then dots.
+    let (t, s) = (
+        items().flat_map(|m| m.triangles.iter().flatten()),
+        items().flat_map(|m| m.segments.iter().flatten()),
+    );
+    let all: Vec<[u16; 3]> =
+        t.chain(s).chain(items().flat_map(|m| &m.points)).map(|p| grid.place(p)).collect();
+    let positions: Vec<u8> = (0..3)
+        .flat_map(|k| {
+            let at = |i: usize| i32::from(all[i][k]);
+            pack((0..all.len()).map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 }), all.len(), 2)
+        })
+        .collect();
+    let counts: [fn(&Mark) -> usize; 3] = [|m| m.triangles.len(), |m| m.segments.len(), |m| m.points.len()];
+    let numbers: Vec<i32> = counts
+        .iter()
+        .flat_map(|count| last_first.iter().flat_map(|(n, m)| std::iter::repeat_n(*n, count(m))))
+        .collect();
+    let steps = (0..numbers.len()).map(|i| numbers[i] - if i > 0 { numbers[i - 1] } else { 0 });
+    let numbers = pack(steps, numbers.len(), 3);
+    let total = |count: fn(&Mark) -> usize| marks.items().map(count).sum::<usize>();
+    let groups: Vec<Value> = marks
+        .groups
+        .iter()
+        .map(|g| json!({"key": g.key, "color": hex(g.color), "count": g.items.len()}))
+        .collect();
+    json!({
+        "role": marks.role, "kind": "marks", "vertices": all.len(), "origin": grid.origin, "step": grid.step,
+        "shown": true, "first": first, "groups": groups, "triangles": total(counts[0]),
+        "segments": total(counts[1]), "points": total(counts[2]),
+        "positions": {"blob": part.add(&positions)}, "items": {"blob": part.add(&numbers)},
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::ViewRole;
+    use super::super::super::marks::MarkGroup;
+    use super::*;
+
+    #[test]
+    fn counts_and_numbers_agree() {
+        let mut facet = Mark::default();
+        facet.add_facet([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        let dot = Mark { points: vec![[0.5, 0.5, 7.0]], ..Mark::default() };
+        let group = MarkGroup { key: "x".into(), color: [1, 2, 255], items: vec![facet, dot] };
+        let marks = Marks { role: ViewRole::Defects, groups: vec![group] };
+        let mut part = Payload::default();
+        let entry = pack_marks(&mut part, &marks, &Aabb::of(&[[0.0; 3], [10.0; 3]]), 5);
+        assert_eq!([&entry["triangles"], &entry["segments"], &entry["points"]], [1, 3, 1]);
+        assert_eq!((&entry["vertices"], &entry["first"]), (&json!(3 + 6 + 1), &json!(5)));
+        assert_eq!(entry["groups"][0], json!({"key": "x", "color": "0102ff", "count": 2}));
+        assert_eq!(entry["step"], json!(10.0 / 65_535.0));
+        assert_eq!(part.blobs.len(), 2);
+    }
+}
