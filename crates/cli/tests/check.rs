@@ -52,3 +52,16 @@ fn wrong_inputs_are_refused_with_a_remedy() {
     let o = trueness(["check".as_ref(), cube.as_os_str(), "--gap".as_ref(), "nan".as_ref()]);
     assert_eq!(status(&o), 2, "{}", stderr(&o));
 }
+
+#[test]
+fn a_report_says_what_the_document_says() {
+    let f = Folder::new();
+    let open = f.write("open.off", CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", ""));
+    let html = f.file("report.html");
+    let o = trueness(["check".as_ref(), open.as_os_str(), "--html".as_ref(), html.as_os_str()]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    let text = std::fs::read_to_string(html).unwrap();
+    assert!(text.starts_with("<!doctype html>") && text.contains("<title>Not sound · open.off</title>"));
+    assert!(text.contains("data-t=\"defect.holes\">Holes</span>"));
+    assert_eq!(f.names(), ["open.off", "report.html"]);
+}

@@ -67,3 +67,21 @@ fn a_method_without_meaning_is_refused() {
     assert_eq!(status(&answer), 3);
     assert!(stderr(&answer).contains("maximum-inscribed is not defined for a plane"), "{}", stderr(&answer));
 }
+
+#[test]
+fn a_report_says_what_the_document_says() {
+    let f = Folder::new();
+    let points = corpus("reference_fits/cylinder_01_lobed.xyz");
+    let html = f.file("report.html");
+    let words = ["--shape", "cylinder", "--method", "minimum-zone", "--html"].map(std::ffi::OsStr::new);
+    let o = trueness(
+        [std::ffi::OsStr::new("fit"), points.as_os_str()].into_iter().chain(words).chain([html.as_os_str()]),
+    );
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let text = std::fs::read_to_string(html).unwrap();
+    assert!(text.contains("<title>Cylinder · cylinder_01_lobed.xyz</title>"));
+    assert_eq!(
+        text.matches("data-t=\"touching.outer\"").count() + text.matches("data-t=\"touching.inner\"").count(),
+        6
+    );
+}
