@@ -65,3 +65,42 @@ fn a_report_says_what_the_document_says() {
     assert!(text.contains("data-t=\"defect.holes\">Holes</span>"));
     assert_eq!(f.names(), ["open.off", "report.html"]);
 }
+
+#[test]
+fn an_empty_model_is_not_sound_in_any_format() {
+    for file in ["shapes/trimesh__empty.ply", "shapes/trimesh__obj_empty.obj", "broken/bin_zero.stl"] {
+        let o = trueness(["check".as_ref(), corpus(file).as_os_str()]);
+        assert_eq!(status(&o), 1, "{file}: {}", stderr(&o));
+        assert!(stdout(&o).contains("0 facets") && stdout(&o).contains("neither faces nor points"), "{file}");
+    }
+}
+
+#[test]
+fn an_unsound_reference_is_compared_all_the_same_and_its_flaws_are_named() {
+    let f = Folder::new();
+    let open = f.write("open.off", CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", ""));
+    let points = f.write("p.xyz", "0.5 0.5 1.25\n0.5 0.5 0.75\n");
+    let d = document(["compare".as_ref(), points.as_os_str(), open.as_os_str()]);
+    let c = &d["comparisons"][0];
+    assert_eq!((&c["soundness"]["sound"], &c["sign"]["method"]), (&json!(false), &json!("winding")));
+    let findings = c["soundness"]["findings"].as_object().unwrap();
+    assert_eq!(findings.keys().collect::<Vec<_>>(), ["boundary_edges", "holes"]);
+    assert_eq!(
+        (&findings["holes"]["count"], &findings["holes"]["items"][0]["area"]),
+        (&json!(1), &json!(0.5))
+    );
+    assert_eq!(c["deviation"]["all"]["max"], 0.25);
+    assert_eq!(c["deviation"]["all"]["min"], -0.25);
+    let o = trueness(["compare".as_ref(), points.as_os_str(), open.as_os_str()]);
+    let text = stdout(&o);
+    for words in [
+        "not sound: 3 free edges",
+        "holes: 1, the largest at",
+        "compared all the same; the signs are those of the method winding",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    let whole = f.write("cube.off", CUBE);
+    let d = document(["compare".as_ref(), points.as_os_str(), whole.as_os_str()]);
+    assert!(d["comparisons"][0]["soundness"].get("findings").is_none());
+}

@@ -66,7 +66,8 @@ pub fn document(
     }
 }
 
-fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
+/// The findings of a kind as the documents have them; `None` where they were not looked for.
+pub(crate) fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
     let reason = match kind.name {
         "reversed_normals" => "the file stores no normals",
         _ => "not asked for",

@@ -1,6 +1,6 @@
 //! The form of a kind of defect and of what is found.
 
-use super::{Options, free_edges::FreeEdges};
+use super::{Options, free_edges::FreeEdges, intersect::Crossings};
 use crate::mesh::Mesh;
 use crate::space::{Aabb, Point};
 use crate::topology::{Properties, Topology};
@@ -74,7 +74,7 @@ pub struct Inspected<'a> {
     /// The normals that a file stores with its facets.
     pub stored_normals: Option<&'a [[f32; 3]]>,
     /// Pairs of facets that meet where they should not, if looked for.
-    pub crossings: Option<&'a [[u32; 2]]>,
+    pub crossings: Option<&'a Crossings>,
     /// What was asked.
     pub options: &'a Options,
     /// Distance, mm, up to which two places may have been meant as one.

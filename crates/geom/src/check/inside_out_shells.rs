@@ -53,30 +53,27 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)]) -> Vec<u32> {
     let contains = |outer: &Aabb, inner: &Aabb| {
         (0..3).all(|k| outer.min[k] <= inner.min[k] && inner.max[k] <= outer.max[k])
     };
-    let inside: Vec<(usize, Vec<u32>)> = (0..closed.len())
-        .into_par_iter()
-        .filter(|&s| closed[s])
-        .map(|s| {
-            let (own, mut inner) = (bounds[s].1, vec![]);
-            let reaches = |b: &Aabb| (0..3).all(|k| b.min[k] <= own.max[k] && own.min[k] <= b.max[k]);
-            near.visit(reaches, |_, other| {
-                if other as usize != s && contains(&own, &bounds[other as usize].1) {
-                    inner.push(other);
-                }
-            });
-            (s, inner)
-        })
-        .filter(|(_, inner)| !inner.is_empty())
-        .collect();
-    if inside.is_empty() {
+    let inside = |s: usize| {
+        let (own, mut inner) = (bounds[s].1, vec![]);
+        let reaches = |b: &Aabb| (0..3).all(|k| b.min[k] <= own.max[k] && own.min[k] <= b.max[k]);
+        near.visit(reaches, |_, other| {
+            if other as usize != s && contains(&own, &bounds[other as usize].1) {
+                inner.push(other);
+            }
+        });
+        inner
+    };
+    let shells = 0..closed.len();
+    let outer: Vec<usize> = shells.into_par_iter().filter(|&s| closed[s] && !inside(s).is_empty()).collect();
+    if outer.is_empty() {
         return depth;
     }
     let facets = by_shell(&m.topology.shell_of, closed.len());
-    for (outer, inner) in inside {
-        let container = Container::new(m.mesh, &facets[outer]);
-        let held: Vec<u32> =
-            inner.into_par_iter().filter(|&s| lies_in(m, &facets[s as usize], &container)).collect();
-        held.into_iter().for_each(|s| depth[s as usize] += 1);
+    // One after the other: all lists together might have as many entries as there are pairs of shells.
+    for s in outer {
+        let container = Container::new(m.mesh, &facets[s]);
+        let held = inside(s).into_par_iter().filter(|&s| lies_in(m, &facets[s as usize], &container));
+        held.collect::<Vec<u32>>().into_iter().for_each(|s| depth[s as usize] += 1);
     }
     depth
 }

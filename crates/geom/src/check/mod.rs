@@ -23,6 +23,7 @@ mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;
 mod precision;
+mod precondition;
 mod reversed_normals;
 mod self_intersections;
 mod sliver_facets;
@@ -33,6 +34,7 @@ mod unshared_vertices;
 
 pub use finding::{Finding, Found, Inspected, Kind, Severity};
 pub use precision::spacing;
+pub use precondition::Precondition;
 
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
@@ -125,10 +127,21 @@ pub enum CheckError {
     /// The faces cannot be connected.
     #[error(transparent)]
     Weld(#[from] WeldError),
+    /// The ends of boundary edges are numbered in 32 bits.
+    #[error(
+        "{edges} edges with one facet are more than the {MOST_BOUNDARY_EDGES} that can be walked: weld the mesh, or split the model"
+    )]
+    TooManyBoundaryEdges {
+        /// Number of edges with one facet.
+        edges: usize,
+    },
     /// The check was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+/// Boundary edges whose ends can be numbered by a `u32`.
+const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 
 /// Looks for every kind of defect.
 ///
@@ -147,9 +160,13 @@ pub fn check(
     progress: &dyn Progress,
 ) -> Result<Report, CheckError> {
     let topology = Topology::of(mesh)?;
+    let open = topology.boundary_edges.len();
+    if open > MOST_BOUNDARY_EDGES {
+        return Err(CheckError::TooManyBoundaryEdges { edges: open });
+    }
     let properties = Properties::of(mesh, &topology);
     let crossings = match options.self_intersections {
-        true => Some(intersect::self_intersections(mesh, &topology, progress)?),
+        true => Some(intersect::first_self_intersections(mesh, &topology, options.limit, progress)?),
         false => None,
     };
     let soundness = Soundness::from_parts(&topology, &properties);
@@ -161,7 +178,7 @@ pub fn check(
         properties: &properties,
         free_edges: &free_edges,
         stored_normals,
-        crossings: crossings.as_deref(),
+        crossings: crossings.as_ref(),
         options,
         gap,
     };

@@ -3,6 +3,7 @@
 use super::finding::area;
 use super::{Kind, Severity};
 use crate::space::{cross, dot, minus};
+use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "reversed_normals",
@@ -12,15 +13,15 @@ pub(super) const KIND: Kind = Kind {
     size: "area, mm²",
     find: |m| {
         let stored = m.stored_normals?;
-        let mut facets = vec![];
-        for (f, (face, normal)) in (0..).zip(m.mesh.faces.iter().zip(stored)) {
+        let contradicts = |(face, normal): (&[u32; 3], &[f32; 3])| {
             let [a, b, c] = face.map(|v| m.mesh.positions[v as usize]);
             let computed = cross(minus(b, a), minus(c, a));
             let says = normal.iter().all(|x| x.is_finite()) && normal.iter().any(|x| *x != 0.0);
-            if says && computed != [0.0; 3] && dot(normal.map(f64::from), computed) <= 0.0 {
-                facets.push(f);
-            }
-        }
+            says && computed != [0.0; 3] && dot(normal.map(f64::from), computed) <= 0.0
+        };
+        let facets = m.mesh.faces.par_iter().zip(stored).enumerate();
+        let facets: Vec<u32> =
+            facets.filter(|(_, facet)| contradicts(*facet)).map(|(f, _)| f as u32).collect();
         m.each(&facets, |&f| m.finding(vec![f], vec![], area(m.corners(f))))
     },
 };

@@ -1,6 +1,7 @@
 //! Facets that cross, touch or overlap.
 
-use super::{Finding, Inspected, Kind, Severity};
+use super::intersect::Crossings;
+use super::{Finding, Found, Inspected, Kind, Severity};
 use crate::space::Aabb;
 
 pub(super) const KIND: Kind = Kind {
@@ -8,7 +9,10 @@ pub(super) const KIND: Kind = Kind {
     severity: Severity::Error,
     about: "Pairs of facets that meet anywhere else than in the vertices or the edge they share, decided exactly.",
     size: "diagonal of the box that the two have in common, mm",
-    find: |m| m.each(m.crossings?, |pair| crossing(m, *pair)),
+    find: |m| {
+        let Crossings { count, first } = m.crossings?;
+        Some(Found { count: *count, items: first.iter().map(|pair| crossing(m, *pair)).collect() })
+    },
 };
 
 fn crossing(m: &Inspected, pair: [u32; 2]) -> Finding {

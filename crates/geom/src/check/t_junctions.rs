@@ -1,9 +1,13 @@
 //! Vertices that lie on somebody else's edge.
 
 use super::near::segment_reaches;
-use super::{Inspected, Kind, Severity};
+use super::{Found, Inspected, Kind, Severity};
 use crate::space::{Point, dot, minus, norm, plus, times};
+use crate::topology::EdgeAt;
 use rayon::prelude::*;
+
+/// Edges of one task.
+const PART: usize = 1 << 9;
 
 pub(super) const KIND: Kind = Kind {
     name: "t_junctions",
@@ -13,27 +17,38 @@ pub(super) const KIND: Kind = Kind {
     size: "distance, mm",
     find: |m| {
         let near = m.free_edges.near(m.mesh);
-        let found: Vec<Junction> = (m.topology.boundary_edges.par_iter())
-            .flat_map_iter(|e| {
-                let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
-                let mut found = vec![];
-                near.visit(
-                    |bounds| segment_reaches(a, b, m.gap, bounds),
-                    |p, vertex| {
-                        let distance = offset(*p, a, b, m.gap).filter(|_| !e.vertices.contains(&vertex));
-                        found.extend(distance.map(|d| Junction {
-                            vertex,
-                            edge: e.vertices,
-                            facet: e.facet,
-                            distance: d,
-                        }));
-                    },
-                );
-                found.sort_unstable_by_key(|j| j.vertex);
-                found
-            })
-            .collect();
-        m.each(&found, |j| junction(m, j))
+        let at_edge = |e: &EdgeAt| {
+            let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
+            let mut found = vec![];
+            near.visit(
+                |bounds| segment_reaches(a, b, m.gap, bounds),
+                |p, vertex| {
+                    let distance = offset(*p, a, b, m.gap).filter(|_| !e.vertices.contains(&vertex));
+                    found.extend(distance.map(|d| Junction {
+                        vertex,
+                        edge: e.vertices,
+                        facet: e.facet,
+                        distance: d,
+                    }));
+                },
+            );
+            found.sort_unstable_by_key(|j| j.vertex);
+            found
+        };
+        // Of each part no more is kept than can be listed: a wide gap may bring very many.
+        let part = |edges: &[EdgeAt]| {
+            let (mut count, mut first) = (0, vec![]);
+            for found in edges.iter().map(at_edge) {
+                count += found.len();
+                first.extend(found.into_iter().take(m.options.limit - first.len()));
+            }
+            (count, first)
+        };
+        let parts: Vec<(usize, Vec<Junction>)> =
+            m.topology.boundary_edges.par_chunks(PART).map(part).collect();
+        let count = parts.iter().map(|p| p.0).sum();
+        let first = parts.iter().flat_map(|p| &p.1).take(m.options.limit);
+        Some(Found { count, items: first.map(|j| junction(m, j)).collect() })
     },
 };
 

@@ -14,28 +14,22 @@ pub(super) const KIND: Kind = Kind {
     find: |m| {
         let near = m.free_edges.near(m.mesh);
         let vertices = m.free_edges.vertices();
-        let pairs: Vec<[u32; 2]> = (0..vertices.len() as u32)
-            .into_par_iter()
-            .flat_map_iter(|i| {
-                let (v, mut pairs) = (vertices[i as usize], vec![]);
-                let at = m.mesh.positions[v as usize];
-                let reaches =
-                    |b: &Aabb| (0..3).all(|k| at[k] >= b.min[k] - m.gap && at[k] <= b.max[k] + m.gap);
-                near.visit(reaches, |p, other| {
-                    let close = other > v && norm(minus(*p, at)) <= m.gap;
-                    if close && m.topology.facets_at_edge(m.mesh, [v, other]).is_empty() {
-                        pairs.push([i, vertices.partition_point(|x| *x < other) as u32]);
-                    }
-                });
-                pairs
-            })
-            .collect();
         let sets = Sets::new(vertices.len());
-        pairs.iter().for_each(|&[a, b]| sets.join(a, b));
-        let mut members: Vec<(u32, u32)> = pairs.iter().flatten().map(|&i| (sets.root(i), i)).collect();
+        (0..vertices.len() as u32).into_par_iter().for_each(|i| {
+            let v = vertices[i as usize];
+            let at = m.mesh.positions[v as usize];
+            let reaches = |b: &Aabb| (0..3).all(|k| at[k] >= b.min[k] - m.gap && at[k] <= b.max[k] + m.gap);
+            near.visit(reaches, |p, other| {
+                let close = other > v && norm(minus(*p, at)) <= m.gap;
+                if close && m.topology.facets_at_edge(m.mesh, [v, other]).is_empty() {
+                    sets.join(i, vertices.partition_point(|x| *x < other) as u32);
+                }
+            });
+        });
+        let mut members: Vec<(u32, u32)> = (0..vertices.len() as u32).map(|i| (sets.root(i), i)).collect();
         members.sort_unstable();
-        members.dedup();
-        let groups: Vec<&[(u32, u32)]> = members.chunk_by(|a, b| a.0 == b.0).collect();
+        let groups: Vec<&[(u32, u32)]> =
+            members.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1).collect();
         m.each(&groups, |group| {
             let mut finding =
                 m.finding(vec![], group.iter().map(|(_, i)| vertices[*i as usize]).collect(), 0.0);

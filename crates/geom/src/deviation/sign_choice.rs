@@ -54,7 +54,7 @@ pub struct SignChoice {
 pub enum SignReason {
     /// It was asked for.
     Requested,
-    /// It was asked for, and the reference is not closed and consistently oriented.
+    /// It was asked for, and the reference is not closed and consistently oriented as the method needs it.
     RequestedUnsound,
     /// The reference is closed and consistently oriented.
     Closed,
@@ -88,6 +88,7 @@ impl SignChoice {
             && soundness.duplicate_facets == 0;
         let (method, reason) = match requested {
             SignRequest::None => (SignMethod::None, SignReason::Requested),
+            SignRequest::Winding if openness > SHEET => (SignMethod::Winding, SignReason::RequestedUnsound),
             SignRequest::Winding => (SignMethod::Winding, SignReason::Requested),
             SignRequest::Pseudonormal if soundness.closed && oriented => {
                 (SignMethod::Pseudonormal, SignReason::Requested)

@@ -1,6 +1,7 @@
 //! A reference surface, ready to be measured against: exact, signed, with points excluded where asked.
 
 use super::sign_choice::{SignChoice, SignMethod, SignRequest};
+use crate::check::Precondition;
 use crate::closest::{FreeEdges, Hit, Query, QueryError, Signs, Tree, Winding};
 use crate::mesh::Mesh;
 use crate::progress::{Progress, Silent};
@@ -72,11 +73,14 @@ impl Exclusion {
 pub struct Surface<'t> {
     tree: &'t Tree,
     choice: SignChoice,
-    soundness: Soundness,
+    precondition: Precondition,
     side: Side<'t>,
     free_edges: Option<FreeEdges>,
     max_distance: f64,
 }
+
+/// Flaws of each kind that are listed; all are counted.
+const FLAWS: usize = 100;
 
 enum Side<'t> {
     Pseudonormal(Signs<'t>),
@@ -90,15 +94,16 @@ impl<'t> Surface<'t> {
     /// # Errors
     /// Those of [`Soundness::of`].
     pub fn new(tree: &'t Tree, mesh: &Mesh, options: &SurfaceOptions) -> Result<Surface<'t>, WeldError> {
-        let soundness = Soundness::of(mesh)?;
-        let choice = SignChoice::new(options.sign, &soundness, mesh);
+        let precondition = Precondition::of(mesh, FLAWS)?;
+        let soundness = &precondition.soundness;
+        let choice = SignChoice::new(options.sign, soundness, mesh);
         let side = match choice.method {
             SignMethod::Pseudonormal => Side::Pseudonormal(Signs::new(tree)),
             SignMethod::Winding => Side::Winding(Winding::new(tree)),
             SignMethod::None => Side::None,
         };
         let free_edges = (options.skip_boundary && !soundness.closed).then(|| FreeEdges::new(tree));
-        Ok(Surface { tree, choice, soundness, side, free_edges, max_distance: options.max_distance })
+        Ok(Surface { tree, choice, precondition, side, free_edges, max_distance: options.max_distance })
     }
 
     /// The search tree.
@@ -111,7 +116,11 @@ impl<'t> Surface<'t> {
     }
     /// What the topology says about the mesh.
     pub fn soundness(&self) -> &Soundness {
-        &self.soundness
+        &self.precondition.soundness
+    }
+    /// What breaks the rule that statistics rest on, with its places; nothing where the mesh is sound.
+    pub fn precondition(&self) -> &Precondition {
+        &self.precondition
     }
 
     /// The deviation of each point, millimetres, in the order of `points`: + outside, − inside, unsigned without a

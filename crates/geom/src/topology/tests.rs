@@ -234,3 +234,30 @@ fn facets_that_are_not_finite_do_not_count() {
     mesh.faces.push([0, 1, 9]);
     assert!(matches!(Topology::of(&mesh), Err(WeldError::NoSuchVertex { facet: 15, vertex: 9, .. })));
 }
+
+/// Corners beyond what 28 bits number, records beyond what 32 bits address: a torus of 90 million facets.
+#[test]
+#[ignore = "takes 5 GB of memory and half a minute"]
+fn a_mesh_beyond_four_gigabytes() {
+    const SIDE: usize = 6720;
+    let corner = |f: usize, k: usize| {
+        let (cell, upper) = (f / 2, f % 2 == 1);
+        let steps = if upper { [[0, 0], [1, 1], [0, 1]] } else { [[0, 0], [1, 0], [1, 1]] };
+        let [i, j] = [(cell / SIDE + steps[k][0]) % SIDE, (cell % SIDE + steps[k][1]) % SIDE];
+        [i as f32, j as f32, 0.0f32]
+    };
+    let facets = 2 * SIDE * SIDE;
+    assert!(50 * facets as u64 > u64::from(u32::MAX));
+    let mesh = weld::corners(facets, corner).unwrap();
+    assert_eq!((mesh.faces.len(), mesh.positions.len()), (facets, SIDE * SIDE));
+    let last = mesh.faces[facets - 1].map(|v| mesh.positions[v as usize].map(|x| x as f32));
+    assert_eq!(last, std::array::from_fn(|k| corner(facets - 1, k)));
+    let t = Topology::of(&mesh).unwrap();
+    assert_eq!((t.edges, t.euler_characteristic(), t.shells), (3 * SIDE * SIDE, 0, 1));
+    assert!(
+        t.boundary_edges.is_empty() && t.non_manifold_edges.is_empty() && t.inconsistent_edges.is_empty()
+    );
+    assert!(t.non_manifold_vertices.is_empty() && t.duplicate_facets.is_empty() && t.collinear.is_empty());
+    let around = t.facets_at_vertex(mesh.faces[facets - 1][0]);
+    assert!(around.len() == 6 && around.contains(&(facets as u32 - 1)));
+}

@@ -315,6 +315,7 @@ fn soundness() -> Soundness {
         duplicate_facets: 0,
         degenerate_facets: 0,
         inconsistent_edges: 0,
+        findings: Default::default(),
     }
 }
 

@@ -3,10 +3,12 @@
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
 use super::{Comparisons, Options};
+use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
+use trueness_geom::check::{Found, Kind};
 use trueness_geom::deviation::histogram::Limits;
 use trueness_geom::deviation::paper::Differences;
 use trueness_geom::deviation::sign_choice::SignChoice;
@@ -145,7 +147,7 @@ fn overall_sign(comparisons: &[Comparison], options: &Options) -> SignRecord {
 }
 
 fn soundness(c: &Compared) -> Soundness {
-    let s = &c.soundness;
+    let s = &c.precondition.soundness;
     Soundness {
         sound: s.sound,
         closed: s.closed,
@@ -159,7 +161,12 @@ fn soundness(c: &Compared) -> Soundness {
         degenerate_facets: s.degenerate_facets as u64,
         not_finite_facets: s.not_finite_facets as u64,
         inconsistent_edges: s.inconsistent_edges as u64,
+        findings: c.precondition.findings.iter().map(finding).collect(),
     }
+}
+
+fn finding((kind, found): &(&'static Kind, Found)) -> (String, Defects) {
+    (kind.name.to_string(), crate::check::defects(kind, Some(found)))
 }
 
 /// The document's form of a set of statistics; `quantile_error` is the relative error of order statistics.

@@ -3,6 +3,7 @@
 use super::vertex_map::{VertexMap, weights};
 use super::worst::{Place, WorstPlaces};
 use super::{Method, Options};
+use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
 use trueness_geom::deviation::histogram::{Histogram, Limits, nice_edges};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
@@ -12,7 +13,6 @@ use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector, cross, minus, unit};
-use trueness_geom::topology::Soundness;
 use trueness_geom::topology::weld::WeldError;
 
 /// What was found about one reference.
@@ -23,8 +23,8 @@ pub struct Compared {
     pub sign: SignChoice,
     /// How both sign methods agree on a sample; absent for unsigned distances.
     pub disagreement: Option<Disagreement>,
-    /// Whether the mesh is sound.
-    pub soundness: Soundness,
+    /// Whether the mesh is sound, and if not, where not.
+    pub precondition: Precondition,
     /// Statistics of all deviations and of each side.
     pub summary: Summary,
     /// The deviations, or what is left of them when there were too many to keep.
@@ -161,7 +161,7 @@ impl<'a> Running<'a> {
             limits: self.limits,
             sign: choice,
             disagreement: if signed { Some(self.surface.disagreement(sample)?) } else { None },
-            soundness: self.surface.soundness().clone(),
+            precondition: self.surface.precondition().clone(),
             summary,
             worst: worst(&self.surface, self.mesh, &self.worst)?,
             values: self.values,

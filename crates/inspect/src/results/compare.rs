@@ -1,5 +1,6 @@
 //! `trueness/compare/1`: deviations of measured points from one or several references.
 
+use super::check::Defects;
 use super::research::Research;
 use super::{InputRecord, Verdict};
 use crate::scale::Scale;
@@ -242,6 +243,10 @@ pub struct Soundness {
     pub not_finite_facets: u64,
     /// Edges that both neighbours pass in the same direction.
     pub inconsistent_edges: u64,
+    /// What breaks the rule, by kind and with its places, as the document of the check has it; empty where the mesh is
+    /// sound. Self-intersections are not looked for.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub findings: BTreeMap<String, Defects>,
 }
 
 /// Shares of the points against the tolerance (0 to 1); the limits belong to the zone.

@@ -10,7 +10,7 @@ use crate::report::ReportArgs;
 use crate::{console, read};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use trueness_files::{Body, Input, ReadOptions, SourceMesh, Unit};
+use trueness_files::{Body, Input, ReadOptions, SourceMesh, Unit, Warning};
 use trueness_geom::check::{self, CheckError, Options};
 use trueness_inspect::check::View;
 use trueness_inspect::report::Answer;
@@ -104,11 +104,14 @@ pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
 fn read(path: &Path, units: Option<Unit>) -> anyhow::Result<(SourceMesh, InputRecord)> {
     let Input { provenance, body, warnings } =
         trueness_files::open(path, &ReadOptions { units, ..ReadOptions::default() })?;
-    let Body::Mesh(source) = body else {
-        anyhow::bail!(
+    let source = match body {
+        Body::Mesh(source) => source,
+        // Without vertices, too, it is as empty as an STL file of no facets.
+        Body::Points(_) if warnings.contains(&Warning::Nothing) => SourceMesh::default(),
+        Body::Points(_) => anyhow::bail!(
             "{}: it holds points without facets; a check needs a mesh (STL, PLY, OBJ, OFF)",
             path.display()
-        )
+        ),
     };
     let mut record = read::record(Role::Reference, &provenance, &warnings);
     record.points = source.mesh.positions.len() as u64;

@@ -33,6 +33,12 @@ fn head(d: &CompareDocument) -> String {
         rows.push(("sign".into(), format!("{of}{}: {}{disagreement}", c.sign.method, c.sign.reason)));
         if !c.soundness.sound {
             rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
+            rows.extend(places(c).map(|place| (String::new(), format!("  {of}{place}"))));
+            let signs = match c.sign.method.as_str() {
+                "none" => "the deviations have no sign".into(),
+                method => format!("the signs are those of the method {method}"),
+            };
+            rows.push((String::new(), format!("  {of}it is compared all the same; {signs}")));
         }
         for (reason, n) in c.excluded.iter().filter(|(_, n)| **n > 0) {
             rows.push((
@@ -61,11 +67,26 @@ fn unsound(c: &Comparison) -> String {
         (s.non_manifold_vertices, "vertices that are no closed fan"),
         (s.inconsistent_edges, "edges between facets of opposite orientation"),
         (s.duplicate_facets, "coincident facets"),
-        (s.degenerate_facets, "facets with a repeated vertex"),
+        (s.degenerate_facets, "facets without area"),
+        (u64::from(s.closed && !s.outward), "volume turned inside out"),
     ];
+    if !s.closed && s.boundary_edges == 0 {
+        return "it has no facets".into();
+    }
     let named: Vec<String> =
         faults.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{} {what}", grouped(*n))).collect();
     named.join(", ")
+}
+
+/// Where the largest flaw of each kind is.
+fn places(c: &Comparison) -> impl Iterator<Item = String> {
+    c.soundness.findings.iter().filter_map(|(kind, found)| {
+        let largest = found.items.iter().max_by(|a, b| a.size.total_cmp(&b.size))?;
+        let [x, y, z] = largest.position.map(number);
+        let count = grouped(found.count?);
+        let (kind, size) = (kind.replace('_', " "), number(largest.size));
+        Some(format!("{kind}: {count}, the largest at {x}, {y}, {z} ({}: {size})", found.size))
+    })
 }
 
 type Row = (&'static str, fn(&Statistics) -> Option<f64>);

@@ -43,19 +43,43 @@ pub fn self_intersections(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, Cancelled> {
-    with(mesh, topology, progress, Level::detect())
+    first_self_intersections(mesh, topology, usize::MAX, progress).map(|all| all.first)
+}
+
+/// How many pairs of facets meet where they should not, and the first of them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Crossings {
+    /// Their number.
+    pub count: usize,
+    /// The least of them, as many as were asked for, sorted.
+    pub first: Vec<[u32; 2]>,
+}
+
+/// As [`self_intersections`], keeping `limit` pairs only: memory stays bounded where a mesh is one tangle, in which
+/// the number of pairs grows with the square of that of the facets.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn first_self_intersections(
+    mesh: &Mesh,
+    topology: &Topology,
+    limit: usize,
+    progress: &dyn Progress,
+) -> Result<Crossings, Cancelled> {
+    with(mesh, topology, limit, progress, Level::detect())
 }
 
 fn with(
     mesh: &Mesh,
     topology: &Topology,
+    limit: usize,
     progress: &dyn Progress,
     level: Level,
-) -> Result<Vec<[u32; 2]>, Cancelled> {
+) -> Result<Crossings, Cancelled> {
     let tree = Tree::build(mesh, |f| topology.shell_of[f] != u32::MAX);
     let walk = Walk { mesh, tree: &tree, progress };
     let top = tree.levels.len() - 1;
-    let mut pairs = vec![];
+    let mut pairs = Pairs { limit, count: 0, first: vec![] };
     if !tree.leaves.is_empty() {
         match level {
             #[cfg(target_arch = "x86_64")]
@@ -68,8 +92,9 @@ fn with(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    pairs.par_sort_unstable();
-    Ok(pairs)
+    pairs.cut(0);
+    pairs.first.par_sort_unstable();
+    Ok(Crossings { count: pairs.count, first: pairs.first })
 }
 
 struct Walk<'a> {
@@ -78,7 +103,42 @@ struct Walk<'a> {
     progress: &'a dyn Progress,
 }
 
-type Pairs = Vec<[u32; 2]>;
+/// Pairs found so far, of which the `limit` least are of interest.
+struct Pairs {
+    limit: usize,
+    count: usize,
+    /// Those, and perhaps others that are not yet sorted out.
+    first: Vec<[u32; 2]>,
+}
+
+impl Pairs {
+    fn push(&mut self, pair: [u32; 2]) {
+        self.count += 1;
+        self.first.push(pair);
+        self.cut(self.limit);
+    }
+
+    /// Takes in what another part of the tree gave.
+    fn append(&mut self, part: Pairs) {
+        self.count += part.count;
+        self.first.extend(part.first);
+        self.cut(self.limit);
+    }
+
+    /// Drops what is not of interest, once there are more than `slack` (and a few) beyond those asked for.
+    fn cut(&mut self, slack: usize) {
+        /// Never sorted out sooner: most meshes have few pairs.
+        const FEW: usize = 1 << 10;
+        let few = if slack == 0 { 0 } else { FEW };
+        if self.first.len() > self.limit.saturating_add(slack).saturating_add(few) {
+            if self.limit > 0 {
+                self.first.select_nth_unstable(self.limit - 1);
+            }
+            self.first.truncate(self.limit);
+        }
+    }
+}
+
 type Deeper = fn(&Walk, usize, usize, &[u32], &mut Pairs);
 
 fn plain(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
@@ -146,12 +206,13 @@ impl Walk<'_> {
             unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
             lists.push((i * W + a, next));
         }
+        let limit = out.limit;
         let parts = lists.into_par_iter().map(|(child, next)| {
-            let mut part = vec![];
+            let mut part = Pairs { limit, count: 0, first: vec![] };
             deeper(self, level - 1, child, &next, &mut part);
             part
         });
-        parts.collect::<Vec<_>>().into_iter().for_each(|part| out.extend(part));
+        parts.collect::<Vec<_>>().into_iter().for_each(|part| out.append(part));
     }
 
     /// The list of child `a` of node `i`, made from the node's.

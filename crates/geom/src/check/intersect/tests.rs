@@ -25,8 +25,12 @@ fn check(name: &str, facets: &[Facet]) -> usize {
     }
     want.sort_unstable();
     for (level, threads) in levels().flat_map(|l| [(l, 1), (l, 3)]) {
-        let got = on_threads(threads, || with(&mesh, &topology, &Silent, level)).unwrap();
-        assert!(got == want, "{name} {level:?} {threads}: {} instead of {}", got.len(), want.len());
+        for limit in [usize::MAX, 7, 0] {
+            let got = on_threads(threads, || with(&mesh, &topology, limit, &Silent, level)).unwrap();
+            let first = &want[..want.len().min(limit)];
+            assert_eq!(got.count, want.len(), "{name} {level:?} {threads} {limit}");
+            assert!(got.first == first, "{name} {level:?} {threads} {limit}");
+        }
     }
     want.len()
 }

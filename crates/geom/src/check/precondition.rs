@@ -1,0 +1,102 @@
+//! What keeps statistics of deviations from a mesh from being beyond doubt, with its places.
+
+use super::free_edges::FreeEdges;
+use super::{Found, Inspected, KINDS, Kind, Options, spacing};
+use crate::mesh::Mesh;
+use crate::topology::weld::WeldError;
+use crate::topology::{Properties, Soundness, Topology};
+
+/// The verdict on a mesh that is measured against, and what speaks against it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Precondition {
+    /// The verdict.
+    pub soundness: Soundness,
+    /// Kinds that break the rule and have a finding, in the order of [`KINDS`]. None where the mesh is sound.
+    pub findings: Vec<(&'static Kind, Found)>,
+}
+
+/// The kinds that are looked for: they follow from how the facets hang together.
+const KINDS_OF_RULE: [&str; 8] = [
+    "boundary_edges",
+    "holes",
+    "cracks",
+    "non_manifold_edges",
+    "non_manifold_vertices",
+    "duplicate_facets",
+    "inconsistent_orientation",
+    "inside_out_shells",
+];
+
+impl Precondition {
+    /// Of a welded mesh, listing at most `limit` findings of each kind.
+    ///
+    /// A sound mesh costs what [`Soundness::of`] costs; findings are only looked for in others.
+    ///
+    /// # Errors
+    /// As [`Topology::of`].
+    pub fn of(mesh: &Mesh, limit: usize) -> Result<Precondition, WeldError> {
+        let topology = Topology::of(mesh)?;
+        let properties = Properties::of(mesh, &topology);
+        let soundness = Soundness::from_parts(&topology, &properties);
+        let findings = if soundness.sound { vec![] } else { findings(mesh, &topology, &properties, limit) };
+        Ok(Precondition { soundness, findings })
+    }
+}
+
+fn findings(
+    mesh: &Mesh,
+    topology: &Topology,
+    properties: &Properties,
+    limit: usize,
+) -> Vec<(&'static Kind, Found)> {
+    let inspected = Inspected {
+        mesh,
+        topology,
+        properties,
+        free_edges: &FreeEdges::of(topology),
+        stored_normals: None,
+        crossings: None,
+        options: &Options { limit, self_intersections: false, ..Options::default() },
+        gap: 8.0 * spacing(&properties.bounds),
+    };
+    let of_rule = KINDS.into_iter().filter(|kind| KINDS_OF_RULE.contains(&kind.name));
+    let found = of_rule.filter_map(|kind| Some((kind, (kind.find)(&inspected)?)));
+    found.filter(|(_, found)| found.count > 0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topology::tests::block;
+
+    #[test]
+    fn a_sound_mesh_has_no_findings_and_a_broken_one_those_of_its_check() {
+        let mut mesh = block(3, 3.0);
+        assert!(Precondition::of(&mesh, 9).is_ok_and(|p| p.soundness.sound && p.findings.is_empty()));
+        mesh.faces.remove(4);
+        mesh.faces.push(mesh.faces[20]);
+        let p = Precondition::of(&mesh, 2).unwrap();
+        let counts: Vec<_> = p.findings.iter().map(|(k, f)| (k.name, f.count, f.items.len())).collect();
+        let want = [
+            ("boundary_edges", 3, 2),
+            ("holes", 1, 1),
+            ("non_manifold_edges", 3, 2),
+            ("duplicate_facets", 1, 1),
+        ];
+        assert_eq!(counts, want);
+        let whole = super::super::check(
+            &mesh,
+            None,
+            &Options { limit: 2, ..Options::default() },
+            &crate::progress::Silent,
+        );
+        let whole = whole.unwrap();
+        assert!(p.findings.iter().all(|(kind, found)| whole.found(kind.name) == Some(found)));
+        assert_eq!(p.soundness, whole.soundness);
+    }
+
+    #[test]
+    fn every_kind_of_the_rule_is_a_kind() {
+        assert!(KINDS_OF_RULE.iter().all(|name| KINDS.iter().any(|k| k.name == *name)));
+    }
+}
