@@ -3,6 +3,7 @@
 use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use crate::commands::fit::FitArgs;
+use crate::commands::repair::RepairArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 
 /// How far is every measured point from the model?
@@ -55,4 +56,5 @@ pub enum Command {
     Check(CheckArgs),
     Compare(Box<CompareArgs>),
     Fit(FitArgs),
+    Repair(RepairArgs),
 }

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
             Command::Check(args) => commands::check::run(args, &arguments.common),
             Command::Compare(args) => commands::compare::run(args, &arguments.common),
             Command::Fit(args) => commands::fit::run(args, &arguments.common),
+            Command::Repair(args) => commands::repair::run(args, &arguments.common),
         }
     });
     exit::code(outcome)

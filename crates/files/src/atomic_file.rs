@@ -56,6 +56,12 @@ impl AtomicFile {
         }
     }
 
+    /// Where everything written so far can be read before the file is in its place; `None` for a device or a pipe.
+    pub fn so_far(&mut self) -> io::Result<Option<&Path>> {
+        self.flush()?;
+        Ok(self.places.as_ref().map(|(beside, _)| beside.as_path()))
+    }
+
     /// A free name in the same folder, for what helps to write this file.
     pub(crate) fn beside(&self) -> io::Result<PathBuf> {
         match &self.places {

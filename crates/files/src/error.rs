@@ -241,6 +241,9 @@ pub enum WriteFault {
         /// How many there are.
         count: u64,
     },
+    /// What was written cannot be read again.
+    #[error("it was written, but cannot be read again: {0}")]
+    ReadBack(Box<ReadError>),
     /// A face names a vertex that the mesh does not have.
     #[error("face {face} names a vertex that does not exist; check the mesh first")]
     NoSuchVertex {

@@ -12,6 +12,7 @@
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
 //! | elements found in a mesh or cloud | [`segment`] |
+//! | mending them | [`repair`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod check;
@@ -23,6 +24,7 @@ mod memory;
 pub mod mesh;
 pub mod num;
 pub mod progress;
+pub mod repair;
 pub mod segment;
 pub mod space;
 pub mod topology;

@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | defects of a mesh | [`check`] |
+//! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
 //! | elements through points | [`fit`] |
 //! | result documents, as JSON and for reports | [`results`] |
@@ -13,6 +14,7 @@
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod repair;
 pub mod report;
 pub mod results;
 pub mod scale;

@@ -6,8 +6,9 @@ pub(crate) mod scratch;
 pub(crate) mod spool;
 
 use crate::{
-    AtomicFile, FORMATS, Format,
+    AtomicFile, Body, FORMATS, Format, Input, ReadOptions,
     error::{WriteError, WriteFault},
+    open,
 };
 pub use loss::Loss;
 use std::path::{Path, PathBuf};
@@ -82,14 +83,59 @@ impl PointsFile {
 ///
 /// Errors: an extension that no writer of meshes has; a face that names no vertex; those of the system.
 pub fn mesh(path: &Path, mesh: &Mesh) -> Result<Loss, WriteError> {
-    let write = || {
-        let (writer, _) = by_extension(path, "a mesh", |f| f.mesh)?;
-        let mut file = AtomicFile::create(path)?;
-        let loss = writer(&mut file, mesh)?;
-        file.commit()?;
-        Ok(loss)
-    };
-    write().map_err(|e: WriteFault| e.in_file(path))
+    let file = MeshFile::write(path, mesh)?;
+    let loss = file.loss;
+    file.finish()?;
+    Ok(loss)
+}
+
+/// A mesh that is written, but not yet in its place. Unless it is finished, nothing of it remains.
+pub struct MeshFile {
+    file: AtomicFile,
+    path: PathBuf,
+    /// What the format could not hold.
+    pub loss: Loss,
+}
+
+impl MeshFile {
+    /// Writes a mesh in the format of the path's extension.
+    ///
+    /// Errors: those of [`mesh`].
+    pub fn write(path: &Path, mesh: &Mesh) -> Result<MeshFile, WriteError> {
+        let write = || {
+            let (writer, _) = by_extension(path, "a mesh", |f| f.mesh)?;
+            let mut file = AtomicFile::create(path)?;
+            let loss = writer(&mut file, mesh)?;
+            Ok(MeshFile { file, path: path.into(), loss })
+        };
+        write().map_err(|e: WriteFault| e.in_file(path))
+    }
+
+    /// Reads the mesh as others will read it; `None` where that cannot be done: of a device or a pipe, or in a format
+    /// that is only written.
+    ///
+    /// Errors: those of writing the rest, and of [`open`].
+    pub fn read_back(&mut self) -> Result<Option<Mesh>, WriteError> {
+        let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let Some(format) = Format::by_extension(extension).filter(|f| f.reads()) else { return Ok(None) };
+        let options = ReadOptions { format: Some(format), ..ReadOptions::default() };
+        let place = match self.file.so_far() {
+            Ok(Some(place)) => place,
+            Ok(None) => return Ok(None),
+            Err(e) => return Err(WriteFault::from(e).in_file(&self.path)),
+        };
+        match open(place, &options) {
+            Ok(Input { body: Body::Mesh(source), .. }) => Ok(Some(source.mesh)),
+            // No facets are left.
+            Ok(_) => Ok(Some(Mesh::default())),
+            Err(e) => Err(WriteFault::ReadBack(Box::new(e)).in_file(&self.path)),
+        }
+    }
+
+    /// Puts the file in its place.
+    pub fn finish(self) -> Result<(), WriteError> {
+        self.file.commit().map_err(|e| WriteFault::from(e).in_file(&self.path))
+    }
 }
 
 /// Begins the points of a format, under one of its extensions.

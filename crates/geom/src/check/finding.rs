@@ -32,7 +32,7 @@ pub struct Kind {
     /// What [`Finding::size`] is, with its unit.
     pub size: &'static str,
     /// Looks for it; `None` where it cannot be looked for.
-    pub(super) find: fn(&Inspected) -> Option<Found>,
+    pub(crate) find: fn(&Inspected) -> Option<Found>,
 }
 
 /// One place where something is wrong.
@@ -70,7 +70,7 @@ pub struct Inspected<'a> {
     /// Size and place.
     pub properties: &'a Properties,
     /// Its boundary, taken apart.
-    pub(super) free_edges: &'a FreeEdges,
+    pub(crate) free_edges: &'a FreeEdges,
     /// The normals that a file stores with its facets.
     pub stored_normals: Option<&'a [[f32; 3]]>,
     /// Pairs of facets that meet where they should not, if looked for.
@@ -114,7 +114,7 @@ impl Inspected<'_> {
 }
 
 /// Area of a triangle.
-pub(super) fn area([a, b, c]: [Point; 3]) -> f64 {
+pub(crate) fn area([a, b, c]: [Point; 3]) -> f64 {
     use crate::space::{cross, minus, norm};
     0.5 * norm(cross(minus(b, a), minus(c, a)))
 }

@@ -11,7 +11,7 @@ use crate::topology::Topology;
 
 /// Rings and chains as the vertices they pass, in the order of their lowest edge.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct FreeEdges {
+pub(crate) struct FreeEdges {
     pub rings: Vec<Vec<u32>>,
     pub chains: Vec<Vec<u32>>,
 }
@@ -26,13 +26,13 @@ struct Graph {
 
 impl FreeEdges {
     /// Of the boundary edges of `topology`; n log n.
-    pub(super) fn of(topology: &Topology) -> FreeEdges {
+    pub(crate) fn of(topology: &Topology) -> FreeEdges {
         let edges = topology.boundary_edges.iter().map(|e| e.vertices);
         FreeEdges::of_edges(&edges.collect::<Vec<_>>())
     }
 
     /// The vertices on the boundary, ascending.
-    pub(super) fn vertices(&self) -> Vec<u32> {
+    pub(crate) fn vertices(&self) -> Vec<u32> {
         let mut all: Vec<u32> = self.rings.iter().chain(&self.chains).flatten().copied().collect();
         all.sort_unstable();
         all.dedup();
@@ -40,7 +40,7 @@ impl FreeEdges {
     }
 
     /// The same with their places, for searching.
-    pub(super) fn near(&self, mesh: &Mesh) -> Near {
+    pub(crate) fn near(&self, mesh: &Mesh) -> Near {
         Near::new(self.vertices().into_iter().map(|v| (mesh.positions[v as usize], v)).collect())
     }
 

@@ -10,14 +10,14 @@ mod cracks;
 mod dangling_facets;
 mod degenerate_facets;
 mod duplicate_facets;
-mod finding;
-mod free_edges;
+pub(crate) mod finding;
+pub(crate) mod free_edges;
 mod holes;
 mod inconsistent_orientation;
 mod inside_out_shells;
 pub mod intersect;
 mod islands;
-mod near;
+pub(crate) mod near;
 mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
@@ -29,7 +29,7 @@ mod self_intersections;
 mod sliver_facets;
 mod t_junctions;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod unshared_vertices;
 
 pub use finding::{Finding, Found, Inspected, Kind, Severity};

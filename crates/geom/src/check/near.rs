@@ -6,7 +6,7 @@ use crate::space::{Aabb, Point};
 const LEAF: usize = 8;
 
 /// Points with a number each.
-pub(super) struct Near {
+pub(crate) struct Near {
     points: Vec<(Point, u32)>,
     /// Box of each node; the children of node `i` are `2 i + 1` and `2 i + 2`, each with half of its points.
     boxes: Vec<Aabb>,
@@ -14,7 +14,7 @@ pub(super) struct Near {
 
 impl Near {
     /// n log n.
-    pub(super) fn new(points: Vec<(Point, u32)>) -> Near {
+    pub(crate) fn new(points: Vec<(Point, u32)>) -> Near {
         let mut near = Near { boxes: vec![], points };
         let count = near.points.len();
         let mut leaves = 1;
@@ -27,7 +27,7 @@ impl Near {
     }
 
     /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
-    pub(super) fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
+    pub(crate) fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
         let mut stack = vec![(0, 0..self.points.len())];
         while let Some((node, range)) = stack.pop() {
             if range.is_empty() || !reaches(&self.boxes[node]) {
@@ -61,7 +61,7 @@ fn build(points: &mut [(Point, u32)], boxes: &mut [Aabb], node: usize) {
 }
 
 /// Whether the segment from `a` to `b` comes within `gap` of the box, in each coordinate.
-pub(super) fn segment_reaches(a: Point, b: Point, gap: f64, bounds: &Aabb) -> bool {
+pub(crate) fn segment_reaches(a: Point, b: Point, gap: f64, bounds: &Aabb) -> bool {
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for k in 0..3 {
         let (low, high) = (bounds.min[k] - gap - a[k], bounds.max[k] + gap - a[k]);

@@ -9,13 +9,13 @@ fn of(mesh: &Mesh) -> Report {
     check(mesh, None, &Options::default(), &Silent).unwrap()
 }
 
-fn counts(report: &Report) -> Vec<(&'static str, usize)> {
+pub(crate) fn counts(report: &Report) -> Vec<(&'static str, usize)> {
     let found = report.defects.iter().filter_map(|(k, f)| Some((k.name, f.as_ref()?.count)));
     found.filter(|(_, n)| *n > 0).collect()
 }
 
 /// A block of 12 × 12 cells a side, its vertices moved a little in the plane of their side: sound.
-fn sound() -> Mesh {
+pub(crate) fn sound() -> Mesh {
     let mut mesh = block(12, 12.0);
     let random = &mut Random::new(11);
     for p in &mut mesh.positions {
@@ -44,13 +44,13 @@ fn apart(mesh: &Mesh, k: usize) -> Vec<usize> {
     chosen
 }
 
-fn add(mesh: &mut Mesh, other: &Mesh, offset: Point) {
+pub(crate) fn add(mesh: &mut Mesh, other: &Mesh, offset: Point) {
     let shift = mesh.positions.len() as u32;
     mesh.positions.extend(other.positions.iter().map(|p| plus(*p, offset)));
     mesh.faces.extend(other.faces.iter().map(|f| f.map(|v| v + shift)));
 }
 
-fn inverted(mut mesh: Mesh) -> Mesh {
+pub(crate) fn inverted(mut mesh: Mesh) -> Mesh {
     mesh.faces.iter_mut().for_each(|f| f.swap(0, 1));
     mesh
 }
@@ -65,7 +65,7 @@ fn split(mesh: &mut Mesh, facet: usize, at: Point) -> u32 {
 }
 
 /// A sound block with `k` defects of a kind, the stored normals, and how many findings of that kind there must be.
-fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usize) {
+pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usize) {
     let mut mesh = sound();
     let chosen = apart(&mesh, k);
     let at = |mesh: &Mesh, v: u32| mesh.positions[v as usize];

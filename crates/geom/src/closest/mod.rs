@@ -53,4 +53,4 @@ pub use triangle::Feature;
 pub use winding::Winding;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -6,6 +6,7 @@
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod repair;
 pub mod research;
 
 use schemars::JsonSchema;
@@ -90,6 +91,7 @@ pub fn schemas() -> Vec<(&'static str, String)> {
     vec![
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+        ("repair", text(schemars::schema_for!(repair::RepairDocument))),
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
     ]
 }

@@ -1,0 +1,176 @@
+//! `trueness repair`: a mesh without its defects, and without a vertex moved.
+
+mod table;
+
+use crate::command::Common;
+use crate::commands::compare::output::whole_file;
+use crate::console;
+use crate::exit::{Outcome, Usage};
+use crate::progress::Stage;
+use crate::read;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use trueness_files::write::MeshFile;
+use trueness_files::{ReadOptions, Unit};
+use trueness_geom::check;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS};
+use trueness_inspect::repair::{Around, defects, document};
+use trueness_inspect::results::repair::{OutputRecord, RepairDocument};
+
+/// A mesh without its defects
+///
+/// Mends what `trueness check` finds and tells every change, the deviation introduced, and what is left. No vertex moves:
+/// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place. The
+/// exit status is 0 if the result is sound, 1 if not (it is written all the same).
+#[derive(Args, Debug)]
+#[command(after_help = help())]
+pub struct RepairArgs {
+    /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
+    mesh: PathBuf,
+    /// The mended mesh: .stl .ply .obj .off; STL holds single precision only
+    #[arg(short, long, value_name = "FILE")]
+    out: PathBuf,
+    /// Only these steps, separated by commas
+    #[arg(long, value_name = "STEPS", value_delimiter = ',', conflicts_with = "skip")]
+    only: Vec<String>,
+    /// All steps but these, separated by commas
+    #[arg(long, value_name = "STEPS", value_delimiter = ',')]
+    skip: Vec<String>,
+    /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
+    #[arg(long, value_name = "MM")]
+    gap: Option<f64>,
+    /// Fill holes up to this share of the area of their shell, percent
+    #[arg(long, value_name = "PERCENT", default_value = "25", conflicts_with = "all_holes")]
+    holes: f64,
+    /// Fill all holes, however large, even the rim of a sheet
+    #[arg(long)]
+    all_holes: bool,
+    /// Stitch edges up to this distance, mm [default: a ten-thousandth of the diagonal]
+    #[arg(long, value_name = "MM")]
+    stitch: Option<f64>,
+    /// Remove shells with a smaller diagonal than this share of the whole, percent [without a number: 1]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1")]
+    remove_islands: Option<f64>,
+    /// Changes to list in the document; all are counted
+    #[arg(long, value_name = "N", default_value = "1000")]
+    items: usize,
+    /// Unit of the file if it does not say its own [default: mm]; the result is in mm
+    #[arg(long, value_name = "UNIT")]
+    units: Option<Unit>,
+    /// Write the result document; `-` for stdout, then no table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+fn help() -> String {
+    let steps: Vec<String> = STEPS.iter().map(|s| format!("  {:<24}{}", s.name, s.about)).collect();
+    format!(
+        "Steps, in their order:\n{}\n\nExamples:\n  trueness repair part.stl -o sound.stl\n  \
+         trueness repair scan.ply -o closed.ply --all-holes --json changes.json\n  \
+         trueness repair part.stl -o turned.stl --only orient,outward",
+        steps.join("\n")
+    )
+}
+
+impl RepairArgs {
+    fn options(&self) -> Result<Options, Usage> {
+        let not_negative = |name: &str, x: f64| match x.is_finite() && x >= 0.0 {
+            true => Ok(x),
+            false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
+        };
+        let (only, skip) = (names("only", &self.only)?, names("skip", &self.skip)?);
+        let wanted = |name: &&str| (only.is_empty() || only.contains(name)) && !skip.contains(name);
+        Ok(Options {
+            steps: STEPS.iter().map(|s| s.name).filter(wanted).collect(),
+            gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
+            stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
+            islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
+                .map(|x| x / 100.0),
+            holes: match self.all_holes {
+                true => Holes::All,
+                false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
+            },
+        })
+    }
+}
+
+/// The steps of these names.
+fn names(option: &str, given: &[String]) -> Result<Vec<&'static str>, Usage> {
+    let find = |name: &String| {
+        STEPS.iter().map(|s| s.name).find(|s| s == &name.replace('-', "_")).ok_or_else(|| {
+            let known: Vec<&str> = STEPS.iter().map(|s| s.name).collect();
+            Usage(format!("--{option} {name}: there is no such step; there are {}", known.join(", ")))
+        })
+    };
+    given.iter().map(find).collect()
+}
+
+/// Runs the command.
+pub fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options()?;
+    if args.json.as_ref() == Some(&args.out) {
+        return Err(Usage("--out and --json name the same file: give each its own".into()).into());
+    }
+    let read_options = ReadOptions { units: args.units, ..ReadOptions::default() };
+    let (source, mut record) = read::mesh(&args.mesh, &read_options)?;
+    let stage = Stage::new(common.progress, "repairing", "facets", None);
+    let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
+        RepairError::Cancelled(e) => e.into(),
+        e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
+    })?;
+    drop(stage);
+    let stage = Stage::new(common.progress, "measuring", "points", None);
+    let deviation = repair::deviation(&source.mesh, &repaired.mesh, &stage);
+    drop(stage);
+    read::hash(&mut record)?;
+    let mut file = MeshFile::write(&args.out, &repaired.mesh)?;
+    let stage = Stage::new(common.progress, "checking the file", "facets", None);
+    let output = again(args, &mut file, &repaired, &stage)?;
+    drop(stage);
+    let left_out = source.nonfinite_facets;
+    let around = Around { file: record, left_out, output, deviation, limit: args.items };
+    let document = document(&repaired, &options, around);
+    file.finish()?;
+    write_json(args.json.as_deref(), &document)?;
+    if args.json.as_deref() != Some(Path::new("-")) {
+        console::table(&table::text(&document));
+    }
+    Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
+}
+
+/// Reads the file written and checks it.
+fn again(
+    args: &RepairArgs,
+    file: &mut MeshFile,
+    repaired: &Repaired,
+    progress: &dyn Progress,
+) -> anyhow::Result<OutputRecord> {
+    let back: Option<Mesh> = file.read_back()?;
+    let options = check::Options { gap: args.gap, ..check::Options::default() };
+    let report = match &back {
+        // The same mesh has the same report.
+        Some(mesh) if *mesh == repaired.mesh => Some(repaired.after.clone()),
+        Some(mesh) => Some(check::check(mesh, None, &options, progress)?),
+        None => None,
+    };
+    Ok(OutputRecord {
+        path: args.out.display().to_string(),
+        rounded_vertices: file.loss.moved,
+        rounding: file.loss.farthest,
+        sound: report.as_ref().map(|r| r.sound),
+        sound_reason: report.is_none().then(|| "it cannot be read again".into()),
+        defects: report.as_ref().map(defects).unwrap_or_default(),
+    })
+}
+
+fn write_json(path: Option<&Path>, document: &RepairDocument) -> anyhow::Result<()> {
+    let Some(path) = path else { return Ok(()) };
+    let mut text = serde_json::to_string_pretty(document)?;
+    text.push('\n');
+    if path == Path::new("-") {
+        return Ok(console::document(&text)?);
+    }
+    whole_file(path, |file| file.write_all(text.as_bytes()))
+}

@@ -1,0 +1,119 @@
+//! The repair as a table for people.
+
+use crate::console::{columns, grouped};
+use std::collections::BTreeMap;
+use trueness_inspect::results::repair::{RepairDocument, State};
+
+/// The whole text.
+pub fn text(d: &RepairDocument) -> String {
+    let mut out = String::new();
+    for input in &d.inputs {
+        line(&mut out, "mesh", &format!("{}  ({}, {})", input.path, input.format, input.unit_assumed));
+        input.warnings.iter().for_each(|w| line(&mut out, "!", w));
+    }
+    line(&mut out, "before", &state(&d.before));
+    line(&mut out, "after", &state(&d.after));
+    let (v, f) = (&d.vertices, &d.facets);
+    let counts = |kept: u64, added: u64, removed: u64| {
+        format!("{} kept, {} added, {} removed", grouped(kept), grouped(added), grouped(removed))
+    };
+    line(
+        &mut out,
+        "vertices",
+        &format!("{} moved, {}", grouped(v.moved), counts(v.kept, v.added, v.removed)),
+    );
+    line(&mut out, "facets", &counts(f.kept, f.added, f.removed));
+    match (&d.deviation, &d.deviation_reason) {
+        (Some(x), _) => line(
+            &mut out,
+            "deviation",
+            &format!(
+                "{:.6} mm at most, {:.6} mm on average (old to new); {:.6} and {:.6} (new to old)",
+                x.removed.max, x.removed.mean, x.added.max, x.added.mean
+            ),
+        ),
+        (None, reason) => {
+            line(&mut out, "deviation", &format!("unknown: {}", reason.as_deref().unwrap_or_default()))
+        }
+    }
+    changes(&mut out, d);
+    defects(&mut out, d);
+    out.push_str(&verdict(d));
+    out
+}
+
+fn line(out: &mut String, name: &str, text: &str) {
+    out.push_str(&format!("{name:<9} {text}\n"));
+}
+
+fn state(s: &State) -> String {
+    let volume = s.volume.map_or("open".into(), |v| format!("{v:.6} mm³"));
+    let counts = [(s.facets, "facets"), (s.vertices, "vertices"), (s.shells, "shells")];
+    let counts = counts.map(|(n, what)| format!("{} {what}", grouped(n))).join(", ");
+    format!("{counts}, {:.6} mm², {volume}", s.area)
+}
+
+/// What was done, by step and kind.
+fn changes(out: &mut String, d: &RepairDocument) {
+    let mut sums: BTreeMap<(usize, &str), (u64, u64)> = BTreeMap::new();
+    for change in &d.changes {
+        let step = d.steps.iter().position(|s| *s == change.step).unwrap_or(usize::MAX);
+        let sum = sums.entry((step, &change.what)).or_default();
+        *sum = (sum.0 + 1, sum.1 + change.facets);
+    }
+    if sums.is_empty() {
+        return;
+    }
+    let mut rows = vec![["done", "times", "facets"].map(String::from).to_vec()];
+    rows.extend(sums.iter().map(|((_, what), (n, f))| vec![what.to_string(), grouped(*n), grouped(*f)]));
+    if d.truncated {
+        let rest = d.change_count - d.changes.len() as u64;
+        rows.push(vec!["… more, not listed (--items)".into(), grouped(rest)]);
+    }
+    out.push('\n');
+    out.push_str(&columns(&rows));
+}
+
+/// Defects before, after, and in the file.
+fn defects(out: &mut String, d: &RepairDocument) {
+    let all = [&d.before.defects, &d.after.defects, &d.output.defects];
+    let mut names: Vec<&String> = all.iter().flat_map(|m| m.keys()).collect();
+    names.sort_unstable();
+    names.dedup();
+    if names.is_empty() {
+        return;
+    }
+    let mut rows = vec![["defect", "before", "after", "in the file"].map(String::from).to_vec()];
+    for name in names {
+        let mut row = vec![name.replace('_', " ")];
+        row.extend(all.iter().map(|m| grouped(m.get(name).copied().unwrap_or(0))));
+        if d.output.sound.is_none() {
+            row[3] = "?".into();
+        }
+        rows.push(row);
+    }
+    out.push('\n');
+    out.push_str(&columns(&rows));
+}
+
+fn verdict(d: &RepairDocument) -> String {
+    let o = &d.output;
+    let rounded = match o.rounded_vertices {
+        0 => String::new(),
+        n => format!(", {} vertices rounded by up to {:.3e} mm", grouped(n), o.rounding),
+    };
+    let written = format!("written to {}{rounded}", o.path);
+    match (d.after.sound, o.sound) {
+        (true, Some(false)) => format!(
+            "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
+        ),
+        (true, None) => format!("\nsound; {written}, not read again\n"),
+        (true, Some(true)) => format!("\nsound; {written}\n"),
+        (false, _) if !d.after.closed => {
+            format!(
+                "\nNOT SOUND: {written}. Holes larger than the limit stay open unless --all-holes is given.\n"
+            )
+        }
+        (false, _) => format!("\nNOT SOUND: {written}\n"),
+    }
+}

@@ -1,0 +1,171 @@
+//! `trueness repair`: what is mended, the document, the file written, wrong inputs.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+use common::*;
+use serde_json::json;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// The words of a repair.
+fn repair<'a>(mesh: &'a Path, out: &'a Path, more: &[&'a str]) -> Vec<&'a OsStr> {
+    let words = ["repair".as_ref(), mesh.as_os_str(), "-o".as_ref(), out.as_os_str()];
+    words.into_iter().chain(more.iter().map(|w| OsStr::new(*w))).collect()
+}
+
+fn open_cube() -> String {
+    CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", "")
+}
+
+#[test]
+fn every_broken_part_of_the_corpus_becomes_sound() {
+    let f = Folder::new();
+    let names = [
+        "all_inverted",
+        "crack",
+        "degenerate",
+        "duplicate_opposite",
+        "duplicates",
+        "hole_one_triangle",
+        "hole_two_loops",
+        "nonmanifold_edge_fin",
+        "nonmanifold_edge_two_boxes",
+        "nonmanifold_vertex",
+        "one_flipped",
+        "self_intersecting_boxes",
+        "self_intersecting_spike",
+        "t_junction",
+        "unwelded_noise",
+        "bin_nan",
+    ];
+    for name in names {
+        let mesh = corpus(&format!("broken/{name}.stl"));
+        for extension in ["stl", "ply"] {
+            let out = f.file(&format!("{name}.{extension}"));
+            let d = document(repair(&mesh, &out, &[]));
+            assert_eq!(d["schema"], "trueness/repair/1");
+            assert_eq!((&d["sound"], &d["output"]["sound"]), (&json!(true), &json!(true)), "{name}: {d}");
+            assert_eq!(
+                (&d["before"]["sound"], &d["after"]["closed"]),
+                (&json!(false), &json!(true)),
+                "{name}"
+            );
+            assert_eq!(d["vertices"]["moved"], 0);
+            assert!(d["change_count"].as_u64().unwrap() > 0 || name == "bin_nan", "{name}");
+            let o = trueness(["check".as_ref(), out.as_os_str()]);
+            assert_eq!(status(&o), 0, "{name}.{extension}: {}", stdout(&o));
+        }
+    }
+}
+
+#[test]
+fn the_table_tells_what_was_done_and_left() {
+    let f = Folder::new();
+    let (mesh, out) = (f.write("open.off", open_cube()), f.file("closed.obj"));
+    let o = trueness(repair(&mesh, &out, &[]));
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    for words in ["hole filled", "0 moved, 8 kept", "holes", "sound; written to"] {
+        assert!(stdout(&o).contains(words), "‘{words}’ is missing in: {}", stdout(&o));
+    }
+    let o = trueness(repair(&mesh, &out, &["--skip", "holes"]));
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    assert!(stdout(&o).contains("NOT SOUND") && stdout(&o).contains("--all-holes"), "{}", stdout(&o));
+    assert_eq!(f.names(), ["closed.obj", "open.off"]);
+}
+
+#[test]
+fn options_choose_steps_and_limits() {
+    let f = Folder::new();
+    let (mesh, out) = (f.write("open.off", open_cube()), f.file("o.ply"));
+    for (options, closed) in [
+        (&["--holes", "5"][..], false),
+        (&["--holes", "10"], true),
+        (&["--all-holes"], true),
+        (&["--only", "orient,outward"], false),
+        (&["--only", "holes"], true),
+    ] {
+        let d = document(repair(&mesh, &out, options));
+        assert_eq!(d["after"]["closed"], closed, "{options:?}");
+    }
+    let d = document(repair(&mesh, &out, &["--only", "orient,holes"]));
+    assert_eq!(d["steps"], json!(["orient", "holes"]));
+    let d = document(repair(&mesh, &out, &["--items", "0"]));
+    assert_eq!((&d["changes"], &d["change_count"], &d["truncated"]), (&json!([]), &json!(1), &json!(true)));
+}
+
+#[test]
+fn a_sound_mesh_is_written_as_it_is() {
+    let f = Folder::new();
+    let (mesh, out) = (f.write("cube.off", CUBE), f.file("same.off"));
+    let d = document(repair(&mesh, &out, &[]));
+    assert_eq!((&d["change_count"], &d["vertices"]["kept"]), (&json!(0), &json!(8)));
+    assert_eq!(d["deviation"]["removed"], json!({"max": 0.0, "mean": 0.0}));
+    let lines =
+        |text: &str| text.lines().filter(|l| !l.starts_with('#')).map(String::from).collect::<Vec<_>>();
+    assert_eq!(lines(&std::fs::read_to_string(out).unwrap())[1..], lines(CUBE)[1..]);
+}
+
+/// Two places that single precision cannot tell apart: sound in memory, not as STL.
+#[test]
+fn what_a_format_cannot_hold_is_said() {
+    let f = Folder::new();
+    let far = CUBE.lines().map(|line| {
+        let words: Vec<&str> = line.split(' ').collect();
+        match words[..] {
+            [x, y, z] if line != "8 12 0" => {
+                let number = |w: &str| w.parse::<f64>().unwrap();
+                format!("{} {} {}\n", 1e6 + 1e-3 * number(x), number(y), number(z))
+            }
+            _ => format!("{line}\n"),
+        }
+    });
+    let mesh = f.write("far.off", far.collect::<String>());
+    let d = document(repair(&mesh, &f.file("far.stl"), &[]));
+    assert_eq!(
+        (&d["after"]["sound"], &d["output"]["sound"], &d["sound"]),
+        (&json!(true), &json!(false), &json!(false))
+    );
+    assert!(d["output"]["rounded_vertices"].as_u64().unwrap() > 0);
+    let o = trueness(repair(&mesh, &f.file("far.stl"), &[]));
+    assert_eq!(status(&o), 1);
+    assert!(stdout(&o).contains("SOUND IN MEMORY ONLY") && stdout(&o).contains(".ply"), "{}", stdout(&o));
+    let d = document(repair(&mesh, &f.file("far.ply"), &[]));
+    assert_eq!(d["sound"], true);
+}
+
+#[test]
+fn wrong_usage_and_inputs_leave_nothing_behind() {
+    let f = Folder::new();
+    let (cube, points) = (f.write("cube.off", CUBE), f.write("p.xyz", "0 0 0\n1 1 1\n"));
+    let cut = f.write("cut.stl", [b' '; 83]);
+    let (out, odd, lost) = (f.file("o.stl"), f.file("o.png"), f.file("no/such/o.stl"));
+    let before = f.names();
+    let cases: [(&Path, &Path, &[&str], i32, &str); 8] = [
+        (&cube, &out, &["--gap", "nan"], 2, "--gap"),
+        (&cube, &out, &["--holes=-1"], 2, "--holes"),
+        (&cube, &out, &["--only", "wonders"], 2, "outward"),
+        (&cube, &out, &["--only", "holes", "--skip", "orient"], 2, "--skip"),
+        (&cube, &odd, &[], 3, ".stl"),
+        (&cube, &lost, &[], 3, "o.stl"),
+        (&points, &out, &[], 3, "p.xyz"),
+        (&cut, &out, &[], 3, "cut.stl"),
+    ];
+    for (mesh, out, options, want, word) in cases {
+        let o = trueness(repair(mesh, out, options));
+        assert_eq!(status(&o), want, "{options:?} {}: {}", out.display(), stderr(&o));
+        assert!(stderr(&o).contains(word), "‘{word}’ is missing in: {}", stderr(&o));
+        assert!(stdout(&o).is_empty(), "{}", stdout(&o));
+    }
+    assert_eq!(f.names(), before);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported() {
+    let f = Folder::new();
+    let cube = f.write("cube.off", CUBE);
+    std::os::unix::fs::symlink("/dev/full", f.file("full.stl")).unwrap();
+    let o = trueness(repair(&cube, &f.file("full.stl"), &[]));
+    assert_eq!(status(&o), 3, "{}", stderr(&o));
+    assert!(stderr(&o).contains("full.stl"), "{}", stderr(&o));
+}

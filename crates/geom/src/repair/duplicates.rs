@@ -1,0 +1,62 @@
+//! Facets that are there more than once.
+//!
+//! Of the facets with the same three vertices one stays, or none: that which its neighbours need. At each of its three
+//! edges the other facets are counted by direction; where they lack one, they vote for it.
+
+use super::edges::Edges;
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check::finding;
+
+pub(super) const STEP: Step = Step {
+    name: "duplicates",
+    about: "Of facets with the same three vertices keeps the one that the neighbours need; none where they need none.",
+    run,
+};
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    if known.topology.duplicate_facets.is_empty() {
+        return Ok(());
+    }
+    let edges = Edges::of(work.mesh(), &known.topology);
+    let mut removed = vec![];
+    let mut pairs = known.topology.duplicate_facets.clone();
+    pairs.sort_unstable();
+    for group in pairs.chunk_by(|a, b| a[0] == b[0]) {
+        let facets: Vec<u32> = [group[0][0]].into_iter().chain(group.iter().map(|d| d[1])).collect();
+        let kept = wanted(work, &edges, &facets);
+        let gone = facets.iter().copied().filter(|f| Some(*f) != kept);
+        let before = removed.len();
+        removed.extend(gone);
+        let (place, area) = (work.middle(facets[0]), finding::area(work.corners(facets[0])));
+        work.log(STEP.name, "facets at the same place removed", place, removed.len() - before, area);
+    }
+    work.replace(&removed, &[]);
+    Ok(())
+}
+
+/// Which of the facets stays.
+fn wanted(work: &Work, edges: &Edges, facets: &[u32]) -> Option<u32> {
+    let [a, b, c] = work.mesh().faces[facets[0] as usize];
+    let mut votes = 0;
+    let mut neighbours = 0;
+    for (from, to) in [(a, b), (b, c), (c, a)] {
+        let others = edges.at(from, to).iter().filter(|s| !facets.contains(&s.facet));
+        for side in others {
+            neighbours += 1;
+            votes += if side.up == (from < to) { -1 } else { 1 };
+        }
+    }
+    let turned_as_first = |f: u32| {
+        let face = work.mesh().faces[f as usize];
+        (0..3).any(|k| face[k] == a && face[(k + 1) % 3] == b)
+    };
+    match votes {
+        // The rest needs none of them, or does not know.
+        0 if neighbours > 0 && neighbours % 2 == 0 => None,
+        0.. => facets.iter().copied().find(|&f| turned_as_first(f)),
+        // One that looks the wrong way is turned later.
+        _ => facets.iter().copied().find(|&f| !turned_as_first(f)).or(Some(facets[0])),
+    }
+}

@@ -1,0 +1,84 @@
+//! Facets that hang on a surface without being part of it.
+//!
+//! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
+//! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside).
+
+use super::edges::Edges;
+use super::work::Work;
+use super::{RepairError, SHEET, Step};
+use crate::space::{Vector, cross, minus, norm, plus};
+
+pub(super) const STEP: Step = Step {
+    name: "fins",
+    about: "Removes sheets that hang on edges where two other facets meet: fins, and walls inside.",
+    run,
+};
+
+/// A sheet with free edges is a fin up to this share of the area of its shell.
+const FIN: f64 = 0.1;
+
+#[derive(Clone, Debug, Default)]
+struct Sheet {
+    facets: Vec<u32>,
+    /// Twice the vector area, twice the area.
+    vector: Vector,
+    area: f64,
+    has_rim: bool,
+    /// Indices of its edges with more than two facets.
+    edges: Vec<usize>,
+}
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    if known.topology.non_manifold_edges.is_empty() {
+        return Ok(());
+    }
+    let edges = Edges::of(work.mesh(), &known.topology);
+    let of = edges.sheets(work.mesh().faces.len());
+    let mut sheets = vec![Sheet::default(); of.len()];
+    for (f, &s) in (0..).zip(&of).filter(|(f, _)| known.topology.shell_of[*f as usize] != u32::MAX) {
+        let [a, b, c] = work.corners(f);
+        let normal = cross(minus(b, a), minus(c, a));
+        let sheet = &mut sheets[s as usize];
+        sheet.facets.push(f);
+        sheet.vector = plus(sheet.vector, normal);
+        sheet.area += norm(normal);
+    }
+    // The sheets at each edge of more than two facets, once for each facet.
+    let mut meetings: Vec<Vec<u32>> = vec![];
+    for edge in edges.iter() {
+        let here: Vec<u32> = edge.iter().map(|s| of[s.facet as usize]).collect();
+        match here.len() {
+            1 => sheets[here[0] as usize].has_rim = true,
+            2 => {}
+            _ => {
+                here.iter().for_each(|s| sheets[*s as usize].edges.push(meetings.len()));
+                meetings.push(here);
+            }
+        }
+    }
+    let shell_area =
+        |s: &Sheet| known.properties.shell_areas[known.topology.shell_of[s.facets[0] as usize] as usize];
+    let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
+    let small = |s: &Sheet| !s.has_rim || 0.5 * s.area <= FIN * shell_area(s);
+    let mut candidates: Vec<u32> = (0..sheets.len() as u32)
+        .filter(|s| !sheets[*s as usize].edges.is_empty())
+        .filter(|s| encloses_nothing(&sheets[*s as usize]) && small(&sheets[*s as usize]))
+        .collect();
+    candidates.sort_by(|a, b| sheets[*a as usize].area.total_cmp(&sheets[*b as usize].area));
+    let mut removed = vec![];
+    for s in candidates {
+        let sheet = &sheets[s as usize];
+        let not_needed = |e: &usize| meetings[*e].iter().filter(|other| **other != s).count() >= 2;
+        if sheet.edges.iter().all(not_needed) {
+            sheet.edges.iter().for_each(|e| meetings[*e].retain(|other| *other != s));
+            let place = work.middle(sheet.facets[0]);
+            work.log(STEP.name, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
+            removed.extend(&sheet.facets);
+        }
+    }
+    if !removed.is_empty() {
+        work.replace(&removed, &[]);
+    }
+    Ok(())
+}

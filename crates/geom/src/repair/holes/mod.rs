@@ -1,0 +1,174 @@
+//! Closed rings of boundary edges get a patch.
+//!
+//! Patches are proposed in turn until one fits: the triangulation of least area (Barequet and Sharir, Filling gaps in the
+//! boundary of a polyhedron, 1995), refined and faired where the surroundings are smooth (Liepa, Filling holes in meshes,
+//! 2003); the flat one itself; the one that bends least; a fan around the middle. A patch fits if it crosses nothing,
+//! decided exactly, and makes no edge of three facets. Where none fits, the hole stays open.
+
+mod fair;
+mod minimal;
+mod refine;
+mod ring;
+
+use super::work::{Known, Work};
+use super::{Holes, RepairError, Step};
+use crate::check::finding;
+use crate::space::{Point, minus, norm, plus, times};
+use minimal::Aim;
+use ring::Ring;
+use std::ops::Range;
+
+pub(super) const STEP: Step = Step {
+    name: "holes",
+    about: "Fills holes: with the triangles of least area, refined and faired to the surroundings where those are smooth. Holes \
+            larger than the limit stay open.",
+    run,
+};
+
+/// The ways to fill a hole, in the order in which they are tried.
+const WAYS: [fn(&Site, &Ring) -> Option<Patch>; 4] =
+    [refine::patch, |s, r| minimal::patch(s, r, Aim::Area), |s, r| minimal::patch(s, r, Aim::Bend), fan];
+
+/// The mesh around the holes.
+pub(super) struct Site<'a, 'w> {
+    pub work: &'a Work<'w>,
+    pub known: &'a Known,
+}
+
+impl Site<'_, '_> {
+    /// Whether a facet has this edge.
+    pub(super) fn has_edge(&self, a: u32, b: u32) -> bool {
+        !self.known.topology.facets_at_edge(self.work.mesh(), [a, b]).is_empty()
+    }
+}
+
+/// Facets that fill a hole. Vertices from `base` on are new.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Patch {
+    /// New places.
+    pub places: Vec<Point>,
+    /// Numbers below [`NEW`] are vertices of the mesh, others are `NEW` plus the index of a new place.
+    pub facets: Vec<[u32; 3]>,
+}
+
+/// Where the numbers of new places start: no mesh has so many vertices.
+pub(super) const NEW: u32 = 1 << 31;
+
+impl Patch {
+    /// Where a vertex is.
+    pub(super) fn at(&self, work: &Work, vertex: u32) -> Point {
+        match vertex.checked_sub(NEW) {
+            Some(new) => self.places[new as usize],
+            None => work.at(vertex),
+        }
+    }
+
+    fn area(&self, work: &Work) -> f64 {
+        self.facets.iter().map(|f| finding::area(f.map(|v| self.at(work, v)))).sum()
+    }
+}
+
+/// A hole on trial.
+struct Trial {
+    ring: Ring,
+    /// The next way to try.
+    way: usize,
+    patch: Patch,
+    /// Where its facets are while they are in the mesh.
+    facets: Range<u32>,
+}
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let trial = |ring| Trial { ring, way: 0, patch: Patch::default(), facets: 0..0 };
+    let mut open: Vec<Trial> = Ring::all(&known).into_iter().map(trial).collect();
+    open.retain_mut(|trial| propose(&Site { work, known: &known }, trial));
+    if open.is_empty() {
+        return Ok(());
+    }
+    let (facets, vertices) = (work.mesh().faces.len() as u32, work.mesh().positions.len());
+    loop {
+        for trial in &mut open {
+            trial.facets = insert(work, &trial.patch);
+        }
+        let bad = misfits(work, facets)?;
+        let hit = |trial: &Trial| {
+            let from = bad.partition_point(|f| *f < trial.facets.start);
+            bad.get(from).is_some_and(|f| *f < trial.facets.end)
+        };
+        if !open.iter().any(hit) {
+            break;
+        }
+        let mut again = open.iter().map(hit).collect::<Vec<bool>>().into_iter();
+        work.truncate(facets, vertices);
+        let site = Site { work, known: &known };
+        open.retain_mut(|trial| !again.next().unwrap_or(false) || propose(&site, trial));
+    }
+    for trial in open {
+        let place = trial.ring.middle(work);
+        let area = trial.facets.clone().map(|f| finding::area(work.corners(f))).sum();
+        work.log(STEP.name, "hole filled", place, trial.patch.facets.len(), area);
+    }
+    Ok(())
+}
+
+/// Finds the next patch for the hole. False if there is none, or if the hole is too large.
+fn propose(site: &Site, trial: &mut Trial) -> bool {
+    while let Some(way) = WAYS.get(trial.way) {
+        trial.way += 1;
+        if let Some(patch) = way(site, &trial.ring) {
+            trial.patch = patch;
+            let work = site.work;
+            let limit = match work.options.holes {
+                Holes::UpTo(share) => share * trial.ring.shell_area,
+                Holes::All => f64::INFINITY,
+            };
+            return work.is_torn(&trial.ring.vertices) || trial.patch.area(work) <= limit;
+        }
+    }
+    false
+}
+
+/// Puts the patch into the mesh.
+fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
+    let first = work.mesh().faces.len() as u32;
+    let numbers: Vec<u32> = patch.places.iter().map(|&p| work.add(p)).collect();
+    let number = |v: u32| v.checked_sub(NEW).map_or(v, |new| numbers[new as usize]);
+    let facets: Vec<[u32; 3]> = patch.facets.iter().map(|f| f.map(number)).collect();
+    work.replace(&[], &facets);
+    first..first + facets.len() as u32
+}
+
+/// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending.
+fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
+    let known = work.known()?;
+    let crossings = work.crossings()?;
+    if crossings.first.len() < crossings.count {
+        return Ok((first..work.mesh().faces.len() as u32).collect());
+    }
+    let mut bad: Vec<u32> = crossings.first.into_iter().flatten().collect();
+    for edge in &known.topology.non_manifold_edges {
+        bad.extend(known.topology.facets_at_edge(work.mesh(), edge.vertices));
+    }
+    bad.extend(known.topology.duplicate_facets.iter().flatten());
+    bad.extend(known.topology.collinear.iter().chain(&known.topology.repeated_vertex));
+    bad.retain(|f| *f >= first);
+    bad.sort_unstable();
+    bad.dedup();
+    Ok(bad)
+}
+
+/// Triangles from every edge of the ring to its middle.
+fn fan(&Site { work, .. }: &Site, ring: &Ring) -> Option<Patch> {
+    let n = ring.vertices.len();
+    let side = |i: usize| [ring.vertices[i], ring.vertices[(i + 1) % n]];
+    let places = (0..n).map(side).map(|[a, b]| (work.at(a), work.at(b)));
+    // Each edge counts by its length, so that the middle does not depend on how finely the ring is divided.
+    let (sum, length) = places.fold(([0.0; 3], 0.0), |(sum, length), (a, b)| {
+        let l = norm(minus(b, a));
+        (plus(sum, times(0.5 * l, plus(a, b))), length + l)
+    });
+    let middle = times(1.0 / length, sum);
+    let facets = (0..n).map(side).map(|[a, b]| [a, b, NEW]).collect();
+    middle.iter().all(|x| x.is_finite()).then(|| Patch { places: vec![work.rounded(middle)], facets })
+}

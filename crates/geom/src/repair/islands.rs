@@ -1,0 +1,38 @@
+//! Shells so small that they are likely dust: removed on request.
+
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check;
+
+pub(super) const STEP: Step = Step {
+    name: "islands",
+    about: "Removes shells with a diagonal below the share of the whole that is given; without it, none.",
+    run,
+};
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let kind = check::KINDS.iter().find(|k| k.name == "islands");
+    let (Some(kind), Some(_)) = (kind, work.options.islands) else { return Ok(()) };
+    let dust = work.find(kind)?;
+    if dust.is_empty() {
+        return Ok(());
+    }
+    let known = work.known()?;
+    let shell_of = &known.topology.shell_of;
+    let mut size = vec![None; known.topology.shells];
+    for finding in &dust {
+        size[shell_of[finding.facets[0] as usize] as usize] = Some((finding.size, finding.position, 0));
+    }
+    let mut removed = vec![];
+    for (f, &s) in (0..).zip(shell_of) {
+        if let Some(Some((_, _, count))) = size.get_mut(s as usize) {
+            *count += 1;
+            removed.push(f);
+        }
+    }
+    for (diagonal, place, count) in size.into_iter().flatten() {
+        work.log(STEP.name, "small shell removed", place, count, diagonal);
+    }
+    work.replace(&removed, &[]);
+    Ok(())
+}

@@ -1,0 +1,149 @@
+//! What a repair changed: how many vertices and facets, and how far the surface went.
+
+use crate::check::finding::area;
+use crate::closest::{MeshError, Query, QueryError, Tree};
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::space::{Point, plus, times};
+
+/// Vertices and facets that stayed, came and went.
+///
+/// A facet stays if its three vertices do, whichever way it runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Vertices at their old place, bit for bit.
+    pub vertices_kept: u64,
+    /// Vertices at new places.
+    pub vertices_added: u64,
+    /// Vertices that no facet uses any more.
+    pub vertices_removed: u64,
+    /// Facets with the same three vertices as before.
+    pub facets_kept: u64,
+    /// New facets.
+    pub facets_added: u64,
+    /// Facets that are gone.
+    pub facets_removed: u64,
+}
+
+impl Counts {
+    /// From `before` to `after`, whose vertices are those of `before` and others behind them.
+    pub(super) fn of(before: &Mesh, after: &Mesh) -> Counts {
+        let old = before.positions.len();
+        let used = |mesh: &Mesh| {
+            let mut used = vec![false; after.positions.len()];
+            mesh.faces.iter().flatten().for_each(|v| used[*v as usize] = true);
+            used
+        };
+        let (was, is) = (used(before), used(after));
+        let count = |of: &dyn Fn(usize) -> bool| (0..is.len()).filter(|v| of(*v)).count() as u64;
+        let (was_there, is_there) = (sorted(before), sorted(after));
+        let kept = common(&was_there, &is_there);
+        Counts {
+            vertices_kept: count(&|v| v < old && is[v]),
+            vertices_added: count(&|v| v >= old && is[v]),
+            vertices_removed: count(&|v| was[v] && !is[v]),
+            facets_kept: kept,
+            facets_added: is_there.len() as u64 - kept,
+            facets_removed: was_there.len() as u64 - kept,
+        }
+    }
+}
+
+/// The facets as sorted triples, sorted.
+fn sorted(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let triple = |f: &[u32; 3]| {
+        let mut f = *f;
+        f.sort_unstable();
+        f
+    };
+    let mut all: Vec<[u32; 3]> = mesh.faces.iter().map(triple).collect();
+    all.sort_unstable();
+    all
+}
+
+/// How many entries two sorted lists have in common.
+fn common(a: &[[u32; 3]], b: &[[u32; 3]]) -> u64 {
+    let (mut i, mut j, mut count) = (0, 0, 0);
+    while let (Some(x), Some(y)) = (a.get(i), b.get(j)) {
+        count += u64::from(x == y);
+        (i, j) = (i + usize::from(x <= y), j + usize::from(y <= x));
+    }
+    count
+}
+
+/// Distances from one surface to another, mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Way {
+    /// The greatest found.
+    pub max: f64,
+    /// Mean over the area.
+    pub mean: f64,
+}
+
+/// How far a repair took the surface, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// From the old surface to the new one: what is missing.
+    pub there: Way,
+    /// From the new surface to the old one: what was added.
+    pub back: Way,
+}
+
+/// Distances between `before` and `after`, both ways.
+///
+/// Each facet is asked about at its corners, the middles of its edges and its middle, exactly to the nearest place of the
+/// other mesh; facets that both have are at distance 0 and not asked about. So the mean is that of the whole surface, and
+/// the maximum falls short by less than a third of the longest edge of a facet that changed.
+///
+/// # Errors
+/// [`MeshError`] where one of them has no facet or a coordinate that is not finite, [`QueryError`] if cancelled.
+pub fn deviation(before: &Mesh, after: &Mesh, progress: &dyn Progress) -> Result<Deviation, DeviationError> {
+    Ok(Deviation { there: way(before, after, progress)?, back: way(after, before, progress)? })
+}
+
+/// Why nothing was measured.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum DeviationError {
+    /// A mesh cannot be measured against.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The work was stopped.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+}
+
+/// Places on a facet that are asked about, and their weights.
+fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
+    let half = |p, q| times(0.5, plus(p, q));
+    [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
+}
+
+/// Exact for cubic functions on a facet: corners, middles of edges, middle.
+const WEIGHTS: [f64; 7] =
+    [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
+
+fn way(from: &Mesh, to: &Mesh, progress: &dyn Progress) -> Result<Way, DeviationError> {
+    let place = |mesh: &Mesh, f: &[u32; 3]| {
+        let mut corners = f.map(|v| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits()));
+        corners.sort_unstable();
+        corners
+    };
+    let mut there: Vec<_> = to.faces.iter().map(|f| place(to, f)).collect();
+    there.sort_unstable();
+    let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
+    let total: f64 = from.faces.iter().map(|f| area(corners(f))).sum();
+    let finite = |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite());
+    let changed = from.faces.iter().filter(finite).filter(|f| there.binary_search(&place(from, f)).is_err());
+    let changed: Vec<[Point; 3]> = changed.map(corners).collect();
+    if changed.is_empty() {
+        return Ok(Way::default());
+    }
+    let points: Vec<Point> = changed.iter().flat_map(|t| places(*t)).collect();
+    let distances = Tree::build(to)?.distances(&points, &Query::default(), progress)?;
+    let mut way = Way::default();
+    for (t, d) in changed.iter().zip(distances.chunks_exact(WEIGHTS.len())) {
+        way.max = d.iter().copied().fold(way.max, f64::max);
+        way.mean += area(*t) / total * d.iter().zip(WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
+    }
+    Ok(way)
+}

@@ -1,0 +1,213 @@
+//! Mending what [`check`](crate::check) finds, without moving a vertex.
+//!
+//! [`repair`] goes through the steps of [`STEPS`], one file and one line each, again and again until nothing is left to
+//! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
+//! listed. The result of a step is decided exactly where [`check`](crate::check) decides exactly.
+
+mod degenerate;
+mod duplicates;
+mod edges;
+mod fins;
+mod holes;
+mod islands;
+mod measure;
+mod not_finite;
+mod orient;
+mod outward;
+mod scraps;
+mod self_intersections;
+mod split;
+mod stitch;
+mod t_junctions;
+#[cfg(test)]
+mod tests;
+mod work;
+
+pub use measure::{Counts, Deviation, DeviationError, Way, deviation};
+
+use crate::check::{self, CheckError, Report};
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress};
+use crate::space::Point;
+use crate::topology::weld::{self, WeldError};
+use work::Work;
+
+/// A step of the repair: an entry of [`STEPS`].
+#[derive(Debug)]
+pub struct Step {
+    /// Its name on the command line and in result documents.
+    pub name: &'static str,
+    /// What it does, for the manual.
+    pub about: &'static str,
+    run: fn(&mut Work) -> Result<(), RepairError>,
+}
+
+/// All steps, in the order in which they are done.
+pub const STEPS: [&Step; 14] = [
+    &not_finite::STEP,
+    &stitch::STEP,
+    &degenerate::STEP,
+    &duplicates::STEP,
+    &t_junctions::STEP,
+    &fins::STEP,
+    &orient::STEP,
+    &split::EDGES,
+    &self_intersections::STEP,
+    &holes::STEP,
+    &scraps::STEP,
+    &split::VERTICES,
+    &outward::STEP,
+    &islands::STEP,
+];
+
+/// Vector area over area above which an open surface is a sheet and encloses nothing, as in the choice of signs.
+const SHEET: f64 = crate::deviation::sign_choice::SHEET;
+
+/// Which holes are filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Holes {
+    /// Those whose patch has at most this share of the area of their shell.
+    UpTo(f64),
+    /// All, even the rim of a sheet.
+    All,
+}
+
+/// What shall be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Names of the steps to do, in any order.
+    pub steps: Vec<&'static str>,
+    /// Distance, mm, up to which two places may have been meant as one; `None`: as in [`check::Options::gap`].
+    pub gap: Option<f64>,
+    /// Distance, mm, up to which edges are stitched; `None`: a ten-thousandth of the diagonal.
+    pub stitch: Option<f64>,
+    /// Which holes are filled.
+    pub holes: Holes,
+    /// Shells with a smaller share of the diagonal of the whole are removed; `None`: none.
+    pub islands: Option<f64>,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            steps: STEPS.iter().map(|s| s.name).collect(),
+            gap: None,
+            stitch: None,
+            holes: Holes::UpTo(0.25),
+            islands: None,
+        }
+    }
+}
+
+/// Something that was changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// The step that did it.
+    pub step: &'static str,
+    /// What was done.
+    pub what: &'static str,
+    /// Where.
+    pub position: Point,
+    /// Facets concerned.
+    pub facets: usize,
+    /// How big: mm for vertices and edges, mm² for facets, mm³ for shells.
+    pub size: f64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Repaired {
+    /// The mended mesh. Vertices that stayed keep their bits and their order; new ones follow.
+    pub mesh: Mesh,
+    /// All changes, in the order in which they were made.
+    pub changes: Vec<Change>,
+    /// How often the steps were gone through.
+    pub rounds: usize,
+    /// What the check said before.
+    pub before: Report,
+    /// What it says now.
+    pub after: Report,
+    /// Vertices and facets that stayed, came and went.
+    pub counts: Counts,
+}
+
+/// Why a mesh was not repaired.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RepairError {
+    /// The faces cannot be connected.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+    /// The mesh cannot be checked.
+    #[error(transparent)]
+    Check(CheckError),
+    /// The repair was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<CheckError> for RepairError {
+    fn from(e: CheckError) -> RepairError {
+        match e {
+            CheckError::Weld(e) => e.into(),
+            CheckError::Cancelled(e) => e.into(),
+            e => RepairError::Check(e),
+        }
+    }
+}
+
+/// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
+const ROUNDS: usize = 8;
+
+/// Mends `mesh`. Vertices at the same place become one first.
+///
+/// A mesh that is sound comes back as it is. Any mesh will do, however broken; what cannot be mended stays, and
+/// [`Repaired::after`] lists it. The result is the same for any number of threads. Cost: for each step that changes something
+/// about as much as a check; filling holes up to the cube of 100 for each ring.
+///
+/// # Errors
+/// [`RepairError`].
+pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
+    let check_options = check::Options { gap: options.gap, ..check::Options::default() };
+    let welded = as_it_is(mesh)?;
+    let before = check::check(&welded, None, &check_options, progress)?;
+    let wanted: Vec<&Step> = STEPS.into_iter().filter(|s| options.steps.contains(&s.name)).collect();
+    let mut work = Work::new(welded.clone(), options, progress)?;
+    let mut rounds = 0;
+    while rounds < ROUNDS {
+        let done = work.changes.len();
+        for step in &wanted {
+            (step.run)(&mut work)?;
+        }
+        rounds += 1;
+        if work.changes.len() == done {
+            break;
+        }
+    }
+    let changes = std::mem::take(&mut work.changes);
+    let repaired = work.into_mesh();
+    let counts = Counts::of(&welded, &repaired);
+    let mesh = match changes.is_empty() {
+        true => repaired,
+        false => as_it_is(&compact(repaired))?,
+    };
+    let after = check::check(&mesh, None, &check_options, progress)?;
+    Ok(Repaired { mesh, changes, rounds, before, after, counts })
+}
+
+/// The mesh itself if its vertices are distinct places that facets use; else welded.
+fn as_it_is(mesh: &Mesh) -> Result<Mesh, WeldError> {
+    let welded = weld::mesh(mesh)?.mesh;
+    Ok(if welded.positions.len() == mesh.positions.len() { mesh.clone() } else { welded })
+}
+
+/// Without the vertices that no facet uses; the others keep their order.
+fn compact(mesh: Mesh) -> Mesh {
+    let mut number = vec![u32::MAX; mesh.positions.len()];
+    mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
+    for (next, n) in (0..).zip(number.iter_mut().filter(|n| **n == 0)) {
+        *n = next;
+    }
+    let used = mesh.positions.iter().zip(&number).filter(|(_, n)| **n != u32::MAX);
+    let positions = used.map(|(p, _)| *p).collect();
+    Mesh { positions, faces: mesh.faces.iter().map(|f| f.map(|v| number[v as usize])).collect() }
+}

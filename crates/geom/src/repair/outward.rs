@@ -1,0 +1,35 @@
+//! Closed shells that look the wrong way.
+
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check;
+
+pub(super) const STEP: Step = Step {
+    name: "outward",
+    about: "Turns closed shells over that look the wrong way: inside an odd number of others a shell bounds a cavity and looks \
+            inwards, else outwards. Decided exactly.",
+    run,
+};
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let Some(kind) = check::KINDS.iter().find(|k| k.name == "inside_out_shells") else { return Ok(()) };
+    let wrong = work.find(kind)?;
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    let known = work.known()?;
+    let shell_of = &known.topology.shell_of;
+    let mut turn = vec![false; known.topology.shells];
+    let mut count = vec![0; known.topology.shells];
+    for &shell in shell_of.iter().filter(|s| **s != u32::MAX) {
+        count[shell as usize] += 1;
+    }
+    for finding in wrong {
+        let shell = shell_of[finding.facets[0] as usize] as usize;
+        turn[shell] = true;
+        work.log(STEP.name, "shell turned over", finding.position, count[shell], finding.size);
+    }
+    let facets = (0..).zip(shell_of).filter(|(_, s)| turn.get(**s as usize) == Some(&true)).map(|(f, _)| f);
+    work.turn(facets);
+    Ok(())
+}

@@ -1,0 +1,85 @@
+//! Facets that cross.
+//!
+//! The facets of all crossing pairs are torn out, in later rounds with their neighbours, and what is left of a shell beside
+//! its largest piece goes too if it is small. The holes are filled by the step that fills holes, whatever their size.
+
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check::finding::area;
+
+pub(super) const STEP: Step = Step {
+    name: "self_intersections",
+    about: "Tears out facets that cross others, with more of their neighbourhood each time; the holes are filled afterwards.",
+    run,
+};
+
+/// More than this share of the area is not torn out: what is left would be another model.
+const MOST: f64 = 0.75;
+/// A piece cut off goes if it has at most this share of the area of the largest piece of its shell.
+const CRUMB: f64 = 0.25;
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let found = work.crossings()?;
+    let crossings = found.first;
+    // Of a tangle too large to be listed nothing would be left.
+    if crossings.is_empty() || crossings.len() < found.count {
+        return Ok(());
+    }
+    let known = work.known()?;
+    let shell_of = known.topology.shell_of.clone();
+    let mut torn = vec![false; work.mesh().faces.len()];
+    crossings.iter().flatten().for_each(|f| torn[*f as usize] = true);
+    for _ in 0..work.tears {
+        let vertices: Vec<u32> = (0..)
+            .zip(&torn)
+            .filter(|(_, t)| **t)
+            .flat_map(|(f, _): (u32, _)| work.mesh().faces[f as usize])
+            .collect();
+        for v in vertices {
+            known.topology.facets_at_vertex(v).into_iter().for_each(|f| torn[f as usize] = true);
+        }
+    }
+    let area_of = |wanted: bool| -> f64 {
+        let facets = (0..).zip(&torn).filter(|(_, t)| **t || !wanted);
+        facets.map(|(f, _)| area(work.corners(f))).sum()
+    };
+    if area_of(true) > MOST * area_of(false) {
+        return Ok(());
+    }
+    work.tears += 1;
+    let removed: Vec<u32> = (0..).zip(&torn).filter(|(_, t)| **t).map(|(f, _)| f).collect();
+    let place = work.middle(crossings[0][0]);
+    work.log(STEP.name, "crossing facets torn out", place, removed.len(), 0.0);
+    work.tear(&removed);
+    let left = shell_of.into_iter().zip(torn).filter(|(_, torn)| !torn).map(|(shell, _)| shell);
+    crumbs(work, &left.collect::<Vec<u32>>())
+}
+
+/// Removes what was cut off the shells, `shell_of` being the shell of each facet before the cut.
+fn crumbs(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let areas = &known.properties.shell_areas;
+    let pieces = (0..).zip(&known.topology.shell_of).filter(|(_, s)| **s != u32::MAX);
+    let mut of_piece = vec![(u32::MAX, vec![]); known.topology.shells];
+    for (f, &piece) in pieces {
+        let entry: &mut (u32, Vec<u32>) = &mut of_piece[piece as usize];
+        entry.0 = shell_of[f as usize];
+        entry.1.push(f);
+    }
+    let mut largest = std::collections::BTreeMap::<u32, f64>::new();
+    for (piece, (shell, _)) in of_piece.iter().enumerate() {
+        let area = largest.entry(*shell).or_default();
+        *area = area.max(areas[piece]);
+    }
+    let mut removed = vec![];
+    for (piece, (shell, facets)) in of_piece.into_iter().enumerate() {
+        if areas[piece] <= CRUMB * largest.get(&shell).copied().unwrap_or(0.0) {
+            work.log(STEP.name, "piece cut off removed", work.middle(facets[0]), facets.len(), areas[piece]);
+            removed.extend(facets);
+        }
+    }
+    if !removed.is_empty() {
+        work.tear(&removed);
+    }
+    Ok(())
+}

@@ -1,0 +1,233 @@
+//! Edges of more than two facets, and vertices where several fans touch: parted.
+//!
+//! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair. Around
+//! such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area keeps the
+//! vertex; each other one gets a vertex of its own, set off a little into its own material: a copy at the very same place
+//! would be joined again by the next program that reads the file.
+
+use super::degenerate::cut;
+use super::edges::{Edges, Side};
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check::finding::area;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::topology::union::Sets;
+use std::collections::BTreeMap;
+
+pub(super) const EDGES: Step = Step {
+    name: "non_manifold_edges",
+    about: "Parts the surface at edges of more than two facets, so that material stays between each pair.",
+    run: |work| {
+        let known = work.known()?;
+        let edges = known.topology.non_manifold_edges.iter();
+        let vertices = edges.flat_map(|e| e.vertices).collect();
+        part(work, vertices, EDGES.name, true)
+    },
+};
+
+pub(super) const VERTICES: Step = Step {
+    name: "non_manifold_vertices",
+    about: "Parts the surface at vertices where several fans of facets touch.",
+    run: |work| {
+        let vertices = work.known()?.topology.non_manifold_vertices.clone();
+        part(work, vertices, VERTICES.name, false)
+    },
+};
+
+/// How far a new vertex is set off, in gaps; more each time, if facets cross otherwise.
+const OFFSETS: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
+
+/// For an edge and a facet at it the other facet of its pair.
+type Pairs = BTreeMap<([u32; 2], u32), u32>;
+
+/// Parts the surface at `vertices`. With `open_together`, fans with a rim stay one: filling their holes may join them.
+fn part(
+    work: &mut Work,
+    mut vertices: Vec<u32>,
+    step: &'static str,
+    open_together: bool,
+) -> Result<(), RepairError> {
+    vertices.sort_unstable();
+    vertices.dedup();
+    if vertices.is_empty() {
+        return Ok(());
+    }
+    let known = work.known()?;
+    let edges = Edges::of(work.mesh(), &known.topology);
+    let pairs = pairs(work, &edges);
+    // Fans that lose their vertex: the vertex and the facets.
+    let mut lost: Vec<(u32, Vec<u32>)> = vec![];
+    for v in vertices {
+        let mut fans = fans(work, &known.topology.facets_at_vertex(v), v, &edges, &pairs, open_together);
+        let size = |fan: &Vec<u32>| fan.iter().map(|&f| area(work.corners(f))).sum::<f64>();
+        fans.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a[0].cmp(&b[0])));
+        lost.extend(fans.into_iter().skip(1).map(|fan| (v, fan)));
+    }
+    let again = shared_twice(&edges, &pairs, &lost);
+    if lost.is_empty() && again.is_empty() {
+        return Ok(());
+    }
+    let before = work.mesh().clone();
+    let crossings = work.crossings()?.count;
+    for (i, offset) in OFFSETS.into_iter().enumerate() {
+        let distance = offset * work.gap;
+        set_off(work, &lost, &again, distance);
+        if work.crossings()?.count <= crossings || i + 1 == OFFSETS.len() {
+            break;
+        }
+        work.restore(before.clone());
+    }
+    work.parted.extend(before.positions.len() as u32..work.mesh().positions.len() as u32);
+    for (v, fan) in &lost {
+        work.log(step, "fan of facets given its own vertex", before.positions[*v as usize], fan.len(), 0.0);
+    }
+    for (ends, _) in &again {
+        let [a, b] = ends.map(|v| before.positions[v as usize]);
+        work.log(step, "edge parted in its middle", times(0.5, plus(a, b)), 2, norm(minus(b, a)));
+    }
+    Ok(())
+}
+
+/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge.
+fn set_off(work: &mut Work, lost: &[(u32, Vec<u32>)], again: &[([u32; 2], [u32; 2])], distance: f64) {
+    let mut renamed = BTreeMap::new();
+    for (v, fan) in lost {
+        let place = plus(work.at(*v), times(-distance, outwards(work, fan, work.at(*v))));
+        let new = work.add(place);
+        renamed.extend(fan.iter().map(|&f| ((f, *v), new)));
+    }
+    let (mut removed, mut added) = (vec![], vec![]);
+    for (ends, facets) in again {
+        let middle = times(0.5, plus(work.at(ends[0]), work.at(ends[1])));
+        let place = plus(middle, times(-distance, outwards(work, facets, middle)));
+        let new = work.add(place);
+        for &f in facets {
+            removed.push(f);
+            let renamed = |v: u32| renamed.get(&(f, v)).copied().unwrap_or(v);
+            added.extend(cut(work.mesh().faces[f as usize], *ends, new).map(|part| part.map(renamed)));
+        }
+    }
+    work.rename(|f, v| renamed.get(&(f, v)).copied().unwrap_or(v));
+    work.replace(&removed, &added);
+}
+
+/// Unit vector out of the material between these facets, away from which their common place can be moved.
+fn outwards(work: &Work, facets: &[u32], at: Point) -> Vector {
+    let unit_normal = |f: &u32| {
+        let [a, b, c] = work.corners(*f);
+        unit(cross(minus(b, a), minus(c, a))).map_or([0.0; 3], |(n, _)| n)
+    };
+    let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
+    let away = || {
+        let middle = facets.iter().map(|f| work.middle(*f)).fold([0.0; 3], plus);
+        minus(at, times(1.0 / facets.len() as f64, middle))
+    };
+    unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n)
+}
+
+/// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.
+fn shared_twice(edges: &Edges, pairs: &Pairs, lost: &[(u32, Vec<u32>)]) -> Vec<([u32; 2], [u32; 2])> {
+    let mut moved: Vec<(u32, u32, usize)> = vec![];
+    for (i, (v, fan)) in lost.iter().enumerate() {
+        moved.extend(fan.iter().map(|&f| (f, *v, i + 1)));
+    }
+    moved.sort_unstable();
+    let fan_of =
+        |f: u32, v: u32| moved.binary_search_by_key(&(f, v), |m| (m.0, m.1)).map_or(0, |i| moved[i].2);
+    let mut again = vec![];
+    let mut touched = std::collections::BTreeSet::new();
+    for edge in edges.iter().filter(|e| e.len() > 2) {
+        let ends = edge[0].ends;
+        let mut seen = vec![];
+        for side in edge {
+            let Some(&other) = pairs.get(&(ends, side.facet)) else { continue };
+            if other < side.facet {
+                continue;
+            }
+            let fans = ends.map(|v| fan_of(side.facet, v));
+            // A facet is cut at one edge only in one pass.
+            let free = !touched.contains(&side.facet) && !touched.contains(&other);
+            if seen.contains(&fans) && free {
+                touched.extend([side.facet, other]);
+                again.push((ends, [side.facet, other]));
+            }
+            seen.push(fans);
+        }
+    }
+    again
+}
+
+/// The facets at `v` by connection through edges and pairs there.
+fn fans(
+    work: &Work,
+    facets: &[u32],
+    v: u32,
+    edges: &Edges,
+    pairs: &Pairs,
+    open_together: bool,
+) -> Vec<Vec<u32>> {
+    let sets = Sets::new(facets.len());
+    let index = |f: u32| facets.binary_search(&f).unwrap_or(0) as u32;
+    let mut open: Option<u32> = None;
+    for &f in facets {
+        for w in work.mesh().faces[f as usize].into_iter().filter(|w| *w != v) {
+            match edges.at(v, w) {
+                [_] if open_together => sets.join(index(f), *open.get_or_insert(index(f))),
+                [_] => {}
+                [a, b] => sets.join(index(a.facet), index(b.facet)),
+                _ => {
+                    if let Some(&g) = pairs.get(&([v.min(w), v.max(w)], f)) {
+                        sets.join(index(f), index(g));
+                    }
+                }
+            }
+        }
+    }
+    let mut members: Vec<(u32, u32)> = facets.iter().map(|&f| (sets.root(index(f)), f)).collect();
+    members.sort_unstable();
+    members.chunk_by(|a, b| a.0 == b.0).map(|fan| fan.iter().map(|m| m.1).collect()).collect()
+}
+
+/// Pairs the facets at each edge of more than two so that material lies between them.
+fn pairs(work: &Work, edges: &Edges) -> Pairs {
+    let mut pairs = Pairs::new();
+    for edge in edges.iter().filter(|e| e.len() > 2) {
+        let mut around = by_angle(work, edge);
+        // Facets that run down the edge have material on the side of growing angle, those that run up have it before
+        // them: like brackets, twice round so that none is missed where the circle was cut open.
+        let mut opened: Vec<u32> = vec![];
+        for _ in 0..2 {
+            for side in &around {
+                if !side.up {
+                    opened.retain(|f| *f != side.facet);
+                    opened.push(side.facet);
+                } else if let Some(f) = opened.pop() {
+                    pairs.insert((side.ends, side.facet), f);
+                    pairs.insert((side.ends, f), side.facet);
+                }
+            }
+            around.retain(|s| !pairs.contains_key(&(s.ends, s.facet)));
+        }
+    }
+    pairs
+}
+
+/// The sides sorted by the angle of their facets around the edge, seen against its direction.
+fn by_angle(work: &Work, edge: &[Side]) -> Vec<Side> {
+    let [a, b] = edge[0].ends.map(|v| work.at(v));
+    let axis = unit(minus(b, a)).map_or([0.0; 3], |(u, _)| u);
+    let arm = |s: &Side| {
+        let third = work.mesh().faces[s.facet as usize].into_iter().find(|v| !s.ends.contains(v));
+        let to = third.map_or([0.0; 3], |v| minus(work.at(v), a));
+        minus(to, times(dot(to, axis), axis))
+    };
+    let x = arm(&edge[0]);
+    let y = cross(axis, x);
+    let angle = |s: &Side| {
+        let d = arm(s);
+        libm::atan2(dot(d, y), dot(d, x))
+    };
+    let mut sides: Vec<(f64, Side)> = edge.iter().map(|s| (angle(s), *s)).collect();
+    sides.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    sides.into_iter().map(|s| s.1).collect()
+}

@@ -1,0 +1,120 @@
+//! Gaps between edges that were meant as one.
+//!
+//! First vertices on the boundary within the gap of one another become one. Then boundary edges look for a partner whose two
+//! ends lie near their own, at distances that grow fourfold up to the limit, but never beyond a quarter of the edges
+//! themselves: so neighbouring vertices cannot collapse, and the nearest partner wins.
+
+use super::work::{Known, Work};
+use super::{RepairError, Step};
+use crate::check::{self, near::Near};
+use crate::space::{Aabb, Point, minus, norm, plus, times};
+use crate::topology::union::Sets;
+
+pub(super) const STEP: Step = Step {
+    name: "stitch",
+    about: "Joins boundary vertices within the gap of one another, and boundary edges whose ends lie nearer to each other than \
+            the stitching distance and than a quarter of their length.",
+    run,
+};
+
+/// Stitching distance by default, as a share of the diagonal of the mesh.
+const REACH: f64 = 1e-4;
+/// By how much the distance grows from pass to pass.
+const GROWTH: f64 = 4.0;
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    if work.known()?.topology.boundary_edges.is_empty() {
+        return Ok(());
+    }
+    if let Some(kind) = check::KINDS.iter().find(|k| k.name == "unshared_vertices") {
+        let mut groups = work.find(kind)?;
+        let known = work.known()?;
+        let sets = Sets::new(work.mesh().positions.len());
+        let parted = |v: &u32| work.parted.contains(v);
+        groups.retain(|g| !g.vertices.iter().any(parted));
+        groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
+        let members = groups.into_iter().flat_map(|g| g.vertices).collect();
+        merge(work, &known, &sets, members);
+    }
+    let diagonal = work.known()?.properties.bounds.diagonal();
+    let limit = work.options.stitch.unwrap_or(REACH * diagonal);
+    let mut reach = work.gap;
+    while reach < limit {
+        reach = (GROWTH * reach).min(limit);
+        let known = work.known()?;
+        if known.topology.boundary_edges.is_empty() || reach <= 0.0 {
+            break;
+        }
+        let sets = Sets::new(work.mesh().positions.len());
+        let mut members = vec![];
+        for [a, b] in partners(work, &known, reach).into_iter().filter(|[a, b]| a != b) {
+            sets.join(a, b);
+            members.extend([a, b]);
+        }
+        merge(work, &known, &sets, members);
+    }
+    Ok(())
+}
+
+/// Lets each set of vertices become that one of its members which has the most facets.
+fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
+    let weight = |v: u32| (known.topology.facets_at_vertex(v).len(), std::cmp::Reverse(v));
+    let mut all: Vec<(u32, u32)> = members.into_iter().map(|v| (sets.root(v), v)).collect();
+    all.sort_unstable();
+    all.dedup();
+    let mut renamed = vec![];
+    for group in all.chunk_by(|a, b| a.0 == b.0) {
+        let Some(&(_, kept)) = group.iter().max_by_key(|(_, v)| weight(*v)) else { continue };
+        let far = |v: u32| norm(minus(work.at(v), work.at(kept)));
+        let farthest = group.iter().map(|(_, v)| far(*v)).fold(0.0, f64::max);
+        work.log(STEP.name, "vertices joined", work.at(kept), group.len(), farthest);
+        renamed.extend(group.iter().filter(|(_, v)| *v != kept).map(|&(_, v)| (v, kept)));
+    }
+    if renamed.is_empty() {
+        return;
+    }
+    renamed.sort_unstable();
+    work.rename(|_, v| renamed.binary_search_by_key(&v, |r| r.0).map_or(v, |i| renamed[i].1));
+}
+
+/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one.
+fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
+    let edges = &known.topology.boundary_edges;
+    let ends = |e: u32| edges[e as usize].vertices;
+    let length = |e: u32| norm(minus(work.at(ends(e)[0]), work.at(ends(e)[1])));
+    let middle = |e: u32| times(0.5, plus(work.at(ends(e)[0]), work.at(ends(e)[1])));
+    let near = Near::new((0..edges.len() as u32).map(|e| (middle(e), e)).collect());
+    let apart = |a: u32, b: u32| norm(minus(work.at(a), work.at(b)));
+    let mut found: Vec<(f64, u32, u32, [[u32; 2]; 2])> = vec![];
+    for e in 0..edges.len() as u32 {
+        let (at, [a, b]): (Point, _) = (middle(e), ends(e));
+        let close = |x: &Aabb| (0..3).all(|k| at[k] >= x.min[k] - reach && at[k] <= x.max[k] + reach);
+        near.visit(close, |_, f| {
+            if f <= e || edges[f as usize].facet == edges[e as usize].facet {
+                return;
+            }
+            let [c, d] = ends(f);
+            let limit = reach.min(0.25 * length(e).min(length(f)));
+            for pairs in [[[a, d], [b, c]], [[a, c], [b, d]]] {
+                let distance = apart(pairs[0][0], pairs[0][1]).max(apart(pairs[1][0], pairs[1][1]));
+                if distance <= limit {
+                    found.push((distance, e, f, pairs));
+                }
+            }
+        });
+    }
+    found.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+    let parted = |v: &u32| work.parted.contains(v);
+    let mut used = vec![false; edges.len()];
+    let mut pairs = vec![];
+    for (_, e, f, joined) in found {
+        let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(parted);
+        let apart =
+            |[a, b]: &[u32; 2]| a == b || known.topology.facets_at_edge(work.mesh(), [*a, *b]).is_empty();
+        if free && joined.iter().all(apart) {
+            (used[e as usize], used[f as usize]) = (true, true);
+            pairs.extend(joined);
+        }
+    }
+    pairs
+}

@@ -1,0 +1,67 @@
+//! Vertices that lie on somebody else's edge: the facet there is cut, so that both sides share the vertex.
+
+use super::degenerate::cut;
+use super::work::Work;
+use super::{RepairError, Step};
+use crate::check;
+use crate::space::{dot, minus, norm};
+
+pub(super) const STEP: Step = Step {
+    name: "t_junctions",
+    about: "Cuts facets at boundary vertices that lie within the gap of their boundary edge.",
+    run,
+};
+
+/// A vertex on an edge of a facet: facet, ends of the edge, place along it, vertex.
+type On = (u32, [u32; 2], f64, u32);
+
+fn run(work: &mut Work) -> Result<(), RepairError> {
+    let Some(kind) = check::KINDS.iter().find(|k| k.name == "t_junctions") else { return Ok(()) };
+    let mut all: Vec<On> = vec![];
+    for finding in work.find(kind)? {
+        let [vertex, a, b] = finding.vertices[..] else { continue };
+        let along = minus(work.at(b), work.at(a));
+        let place = dot(minus(work.at(vertex), work.at(a)), along);
+        all.push((finding.facets[0], [a, b], place, vertex));
+    }
+    if all.is_empty() {
+        return Ok(());
+    }
+    all.sort_unstable_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2)).then(x.3.cmp(&y.3)));
+    let (mut removed, mut added) = (vec![], vec![]);
+    for on in all.chunk_by(|x, y| x.0 == y.0) {
+        let facet = on[0].0;
+        let parts = parts(work.mesh().faces[facet as usize], on);
+        if parts.len() > 1 {
+            let [_, [a, b], ..] = [[0; 2], on[0].1];
+            let length = norm(minus(work.at(b), work.at(a)));
+            work.log(STEP.name, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
+            removed.push(facet);
+            added.extend(parts);
+        }
+    }
+    if !removed.is_empty() {
+        work.replace(&removed, &added);
+    }
+    Ok(())
+}
+
+/// The parts of `face` when its edges are cut at these vertices, sorted along each edge.
+fn parts(face: [u32; 3], on: &[On]) -> Vec<[u32; 3]> {
+    let mut parts = vec![face];
+    for edge in on.chunk_by(|x, y| x.1 == y.1) {
+        let [mut from, to] = edge[0].1;
+        for &(_, _, _, vertex) in edge {
+            if parts.iter().flatten().any(|v| *v == vertex) {
+                continue;
+            }
+            let has_edge = |p: &[u32; 3]| p.contains(&from) && p.contains(&to);
+            let Some(i) = parts.iter().position(has_edge) else { break };
+            let [a, b] = cut(parts[i], [from, to], vertex);
+            parts[i] = a;
+            parts.push(b);
+            from = vertex;
+        }
+    }
+    parts
+}

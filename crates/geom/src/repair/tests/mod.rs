@@ -1,0 +1,119 @@
+//! Planted defects are mended, sound meshes left alone; what each step does in its special cases.
+
+mod holes;
+mod steps;
+
+use super::*;
+use crate::check::tests::{counts, planted, sound};
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::topology::tests::on_threads;
+use std::collections::BTreeSet;
+
+pub(super) fn mend(mesh: &Mesh) -> Repaired {
+    mend_with(mesh, &Options::default())
+}
+
+pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
+    let repaired = repair(mesh, options, &Silent).unwrap();
+    no_vertex_moves(mesh, &repaired);
+    repaired
+}
+
+/// Vertices said to be kept are places of the mesh as it was, and the counts add up.
+fn no_vertex_moves(before: &Mesh, repaired: &Repaired) {
+    let bits = |p: &Point| p.map(|x| (x + 0.0).to_bits());
+    let old: BTreeSet<_> = before.positions.iter().map(bits).collect();
+    let kept = repaired.mesh.positions.iter().filter(|p| old.contains(&bits(p))).count() as u64;
+    let c = repaired.counts;
+    assert_eq!(c.vertices_kept, kept);
+    assert_eq!(c.vertices_kept + c.vertices_added, repaired.mesh.positions.len() as u64);
+    assert_eq!(c.facets_kept + c.facets_added, repaired.mesh.faces.len() as u64);
+}
+
+#[test]
+fn sound_meshes_come_back_bit_for_bit() {
+    let mut mesh = sound();
+    // The order of a file, not that of first use; and a zero with a sign.
+    mesh.positions.reverse();
+    let last = mesh.positions.len() as u32 - 1;
+    mesh.faces.iter_mut().for_each(|f| *f = f.map(|v| last - v));
+    mesh.positions.iter_mut().flatten().filter(|x| **x == 0.0).for_each(|x| *x = -0.0);
+    let repaired = mend(&mesh);
+    let bits = |m: &Mesh| m.positions.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
+    assert_eq!((bits(&repaired.mesh), &repaired.mesh.faces), (bits(&mesh), &mesh.faces));
+    assert_eq!((repaired.changes.len(), repaired.rounds, repaired.after.sound), (0, 1, true));
+    assert_eq!(deviation(&mesh, &repaired.mesh, &Silent).unwrap().there, Way::default());
+}
+
+#[test]
+fn planted_defects_of_every_kind_are_mended() {
+    for kind in check::KINDS {
+        for k in [1, 2, 5] {
+            let (mesh, _, expected) = planted(kind.name, k);
+            let repaired = mend(&mesh);
+            let count = |r: &Report| r.found(kind.name).map_or(0, |f| f.count);
+            if kind.severity == check::Severity::Error {
+                assert_eq!(count(&repaired.before), expected, "{} {k}", kind.name);
+                let facets: usize = repaired.changes.iter().map(|c| c.facets).sum();
+                assert!(facets >= k, "{} {k}: {:?}", kind.name, repaired.changes);
+            }
+            assert!(repaired.after.sound, "{} {k}: {:?}", kind.name, counts(&repaired.after));
+            assert!(repaired.rounds < ROUNDS, "{} {k}: {} rounds", kind.name, repaired.rounds);
+            assert_eq!(mend(&repaired.mesh).changes, [], "{} {k}: nothing is left to do", kind.name);
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    for kind in check::KINDS {
+        let (mesh, ..) = planted(kind.name, 3);
+        let [one, three] = [1, 3].map(|n| on_threads(n, || mend(&mesh)));
+        assert_eq!((&one.mesh, &one.changes), (&three.mesh, &three.changes), "{}", kind.name);
+    }
+}
+
+#[test]
+fn steps_keep_the_contract_and_can_be_chosen() {
+    for (i, step) in STEPS.iter().enumerate() {
+        assert!(step.name.chars().all(|c| c.is_ascii_lowercase() || c == '_'), "{}", step.name);
+        assert!(STEPS[..i].iter().all(|s| s.name != step.name), "{} is there twice", step.name);
+        assert!(step.about.ends_with('.'), "{}", step.name);
+        let only = Options { steps: vec![step.name], ..Options::default() };
+        for kind in check::KINDS {
+            let repaired = mend_with(&planted(kind.name, 2).0, &only);
+            assert!(
+                repaired.changes.iter().all(|c| c.step == step.name),
+                "{}: {:?}",
+                step.name,
+                repaired.changes
+            );
+        }
+    }
+    let none = Options { steps: vec![], ..Options::default() };
+    let (mesh, ..) = planted("holes", 3);
+    assert_eq!(mend_with(&mesh, &none).mesh, mesh);
+}
+
+/// Random facets among few places: every kind of mess at once. Nothing is promised but an end.
+#[test]
+fn any_mess_comes_to_an_end() {
+    let random = &mut Random::new(8);
+    for facets in [0, 1, 2, 5, 20, 60] {
+        for _ in 0..8 {
+            let vertices = 4 + random.below(20) as u32;
+            let places = |_| std::array::from_fn(|_| (random.unit() * 8.0).floor());
+            let positions: Vec<Point> = (0..vertices).map(places).collect();
+            let face = |_| std::array::from_fn(|_| random.below(u64::from(vertices)) as u32);
+            let mesh = Mesh { positions, faces: (0..facets).map(face).collect() };
+            for holes in [Holes::UpTo(0.25), Holes::All] {
+                let repaired = mend_with(&mesh, &Options { holes, islands: Some(0.1), ..Options::default() });
+                assert!(repaired.rounds <= ROUNDS);
+                assert!(repaired.mesh.positions.iter().flatten().all(|x| x.is_finite()));
+            }
+        }
+    }
+    let broken = Mesh { positions: vec![[0.0; 3]], faces: vec![[0, 0, 7]] };
+    assert!(matches!(repair(&broken, &Options::default(), &Silent), Err(RepairError::Weld(_))));
+}

@@ -1,0 +1,214 @@
+//! The mesh under repair, and what is known about it.
+//!
+//! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
+//! vertex can move, whatever a step does.
+
+use super::{Change, Options, RepairError};
+use crate::check::free_edges::FreeEdges;
+use crate::check::intersect::{self, Crossings};
+use crate::check::{self, Finding, Inspected, Kind};
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, plus, times};
+use crate::topology::{Properties, Topology};
+use std::collections::BTreeSet;
+use std::sync::{Arc, OnceLock};
+
+/// What a step works on.
+pub(super) struct Work<'a> {
+    mesh: Mesh,
+    pub options: &'a Options,
+    pub progress: &'a dyn Progress,
+    /// Distance, mm, up to which two places may have been meant as one.
+    pub gap: f64,
+    /// All coordinates have single precision: new ones shall have too.
+    single: bool,
+    pub changes: Vec<Change>,
+    /// Vertices at the rims of holes that a step has torn: those holes must be filled whatever their size.
+    torn: BTreeSet<u32>,
+    /// Vertices that were parted from others on purpose and must not be joined again.
+    pub parted: BTreeSet<u32>,
+    /// How often facets that cross have been torn out.
+    pub tears: usize,
+    known: Option<Arc<Known>>,
+}
+
+/// What follows from the mesh as it is.
+pub(super) struct Known {
+    pub topology: Topology,
+    pub properties: Properties,
+    pub free_edges: FreeEdges,
+    crossings: OnceLock<Crossings>,
+}
+
+impl<'a> Work<'a> {
+    /// Of a welded mesh.
+    pub(super) fn new(
+        mesh: Mesh,
+        options: &'a Options,
+        progress: &'a dyn Progress,
+    ) -> Result<Work<'a>, RepairError> {
+        let single = mesh.positions.iter().flatten().all(|x| f64::from(*x as f32) == *x || !x.is_finite());
+        let mut work = Work {
+            mesh,
+            options,
+            progress,
+            gap: 0.0,
+            single,
+            changes: vec![],
+            torn: BTreeSet::new(),
+            parted: BTreeSet::new(),
+            tears: 0,
+            known: None,
+        };
+        let spacing = check::spacing(&work.known()?.properties.bounds);
+        work.gap = options.gap.unwrap_or(8.0 * spacing);
+        Ok(work)
+    }
+
+    pub(super) fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub(super) fn into_mesh(self) -> Mesh {
+        self.mesh
+    }
+
+    pub(super) fn at(&self, vertex: u32) -> Point {
+        self.mesh.positions[vertex as usize]
+    }
+
+    pub(super) fn corners(&self, facet: u32) -> [Point; 3] {
+        self.mesh.faces[facet as usize].map(|v| self.at(v))
+    }
+
+    /// The middle of a facet.
+    pub(super) fn middle(&self, facet: u32) -> Point {
+        let [a, b, c] = self.corners(facet);
+        times(1.0 / 3.0, plus(a, plus(b, c)))
+    }
+
+    /// What follows from the mesh as it is; computed again after a change only.
+    pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
+        if self.progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        if let Some(known) = &self.known {
+            return Ok(known.clone());
+        }
+        let topology = Topology::of(&self.mesh)?;
+        let properties = Properties::of(&self.mesh, &topology);
+        let free_edges = FreeEdges::of(&topology);
+        let known = Arc::new(Known { topology, properties, free_edges, crossings: OnceLock::new() });
+        self.known = Some(known.clone());
+        Ok(known)
+    }
+
+    /// Pairs of facets that meet where they should not. In a tangle, where pairs outnumber facets many times, only some
+    /// are listed: all pairs of a large one would not fit into memory.
+    pub(super) fn crossings(&mut self) -> Result<Crossings, RepairError> {
+        const LISTED: usize = 10_000;
+        let known = self.known()?;
+        if let Some(crossings) = known.crossings.get() {
+            return Ok(crossings.clone());
+        }
+        let limit = LISTED + 8 * self.mesh.faces.len();
+        let crossings =
+            intersect::first_self_intersections(&self.mesh, &known.topology, limit, self.progress)?;
+        Ok(known.crossings.get_or_init(|| crossings).clone())
+    }
+
+    /// All that the check finds of a kind which needs no crossings.
+    pub(super) fn find(&mut self, kind: &Kind) -> Result<Vec<Finding>, RepairError> {
+        let known = self.known()?;
+        let default = check::Options::default();
+        let island_share = self.options.islands.unwrap_or(default.island_share);
+        let options = check::Options { limit: usize::MAX, island_share, ..default };
+        let inspected = Inspected {
+            mesh: &self.mesh,
+            topology: &known.topology,
+            properties: &known.properties,
+            free_edges: &known.free_edges,
+            stored_normals: None,
+            crossings: None,
+            options: &options,
+            gap: self.gap,
+        };
+        Ok((kind.find)(&inspected).map_or(vec![], |found| found.items))
+    }
+
+    /// Removes facets (numbers in any order, repeated or not) and adds others behind the rest.
+    pub(super) fn replace(&mut self, removed: &[u32], added: &[[u32; 3]]) {
+        if !removed.is_empty() {
+            let mut keep = vec![true; self.mesh.faces.len()];
+            removed.iter().for_each(|&f| keep[f as usize] = false);
+            let mut keep = keep.into_iter();
+            self.mesh.faces.retain(|_| keep.next().unwrap_or(true));
+        }
+        self.mesh.faces.extend_from_slice(added);
+        self.known = None;
+    }
+
+    /// Turns facets over.
+    pub(super) fn turn(&mut self, facets: impl IntoIterator<Item = u32>) {
+        facets.into_iter().for_each(|f| self.mesh.faces[f as usize].swap(1, 2));
+        self.known = None;
+    }
+
+    /// Lets every corner `v` name `other(facet, v)` instead.
+    pub(super) fn rename(&mut self, other: impl Fn(u32, u32) -> u32) {
+        for (f, face) in (0..).zip(&mut self.mesh.faces) {
+            *face = face.map(|v| other(f, v));
+        }
+        self.known = None;
+    }
+
+    /// A new vertex at `place`, rounded to single precision where all others are.
+    pub(super) fn add(&mut self, place: Point) -> u32 {
+        self.mesh.positions.push(self.rounded(place));
+        self.known = None;
+        self.mesh.positions.len() as u32 - 1
+    }
+
+    /// `place` in the precision of the mesh.
+    pub(super) fn rounded(&self, place: Point) -> Point {
+        // Adding zero makes −0 the 0 that a weld would make of it.
+        place.map(|x| if self.single { f64::from(x as f32) + 0.0 } else { x + 0.0 })
+    }
+
+    /// Forgets facets and vertices that were added behind these and turned out not to be wanted.
+    pub(super) fn truncate(&mut self, facets: u32, vertices: usize) {
+        self.mesh.faces.truncate(facets as usize);
+        self.mesh.positions.truncate(vertices);
+        self.known = None;
+    }
+
+    /// Removes facets and remembers that the hole is ours.
+    pub(super) fn tear(&mut self, removed: &[u32]) {
+        let faces = &self.mesh.faces;
+        self.torn.extend(removed.iter().flat_map(|f| faces[*f as usize]));
+        self.replace(removed, &[]);
+    }
+
+    /// Goes back to an earlier state; its vertices must be the first of those now.
+    pub(super) fn restore(&mut self, earlier: Mesh) {
+        self.mesh = earlier;
+        self.known = None;
+    }
+
+    /// Whether the ring is the rim of a hole that a step has torn.
+    pub(super) fn is_torn(&self, ring: &[u32]) -> bool {
+        ring.iter().all(|v| self.torn.contains(v))
+    }
+
+    pub(super) fn log(
+        &mut self,
+        step: &'static str,
+        what: &'static str,
+        position: Point,
+        facets: usize,
+        size: f64,
+    ) {
+        self.changes.push(Change { step, what, position, facets, size });
+    }
+}

@@ -1,0 +1,100 @@
+//! From a repair to the result document.
+
+use crate::results::repair::{
+    Change, Deviation, Distances, FacetCounts, OutputRecord, RepairDocument, SCHEMA, State, VertexCounts,
+};
+use crate::results::{InputRecord, UNITS, VERSION};
+use std::collections::BTreeMap;
+use trueness_geom::check::Report;
+use trueness_geom::repair::{self, DeviationError, Options, Repaired, STEPS};
+
+/// What is known about a repair besides its result.
+pub struct Around {
+    /// The file read.
+    pub file: InputRecord,
+    /// Facets of the file that were left out by the reader, for a coordinate that is not finite.
+    pub left_out: u64,
+    /// The file written.
+    pub output: OutputRecord,
+    /// How far the surface went.
+    pub deviation: Result<repair::Deviation, DeviationError>,
+    /// Changes listed at most.
+    pub limit: usize,
+}
+
+/// Makes the document.
+pub fn document(repaired: &Repaired, options: &Options, around: Around) -> RepairDocument {
+    let counts = repaired.counts;
+    let facets = repaired.mesh.faces.len() as u64;
+    let mut before = state(&repaired.before, counts.facets_kept + counts.facets_removed + around.left_out);
+    before.sound &= around.left_out == 0;
+    if around.left_out > 0 {
+        *before.defects.entry("not_finite_facets".into()).or_default() += around.left_out;
+    }
+    let way = |w: repair::Way| Distances { max: w.max, mean: w.mean };
+    let steps = STEPS.iter().filter(|s| options.steps.contains(&s.name)).map(|s| s.name.to_string());
+    RepairDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs: vec![around.file],
+        sound: repaired.after.sound && around.output.sound != Some(false),
+        output: around.output,
+        before,
+        after: state(&repaired.after, facets),
+        vertices: VertexCounts {
+            kept: counts.vertices_kept,
+            moved: 0,
+            added: counts.vertices_added,
+            removed: counts.vertices_removed,
+        },
+        facets: FacetCounts {
+            kept: counts.facets_kept,
+            added: counts.facets_added,
+            removed: counts.facets_removed + around.left_out,
+        },
+        deviation: (around.deviation.as_ref().ok())
+            .map(|d| Deviation { removed: way(d.there), added: way(d.back) }),
+        deviation_reason: around.deviation.err().map(|e| e.to_string()),
+        steps: steps.collect(),
+        rounds: repaired.rounds as u64,
+        change_count: repaired.changes.len() as u64,
+        changes: repaired.changes.iter().take(around.limit).map(change).collect(),
+        truncated: repaired.changes.len() > around.limit,
+    }
+}
+
+fn change(c: &repair::Change) -> Change {
+    Change {
+        step: c.step.into(),
+        what: c.what.into(),
+        position: c.position,
+        facets: c.facets as u64,
+        size: c.size,
+    }
+}
+
+fn state(report: &Report, facets: u64) -> State {
+    let (p, s) = (&report.properties, &report.soundness);
+    let solid = s.closed && s.consistently_oriented;
+    State {
+        facets,
+        vertices: report.vertices as u64,
+        shells: s.shells as u64,
+        closed: s.closed,
+        sound: report.sound,
+        area: p.area,
+        volume: solid.then_some(p.signed_volume),
+        volume_reason: (!solid).then(|| match s.closed {
+            true => "neighbours look in different directions".into(),
+            false => "the mesh is open".into(),
+        }),
+        defects: defects(report),
+    }
+}
+
+/// Number of findings by kind, without the kinds that have none.
+pub fn defects(report: &Report) -> BTreeMap<String, u64> {
+    let found = report.defects.iter().filter_map(|(kind, f)| Some((kind.name, f.as_ref()?.count)));
+    found.filter(|(_, n)| *n > 0).map(|(name, n)| (name.to_string(), n as u64)).collect()
+}

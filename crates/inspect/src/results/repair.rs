@@ -1,0 +1,148 @@
+//! `trueness/repair/1`: what was mended in a mesh, and what that cost.
+
+use super::InputRecord;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/repair/1";
+
+/// The whole document.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct RepairDocument {
+    /// `trueness/repair/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The file read.
+    pub inputs: Vec<InputRecord>,
+    /// The file written.
+    pub output: OutputRecord,
+    /// The mesh is sound now, and still is when the file written is read again.
+    pub sound: bool,
+    /// Size and defects before.
+    pub before: State,
+    /// Size and defects after, in memory.
+    pub after: State,
+    /// Vertices that stayed, came and went.
+    pub vertices: VertexCounts,
+    /// Facets that stayed, came and went.
+    pub facets: FacetCounts,
+    /// How far the surface went; `null` where nothing can be measured.
+    pub deviation: Option<Deviation>,
+    /// Why nothing was measured.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub deviation_reason: Option<String>,
+    /// Names of the steps that were allowed, in their order.
+    pub steps: Vec<String>,
+    /// How often the steps were gone through.
+    pub rounds: u64,
+    /// Number of changes.
+    pub change_count: u64,
+    /// The first changes, in the order in which they were made.
+    pub changes: Vec<Change>,
+    /// Not all changes are listed.
+    pub truncated: bool,
+}
+
+/// The file written.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct OutputRecord {
+    /// As given on the command line.
+    pub path: String,
+    /// Vertices that the format could not hold exactly.
+    pub rounded_vertices: u64,
+    /// Greatest change of a coordinate by that, mm.
+    pub rounding: f64,
+    /// The file written, read again, is sound. `null` where it could not be read again.
+    pub sound: Option<bool>,
+    /// Why it was not read again.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub sound_reason: Option<String>,
+    /// Defects found in the file when it was read again, by kind; kinds without a finding are left out.
+    pub defects: BTreeMap<String, u64>,
+}
+
+/// A mesh in numbers.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct State {
+    /// Facets.
+    pub facets: u64,
+    /// Vertices that a facet uses.
+    pub vertices: u64,
+    /// Parts connected through edges.
+    pub shells: u64,
+    /// No edge has one facet only.
+    pub closed: bool,
+    /// No defect of severity `error`.
+    pub sound: bool,
+    /// Area of the surface, mm².
+    pub area: f64,
+    /// Volume enclosed, mm³; `null` unless the mesh is closed and consistently oriented.
+    pub volume: Option<f64>,
+    /// Why there is no volume.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub volume_reason: Option<String>,
+    /// Defects by kind; kinds without a finding are left out.
+    pub defects: BTreeMap<String, u64>,
+}
+
+/// Vertices that stayed, came and went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct VertexCounts {
+    /// At their old place, bit for bit.
+    pub kept: u64,
+    /// At another place: always 0.
+    pub moved: u64,
+    /// New.
+    pub added: u64,
+    /// No longer used by a facet.
+    pub removed: u64,
+}
+
+/// Facets that stayed, came and went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FacetCounts {
+    /// With the same three vertices as before, in whichever direction.
+    pub kept: u64,
+    /// New.
+    pub added: u64,
+    /// Gone.
+    pub removed: u64,
+}
+
+/// How far the surface went.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Deviation {
+    /// From the old surface to the new one: what is missing.
+    pub removed: Distances,
+    /// From the new surface to the old one: what was added.
+    pub added: Distances,
+}
+
+/// Distances of one surface from another, mm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Distances {
+    /// The greatest.
+    pub max: f64,
+    /// Mean over the area.
+    pub mean: f64,
+}
+
+/// Something that was changed.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Change {
+    /// The step that did it.
+    pub step: String,
+    /// What was done.
+    pub what: String,
+    /// Where, mm.
+    pub position: [f64; 3],
+    /// Facets concerned.
+    pub facets: u64,
+    /// How big: mm for vertices and edges, mm² for facets, mm³ for shells.
+    pub size: f64,
+}
