@@ -179,6 +179,7 @@ pub fn page(
     let mut objects = vec![ViewObject {
         role: ViewRole::Measured,
         name: measured,
+        color: None,
         comparison: None,
         geometry,
         fields: (0..body.fields.len()).map(view).collect(),
@@ -187,6 +188,7 @@ pub fn page(
         objects.push(ViewObject {
             role: ViewRole::Reference,
             name: reference,
+            color: None,
             comparison: Some(n),
             geometry: Geometry::Mesh(mesh),
             fields: if body.cloud { vec![view(n)] } else { vec![] },

@@ -55,7 +55,14 @@ impl<'a> View<'a> {
     /// The mesh.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let geometry = Geometry::Mesh(self.mesh);
-        vec![ViewObject { role: ViewRole::Part, name: self.name, comparison: None, geometry, fields: vec![] }]
+        vec![ViewObject {
+            role: ViewRole::Part,
+            name: self.name,
+            color: None,
+            comparison: None,
+            geometry,
+            fields: vec![],
+        }]
     }
 }
 

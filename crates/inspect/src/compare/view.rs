@@ -55,6 +55,7 @@ impl<'a> View<'a> {
         let measured = ViewObject {
             role: ViewRole::Measured,
             name: self.name,
+            color: None,
             comparison: None,
             geometry: self.mesh.map_or(Geometry::Points(&self.found.shown.points), Geometry::Mesh),
             fields: self.measured.iter().enumerate().map(|(i, f)| f.view(i)).collect(),
@@ -62,6 +63,7 @@ impl<'a> View<'a> {
         let references = self.references.iter().enumerate().map(|(i, r)| ViewObject {
             role: ViewRole::Reference,
             name: &r.name,
+            color: None,
             comparison: Some(i),
             geometry: Geometry::Mesh(r.mesh),
             fields: self.maps.get(i).map(|f| f.view(i)).into_iter().collect(),

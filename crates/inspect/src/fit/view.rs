@@ -47,10 +47,17 @@ impl<'a> View<'a> {
         let geometry = Geometry::Points(self.points);
         let (role, name) = (ViewRole::Measured, self.name);
         let mut objects =
-            vec![ViewObject { role, name, comparison: None, geometry, fields: vec![distances] }];
+            vec![ViewObject { role, name, color: None, comparison: None, geometry, fields: vec![distances] }];
         if !self.body.faces.is_empty() {
             let (role, geometry) = (ViewRole::Element, Geometry::Mesh(&self.body));
-            objects.push(ViewObject { role, name: "", comparison: None, geometry, fields: vec![] });
+            objects.push(ViewObject {
+                role,
+                name: "",
+                color: None,
+                comparison: None,
+                geometry,
+                fields: vec![],
+            });
         }
         objects
     }

@@ -137,6 +137,8 @@ pub struct ViewObject<'a> {
     pub role: ViewRole,
     /// Shown to the reader; any text at all.
     pub name: &'a str,
+    /// Colour of what has no map; the role's own where there is none.
+    pub color: Option<Rgb>,
     /// For a reference, its number in the result's `comparisons`.
     pub comparison: Option<usize>,
     /// Places.
@@ -192,6 +194,10 @@ impl<'a> ViewObject<'a> {
             Geometry::Mesh(mesh) => &mesh.positions,
             Geometry::Points(points) => points,
         }
+    }
+
+    fn color(&self) -> Rgb {
+        self.color.unwrap_or(self.role.color())
     }
 
     fn field(&self, comparison: usize) -> Option<&ViewField<'a>> {
@@ -252,7 +258,7 @@ pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary,
     }
     let scale = input.result.subject().scale();
     let range = scale.map_or(1.0, |s| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l));
-    let picture = payload::base64(&picture::png(input.objects, input.marks, scale, input.options.up));
+    let picture = payload::base64(&picture::png(input));
     // What the page takes without its 3D part is left of the budget first.
     let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
     let payload =

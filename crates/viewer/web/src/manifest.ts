@@ -4,6 +4,8 @@ export interface Manifest {
   language: string
   decimal: string | null
   up: 'y' | 'z'
+  /** Which way the surface looks that the first view should show. */
+  facing: [number, number, number] | null
   scale: ScaleObject | null
   /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
   quantity: [string, string, string]
@@ -32,6 +34,7 @@ interface Entry {
 export interface ViewObject extends Entry {
   kind: 'mesh' | 'points'
   name: string
+  color: string
   comparison: number | null
   source_vertices: number
   triangles?: number

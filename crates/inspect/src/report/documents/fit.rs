@@ -4,9 +4,11 @@ use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
 use super::{Head, Map, Pick, Subject};
 use crate::fit::side_color;
-use crate::results::fit::{Extreme, FitDocument, Number};
+use crate::results::fit::{Extent, Extreme, FitDocument, Number};
 use crate::scale::Scale;
 use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use trueness_geom::space::{Vector, plus, times};
 
 impl Subject for FitDocument {
     fn head(&self) -> Head<'_> {
@@ -19,7 +21,26 @@ impl Subject for FitDocument {
     }
 
     fn convention(&self) -> Option<&'static str> {
-        Some(if self.signed() { "sign.fit" } else { "sign.none" })
+        Some(match (self.signed(), self.shape.as_str()) {
+            (false, _) => "sign.none",
+            (true, "plane" | "line") => "sign.plane",
+            _ => "sign.fit",
+        })
+    }
+
+    fn facing(&self) -> Option<Vector> {
+        let Extent { axes: [a, b, w], u, v, .. } = *self.extent.as_ref()?;
+        let middle = 0.5 * (u[0] + u[1]);
+        match self.shape.as_str() {
+            "plane" | "circle" | "ellipse" => Some(w),
+            "line" if self.planar => Some([0.0, 0.0, 1.0]),
+            "sphere" if v[0] > -FRAC_PI_2 => Some(w),
+            // The outer side of a part of the turn.
+            "cylinder" | "cone" if u[1] - u[0] < TAU => {
+                Some(plus(times(middle.cos(), a), times(middle.sin(), b)))
+            }
+            _ => None,
+        }
     }
 
     fn picture(&self) -> &'static str {

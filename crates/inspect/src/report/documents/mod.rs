@@ -62,6 +62,10 @@ pub trait Subject {
     fn convention(&self) -> Option<&'static str> {
         None
     }
+    /// Which way the surface looks that the first view should show, where one side matters.
+    fn facing(&self) -> Option<Vector> {
+        None
+    }
     /// Key of the stored picture's description.
     fn picture(&self) -> &'static str;
     /// The line of key numbers under the verdict.

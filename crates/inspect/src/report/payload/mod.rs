@@ -285,7 +285,7 @@ fn pack_points(
 
 fn entry(object: &ViewObject, kind: &str, grid: &Grid, (shown, given): (usize, usize), rest: Value) -> Value {
     let mut entry = json!({
-        "role": object.role, "name": object.name, "kind": kind, "comparison": object.comparison,
+        "role": object.role, "name": object.name, "color": hex(object.color()), "kind": kind, "comparison": object.comparison,
         "vertices": shown, "source_vertices": given, "origin": grid.origin, "step": grid.step,
     });
     if let (Some(all), Value::Object(rest)) = (entry.as_object_mut(), rest) {

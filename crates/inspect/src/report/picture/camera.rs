@@ -1,10 +1,13 @@
-//! The default view: isometric, orthographic, the part in the middle.
+//! The first view: isometric, orthographic, the part in the middle.
 
 use super::super::Up;
-use trueness_geom::space::{Aabb, Point, Vector, dot, minus};
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// Share of the picture's smaller side that the part fills at most.
 const FILL: f64 = 0.86;
+
+/// Cosine of the angle beyond which a surface is too oblique to be seen well.
+const SEEN: f64 = 0.35;
 
 /// Orthographic projection to pixels.
 pub struct Camera {
@@ -18,17 +21,28 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Looks at `places` from the right, the front and above.
-    pub fn isometric<'a>(places: impl Iterator<Item = &'a Point>, up: Up, width: u32, height: u32) -> Camera {
-        let (r, f, u) = match up {
-            Up::Z => ([1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
-            Up::Y => ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
+    /// Looks at `places` from the right, the front and above; at a surface that looks along `facing` and would hardly be
+    /// seen so, from its side and above.
+    pub fn first_view<'a>(
+        places: impl Iterator<Item = &'a Point>,
+        up: Up,
+        facing: Option<Vector>,
+        width: u32,
+        height: u32,
+    ) -> Camera {
+        let (front, vertical) = match up {
+            Up::Z => ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+            Up::Y => ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
         };
-        let mixed = |a: f64, b: f64, c: f64| -> Vector {
-            let n = (a * a + b * b + c * c).sqrt();
-            std::array::from_fn(|k| (a * r[k] + b * f[k] + c * u[k]) / n)
+        let along = |v: Vector, otherwise: Vector| unit(v).map_or(otherwise, |(v, _)| v);
+        let corner = along(plus(plus([1.0, 0.0, 0.0], front), vertical), vertical);
+        let across = [vertical[1], vertical[2], vertical[0]];
+        let toward = match facing.filter(|n| dot(corner, *n) <= SEEN) {
+            Some(n) => along(plus(plus(times(1.6, n), vertical), times(0.4, across)), corner),
+            None => corner,
         };
-        let (right, up, toward) = (mixed(1.0, -1.0, 0.0), mixed(-1.0, -1.0, 2.0), mixed(1.0, 1.0, 1.0));
+        let right = along(cross(vertical, toward), across);
+        let up = cross(toward, right);
         let flat = places.map(|p| [dot(*p, right), dot(*p, up), 0.0]).collect::<Vec<_>>();
         let bounds = Aabb::of(&flat);
         let [w, h, _] = if bounds.is_empty() { [1.0; 3] } else { bounds.sides() };

@@ -7,7 +7,7 @@ mod overlay;
 mod png;
 
 use super::marks::Marks;
-use super::{Geometry, Up, ViewObject, ViewRole};
+use super::{Geometry, ReportInput, ViewObject, ViewRole};
 use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use camera::Camera;
@@ -41,16 +41,19 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     (0..).zip(objects).filter(|(_, o)| shown(o)).map(|(n, _)| n).collect()
 }
 
-/// The first view as a PNG on a transparent ground. Without a scale there are no maps.
-pub fn png(objects: &[ViewObject], marks: &[Marks], scale: Option<&Scale>, up: Up) -> Vec<u8> {
+/// The first view of a report as a PNG on a transparent ground.
+pub fn png(input: &ReportInput) -> Vec<u8> {
+    let (objects, subject) = (input.objects, input.result.subject());
+    let scale = subject.scale();
     let shown: Vec<&ViewObject> = first_view(objects).into_iter().map(|n| &objects[n]).collect();
     let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
     let places = shown.iter().flat_map(|o| o.places()).filter(finite);
-    let camera = Camera::isometric(places, up, FINE * WIDTH, FINE * HEIGHT);
-    let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
+    let (width, height) = (FINE * WIDTH, FINE * HEIGHT);
+    let camera = Camera::first_view(places, input.options.up, subject.facing(), width, height);
+    let mut canvas = Canvas::new(width, height);
     for object in shown {
         let paint = Paint {
-            base: object.role.color(),
+            base: object.color(),
             values: object.field(0).map(|f| f.values).zip(scale.map(Colors::of)),
         };
         match object.geometry {
@@ -60,7 +63,7 @@ pub fn png(objects: &[ViewObject], marks: &[Marks], scale: Option<&Scale>, up: U
             Geometry::Points(points) => canvas.points(points, &paint, &camera),
         }
     }
-    let all: Vec<_> = marks.iter().flat_map(Marks::colored).collect();
+    let all: Vec<_> = input.marks.iter().flat_map(Marks::colored).collect();
     // The first marks lie over the others.
     for (mark, color) in all.into_iter().rev() {
         overlay::draw(&mut canvas, mark, color, &camera);
@@ -171,7 +174,7 @@ impl Canvas {
     /// Round dots.
     fn points(&mut self, points: &[Point], paint: &Paint, camera: &Camera) {
         // Few points are drawn large enough to be seen.
-        let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 9.0);
+        let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 16.0);
         for (i, p) in points.iter().enumerate() {
             let [x, y, z] = camera.project(p);
             if !(x.is_finite() && y.is_finite()) {

@@ -1,12 +1,9 @@
 import { DataTexture, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat, UnsignedByteType, Vector2, Vector3, type IUniform } from 'three'
 import type { ViewObject } from '../manifest'
-import type { Rgb } from '../scale/scale'
+import { parse, type Rgb } from '../scale/scale'
 import type { State } from '../state'
 import { FRAGMENT, VALUES, VERTEX } from './shaders'
 
-const GREY: Rgb = [0xb9, 0xb4, 0xaa]
-/** Colours of what is not warm grey, by role. */
-const BASES: Record<string, Rgb> = { reference: [0x8f, 0xa3, 0xbf], before: [0x8f, 0xa3, 0xbf], element: [0x2f, 0x6f, 0xd6] }
 /** Opacity of what is looked through, by role. */
 const OPACITIES: Record<string, number> = { element: 0.28 }
 const MOST_LIMITS = 34
@@ -67,7 +64,7 @@ export interface Materials {
 }
 
 export function materialsFor(object: ViewObject): Materials {
-  const base = BASES[object.role] ?? GREY
+  const [base] = parse(object.color)
   const opacity = OPACITIES[object.role] ?? 1
   const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity } }
   const uniforms = {

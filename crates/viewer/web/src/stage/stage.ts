@@ -51,6 +51,8 @@ export class Stage {
     this.values = new ValueBuffer(this.renderer)
     this.eye = new Eye(state.manifest.up)
     this.center = centerOf(state)
+    const { facing } = state.manifest
+    if (facing) this.eye.turn.copy(this.eye.showing(new Vector3(...facing)))
     this.scene.matrixAutoUpdate = false
     applyLook(state)
   }
@@ -146,10 +148,10 @@ export class Stage {
     this.flight.start(this.eye, { turn, target, height: pick.reach === null ? this.eye.height : this.closeUp(pick.reach) })
   }
 
-  /** Height of the view for something of half this size: ten times it, within what the drawing can resolve and what fits. */
+  /** Height of the view for something of half this size: six times it, within what the drawing can resolve and what fits. */
   private closeUp(reach: number): number {
     const step = Math.max(0, ...this.parts.map((p) => p.object.step))
-    return Math.min(Math.max(20 * reach, FINEST * step), Math.max(this.eye.height, FINEST * step, 2 * reach))
+    return Math.min(Math.max(12 * reach, FINEST * step), Math.max(this.eye.height, FINEST * step, 2 * reach))
   }
 
   private flown(): void {
