@@ -3,6 +3,7 @@
 mod view;
 
 pub use view::View;
+pub(crate) use view::groups;
 
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;

@@ -1,7 +1,7 @@
 //! What a report draws of a check: the mesh, and every listed defect on it.
 
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
-use crate::results::check::{CheckDocument, Item};
+use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, plus, unit};
@@ -42,13 +42,8 @@ fn drawing(kind: &str) -> Drawing {
 impl<'a> View<'a> {
     /// Of the mesh that the document is of; `name` is shown to the reader.
     pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh) -> View<'a> {
-        let mut shells = Shells::default();
-        let groups = document.found().into_iter().enumerate().map(|(n, (kind, defects))| MarkGroup {
-            key: format!("defect.{kind}"),
-            color: category(n),
-            items: defects.items.iter().map(|item| mark(mesh, drawing(kind), item, &mut shells)).collect(),
-        });
-        let marks = Marks { role: ViewRole::Defects, groups: groups.collect() };
+        let marks =
+            Marks { role: ViewRole::Defects, comparison: None, groups: groups(&document.found(), mesh) };
         View { name, mesh, marks: vec![marks] }
     }
 
@@ -64,6 +59,17 @@ impl<'a> View<'a> {
             fields: vec![],
         }]
     }
+}
+
+/// The listed defects of each kind found in a mesh.
+pub(crate) fn groups(found: &[(&str, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
+    let mut shells = Shells::default();
+    let group = |(n, (kind, defects)): (usize, &(&str, &Defects))| MarkGroup {
+        key: format!("defect.{kind}"),
+        color: category(n),
+        items: defects.items.iter().map(|item| mark(mesh, drawing(kind), item, &mut shells)).collect(),
+    };
+    found.iter().enumerate().map(group).collect()
 }
 
 fn mark(mesh: &Mesh, drawing: Drawing, item: &Item, shells: &mut Shells) -> Mark {

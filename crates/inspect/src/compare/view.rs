@@ -1,7 +1,10 @@
 //! What a report draws: the measured object and the references, each with its deviations.
 
 use super::{Comparisons, Reference, Values};
-use crate::report::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
+use crate::check::groups;
+use crate::report::{Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::results::check::found;
+use crate::results::compare::{CompareDocument, Comparison};
 use trueness_geom::deviation::surface::Exclusion;
 use trueness_geom::mesh::Mesh;
 
@@ -48,6 +51,16 @@ impl<'a> View<'a> {
             measured: lists.iter().map(|values| Field::of(values, NoValue::FreeEdge)).collect(),
             maps: found.references.iter().filter_map(map).collect(),
         }
+    }
+
+    /// Where the references are not sound, in the order of the document's findings.
+    pub fn marks(&self, document: &CompareDocument) -> Vec<Marks> {
+        let of = |(n, (c, r)): (usize, (&Comparison, &Reference))| {
+            let found = found(&c.soundness.findings);
+            let groups = groups(&found, r.mesh);
+            (!found.is_empty()).then_some(Marks { role: ViewRole::Defects, comparison: Some(n), groups })
+        };
+        document.comparisons.iter().zip(self.references).enumerate().filter_map(of).collect()
     }
 
     /// The objects: measured, then the references.

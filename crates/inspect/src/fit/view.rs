@@ -30,13 +30,13 @@ impl<'a> View<'a> {
             // One group each: the document's order stays.
             MarkGroup { key: key.into(), color: side_color(t.side), items: vec![dot.finite()] }
         });
-        let touching = Marks { role: ViewRole::Touching, groups: touching.collect() };
+        let touching = Marks { role: ViewRole::Touching, comparison: None, groups: touching.collect() };
         let rim = MarkGroup {
             key: "element".into(),
             color: ViewRole::Element.color(),
             items: vec![lines.finite()],
         };
-        let rim = Marks { role: ViewRole::Element, groups: vec![rim] };
+        let rim = Marks { role: ViewRole::Element, comparison: None, groups: vec![rim] };
         let marks = if touching.groups.is_empty() { vec![rim] } else { vec![touching, rim] };
         View { name, points, distances: distances(shape, points), body, marks }
     }

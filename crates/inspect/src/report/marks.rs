@@ -9,6 +9,8 @@ use trueness_geom::space::{Point, Vector};
 pub struct Marks {
     /// What they show.
     pub role: ViewRole,
+    /// For defects of a reference, its number in the result's `comparisons`; such marks are shown when asked for.
+    pub comparison: Option<usize>,
     /// By kind.
     pub groups: Vec<MarkGroup>,
 }

@@ -115,13 +115,18 @@ pub struct Item {
 }
 
 impl CheckDocument {
-    /// Kinds that were found: errors first, what only follows from holes and cracks after these, else in the order in which
-    /// the check tells them.
+    /// Kinds that were found, as [`found`] orders them.
     pub fn found(&self) -> Vec<(&'static str, &Defects)> {
-        let all = KINDS.iter().filter_map(|k| Some((k.name, self.defects.get(k.name)?)));
-        let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
-        let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);
-        found.sort_by_key(|(kind, d)| (d.severity != "error", follows(kind)));
-        found
+        found(&self.defects)
     }
+}
+
+/// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
+/// which the check tells them.
+pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static str, &Defects)> {
+    let all = KINDS.iter().filter_map(|k| Some((k.name, defects.get(k.name)?)));
+    let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
+    let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);
+    found.sort_by_key(|(kind, d)| (d.severity != "error", follows(kind)));
+    found
 }

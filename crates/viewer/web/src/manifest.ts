@@ -46,6 +46,8 @@ export interface ViewObject extends Entry {
 /** What is drawn over the part: areas, lines and dots, each with the number of its mark. */
 export interface MarksObject extends Entry {
   kind: 'marks'
+  /** The map that the marks belong to. */
+  comparison: number | null
   /** Number of the first mark. */
   first: number
   groups: { key: string; color: string; count: number }[]

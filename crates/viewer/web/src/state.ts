@@ -94,6 +94,10 @@ export class State {
 
   pick(number: number): void {
     this.picked = number
+    const mark = this.manifest.picks[number]?.mark ?? -1
+    // What is chosen is shown.
+    for (const o of this.manifest.objects)
+      if (o.kind === 'marks' && mark >= o.first && mark < o.first + o.groups.reduce((n, g) => n + g.count, 0)) this.show(o.role, true)
     this.tell('pick')
   }
 

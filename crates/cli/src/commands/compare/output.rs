@@ -73,7 +73,7 @@ impl OutputArgs {
 
     /// The report in its file.
     pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
-        self.report.write(Answer::Compare(document), &view.objects(), &[])
+        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document))
     }
 
     /// True if the table would mix with the document.

@@ -1,7 +1,7 @@
 //! The page of a check: sound or not, what the mesh is, and every kind of defect with its places.
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
+use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
 use super::{Head, Pick, Subject};
 use crate::results::InputRecord;
 use crate::results::check::{CheckDocument, Defects, Item};
@@ -88,18 +88,23 @@ impl Subject for CheckDocument {
     }
 
     fn picks(&self) -> Vec<Pick> {
-        let mut first = 0;
-        let mut picks = vec![];
-        for (kind, defects) in self.found() {
-            picks.extend(listed(kind, defects).into_iter().map(|(n, item)| pick(item, first + n)));
-            first += defects.items.len();
-        }
-        picks
+        picks(&self.found(), 0)
     }
 
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
     }
+}
+
+/// The places of all rows of [`kinds`]; their marks are numbered from `first_mark`.
+pub fn picks(found: &[(&str, &Defects)], first_mark: usize) -> Vec<Pick> {
+    let mut first = first_mark;
+    let mut picks = vec![];
+    for (kind, defects) in found {
+        picks.extend(listed(kind, defects).into_iter().map(|(n, item)| pick(item, first + n)));
+        first += defects.items.len();
+    }
+    picks
 }
 
 /// The items with a row, worst first, and their numbers in the document.
@@ -142,16 +147,18 @@ fn measure(kind: &str) -> (&'static str, &'static str) {
 }
 
 fn defects(h: &mut Html, d: &CheckDocument) {
-    let mut first = 0;
-    let found = d.found();
+    kinds(h, &d.found(), 0);
+    absent(h, d);
+}
+
+/// The kinds found, each with its places; the rows' numbers begin at `first_pick`.
+pub fn kinds(h: &mut Html, found: &[(&str, &Defects)], first_pick: usize) {
+    let mut first = first_pick;
     // All kinds are seen at once; a single one needs no click.
     let open = if found.len() == 1 { " open" } else { "" };
-    for (n, (kind, defects)) in found.into_iter().enumerate() {
-        let [r, g, b] = category(n);
+    for (n, (kind, defects)) in found.iter().enumerate() {
         h.raw(&format!("<details class=\"kind k-{}\"{open}><summary>", defects.severity));
-        h.raw(&format!(
-            "<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><rect width=\"10\" height=\"10\" rx=\"2\" fill=\"#{r:02x}{g:02x}{b:02x}\"/></svg>"
-        ));
+        swatch(h, category(n));
         h.raw("<span class=\"kind-name\">").word(&format!("defect.{kind}")).raw("</span>");
         let severity = if defects.severity == "error" { "severity.error" } else { "severity.warning" };
         h.raw("<span class=\"severity\">").word(severity).raw("</span><strong>");
@@ -172,7 +179,6 @@ fn defects(h: &mut Html, d: &CheckDocument) {
         }
         h.raw("</details>\n");
     }
-    absent(h, d);
 }
 
 fn table(h: &mut Html, kind: &str, rows: &[(usize, &Item)], first: usize) {

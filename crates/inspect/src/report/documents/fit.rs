@@ -1,7 +1,7 @@
 //! The page of a fit: the element's parameters with their uncertainties, how well the points keep to it, what holds it.
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
+use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
 use super::{Head, Map, Pick, Subject};
 use crate::fit::side_color;
 use crate::results::fit::{Extent, Extreme, FitDocument, Number};
@@ -256,9 +256,9 @@ fn touching(h: &mut Html, d: &FitDocument) {
     h.raw("</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>");
     let placed = d.touching.iter().filter_map(|t| Some((t, t.position?)));
     for (n, (t, place)) in placed.enumerate() {
-        let [r, g, b] = side_color(t.side);
         h.raw(&format!("<tr data-pick=\"{}\"><td>", first + n));
-        h.raw(&format!("<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><circle cx=\"5\" cy=\"5\" r=\"4.5\" fill=\"#{r:02x}{g:02x}{b:02x}\"/></svg> "));
+        swatch(h, side_color(t.side));
+        h.raw(" ");
         h.word(if t.side > 0 { "touching.outer" } else { "touching.inner" });
         h.raw("</td><td class=\"r\">").percent(t.multiplier, 1).raw("</td>");
         place_cells(h, place);

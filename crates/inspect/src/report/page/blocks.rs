@@ -3,6 +3,7 @@
 use super::super::html::{Html, escaped};
 use super::super::text::{Language, word};
 use crate::results::{InputRecord, Role, Verdict};
+use crate::scale::palette::Rgb;
 
 /// What the page says first: a word in a colour, with an icon, so that colour is never the only sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +102,14 @@ pub fn key_number(h: &mut Html, key: &str, class: &str, value: impl FnOnce(&mut 
     h.raw(&format!("<div class=\"{class}\"><dt>")).word(key).raw("</dt><dd>");
     value(h);
     h.raw("</dd></div>");
+}
+
+/// The colour of a kind, beside its name.
+pub fn swatch(h: &mut Html, [r, g, b]: Rgb) {
+    h.raw(&format!(
+        "<svg class=\"swatch\" viewBox=\"0 0 10 10\" aria-hidden=\"true\"><rect width=\"10\" height=\"10\" rx=\"2\" \
+         fill=\"#{r:02x}{g:02x}{b:02x}\"/></svg>"
+    ));
 }
 
 /// A place as the last three cells of a row.

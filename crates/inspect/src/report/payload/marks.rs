@@ -43,7 +43,7 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         .collect();
     json!({
         "role": marks.role, "kind": "marks", "vertices": all.len(), "origin": grid.origin, "step": grid.step,
-        "shown": true, "first": first, "groups": groups, "triangles": total(counts[0]),
+        "shown": marks.comparison.is_none(), "comparison": marks.comparison, "first": first, "groups": groups, "triangles": total(counts[0]),
         "segments": total(counts[1]), "points": total(counts[2]),
         "positions": {"blob": part.add(&positions)}, "items": {"blob": part.add(&numbers)},
     })
@@ -61,7 +61,7 @@ mod tests {
         facet.add_facet([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         let dot = Mark { points: vec![[0.5, 0.5, 7.0]], ..Mark::default() };
         let group = MarkGroup { key: "x".into(), color: [1, 2, 255], items: vec![facet, dot] };
-        let marks = Marks { role: ViewRole::Defects, groups: vec![group] };
+        let marks = Marks { role: ViewRole::Defects, comparison: None, groups: vec![group] };
         let mut part = Payload::default();
         let entry = pack_marks(&mut part, &marks, &Aabb::of(&[[0.0; 3], [10.0; 3]]), 5);
         assert_eq!([&entry["triangles"], &entry["segments"], &entry["points"]], [1, 3, 1]);

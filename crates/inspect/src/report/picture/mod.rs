@@ -63,7 +63,8 @@ pub fn png(input: &ReportInput) -> Vec<u8> {
             Geometry::Points(points) => canvas.points(points, &paint, &camera),
         }
     }
-    let all: Vec<_> = input.marks.iter().flat_map(Marks::colored).collect();
+    let first = input.marks.iter().filter(|m| m.comparison.is_none());
+    let all: Vec<_> = first.flat_map(Marks::colored).collect();
     // The first marks lie over the others.
     for (mark, color) in all.into_iter().rev() {
         overlay::draw(&mut canvas, mark, color, &camera);

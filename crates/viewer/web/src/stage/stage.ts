@@ -99,7 +99,8 @@ export class Stage {
       part.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
     }
     for (const marks of this.marks) {
-      marks.drawn.visible = this.state.visible[marks.object.role]
+      const { role, comparison } = marks.object
+      marks.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
       marks.select(this.state.manifest.picks[this.state.picked]?.mark ?? -1)
     }
     this.values.clear()

@@ -2,7 +2,9 @@
 
 use super::super::super::html::Html;
 use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
+use super::super::check;
 use super::{headline, in_words};
+use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison, SignRecord, Statistics};
 
 /// Writes all sections.
@@ -25,6 +27,11 @@ pub fn list(h: &mut Html, result: &CompareDocument) {
         first_pick += c.worst.len();
         statistics(h, c, result.scale.decimals as usize);
         trust(h, result, c);
+        let found = found(&c.soundness.findings);
+        if !found.is_empty() {
+            section(h, "reference.defects", |h| check::kinds(h, &found, first_pick));
+            first_pick += check::picks(&found, 0).len();
+        }
         h.raw("</div>\n");
     }
 }

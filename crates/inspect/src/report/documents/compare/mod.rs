@@ -5,8 +5,9 @@ mod list;
 use super::super::html::{Html, percent};
 use super::super::page::blocks::{Headline, Tone, key_number};
 use super::super::{number::Style, text::word};
-use super::{Head, Map, Pick, Subject};
-use crate::results::compare::{CompareDocument, Comparison};
+use super::{Head, Map, Pick, Subject, check};
+use crate::results::check::found;
+use crate::results::compare::{CompareDocument, Comparison, Worst};
 use crate::scale::Scale;
 use serde_json::Value;
 
@@ -71,17 +72,20 @@ impl Subject for CompareDocument {
     }
 
     fn picks(&self) -> Vec<Pick> {
-        let of = |(n, c): (usize, &Comparison)| -> Vec<Pick> {
-            let pick = |w: &crate::results::compare::Worst| Pick {
-                position: w.point,
-                normal: w.normal,
-                map: Some(n),
-                value: Some(w.deviation),
-                ..Pick::default()
+        let mut first_mark = 0;
+        let mut picks = vec![];
+        for (n, c) in self.comparisons.iter().enumerate() {
+            let map = Some(n);
+            let worst = |w: &Worst| {
+                let value = Some(w.deviation);
+                Pick { position: w.point, normal: w.normal, map, value, ..Pick::default() }
             };
-            c.worst.iter().map(pick).collect()
-        };
-        self.comparisons.iter().enumerate().flat_map(of).collect()
+            picks.extend(c.worst.iter().map(worst));
+            let found = found(&c.soundness.findings);
+            picks.extend(check::picks(&found, first_mark).into_iter().map(|p| Pick { map, ..p }));
+            first_mark += found.iter().map(|(_, d)| d.items.len()).sum::<usize>();
+        }
+        picks
     }
 
     fn json(&self) -> serde_json::Result<Value> {
