@@ -1,5 +1,9 @@
 //! From a repair to the result document.
 
+mod view;
+
+pub use view::{View, by_step};
+
 use crate::results::repair::{
     Change, Deviation, Distances, FacetCounts, OutputRecord, RepairDocument, SCHEMA, State, VertexCounts,
 };

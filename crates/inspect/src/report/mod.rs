@@ -97,7 +97,9 @@ pub enum ViewRole {
     Reference,
     /// A mesh that is looked at by itself.
     Part,
-    /// The same before it was changed.
+    /// A mesh that was changed.
+    After,
+    /// The same before.
     Before,
     /// A fitted element, drawn translucent.
     Element,

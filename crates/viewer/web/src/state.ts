@@ -26,8 +26,8 @@ export class State {
   constructor(readonly manifest: Manifest) {
     this.scale = { ...(manifest.scale ?? NO_SCALE) }
     this.colors = new Colors(manifest, this.scale)
-    for (const { role, shown } of manifest.objects) this.visible[role] ||= shown
-    this.backfaces = 'part' in this.visible
+    for (const { role, shown } of manifest.objects) this.visible[role] ||= shown && role !== 'before'
+    this.backfaces = 'part' in this.visible || 'after' in this.visible
   }
 
   get current() {
@@ -106,8 +106,11 @@ export class State {
     this.tell(what === 'flags' || what === 'log' ? what : 'look')
   }
 
+  /** Of before and after there is always one, so that one key swaps them. */
   show(role: string, on: boolean): void {
     this.visible[role] = on
+    const other = { before: 'after', after: 'before' }[role]
+    if (other && other in this.visible) this.visible[other] = !on
     this.tell('look')
   }
 }

@@ -8,6 +8,7 @@ use crate::console;
 use crate::exit::{Outcome, Usage};
 use crate::progress::Stage;
 use crate::read;
+use crate::report::ReportArgs;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueness_files::write::MeshFile;
@@ -16,7 +17,8 @@ use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS};
-use trueness_inspect::repair::{Around, defects, document};
+use trueness_inspect::repair::{Around, View, defects, document};
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::repair::{OutputRecord, RepairDocument};
 
 /// A mesh without its defects
@@ -62,13 +64,15 @@ pub struct RepairArgs {
     /// Write the result document; `-` for stdout, then no table
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 fn help() -> String {
     let steps: Vec<String> = STEPS.iter().map(|s| format!("  {:<24}{}", s.name, s.about)).collect();
     format!(
         "Steps, in their order:\n{}\n\nExamples:\n  trueness repair part.stl -o sound.stl\n  \
-         trueness repair scan.ply -o closed.ply --all-holes --json changes.json\n  \
+         trueness repair scan.ply -o closed.ply --all-holes --html report.html\n  \
          trueness repair part.stl -o turned.stl --only orient,outward",
         steps.join("\n")
     )
@@ -134,6 +138,10 @@ pub fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = document(&repaired, &options, around);
     file.finish()?;
     write_json(args.json.as_deref(), &document)?;
+    if args.report.html.is_some() {
+        let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
+        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks)?;
+    }
     if args.json.as_deref() != Some(Path::new("-")) {
         console::table(&table::text(&document));
     }

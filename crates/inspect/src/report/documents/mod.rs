@@ -3,6 +3,7 @@
 mod check;
 mod compare;
 mod fit;
+mod repair;
 
 use super::html::Html;
 use super::page::blocks::{Headline, role_key};
@@ -10,6 +11,7 @@ use crate::results::InputRecord;
 use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
 use crate::results::fit::FitDocument;
+use crate::results::repair::RepairDocument;
 use crate::scale::Scale;
 use serde_json::Value;
 use trueness_geom::space::{Point, Vector};
@@ -23,6 +25,8 @@ pub enum Answer<'a> {
     Compare(&'a CompareDocument),
     /// Which element lies through these points?
     Fit(&'a FitDocument),
+    /// What was mended in this mesh?
+    Repair(&'a RepairDocument),
 }
 
 impl Answer<'_> {
@@ -32,6 +36,7 @@ impl Answer<'_> {
             Answer::Check(d) => *d,
             Answer::Compare(d) => *d,
             Answer::Fit(d) => *d,
+            Answer::Repair(d) => *d,
         }
     }
 }

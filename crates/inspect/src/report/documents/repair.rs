@@ -1,0 +1,217 @@
+//! The page of a repair: what was changed and where, the mesh before and after, and what it cost.
+
+use super::super::html::Html;
+use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
+use super::{Head, Pick, Subject};
+use crate::repair::by_step;
+use crate::results::InputRecord;
+use crate::results::repair::{Distances, RepairDocument, State};
+use crate::scale::palette::category;
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// Rows of a step, at most.
+const LISTED: usize = 100;
+/// Half of what is brought into view around a change, as a share of the model's diagonal.
+const AROUND: f64 = 0.02;
+
+impl Subject for RepairDocument {
+    fn head(&self) -> Head<'_> {
+        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
+    }
+
+    fn headline(&self) -> Headline {
+        match (self.sound, self.change_count) {
+            (true, 0) => Headline { key: "nothing_to_repair", tone: Tone::Pass },
+            (true, _) => Headline { key: "repaired", tone: Tone::Pass },
+            (false, _) => Headline { key: "not_repaired", tone: Tone::Fail },
+        }
+    }
+
+    fn role(&self, _: &InputRecord) -> &'static str {
+        "mesh"
+    }
+
+    fn picture(&self) -> &'static str {
+        "picture.repair"
+    }
+
+    fn numbers(&self, h: &mut Html) {
+        h.raw("<dl class=\"key-numbers\">");
+        let counts = [
+            ("changes", self.change_count),
+            ("facets.added", self.facets.added),
+            ("facets.removed", self.facets.removed),
+            ("vertices.moved", self.vertices.moved),
+        ];
+        for (key, count) in counts {
+            key_number(h, key, if key == "changes" { "lead" } else { "" }, |h| {
+                h.count(count);
+            });
+        }
+        if let Some(d) = &self.deviation {
+            key_number(h, "deviation.introduced", "", |h| {
+                length(h, d.added.max.max(d.removed.max));
+            });
+        }
+        let class = if self.output.sound == Some(false) { "warn" } else { "" };
+        key_number(h, "file.written", class, |h| {
+            match self.output.sound {
+                Some(true) => h.raw("✓\u{a0}").word("sound.short"),
+                Some(false) => h.raw("⚠\u{a0}").word("not_sound"),
+                None => h.raw("–"),
+            };
+        });
+        h.raw("</dl>");
+    }
+
+    fn list(&self, h: &mut Html) {
+        section(h, "changes", |h| changes(h, self));
+        section(h, "before_after", |h| states(h, self));
+        section(h, "deviation.introduced", |h| deviation(h, self));
+    }
+
+    fn method(&self, h: &mut Html) {
+        h.raw("<p>").word("method.repair.text").raw("</p><p>").word("method.repair.file").raw(" ");
+        h.name(&self.output.path).raw("</p>");
+    }
+
+    fn how(&self, h: &mut Html) {
+        h.word("method.repair");
+    }
+
+    fn picks(&self) -> Vec<Pick> {
+        let mut first = 0;
+        let mut picks = vec![];
+        for (_, changes) in by_step(self) {
+            let rows = changes.iter().take(LISTED).enumerate();
+            // Sizes are lengths, areas or volumes: none says how much to show.
+            picks.extend(rows.map(|(n, c)| Pick {
+                position: c.position,
+                reach: Some(AROUND * self.before.area.max(0.0).sqrt()),
+                mark: Some(first + n),
+                ..Pick::default()
+            }));
+            first += changes.len();
+        }
+        picks
+    }
+
+    fn json(&self) -> serde_json::Result<Value> {
+        serde_json::to_value(self)
+    }
+}
+
+fn length(h: &mut Html, x: f64) {
+    h.number(x, if x > 0.0 && x < 0.1 { 6 } else { 3 }, false).raw("\u{a0}mm");
+}
+
+fn changes(h: &mut Html, d: &RepairDocument) {
+    let steps = by_step(d);
+    if steps.is_empty() {
+        h.raw("<p>").word("changes.none").raw("</p>");
+    }
+    let open = if steps.len() == 1 { " open" } else { "" };
+    let mut first = 0;
+    for (n, (step, changes)) in steps.into_iter().enumerate() {
+        h.raw(&format!("<details class=\"kind\"{open}><summary>"));
+        swatch(h, category(n));
+        h.raw("<span class=\"kind-name\">").word(&format!("step.{step}")).raw("</span><strong>");
+        h.count(changes.len() as u64).raw("</strong></summary>\n");
+        // What is the same in every row is said once.
+        let what = changes.first().map_or("", |c| &c.what);
+        let same = changes.iter().all(|c| c.what == what);
+        if same {
+            h.raw("<p class=\"note\">").text(what).raw("</p>");
+        }
+        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">");
+        h.word("facets.title").raw(
+            "</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>",
+        );
+        let rows = changes.len().min(LISTED);
+        for (k, change) in changes.iter().take(rows).enumerate() {
+            h.raw(&format!("<tr data-pick=\"{}\"><td>", first + k));
+            let name = if same { (k + 1).to_string() } else { change.what.clone() };
+            h.text(&name).raw("</td><td class=\"r\">");
+            h.count(change.facets).raw("</td>");
+            place_cells(h, change.position);
+            h.raw("</tr>");
+        }
+        h.raw("</tbody></table>");
+        if rows < changes.len() {
+            h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(rows as u64).raw(" / ");
+            h.count(changes.len() as u64).raw("</p>");
+        }
+        h.raw("</details>\n");
+        first += rows;
+    }
+    if d.truncated {
+        h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(d.changes.len() as u64).raw(" / ");
+        h.count(d.change_count).raw("</p>");
+    }
+}
+
+/// Size and defects in two columns.
+fn states(h: &mut Html, d: &RepairDocument) {
+    h.raw("<table class=\"states\"><thead><tr><th></th><th class=\"r\">").word("before");
+    h.raw("</th><th class=\"r\">").word("after").raw("</th></tr></thead><tbody>");
+    let mut row = |key: &str, cell: &dyn Fn(&mut Html, &State)| {
+        h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
+        for state in [&d.before, &d.after] {
+            h.raw("<td class=\"r\">");
+            cell(h, state);
+            h.raw("</td>");
+        }
+        h.raw("</tr>");
+    };
+    let yes = |h: &mut Html, yes: bool| {
+        h.raw(if yes { "✓\u{a0}" } else { "✕\u{a0}" }).word(if yes { "yes" } else { "no" });
+    };
+    row("sound.title", &|h, s| yes(h, s.sound));
+    row("closed", &|h, s| yes(h, s.closed));
+    let counts: [(&str, fn(&State) -> u64); 3] =
+        [("facets.title", |s| s.facets), ("vertices.title", |s| s.vertices), ("shells", |s| s.shells)];
+    for (key, count) in counts {
+        row(key, &|h, s| {
+            h.count(count(s));
+        });
+    }
+    row("area.mm2", &|h, s| {
+        h.number(s.area, 2, false);
+    });
+    row("volume.mm3", &|h, s| {
+        h.optional(s.volume, s.volume_reason.as_deref(), 2, false);
+    });
+    let kinds: BTreeSet<&String> = d.before.defects.keys().chain(d.after.defects.keys()).collect();
+    for kind in kinds {
+        row(&format!("defect.{kind}"), &|h, s| {
+            h.count(s.defects.get(kind).copied().unwrap_or(0));
+        });
+    }
+    h.raw("</tbody></table>");
+}
+
+/// How far the surface went: what is missing, what was added.
+fn deviation(h: &mut Html, d: &RepairDocument) {
+    let Some(found) = &d.deviation else {
+        h.raw("<p>–\u{a0}").text(d.deviation_reason.as_deref().unwrap_or("")).raw("</p>");
+        return;
+    };
+    h.raw("<dl class=\"facts pairs\">");
+    for (key, Distances { max, mean }) in [("surface.added", found.added), ("surface.removed", found.removed)]
+    {
+        fact(h, key, |h| {
+            h.raw("≤\u{a0}");
+            length(h, max);
+            h.raw("<br><small>").word("mean").raw(" ");
+            length(h, mean);
+            h.raw("</small>");
+        });
+    }
+    if d.output.rounded_vertices > 0 {
+        fact(h, "file.rounding", |h| {
+            h.raw("≤\u{a0}").text(&format!("{:.1e}", d.output.rounding)).raw("\u{a0}mm");
+        });
+    }
+    h.raw("</dl>");
+}
