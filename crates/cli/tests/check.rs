@@ -104,3 +104,23 @@ fn an_unsound_reference_is_compared_all_the_same_and_its_flaws_are_named() {
     let d = document(["compare".as_ref(), points.as_os_str(), whole.as_os_str()]);
     assert!(d["comparisons"][0]["soundness"].get("findings").is_none());
 }
+
+#[test]
+fn a_comparison_shows_where_its_reference_is_not_sound() {
+    let f = Folder::new();
+    let cube = f.write("cube.off", CUBE);
+    let open = f.write("open.off", CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", ""));
+    let html = f.file("report.html");
+    let o = trueness([
+        "compare".as_ref(),
+        cube.as_os_str(),
+        open.as_os_str(),
+        "--html".as_ref(),
+        html.as_os_str(),
+    ]);
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let text = std::fs::read_to_string(html).unwrap();
+    let list = text.split_once("data-t=\"reference.defects\"").unwrap().1;
+    assert!(list.contains("data-t=\"defect.boundary_edges\"") && list.contains("<tr data-pick="));
+    assert!(text.contains("\"role\":\"defects\"") && text.contains("\"comparison\":0"));
+}

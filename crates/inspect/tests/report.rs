@@ -6,7 +6,7 @@
 #[allow(dead_code, missing_docs, reason = "a program of its own, too")]
 mod fixtures;
 
-use fixtures::{check_document, check_page, defects, fit_page, lobed_cylinder, page, sphere};
+use fixtures::{check_document, check_page, defects, fit_page, lobed_cylinder, page, repair_page, sphere};
 use trueness_geom::fit::Method;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::report::{Language, ReportOptions};
@@ -55,6 +55,7 @@ fn every_word_is_in_the_table() {
         (page(&sphere(10), TOLERANCE, NAMES, &options).0, ["Nicht in Ordnung", "−0,050"]),
         (check_page(&defects(), &options), ["Nicht fehlerfrei", "Löcher"]),
         (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinster Zone"]),
+        (repair_page(&defects(), &options), ["Repariert: fehlerfrei", "Löcher gefüllt"]),
     ];
     for (page, known) in pages {
         let text = String::from_utf8(page).unwrap();
@@ -137,4 +138,20 @@ fn a_fit_shows_what_its_document_says() {
     assert_eq!(picks.len(), 2 + document.touching.len());
     assert_eq!(picks[2]["position"], serde_json::json!(document.touching[0].position.unwrap()));
     assert_eq!(picks[0]["value"], document.maximum.distance);
+}
+
+#[test]
+fn a_repair_shows_the_mesh_before_and_after() {
+    let manifest = manifest(&repair_page(&defects(), &ReportOptions::default()));
+    let objects = manifest["objects"].as_array().unwrap();
+    let roles: Vec<&str> = objects.iter().map(|o| o["role"].as_str().unwrap()).collect();
+    assert_eq!(roles, ["after", "before", "changes", "after", "before"]);
+    assert_eq!((&objects[0]["shown"], &objects[1]["shown"]), (&true.into(), &false.into()));
+    let result = &manifest["result"];
+    // As many areas in green and red as the document counts.
+    assert_eq!(objects[3]["triangles"], result["facets"]["added"]);
+    assert!(objects[4]["triangles"].as_u64().unwrap() > 0);
+    let picks = manifest["picks"].as_array().unwrap();
+    assert_eq!(picks.len() as u64, result["change_count"].as_u64().unwrap());
+    assert!(picks.iter().all(|p| p["normal"].is_array() && p["mark"].is_u64()));
 }

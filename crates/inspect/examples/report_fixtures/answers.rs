@@ -1,16 +1,20 @@
 //! Reports of the other documents: a mesh with planted defects, an element through points with a known form.
 
 use super::{uv_sphere, written};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_geom::check::check;
 use trueness_geom::fit::{self, Kind, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
+use trueness_geom::repair;
 use trueness_geom::space::Point;
+use trueness_inspect::repair::Around;
 use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::check::CheckDocument;
 use trueness_inspect::results::fit::FitDocument;
+use trueness_inspect::results::repair::OutputRecord;
 use trueness_inspect::results::{InputRecord, Role};
 
 /// All of them, into `folder`.
@@ -19,6 +23,7 @@ pub fn write_all(folder: &Path) {
     for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30))] {
         written(folder, name, check_page(&mesh, &options));
     }
+    written(folder, "mended", repair_page(&defects(), &options));
     for (name, method) in [("fit", Method::Gaussian), ("zone", Method::MinimumZone)] {
         written(folder, name, fit_page(&lobed_cylinder(), method, &options).0);
     }
@@ -65,6 +70,30 @@ pub fn check_document(mesh: &Mesh) -> CheckDocument {
         0,
         &options,
     )
+}
+
+/// The report of a repair with all steps.
+pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
+    let wish = repair::Options { islands: Some(0.01), ..repair::Options::default() };
+    let repaired = repair::repair(mesh, &wish, &Silent).unwrap();
+    let around = Around {
+        file: file(Role::Reference, "part.stl", mesh),
+        left_out: 0,
+        output: OutputRecord {
+            path: "mended.ply".into(),
+            rounded_vertices: 0,
+            rounding: 0.0,
+            sound: Some(true),
+            sound_reason: None,
+            defects: BTreeMap::new(),
+        },
+        deviation: repair::deviation(mesh, &repaired.mesh, &Silent),
+        limit: 1000,
+    };
+    let document = trueness_inspect::repair::document(&repaired, &wish, around);
+    let view = trueness_inspect::repair::View::new(&document, "part.stl", mesh, &repaired.mesh);
+    let (objects, marks) = (view.objects(), &view.marks[..]);
+    super::bytes(&ReportInput { result: Answer::Repair(&document), objects: &objects, marks, options })
 }
 
 /// Radius 10, axis z, 30 long, three lobes of ±0.1: the highest at the front.

@@ -8,7 +8,7 @@
 
 mod answers;
 
-pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder};
+pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

@@ -169,13 +169,15 @@ fn states(h: &mut Html, d: &RepairDocument) {
     };
     row("sound.title", &|h, s| yes(h, s.sound));
     row("closed", &|h, s| yes(h, s.closed));
-    let counts: [(&str, fn(&State) -> u64); 3] =
-        [("facets.title", |s| s.facets), ("vertices.title", |s| s.vertices), ("shells", |s| s.shells)];
-    for (key, count) in counts {
-        row(key, &|h, s| {
-            h.count(count(s));
-        });
-    }
+    row("facets.title", &|h, s| {
+        h.count(s.facets);
+    });
+    row("vertices.title", &|h, s| {
+        h.count(s.vertices);
+    });
+    row("shells", &|h, s| {
+        h.count(s.shells);
+    });
     row("area.mm2", &|h, s| {
         h.number(s.area, 2, false);
     });

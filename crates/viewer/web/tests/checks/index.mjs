@@ -3,9 +3,10 @@ import { colors } from './colors.mjs'
 import { defects } from './defects.mjs'
 import { fit } from './fit.mjs'
 import { reading } from './reading.mjs'
+import { repair } from './repair.mjs'
 import { scale } from './scale.mjs'
 import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...views, ...words]
+export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...views, ...words]
