@@ -1,4 +1,4 @@
-//! Broken and odd input for the readers and the check, made by changing good input: no panic, no hang, no memory without
+//! Broken and odd input for the readers, the check and the repair, made by changing good input: no panic, no hang, no memory without
 //! bound. See README.md.
 
 mod coverage;
@@ -18,7 +18,7 @@ static ALLOCATOR: memory::Counting = memory::Counting;
 const HELP: &str = "\
 trueness-fuzz [--target NAME]... [--seconds S | --cases N] [--seed N] [--threads N] [--replay FILE]
 
-Targets: stl ply obj off table npy gz check; all without --target, each for the time given (60 s).
+Targets: stl ply obj off table npy gz check repair; all without --target, each for the time given (60 s).
 Exit status: 0 nothing found, 1 something found, 2 wrong usage.";
 
 fn main() -> ExitCode {

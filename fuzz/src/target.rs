@@ -23,7 +23,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 9] = [
     readers::STL,
     readers::PLY,
     readers::OBJ,
@@ -32,6 +32,7 @@ pub const TARGETS: [Target; 8] = [
     readers::NPY,
     readers::GZ,
     meshes::CHECK,
+    meshes::REPAIR,
 ];
 
 /// The files below `folder` that are short enough and end in one of `extensions`, in the order of their names.

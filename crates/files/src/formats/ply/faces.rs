@@ -73,7 +73,7 @@ pub(super) fn read(
         }
         let list = indices(element).filter(|_| is_faces(element));
         let mut corners = vec![];
-        for row in 0..element.count {
+        for row in 0..element.rows(encoding) {
             let at = bytes.at;
             if !bytes.row(element, list, &mut corners)? {
                 return Err(Fault::Short { what: "faces", declared: element.count, present: row }.at_byte(at));

@@ -41,6 +41,10 @@ pub(super) struct Element {
 }
 
 impl Element {
+    /// Rows that have to be gone through. Without properties they take up no byte, however many are declared.
+    pub fn rows(&self, encoding: Encoding) -> u64 {
+        if self.properties.is_empty() && encoding != Encoding::Ascii { 0 } else { self.count }
+    }
     /// Bytes of a row, if all rows have the same.
     pub fn stride(&self) -> Option<usize> {
         let size = |p: &Property| match p.kind {

@@ -90,7 +90,7 @@ fn split(header: &Header) -> Result<(&[Element], &Element, &[Element])> {
 /// Steps over the rows of elements that nobody wants.
 fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64) -> Result<()> {
     for element in elements {
-        for row in 0..element.count {
+        for row in 0..element.rows(header.encoding) {
             let at = feed.position();
             let length = match header.encoding {
                 Encoding::Ascii => {
