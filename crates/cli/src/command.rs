@@ -4,6 +4,7 @@ use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use crate::commands::fit::FitArgs;
 use crate::commands::repair::RepairArgs;
+use crate::commands::segment::SegmentArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 
 /// How far is every measured point from the model?
@@ -57,4 +58,5 @@ pub enum Command {
     Compare(Box<CompareArgs>),
     Fit(FitArgs),
     Repair(RepairArgs),
+    Segment(SegmentArgs),
 }

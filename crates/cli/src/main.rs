@@ -26,6 +26,7 @@ fn main() -> ExitCode {
             Command::Compare(args) => commands::compare::run(args, &arguments.common),
             Command::Fit(args) => commands::fit::run(args, &arguments.common),
             Command::Repair(args) => commands::repair::run(args, &arguments.common),
+            Command::Segment(args) => commands::segment::run(args, &arguments.common),
         }
     });
     exit::code(outcome)

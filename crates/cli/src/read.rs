@@ -2,7 +2,8 @@
 
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_files::{Body, Input, ReadOptions, SourceMesh};
+use trueness_files::{Body, Input, PointSource, ReadOptions, SourceMesh};
+use trueness_geom::space::Point;
 use trueness_inspect::results::{InputRecord, Role};
 
 /// Reads a mesh; points are refused with a remedy.
@@ -19,6 +20,18 @@ pub fn mesh(path: &Path, options: &ReadOptions) -> anyhow::Result<(SourceMesh, I
              give the points first and the mesh after them",
             path.display()
         ),
+    }
+}
+
+/// All points of a source.
+pub fn all_points(mut source: PointSource) -> anyhow::Result<Vec<Point>> {
+    let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
+    loop {
+        source.next_block(&mut block)?;
+        if block.is_empty() {
+            return Ok(all);
+        }
+        all.extend_from_slice(&block);
     }
 }
 

@@ -1,18 +1,17 @@
 //! `trueness fit`: the best line, plane, circle, … through points.
 
 use crate::command::Common;
+use crate::commands::compare::output::json_file;
 use crate::exit::Outcome;
 use crate::progress::Stage;
 use crate::report::ReportArgs;
 use crate::{console, read};
-use anyhow::Context;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness_files::{AtomicFile, Body, Columns, ReadOptions, Unit};
+use trueness_files::{Body, Columns, ReadOptions, Unit};
 use trueness_geom::fit::{self, FitError, Kind, Method, Options};
 use trueness_geom::progress::Cancelled;
-use trueness_geom::space::Point;
 use trueness_inspect::fit::View;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
@@ -117,16 +116,7 @@ pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
             record.facets = Some(mesh.mesh.faces.len() as u64);
             mesh.mesh.positions
         }
-        Body::Points(mut source) => {
-            let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
-            loop {
-                source.next_block(&mut block)?;
-                if block.is_empty() {
-                    break all;
-                }
-                all.extend_from_slice(&block);
-            }
-        }
+        Body::Points(source) => read::all_points(source)?,
     };
     record.points = points.len() as u64;
     read::hash(&mut record)?;
@@ -139,19 +129,7 @@ pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
     let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
-    let on_stdout = args.json.as_ref().is_some_and(|path| path.as_os_str() == "-");
-    if let Some(path) = &args.json {
-        let text = serde_json::to_string_pretty(&document)? + "\n";
-        if on_stdout {
-            console::document(&text)?;
-        } else {
-            let mut file =
-                AtomicFile::create(path).with_context(|| format!("{}: cannot write", path.display()))?;
-            std::io::Write::write_all(&mut file, text.as_bytes())
-                .with_context(|| format!("{}: cannot write", path.display()))?;
-            file.commit().with_context(|| format!("{}: cannot write", path.display()))?;
-        }
-    }
+    let on_stdout = json_file(args.json.as_deref(), &document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
         args.report.write(Answer::Fit(&document), &view.objects(), &view.marks)?;

@@ -4,3 +4,4 @@ pub mod check;
 pub mod compare;
 pub mod fit;
 pub mod repair;
+pub mod segment;

@@ -1,6 +1,7 @@
 //! Writing points and meshes. Files appear whole or not at all.
 
 mod loss;
+mod regions;
 #[cfg(test)]
 pub(crate) mod scratch;
 pub(crate) mod spool;
@@ -11,6 +12,7 @@ use crate::{
     open,
 };
 pub use loss::Loss;
+pub use regions::{Pieces, regions};
 use std::path::{Path, PathBuf};
 use trueness_geom::{mesh::Mesh, space::Point};
 

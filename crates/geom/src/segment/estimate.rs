@@ -129,7 +129,49 @@ fn cone(patch: &Patch) -> Option<Shape> {
     sound.then(|| Shape::Cone { apex, direction, half_angle, point, radius: height * half_angle.tan() })
 }
 
+/// By its axis, which a large piece shows best, or as a bent tube, as which a short piece of a fillet looks.
 fn torus(patch: &Patch) -> Option<Shape> {
+    let square = |shape: &Shape| -> f64 { patch.iter().map(|p| shape.distance(p.0).powi(2)).sum() };
+    let both = about_axis(patch).into_iter().chain(bent_tube(patch));
+    both.min_by(|a, b| square(a).total_cmp(&square(b)))
+}
+
+/// From the cylinder through the patch: the middle of the tube is c + δ + t τ + ½ t² κ at height t, which to first
+/// order changes the distance by its product with the direction outwards.
+fn bent_tube(patch: &Patch) -> Option<Shape> {
+    let Shape::Cylinder { point, direction, radius } = cylinder(patch)? else { return None };
+    let first = minus(patch.first()?.0, point);
+    let (u, _) = unit(minus(first, times(dot(first, direction), direction)))?;
+    let v = cross(direction, u);
+    let (mut matrix, mut right) = (vec![vec![0.0; 7]; 7], vec![0.0; 7]);
+    for &(p, _) in patch {
+        let q = minus(p, point);
+        let t = dot(q, direction);
+        let (x, y) = (dot(q, u), dot(q, v));
+        let rho = x.hypot(y);
+        let [cos, sin] = [x / rho, y / rho];
+        let row = [1.0, cos, sin, t * cos, t * sin, 0.5 * t * t * cos, 0.5 * t * t * sin];
+        for i in 0..7 {
+            right[i] += row[i] * (rho - radius);
+            for j in 0..7 {
+                matrix[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let x = solve(matrix, right)?;
+    let bend = plus(times(x[5], u), times(x[6], v));
+    let (inwards, curvature) = unit(bend)?;
+    let middle = plus(point, plus(times(x[1], u), times(x[2], v)));
+    let (major_radius, minor_radius) = (1.0 / curvature, radius + x[0]);
+    (minor_radius > 0.0 && major_radius > minor_radius).then(|| Shape::Torus {
+        center: plus(middle, times(major_radius, inwards)),
+        direction: cross(direction, inwards),
+        major_radius,
+        minor_radius,
+    })
+}
+
+fn about_axis(patch: &Patch) -> Option<Shape> {
     let (axis, point) = axis_of_revolution(patch)?;
     let section: Vec<(Point, Vector)> = (patch.iter())
         .filter_map(|&(p, n)| {

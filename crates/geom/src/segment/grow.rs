@@ -8,7 +8,7 @@ use crate::progress::Silent;
 use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
-const PATCHES: [usize; 2] = [32, 250];
+const PATCHES: [usize; 3] = [20, 64, 250];
 /// Points that an element is fitted to while it grows.
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
@@ -37,6 +37,9 @@ pub(super) struct Terms<'a> {
     pub size: f64,
 }
 
+/// Root mean square distance in standard deviations of the noise, beyond which another kind may be the right one.
+const DOUBTFUL: f64 = 1.25;
+
 /// An element and the pieces that belong to it.
 #[derive(Clone, Debug)]
 pub(super) struct Grown {
@@ -52,6 +55,13 @@ pub(super) fn refined(kind: Kind, start: &Shape, points: &[Point]) -> Option<(Sh
     let options = Options { start: Some(*start), ..Options::default() };
     let found = fit(points, kind, &options, &Silent).ok()?;
     Some((found.shape, found.residuals.rms))
+}
+
+impl Grown {
+    /// Its weight, less where it fits worse than noise of this standard deviation.
+    pub(super) fn merit(&self, noise: f64) -> f64 {
+        self.weight / (1.0 + (self.rms / noise).powi(2))
+    }
 }
 
 impl Terms<'_> {
@@ -76,7 +86,7 @@ impl Terms<'_> {
                 let Some(grown) = self.grown(shape, &patch, most, marks, free) else { continue };
                 best = Some(self.better(best, grown));
                 // No other kind can cover more than all that a trial may reach.
-                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= 1.5 * self.noise) {
+                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= DOUBTFUL * self.noise) {
                     return best;
                 }
             }
@@ -94,6 +104,14 @@ impl Terms<'_> {
         free: &impl Fn(u32) -> bool,
     ) -> Option<Grown> {
         let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
+        if best.rms > DOUBTFUL * self.noise && best.weight >= 0.3 * enough {
+            // It may have gone beyond its face: begin again with the other kinds.
+            for &kind in self.kinds.iter().filter(|&&kind| kind != trial.shape.kind()) {
+                let Some((shape, _)) = self.shown(kind, &trial.pieces, AGREEING) else { continue };
+                let Some(grown) = self.grown(shape, &trial.pieces, usize::MAX, marks, free) else { continue };
+                best = self.better(Some(best), grown);
+            }
+        }
         for _ in 0..3 {
             // Another kind may cover more, but not many times as much.
             if best.weight < 0.3 * enough {
@@ -207,7 +225,9 @@ impl Terms<'_> {
             gain > 1.0
         } else if others > unknowns {
             let worth = 1.15 + 0.1 * (others - unknowns) as f64;
-            gain > worth || (gain > 0.95 && one.rms > 1.5 * self.noise && other.rms < 0.6 * one.rms)
+            // A plane that is bowed within the tolerance is still a plane.
+            let bent = one.shape.kind() != Kind::Plane && one.rms > DOUBTFUL * self.noise;
+            gain > worth || (gain > 0.95 && bent && other.rms < 0.75 * one.rms)
         } else {
             gain > 0.98 && (gain > 1.05 || other.rms < 0.85 * one.rms)
         };

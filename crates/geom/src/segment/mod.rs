@@ -31,7 +31,7 @@ mod tests;
 use crate::fit::{self, Fit, Kind};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress, Silent};
-use crate::space::{Aabb, Point};
+use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use grow::{Grown, Terms, fewest_points};
 use noise::Noise;
@@ -195,7 +195,8 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
     }
     let degrees = options.crease.to_degrees();
     within("crease", degrees, "between 1 and 89 degrees", (1.0..=89.0).contains(&degrees))?;
-    within("share", options.min_share, "between 0 and 1", (0.0..=1.0).contains(&options.min_share))?;
+    let percent = 100.0 * options.min_share;
+    within("least share", percent, "between 0 and 100 percent", (0.0..=100.0).contains(&percent))?;
     if !KINDS.iter().any(|kind| options.kinds.contains(kind)) {
         return Err(SegmentError::NoKind);
     }
@@ -256,10 +257,10 @@ fn finished(
     for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NONE) {
         members[label as usize].push(piece as u32);
     }
-    let inner = inner(surface, labels);
+    let depths = depths(terms, labels);
     let mut named: Vec<(u32, Region)> = (grown.iter().zip(&members).zip(0u32..))
         .filter(|((_, pieces), _)| !pieces.is_empty() && surface.weight(pieces) >= limits.weight)
-        .filter_map(|((grown, pieces), label)| Some((label, region(terms, grown, pieces, &inner, total)?)))
+        .filter_map(|((grown, pieces), label)| Some((label, region(terms, grown, pieces, &depths, total)?)))
         .collect();
     named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
     let mut renamed = vec![NONE; grown.len()];
@@ -270,18 +271,20 @@ fn finished(
     (named.into_iter().map(|n| n.1).collect(), labels)
 }
 
-fn region(terms: &Terms, grown: &Grown, pieces: &[u32], inner: &[bool], total: f64) -> Option<Region> {
+fn region(terms: &Terms, grown: &Grown, pieces: &[u32], depths: &[u8], total: f64) -> Option<Region> {
     let surface = terms.surface;
     let kind = grown.shape.kind();
     let all = surface.points_of(pieces.iter().copied());
-    let points: Vec<u32> = all.iter().copied().filter(|&p| inner[p as usize]).collect();
-    let few = points.len() < fewest_points(kind).max(2 * kind.unknowns()).max(all.len() / 5);
+    let fewest = fewest_points(kind).max(all.len() / 5);
+    let deeper =
+        |depth: u8| -> Vec<u32> { all.iter().copied().filter(|&p| depths[p as usize] >= depth).collect() };
+    let points =
+        [2, 1].into_iter().map(deeper).find(|points| points.len() >= fewest).unwrap_or_else(|| all.clone());
     let fitted = |points: &[u32]| {
         let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
         let options = fit::Options { start: Some(grown.shape), ..fit::Options::default() };
         fit::fit(&places, kind, &options, &Silent).ok()
     };
-    let points = if few { all } else { points };
     let fit = fitted(&points)?;
     let weight = surface.weight(pieces);
     let is_mesh = matches!(surface.pieces, Pieces::Facets(_));
@@ -295,26 +298,35 @@ fn region(terms: &Terms, grown: &Grown, pieces: &[u32], inner: &[bool], total: f
     })
 }
 
-/// For each measured point whether all pieces around it are of one region: at an edge it belongs to no face alone.
-fn inner(surface: &Surface, labels: &[u32]) -> Vec<bool> {
-    match surface.pieces {
-        Pieces::Points => (0..surface.len() as u32)
-            .map(|p| {
-                let near = surface.neighbours(p);
-                let foreign = near.iter().filter(|&&n| labels[n as usize] != labels[p as usize]).count();
-                // Single outliers among the neighbours do not make an edge.
-                4 * foreign <= near.len()
-            })
-            .collect(),
-        Pieces::Facets(faces) => {
-            let mut owner: Vec<Option<u32>> = vec![None; surface.points.len()];
-            let mut inner = vec![true; surface.points.len()];
-            for (face, &label) in faces.iter().zip(labels) {
-                for &v in face {
-                    inner[v as usize] &= *owner[v as usize].get_or_insert(label) == label;
-                }
-            }
-            inner
+/// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for
+/// at an edge it belongs to no face alone; 1 where it is next to a border without an edge, which is known no better
+/// than the noise allows; 2 elsewhere.
+fn depths(terms: &Terms, labels: &[u32]) -> Vec<u8> {
+    let surface = terms.surface;
+    let foreign = |p: u32| {
+        let near = surface.neighbours(p).iter();
+        near.copied().filter(move |&n| labels[n as usize] != labels[p as usize])
+    };
+    let faces = match surface.pieces {
+        Pieces::Points => {
+            // Single outliers among the neighbours do not make an edge.
+            let inside = |p: u32| 4 * foreign(p).count() <= surface.neighbours(p).len();
+            return (0..surface.len() as u32).map(|p| 2 * u8::from(inside(p))).collect();
+        }
+        Pieces::Facets(faces) => faces,
+    };
+    let mut owner: Vec<Option<u32>> = vec![None; surface.points.len()];
+    let mut depths = vec![2; surface.points.len()];
+    for (piece, (face, &label)) in (0u32..).zip(faces.iter().zip(labels)) {
+        let smooth = foreign(piece).any(|n| {
+            let across = dot(surface.normals[piece as usize], surface.normals[n as usize]);
+            labels[n as usize] != NONE && across >= terms.crease
+        });
+        for &v in face {
+            let v = v as usize;
+            let depth = if *owner[v].get_or_insert(label) != label { 0 } else { 2 - u8::from(smooth) };
+            depths[v] = depth.min(depths[v]);
         }
     }
+    depths
 }

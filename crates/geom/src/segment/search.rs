@@ -78,7 +78,8 @@ pub(super) fn search(
                 _ => shut(terms, seed, &mut tried, &mut marks),
             }
         }
-        promising.sort_by(|a, b| b.1.weight.total_cmp(&a.1.weight).then(a.0.cmp(&b.0)));
+        let merit = |grown: &Grown| grown.merit(terms.noise);
+        promising.sort_by(|a, b| merit(&b.1).total_cmp(&merit(&a.1)).then(a.0.cmp(&b.0)));
         for (seed, trial) in promising {
             if labels[seed as usize] != NONE || tried[seed as usize] {
                 continue;

@@ -124,12 +124,27 @@ pub struct Touching {
     pub position: Option<[f64; 3]>,
 }
 
-fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
+/// Parameters by their names.
+pub(super) fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
     let number = |p| match p {
         Parameter::Number(x) => Number::One(x),
         Parameter::Vector(v) => Number::Three(v),
     };
     parameters.into_iter().map(|(name, p)| (name.to_string(), number(p))).collect()
+}
+
+/// Why there is nothing to judge the points' scatter by.
+const NONE_LEFT: &str = "there are no more points than unknowns";
+
+/// The standard uncertainties of the parameters, or why there are none.
+pub(super) fn uncertainty(fit: &Fit) -> (Option<BTreeMap<String, Number>>, Option<String>) {
+    let found = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
+    let reason = match (&found, fit.touching.is_empty()) {
+        (Some(_), _) => None,
+        (None, true) => Some(NONE_LEFT.to_string()),
+        (None, false) => Some("the element rests on its few touching points".to_string()),
+    };
+    (found, reason)
 }
 
 impl FitDocument {
@@ -138,13 +153,7 @@ impl FitDocument {
         let residuals = &fit.residuals;
         let extreme =
             |(distance, point): (f64, usize)| Extreme { distance, point: point as u64, position: None };
-        let uncertainty = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
-        let none_left = "there are no more points than unknowns";
-        let uncertainty_reason = match (&uncertainty, fit.touching.is_empty()) {
-            (Some(_), _) => None,
-            (None, true) => Some(none_left.to_string()),
-            (None, false) => Some("the element rests on its few touching points".to_string()),
-        };
+        let (uncertainty, uncertainty_reason) = uncertainty(fit);
         FitDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -159,7 +168,7 @@ impl FitDocument {
             form_error: residuals.form_error,
             rms: residuals.rms,
             std_dev: residuals.std_dev,
-            std_dev_reason: residuals.std_dev.is_none().then(|| none_left.into()),
+            std_dev_reason: residuals.std_dev.is_none().then(|| NONE_LEFT.into()),
             count: residuals.count as u64,
             outliers: fit.outliers as u64,
             minimum: extreme(residuals.min),

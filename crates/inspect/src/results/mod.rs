@@ -8,6 +8,7 @@ pub mod compare;
 pub mod fit;
 pub mod repair;
 pub mod research;
+pub mod segment;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -93,5 +94,6 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
+        ("segment", text(schemars::schema_for!(segment::SegmentDocument))),
     ]
 }

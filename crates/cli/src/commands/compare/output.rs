@@ -62,13 +62,7 @@ impl OutputArgs {
 
     /// The document on stdout or in its file.
     pub fn write_json(&self, document: &CompareDocument) -> anyhow::Result<()> {
-        let Some(path) = &self.json else { return Ok(()) };
-        let mut text = serde_json::to_string_pretty(document)?;
-        text.push('\n');
-        if path == Path::new("-") {
-            return Ok(console::document(&text)?);
-        }
-        whole_file(path, |file| file.write_all(text.as_bytes()))
+        json_file(self.json.as_deref(), document).map(|_| ())
     }
 
     /// The report in its file.
@@ -93,6 +87,19 @@ pub fn whole_file(
         file.into_inner().map_err(|e| e.into_error())?.commit()
     };
     make().with_context(|| format!("{}: cannot be written; nothing of it was left behind", path.display()))
+}
+
+/// Writes the result document of `--json`, to stdout for `-`. True if it went there: no table then.
+pub fn json_file(path: Option<&Path>, document: &impl serde::Serialize) -> anyhow::Result<bool> {
+    let Some(path) = path else { return Ok(false) };
+    let mut text = serde_json::to_string_pretty(document)?;
+    text.push('\n');
+    if path == Path::new("-") {
+        console::document(&text)?;
+        return Ok(true);
+    }
+    whole_file(path, |file| file.write_all(text.as_bytes()))?;
+    Ok(false)
 }
 
 /// The per-point files of `--out`: one a reference.

@@ -1,1 +1,194 @@
+//! Parts with known faces, whole and in part, with noise and without.
 
+mod parts;
+
+use super::{Options, SegmentError, Segmentation, cloud, mesh};
+use crate::fit::{Kind, Parameter, Shape};
+use crate::mesh::Mesh;
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::space::{Point, dot, minus, norm, times};
+use parts::{Part, bored, turned};
+
+/// For each face the region that holds most of its facets; every region must be that of one face and of its kind, and
+/// hold at least `share` of it.
+fn matched(part: &Part, found: &Segmentation, share: f64) -> Vec<usize> {
+    assert_eq!(found.regions.len(), part.faces.len(), "{:#?}", kinds(found));
+    let mut taken = vec![false; found.regions.len()];
+    (0..part.faces.len())
+        .map(|face| {
+            let own: Vec<usize> = (0..part.labels.len()).filter(|&i| part.labels[i] == face).collect();
+            let count = |r: usize| own.iter().filter(|&&i| found.labels[i] == r as u32).count();
+            let best = (0..found.regions.len()).max_by_key(|&r| count(r)).unwrap();
+            let kind = part.faces[face].kind();
+            assert_eq!(found.regions[best].fit.shape.kind(), kind, "face {face}: {:#?}", kinds(found));
+            assert!(
+                count(best) as f64 >= share * own.len() as f64,
+                "face {face}: {} of {}",
+                count(best),
+                own.len()
+            );
+            assert!(!std::mem::replace(&mut taken[best], true), "face {face} shares its region");
+            best
+        })
+        .collect()
+}
+
+fn kinds(found: &Segmentation) -> Vec<(Kind, usize, f64)> {
+    found.regions.iter().map(|r| (r.fit.shape.kind(), r.pieces, r.share)).collect()
+}
+
+/// Greatest difference of the radii, angles and directions in standard uncertainties, and of the places in those of
+/// the place that the region gives.
+fn errors(part: &Part, found: &Segmentation, regions: &[usize]) -> f64 {
+    let mut worst = 0.0f64;
+    for (truth, &r) in part.faces.iter().zip(regions) {
+        let fit = &found.regions[r].fit;
+        let uncertainties = fit.covariance.as_ref().unwrap().uncertainties(&fit.shape);
+        for ((name, told), ((_, u), (_, true_one))) in
+            fit.shape.parameters().into_iter().zip(uncertainties.into_iter().zip(truth.parameters()))
+        {
+            let error = match (name, told, u, true_one) {
+                ("radius", Parameter::Number(_), ..) if fit.shape.kind() == Kind::Cone => 0.0,
+                (_, Parameter::Number(x), Parameter::Number(u), Parameter::Number(t)) => (x - t).abs() / u,
+                (
+                    "direction" | "normal",
+                    Parameter::Vector(x),
+                    Parameter::Vector(u),
+                    Parameter::Vector(t),
+                ) => {
+                    let t = times(dot(x, t).signum(), t);
+                    norm(minus(x, t)) / norm(u)
+                }
+                ("point", Parameter::Vector(x), Parameter::Vector(u), _) => axis_distance(truth, x) / norm(u),
+                (_, Parameter::Vector(x), Parameter::Vector(u), Parameter::Vector(t)) => {
+                    norm(minus(x, t)) / norm(u)
+                }
+                _ => f64::INFINITY,
+            };
+            worst = worst.max(error);
+        }
+    }
+    worst
+}
+
+/// Distance of `p` from the axis, or from the plane itself.
+fn axis_distance(shape: &Shape, p: Point) -> f64 {
+    match *shape {
+        Shape::Cylinder { point, direction, .. } | Shape::Cone { point, direction, .. } => {
+            Shape::Line { point, direction }.distance(p)
+        }
+        _ => shape.distance(p).abs(),
+    }
+}
+
+#[test]
+fn faces_without_noise_are_found_to_the_last_facet() {
+    for part in [turned(1.0, 72).moved(), bored(64).moved(), turned(0.2, 20).moved()] {
+        let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+        let regions = matched(&part, &found, 0.99);
+        for (truth, r) in part.faces.iter().zip(regions) {
+            for &p in &found.regions[r].points {
+                assert!(found.regions[r].fit.shape.distance(part.mesh.positions[p as usize]).abs() < 1e-9);
+            }
+            // The element that was made, not one that passes through its few points.
+            let place = found.regions[r].bounds.max;
+            let d = (truth.distance(place).abs() - found.regions[r].fit.shape.distance(place).abs()).abs();
+            assert!(d < 1e-6, "{truth:?} {:?}", found.regions[r].fit.shape);
+        }
+    }
+}
+
+#[test]
+fn noisy_faces_are_found_within_their_uncertainties() {
+    for seed in 0..3 {
+        // A quarter of the fillet lies within 0.1 mm of a sphere: more noise would hide which it is.
+        for (part, sigma) in [(turned(1.0, 144), 0.01), (bored(128), 0.01), (turned(0.25, 40), 0.003)] {
+            let part = part.moved().noisy(sigma, seed);
+            let found = mesh(&part.mesh, &Options { seed, ..Options::default() }, &Silent).unwrap();
+            assert!((0.5..2.0).contains(&(found.noise / sigma)), "{}", found.noise);
+            let regions = matched(&part, &found, 0.8);
+            // Some 80 numbers are compared: four standard uncertainties are passed by chance once in 200 parts.
+            let worst = errors(&part, &found, &regions);
+            assert!(worst < 4.0, "seed {seed}: {worst} uncertainties");
+        }
+    }
+}
+
+#[test]
+fn a_cloud_has_the_same_faces() {
+    let mut random = Random::new(8);
+    // The bored block, evenly strewn.
+    let part = bored(128).moved();
+    let mut points: Vec<Point> = Vec::new();
+    let mut labels = Vec::new();
+    for (face, &label) in part.mesh.faces.iter().zip(&part.labels) {
+        let [a, b, c] = face.map(|v| part.mesh.positions[v as usize]);
+        let (ab, ac) = (minus(b, a), minus(c, a));
+        let area = 0.5 * norm(crate::space::cross(ab, ac));
+        for _ in 0..(3.0 * area + random.unit()) as usize {
+            let (mut s, mut t) = (random.unit(), random.unit());
+            if s + t > 1.0 {
+                (s, t) = (1.0 - s, 1.0 - t);
+            }
+            points.push(std::array::from_fn(|k| a[k] + s * ab[k] + t * ac[k]));
+            labels.push(label);
+        }
+    }
+    let found = cloud(&points, &Options { tolerance: Some(0.05), ..Options::default() }, &Silent).unwrap();
+    let part = Part { labels, ..part };
+    matched(&part, &found, 0.85);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let part = turned(1.0, 72).moved().noisy(0.01, 5);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let options = Options::default();
+            (
+                mesh(&part.mesh, &options, &Silent).unwrap(),
+                cloud(&part.mesh.positions, &options, &Silent).unwrap(),
+            )
+        })
+    };
+    let one = on(1);
+    assert!(one == on(2) && one == on(5));
+}
+
+#[test]
+fn only_the_kinds_asked_for_are_found() {
+    let part = turned(1.0, 72);
+    let options = Options { kinds: vec![Kind::Plane, Kind::Sphere], ..Options::default() };
+    let found = mesh(&part.mesh, &options, &Silent).unwrap();
+    assert!(found.regions.iter().all(|r| options.kinds.contains(&r.fit.shape.kind())), "{:?}", kinds(&found));
+    let options = Options { min_share: 0.2, ..Options::default() };
+    let found = mesh(&part.mesh, &options, &Silent).unwrap();
+    assert!(!found.regions.is_empty() && found.regions.iter().all(|r| r.share >= 0.2), "{:?}", kinds(&found));
+}
+
+#[test]
+fn what_is_no_surface_is_refused_or_left_out() {
+    let options = Options::default();
+    let square = |faces: Vec<[u32; 3]>| Mesh {
+        positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0]],
+        faces,
+    };
+    let error = |mesh: &Mesh| super::mesh(mesh, &options, &Silent).unwrap_err();
+    assert_eq!(error(&Mesh::default()), SegmentError::Empty("points"));
+    assert_eq!(error(&square(vec![])), SegmentError::Empty("facets"));
+    assert_eq!(error(&square(vec![[0, 1, 4], [0, 0, 1]])), SegmentError::NoSurface);
+    assert!(matches!(error(&square(vec![[0, 1, 9]])), SegmentError::Mesh(_)));
+    let mut bad = square(vec![[0, 1, 2]]);
+    bad.positions[3][1] = f64::NAN;
+    assert_eq!(error(&bad), SegmentError::NotFinite { index: 3 });
+    assert_eq!(cloud(&[[1.0, 2.0, 3.0]; 90], &options, &Silent), Err(SegmentError::NoSurface));
+    let wrong = Options { crease: 0.0, ..Options::default() };
+    let answer = super::mesh(&square(vec![[0, 1, 2]]), &wrong, &Silent);
+    assert!(matches!(answer, Err(SegmentError::WrongOption { name: "crease", .. })));
+    // Facets without area, doubled ones and three at an edge do not disturb the others.
+    let odd = square(vec![[0, 1, 2], [0, 2, 3], [0, 1, 4], [0, 1, 2], [2, 1, 0], [3, 3, 3]]);
+    let found = super::mesh(&odd, &options, &Silent).unwrap();
+    assert_eq!((found.regions.len(), found.labels[2], found.labels[5]), (1, u32::MAX, u32::MAX));
+}

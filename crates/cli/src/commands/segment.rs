@@ -1,0 +1,221 @@
+//! `trueness segment`: planes, cylinders, cones, spheres and tori in a mesh or cloud.
+
+use crate::command::Common;
+use crate::commands::compare::output::json_file;
+use crate::exit::{Outcome, Usage};
+use crate::progress::Stage;
+use crate::{console, read};
+use clap::{Args, ValueEnum};
+use std::fmt::Write;
+use std::path::PathBuf;
+use trueness_files::write::{Pieces, regions};
+use trueness_files::{Body, Columns, ReadOptions, Unit};
+use trueness_geom::fit::Kind;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
+use trueness_inspect::results::Role;
+use trueness_inspect::results::fit::Number;
+use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
+
+/// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
+///
+/// Finds the regions, fits an element to each by least squares and tells its parameters with their uncertainties. How
+/// far a point may lie off is found from the noise of the data, unless --tolerance says it.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness segment scan.stl
+  trueness segment scan.ply --shapes plane,cylinder --out regions.ply
+  trueness segment cloud.xyz --tolerance 0.05 --min-share 1 --json regions.json")]
+pub struct SegmentArgs {
+    /// A mesh, or points; `-` reads stdin
+    input: PathBuf,
+    /// What is looked for
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        default_value = "plane,cylinder,cone,sphere,torus"
+    )]
+    shapes: Vec<ShapeArg>,
+    /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
+    #[arg(long, value_name = "MM")]
+    tolerance: Option<f64>,
+    /// Angle between neighbouring facets, or normals of points, from which on there is an edge between them, degrees
+    #[arg(long, value_name = "DEGREES", default_value = "32")]
+    crease: f64,
+    /// Least share of the area, or of the points of a cloud, that a region must have, percent
+    #[arg(long, value_name = "PERCENT", default_value = "0.2")]
+    min_share: f64,
+    /// Fewest measured points of a region
+    #[arg(long, value_name = "N", default_value = "0")]
+    min_points: usize,
+    /// Unit of a file that does not say its own [default: mm]
+    #[arg(long, value_name = "UNIT")]
+    units: Option<Unit>,
+    /// Columns of a text file, e.g. x,y,z or -,x,y,z
+    #[arg(long, value_name = "LIST")]
+    columns: Option<Columns>,
+    /// Write the result document; `-` for stdout, then without a table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// List the facets or points of every region in the document
+    #[arg(long, requires = "json")]
+    members: bool,
+    /// Write the facets or points with the number of their region (.ply .csv)
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ShapeArg {
+    Plane,
+    Cylinder,
+    Cone,
+    Sphere,
+    Torus,
+}
+
+impl From<ShapeArg> for Kind {
+    fn from(shape: ShapeArg) -> Kind {
+        match shape {
+            ShapeArg::Plane => Kind::Plane,
+            ShapeArg::Cylinder => Kind::Cylinder,
+            ShapeArg::Cone => Kind::Cone,
+            ShapeArg::Sphere => Kind::Sphere,
+            ShapeArg::Torus => Kind::Torus,
+        }
+    }
+}
+
+impl SegmentArgs {
+    fn options(&self, seed: u64) -> Options {
+        Options {
+            kinds: self.shapes.iter().map(|&shape| shape.into()).collect(),
+            tolerance: self.tolerance,
+            crease: self.crease.to_radians(),
+            min_share: self.min_share / 100.0,
+            min_points: self.min_points,
+            seed,
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options(common.seed);
+    let reading = ReadOptions { units: args.units, columns: args.columns.clone(), ..ReadOptions::default() };
+    let input = trueness_files::open(&args.input, &reading)?;
+    let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
+    let (mesh, kind) = match input.body {
+        Body::Mesh(source) => (source.mesh, PieceKind::Facets),
+        Body::Points(source) => {
+            (Mesh { positions: read::all_points(source)?, faces: Vec::new() }, PieceKind::Points)
+        }
+    };
+    record.points = mesh.positions.len() as u64;
+    let pieces = match kind {
+        PieceKind::Facets => Pieces::Facets(&mesh.faces),
+        PieceKind::Points => Pieces::Points,
+    };
+    record.facets = (kind == PieceKind::Facets).then_some(mesh.faces.len() as u64);
+    let (word, total) = match kind {
+        PieceKind::Facets => ("facets", mesh.faces.len()),
+        PieceKind::Points => ("points", mesh.positions.len()),
+    };
+    let stage = Stage::new(common.progress, "segmenting", word, Some(total as u64));
+    let (hash, found) = rayon::join(
+        || read::hash(&mut record),
+        || match kind {
+            PieceKind::Facets => segment::mesh(&mesh, &options, &stage),
+            PieceKind::Points => segment::cloud(&mesh.positions, &options, &stage),
+        },
+    );
+    drop(stage);
+    hash?;
+    let found = found.map_err(|e| match e {
+        SegmentError::Cancelled(e) => e.into(),
+        e @ (SegmentError::WrongOption { .. } | SegmentError::NoKind) => Usage(e.to_string()).into(),
+        e => anyhow::anyhow!("{}: {e}", args.input.display()),
+    })?;
+    if let Some(path) = &args.out {
+        let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
+        regions(path, &mesh.positions, pieces, &labels, colour)?;
+    }
+    let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
+    if !json_file(args.json.as_deref(), &document)? {
+        console::table(&table(&document, &found));
+    }
+    Ok(Outcome::Conforming)
+}
+
+/// Colour of a region: neighbouring numbers far apart on the colour circle, grey for none.
+fn colour(label: i32) -> [u8; 3] {
+    if label < 0 {
+        return [150; 3];
+    }
+    let golden = (5f64.sqrt() - 1.0) / 2.0;
+    let hue = 6.0 * (f64::from(label) * golden).fract();
+    [5.0, 3.0, 1.0].map(|shift: f64| {
+        let k = (shift + hue).rem_euclid(6.0);
+        let value = 0.9 - 0.7 * k.min(4.0 - k).clamp(0.0, 1.0);
+        (255.0 * value).round() as u8
+    })
+}
+
+/// Rows of the table.
+const ROWS: usize = 60;
+
+/// The document for people.
+fn table(document: &SegmentDocument, found: &Segmentation) -> String {
+    let head = ["region", "shape", "size", "share", "points", "rms", "max"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for region in document.regions.iter().take(ROWS) {
+        rows.push(vec![
+            region.number.to_string(),
+            region.shape.clone(),
+            size(region),
+            format!("{:.2} %", 100.0 * region.share),
+            console::grouped(region.points),
+            format!("{:.2e}", region.rms),
+            format!("{:.2e}", region.max),
+        ]);
+    }
+    let mut out = console::columns(&rows);
+    if document.regions.len() > ROWS {
+        let _ = writeln!(out, "… and {} more", document.regions.len() - ROWS);
+    }
+    let word = match document.pieces {
+        PieceKind::Facets => "facets",
+        PieceKind::Points => "points",
+    };
+    let _ = writeln!(
+        out,
+        "{} regions; {} of {} {word} in none   noise {:.2e}   tolerance {:.2e}   mm and degrees",
+        found.regions.len(),
+        console::grouped(document.unassigned),
+        console::grouped(document.count),
+        document.noise,
+        document.tolerance
+    );
+    out
+}
+
+/// What a shape is called by: its radii and angle, with their standard uncertainties.
+fn size(region: &RegionRecord) -> String {
+    let names = [("major_radius", "R"), ("minor_radius", "r"), ("radius", "r"), ("half_angle", "half angle")];
+    let mut words = Vec::new();
+    for (name, short) in names {
+        // The radius of a cone is that at some place.
+        let told = name != "radius" || region.shape != "cone";
+        let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
+        let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
+        let mut word = format!("{short} {:.4}", value * scale);
+        if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {
+            let _ = write!(word, " ± {:.1e}", u * scale);
+        }
+        words.push(word);
+    }
+    words.join(", ")
+}

@@ -1,0 +1,151 @@
+//! `trueness/segment/1`: elements found in a mesh or cloud.
+
+use super::compare::Bounds;
+use super::fit::{Number, named, uncertainty};
+use super::{InputRecord, UNITS, VERSION};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use trueness_geom::segment::{Options, Region, Segmentation};
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/segment/1";
+
+/// The whole document. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SegmentDocument {
+    /// `trueness/segment/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The file read.
+    pub inputs: Vec<InputRecord>,
+    /// What was put into regions: `facets` or `points`.
+    pub pieces: PieceKind,
+    /// How many there are.
+    pub count: u64,
+    /// How many belong to no region.
+    pub unassigned: u64,
+    /// Standard deviation of the noise found in the data.
+    pub noise: f64,
+    /// Distance up to which points belonged to an element.
+    pub tolerance: f64,
+    /// Whether that distance was given, not found.
+    pub tolerance_given: bool,
+    /// Angle between neighbouring pieces from which on there is an edge between them.
+    pub crease: f64,
+    /// Least share of the area, or of the points, that a region must have.
+    pub min_share: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// The regions, largest first.
+    pub regions: Vec<RegionRecord>,
+}
+
+/// What regions are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PieceKind {
+    /// Facets of a mesh.
+    Facets,
+    /// Points of a cloud.
+    Points,
+}
+
+/// One element and what belongs to it.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct RegionRecord {
+    /// Its number, from 0; the label of its facets or points.
+    pub number: u64,
+    /// `plane`, `cylinder`, `cone`, `sphere` or `torus`.
+    pub shape: String,
+    /// The element by least squares, by names, as in a fit.
+    pub parameters: BTreeMap<String, Number>,
+    /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate.
+    pub uncertainty: Option<BTreeMap<String, Number>>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncertainty_reason: Option<String>,
+    /// Number of facets, or of points of a cloud.
+    pub pieces: u64,
+    /// Area of the facets, mm²; `null` for a cloud.
+    pub area: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub area_reason: Option<String>,
+    /// Share of the area of all facets, or of all points of a cloud.
+    pub share: f64,
+    /// Points that the element was fitted to: those inside the region, not on its edges, where there are enough.
+    pub points: u64,
+    /// Root mean square of their distances.
+    pub rms: f64,
+    /// Greatest magnitude of their distances.
+    pub max: f64,
+    /// Greatest less least signed distance.
+    pub form_error: f64,
+    /// Box around the region.
+    pub bounds: Bounds,
+    /// The numbers of its facets or points in the file, from 0, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub members: Option<Vec<u32>>,
+}
+
+impl SegmentDocument {
+    /// The document of what was found in the file of `inputs`; with `members`, the pieces of each region are listed.
+    pub fn new(
+        found: &Segmentation,
+        pieces: PieceKind,
+        inputs: Vec<InputRecord>,
+        options: &Options,
+        members: bool,
+    ) -> SegmentDocument {
+        let mut listed = vec![members.then(Vec::new); found.regions.len()];
+        for (piece, &label) in found.labels.iter().enumerate() {
+            if let Some(Some(list)) = listed.get_mut(label as usize) {
+                list.push(piece as u32);
+            }
+        }
+        let record = |((number, region), members)| record(number, region, pieces, members);
+        SegmentDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            inputs,
+            pieces,
+            count: found.labels.len() as u64,
+            unassigned: found.labels.iter().filter(|&&label| label == u32::MAX).count() as u64,
+            noise: found.noise,
+            tolerance: found.tolerance,
+            tolerance_given: options.tolerance.is_some(),
+            crease: options.crease,
+            min_share: options.min_share,
+            seed: options.seed,
+            regions: found.regions.iter().enumerate().zip(listed).map(record).collect(),
+        }
+    }
+}
+
+fn record(number: usize, region: &Region, pieces: PieceKind, members: Option<Vec<u32>>) -> RegionRecord {
+    let residuals = &region.fit.residuals;
+    let (uncertainty, uncertainty_reason) = uncertainty(&region.fit);
+    let area = (pieces == PieceKind::Facets).then_some(region.area);
+    RegionRecord {
+        number: number as u64,
+        shape: region.fit.shape.kind().name().into(),
+        parameters: named(region.fit.shape.parameters()),
+        uncertainty,
+        uncertainty_reason,
+        pieces: region.pieces as u64,
+        area,
+        area_reason: area.is_none().then(|| "points have no area".into()),
+        share: region.share,
+        points: region.points.len() as u64,
+        rms: residuals.rms,
+        max: residuals.max.0.abs().max(residuals.min.0.abs()),
+        form_error: residuals.form_error,
+        bounds: Bounds { min: region.bounds.min, max: region.bounds.max },
+        members,
+    }
+}
