@@ -90,7 +90,7 @@ pub(super) fn bored(steps: usize) -> Part {
         let rho = 8.0 + across * (outside - 8.0);
         [rho * cos, rho * sin, z]
     };
-    let face = |k: usize, face: usize| if face == 3 { 3 + ((8 * k / steps + 1) / 2) % 4 } else { face };
+    let face = |k: usize, face: usize| if face == 3 { 3 + (8 * k / steps).div_ceil(2) % 4 } else { face };
     let point = [0.0; 3];
     let plane = |point, normal| Shape::Plane { point, normal };
     let faces = vec![
@@ -130,11 +130,11 @@ fn swept(
         .collect();
     let (mut triangles, mut labels) = (Vec::new(), Vec::new());
     for k in 0..steps {
-        for row in 0..rows {
+        for (row, corner) in section.iter().enumerate().take(rows) {
             let at = |k: usize, row: usize| ((k % columns) * width + row % width) as u32;
             let [a, b, c, d] = [at(k, row), at(k + 1, row), at(k + 1, row + 1), at(k, row + 1)];
             triangles.extend([[a, b, c], [a, c, d]]);
-            labels.extend([face(k, section[row].1); 2]);
+            labels.extend([face(k, corner.1); 2]);
         }
     }
     Part { mesh: Mesh { positions, faces: triangles }, labels, faces }
