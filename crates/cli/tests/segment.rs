@@ -67,3 +67,18 @@ fn what_holds_no_surface_is_refused_by_name() {
         assert!(text.lines().count() <= 3, "{text}");
     }
 }
+
+#[test]
+fn a_report_draws_every_region() {
+    let folder = Folder::new();
+    let file = folder.write("cube.off", CUBE);
+    let html = folder.file("report.html");
+    let answer = trueness(["segment", file.to_str().unwrap(), "--html", html.to_str().unwrap()]);
+    assert_eq!(status(&answer), 0, "{}", stderr(&answer));
+    let text = std::fs::read_to_string(html).unwrap();
+    assert!(text.contains("<title>Elements found · cube.off</title>"));
+    assert_eq!(text.matches("<tr data-pick=").count(), 6);
+    // Nothing is in none; four lines around each plane.
+    assert_eq!(text.matches("\"role\":\"part\"").count(), 6);
+    assert!(text.contains("\"segments\":24"));
+}

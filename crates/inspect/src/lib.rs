@@ -18,4 +18,5 @@ pub mod repair;
 pub mod report;
 pub mod results;
 pub mod scale;
+pub mod segment;
 pub mod tolerance;

@@ -4,6 +4,7 @@ use crate::command::Common;
 use crate::commands::compare::output::json_file;
 use crate::exit::{Outcome, Usage};
 use crate::progress::Stage;
+use crate::report::ReportArgs;
 use crate::{console, read};
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
@@ -13,9 +14,11 @@ use trueness_files::{Body, Columns, ReadOptions, Unit};
 use trueness_geom::fit::Kind;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
+use trueness_inspect::segment::View;
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -66,6 +69,8 @@ pub struct SegmentArgs {
     /// Write the facets or points with the number of their region (.ply .csv)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -144,6 +149,10 @@ pub fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         regions(path, &mesh.positions, pieces, &labels, colour)?;
     }
     let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
+    if args.report.html.is_some() {
+        let view = View::new(&document, &mesh, &found.labels);
+        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks)?;
+    }
     if !json_file(args.json.as_deref(), &document)? {
         console::table(&table(&document, &found));
     }

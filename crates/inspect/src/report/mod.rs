@@ -109,6 +109,8 @@ pub enum ViewRole {
     Outline,
     /// Marks: points that hold an element.
     Touching,
+    /// Marks: lines between regions.
+    Edges,
     /// Marks: what was changed.
     Changes,
 }

@@ -100,6 +100,8 @@ export interface Pick {
   reach: number | null
   normal: [number, number, number] | null
   mark: number | null
+  /** Number of the object that is meant. */
+  object: number | null
   map: number | null
   value: number | null
 }

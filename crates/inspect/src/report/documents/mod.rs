@@ -4,6 +4,7 @@ mod check;
 mod compare;
 mod fit;
 mod repair;
+mod segment;
 
 use super::html::Html;
 use super::page::blocks::{Headline, role_key};
@@ -12,6 +13,7 @@ use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
 use crate::results::fit::FitDocument;
 use crate::results::repair::RepairDocument;
+use crate::results::segment::SegmentDocument;
 use crate::scale::Scale;
 use serde_json::Value;
 use trueness_geom::space::{Point, Vector};
@@ -27,6 +29,8 @@ pub enum Answer<'a> {
     Fit(&'a FitDocument),
     /// What was mended in this mesh?
     Repair(&'a RepairDocument),
+    /// Which elements are in this mesh or cloud?
+    Segment(&'a SegmentDocument),
 }
 
 impl Answer<'_> {
@@ -37,6 +41,7 @@ impl Answer<'_> {
             Answer::Compare(d) => *d,
             Answer::Fit(d) => *d,
             Answer::Repair(d) => *d,
+            Answer::Segment(d) => *d,
         }
     }
 }
@@ -135,6 +140,8 @@ pub struct Pick {
     pub normal: Option<Vector>,
     /// Number of what is drawn there, over all marks.
     pub mark: Option<usize>,
+    /// Number of the object that is meant; the others then step back.
+    pub object: Option<usize>,
     /// The map that it belongs to.
     pub map: Option<usize>,
     /// The value there, for a flag.

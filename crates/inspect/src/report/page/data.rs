@@ -54,7 +54,7 @@ fn picks(input: &ReportInput) -> Value {
     let all = input.result.subject().picks().into_iter().map(|p| {
         json!({
             "position": p.position, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
-            "mark": p.mark, "map": p.map, "value": p.value,
+            "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
         })
     });
     all.collect::<Vec<_>>().into()

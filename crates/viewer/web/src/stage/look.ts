@@ -60,13 +60,13 @@ export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize' | 'opacity', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
   const [base] = parse(object.color)
   const opacity = OPACITIES[object.role] ?? 1
-  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity } }
+  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false } }
   const uniforms = {
     ...shared,
     ...own,

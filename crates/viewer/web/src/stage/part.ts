@@ -47,6 +47,11 @@ export class Part {
     this.materials.own.map.value = on && this.field >= 0
   }
 
+  /** Steps back to grey while another object is meant. */
+  setBack(back: boolean): void {
+    this.materials.own.back.value = back
+  }
+
   /** One looks through it. */
   get translucent(): boolean {
     return this.materials.picture.transparent

@@ -38,7 +38,7 @@ in vec3 vPlace;
 in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
-uniform bool map, flatColors, isPoints, perspective, continuous, hatch, backfaces;
+uniform bool map, flatColors, isPoints, perspective, continuous, hatch, backfaces, back;
 uniform float opacity;
 uniform vec3 base;
 uniform float limits[34];
@@ -89,7 +89,8 @@ void main() {
     return;
   }
   if (!map) {
-    color = vec4(base * (isPoints ? 1.0 : light(0.45)), opacity);
+    vec3 own = back ? mix(base, vec3(0.72, 0.74, 0.76), 0.8) : base;
+    color = vec4(own * (isPoints ? 1.0 : light(0.45)), opacity);
     return;
   }
   float down = gl_FragCoord.x - gl_FragCoord.y;

@@ -92,10 +92,12 @@ export class Stage {
   applyState(): void {
     applyLook(this.state)
     this.eye.perspective = this.state.perspective
+    const meant = this.state.manifest.picks[this.state.picked]?.object ?? null
     for (const part of this.parts) {
       const { role, comparison } = part.object
       part.showField(this.state.comparison)
       part.setMap(this.state.map)
+      part.setBack(meant !== null && meant !== part.object.id)
       part.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
     }
     for (const marks of this.marks) {

@@ -1,0 +1,5 @@
+//! What a report draws of a segmentation.
+
+mod view;
+
+pub use view::View;

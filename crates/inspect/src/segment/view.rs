@@ -1,0 +1,119 @@
+//! What a report draws of a segmentation: every region in its own colour, with the lines between them.
+
+use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::results::segment::SegmentDocument;
+use crate::scale::palette::{Rgb, category};
+use std::collections::{BTreeSet, HashMap};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::{Point, Vector, cross, minus, plus, unit};
+
+/// What belongs to no region.
+const NONE: Rgb = [0xb9, 0xb4, 0xaa];
+/// The lines between regions.
+const LINE: Rgb = [0x22, 0x26, 0x2b];
+
+/// A segmentation prepared for drawing.
+pub struct View<'a> {
+    document: &'a SegmentDocument,
+    /// One for each region, then what belongs to none.
+    parts: Vec<Mesh>,
+    /// The rim of each region, in the order of the regions.
+    pub marks: Vec<Marks>,
+}
+
+impl<'a> View<'a> {
+    /// Of the regions of a mesh, or of a cloud (a mesh without facets); `labels` has the number of the region of each facet
+    /// or point, and any greater number where there is none.
+    pub fn new(document: &'a SegmentDocument, mesh: &Mesh, labels: &[u32]) -> View<'a> {
+        let count = document.regions.len();
+        let mut parts = vec![Mesh::default(); count + 1];
+        let mut members: Vec<Vec<usize>> = vec![vec![]; count + 1];
+        for (piece, label) in labels.iter().enumerate() {
+            members[(*label as usize).min(count)].push(piece);
+        }
+        let mut items = vec![];
+        for (n, (part, members)) in parts.iter_mut().zip(&members).enumerate() {
+            if mesh.faces.is_empty() {
+                part.positions = members.iter().filter_map(|p| mesh.positions.get(*p).copied()).collect();
+            } else {
+                *part = cut_out(mesh, members);
+            }
+            if n < count {
+                items.push(rim(part).finite());
+            }
+        }
+        let group = MarkGroup { key: "edges".into(), color: LINE, items };
+        let marks = vec![Marks { role: ViewRole::Edges, comparison: None, groups: vec![group] }];
+        View { document, parts, marks }
+    }
+
+    /// A mesh or cloud for each region, in the order of the regions, then the rest if there is any.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let names = self.document.regions.iter().map(|r| r.shape.as_str()).chain([""]);
+        (self.parts.iter().zip(names).enumerate())
+            .filter(|(_, (part, _))| !part.positions.is_empty())
+            .map(|(n, (part, name))| ViewObject {
+                role: ViewRole::Part,
+                name,
+                color: Some(if n < self.document.regions.len() { category(n) } else { NONE }),
+                comparison: None,
+                geometry: match part.faces.is_empty() {
+                    true => Geometry::Points(&part.positions),
+                    false => Geometry::Mesh(part),
+                },
+                fields: vec![],
+            })
+            .collect()
+    }
+}
+
+/// These facets with their own vertices.
+fn cut_out(mesh: &Mesh, facets: &[usize]) -> Mesh {
+    let mut part = Mesh::default();
+    let mut number: HashMap<u32, u32> = HashMap::new();
+    for face in facets.iter().filter_map(|f| mesh.faces.get(*f)) {
+        let corner = face.map(|v| {
+            *number.entry(v).or_insert_with(|| {
+                part.positions.extend(mesh.positions.get(v as usize));
+                part.positions.len() as u32 - 1
+            })
+        });
+        part.faces.push(corner);
+    }
+    part
+}
+
+/// Edges with one facet, and which way the facets look on the whole.
+fn rim(part: &Mesh) -> Mark {
+    let mut single: BTreeSet<[u32; 2]> = BTreeSet::new();
+    let mut sum: Vector = [0.0; 3];
+    for f in &part.faces {
+        for [a, b] in [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]] {
+            let edge = [a.min(b), a.max(b)];
+            if !single.remove(&edge) {
+                single.insert(edge);
+            }
+        }
+        let [a, b, c] = f.map(|v| part.positions[v as usize]);
+        sum = plus(sum, cross(minus(b, a), minus(c, a)));
+    }
+    let place = |v: u32| -> Point { part.positions[v as usize] };
+    let segments = single.into_iter().map(|e| e.map(place)).collect();
+    let normal = unit(sum).map(|(n, _)| n).filter(|n| n.iter().all(|x| x.is_finite()));
+    Mark { segments, normal, ..Mark::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_cut_out_has_its_rim() {
+        let positions = vec![[9.0; 3], [0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let mesh = Mesh { positions, faces: vec![[0, 1, 2], [1, 2, 3], [1, 3, 4]] };
+        let part = cut_out(&mesh, &[1, 2]);
+        assert_eq!((part.positions.len(), &part.faces[..]), (4, &[[0, 1, 2], [0, 2, 3]][..]));
+        let rim = rim(&part);
+        assert_eq!((rim.segments.len(), rim.normal), (4, Some([0.0, 0.0, 1.0])));
+    }
+}
