@@ -1,8 +1,8 @@
-//! Mending what [`check`](crate::check) finds, without moving a vertex.
+//! Mending what [`check`] finds, without moving a vertex.
 //!
 //! [`repair`] goes through the steps of [`STEPS`], one file and one line each, again and again until nothing is left to
 //! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
-//! listed. The result of a step is decided exactly where [`check`](crate::check) decides exactly.
+//! listed. The result of a step is decided exactly where [`check`] decides exactly.
 
 mod degenerate;
 mod duplicates;
