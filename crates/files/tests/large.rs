@@ -49,6 +49,7 @@ fn stl_of_more_than_four_gigabytes_is_read_and_checked() {
     assert!(50 * facets > 1 << 32);
     let mesh = read_of_size(facets);
     let report = check(&mesh.mesh, mesh.stored_normals.as_deref(), &Options::default(), &Silent).unwrap();
-    assert_eq!(report.found("degenerate_facets").unwrap().count as u64, facets - 1);
+    // The last facet has its corners on a line: without area, but with edges.
+    assert_eq!(report.found("degenerate_facets").unwrap().count as u64, facets);
     assert_eq!((report.edges, report.found("boundary_edges").unwrap().count), (3, 3));
 }
