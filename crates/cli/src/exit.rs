@@ -19,6 +19,14 @@ pub enum Outcome {
 #[error("{0}")]
 pub struct Usage(pub String);
 
+/// `x`, the value of the option `name`, if it is finite and not below 0.
+pub fn not_negative(name: &str, x: f64) -> Result<f64, Usage> {
+    match x.is_finite() && x >= 0.0 {
+        true => Ok(x),
+        false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
+    }
+}
+
 /// A fault of the program itself.
 #[derive(Debug, thiserror::Error)]
 #[error("internal error: {0}. Please report it with the command and the files that caused it.")]

@@ -4,7 +4,7 @@ mod table;
 
 use crate::command::Common;
 use crate::commands::compare::output::whole_file;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{Outcome, Usage, not_negative};
 use crate::progress::Stage;
 use crate::report::ReportArgs;
 use crate::{console, read};
@@ -58,10 +58,6 @@ pub struct CheckArgs {
 
 impl CheckArgs {
     fn options(&self) -> Result<Options, Usage> {
-        let not_negative = |name: &str, x: f64| match x.is_finite() && x >= 0.0 {
-            true => Ok(x),
-            false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
-        };
         Ok(Options {
             limit: self.items,
             self_intersections: !self.no_self_intersections,

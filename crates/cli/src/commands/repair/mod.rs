@@ -5,7 +5,7 @@ mod table;
 use crate::command::Common;
 use crate::commands::compare::output::whole_file;
 use crate::console;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{Outcome, Usage, not_negative};
 use crate::progress::Stage;
 use crate::read;
 use crate::report::ReportArgs;
@@ -80,10 +80,6 @@ fn help() -> String {
 
 impl RepairArgs {
     fn options(&self) -> Result<Options, Usage> {
-        let not_negative = |name: &str, x: f64| match x.is_finite() && x >= 0.0 {
-            true => Ok(x),
-            false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
-        };
         let (only, skip) = (names("only", &self.only)?, names("skip", &self.skip)?);
         let wanted = |name: &&str| (only.is_empty() || only.contains(name)) && !skip.contains(name);
         Ok(Options {
