@@ -1,28 +1,26 @@
 //! The loop: make a case, try it, keep what is new, tell what is wrong.
 
 use crate::coverage::Seen;
-use crate::memory;
 use crate::mutate::below;
-use crate::target::Target;
+use crate::targets::Target;
+use crate::{memory, watch};
 use cpu_time::ProcessTime;
 use std::collections::BTreeMap;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use trueness_geom::num::random::Random;
 
 /// How long, and from where.
 pub struct Plan {
-    /// Stop after this time.
+    /// Stop after this processor time of the whole process, seconds.
     pub seconds: f64,
     /// Stop after so many cases.
     pub cases: u64,
     /// Beginning of the random numbers.
     pub seed: u64,
-    /// Processor time for one case.
-    pub case_seconds: f64,
     /// Memory for one case, whatever its size.
     pub base: usize,
     /// Where findings go.
@@ -32,22 +30,8 @@ pub struct Plan {
 /// Memory for each byte of the file, beyond [`Plan::base`].
 pub const FACTOR: usize = 20;
 
-/// What a run came to.
-pub struct Outcome {
-    /// Cases tried.
-    pub cases: u64,
-    /// Different findings.
-    pub findings: usize,
-    /// The greatest memory of a case.
-    pub peak: usize,
-    /// The longest case.
-    pub longest: Duration,
-}
-
 /// Where the last panic happened, and what it said.
 static SAID: Mutex<String> = Mutex::new(String::new());
-/// Since when the case under way runs, in milliseconds since the start; 0 between cases.
-static SINCE: AtomicU64 = AtomicU64::new(0);
 
 /// Keeps panics quiet and remembers them.
 pub fn listen() {
@@ -58,35 +42,9 @@ pub fn listen() {
     }));
 }
 
-/// Ends the program when a case takes too long: it cannot be stopped otherwise. The case stays in its file. What counts is
-/// the processor's time, so that a busy machine is not a finding; many times as long without any is one, too.
-fn watch(start: Instant, seconds: f64, file: PathBuf) {
-    const IDLE: f64 = 30.0;
-    std::thread::spawn(move || {
-        let (mut case, mut cpu) = (0, ProcessTime::now());
-        loop {
-            std::thread::sleep(Duration::from_millis(200));
-            let since = SINCE.load(Relaxed);
-            if since != case {
-                (case, cpu) = (since, ProcessTime::now());
-            }
-            let wall = start.elapsed().as_secs_f64() - since as f64 / 1e3;
-            if since > 0 && (cpu.elapsed().as_secs_f64() > seconds || wall > IDLE * seconds) {
-                eprintln!("FOUND a case that takes longer than {seconds} s: {}", file.display());
-                std::process::exit(1);
-            }
-        }
-    });
-}
-
-/// Tries `target` as planned; seeds come from the folder `corpus`.
-pub fn run(target: &Target, corpus: &Path, plan: &Plan) -> std::io::Result<Outcome> {
-    std::fs::create_dir_all(&plan.findings)?;
-    let file = plan.findings.join(format!("{}-now-{}.{}", target.name, std::process::id(), target.extension));
-    let start = Instant::now();
-    watch(start, plan.case_seconds, file.clone());
-    let mut run =
-        Run { target, plan, file, start, seen: Seen::new(), found: BTreeMap::new(), outcome: nothing() };
+/// Tries `target` as planned; seeds come from the folder `corpus`. Returns the number of findings.
+pub fn run(target: &Target, corpus: &Path, plan: &Plan) -> io::Result<usize> {
+    let mut run = Run::of(target, plan)?;
     let mut pool = (target.seeds)(corpus);
     println!("{}: {} seeds, {} counters", target.name, pool.len(), run.seen.counters());
     for seed in &pool {
@@ -94,7 +52,7 @@ pub fn run(target: &Target, corpus: &Path, plan: &Plan) -> std::io::Result<Outco
     }
     let mut random = Random::new(plan.seed);
     let mut next = 0.0;
-    while run.outcome.cases < plan.cases && start.elapsed().as_secs_f64() < plan.seconds {
+    while run.cases < plan.cases && run.seconds() < plan.seconds {
         let newest = pool.len().saturating_sub(50);
         let from = if random.below(2) == 0 { newest } else { 0 };
         let (a, b) = (from + below(&mut random, pool.len() - from), below(&mut random, pool.len()));
@@ -102,73 +60,90 @@ pub fn run(target: &Target, corpus: &Path, plan: &Plan) -> std::io::Result<Outco
         if run.case(&case)? {
             pool.push(case);
         }
-        if start.elapsed().as_secs_f64() > next {
+        if run.seconds() > next {
             next += 60.0;
-            let (o, edges) = (&run.outcome, run.seen.edges());
-            let seconds = start.elapsed().as_secs();
-            println!("{}: {seconds} s, {} cases, {} kept, {edges} edges", target.name, o.cases, pool.len());
+            println!("{}, {} kept", run.progress(), pool.len());
         }
     }
-    std::fs::remove_file(&run.file)?;
-    let edges = run.seen.edges();
-    let o = run.outcome;
-    println!(
-        "{}: {:.0} s, {} cases, {} kept, {edges} edges, most memory {} kB, longest case {:.2} s, {} findings",
-        target.name,
-        start.elapsed().as_secs_f64(),
-        o.cases,
-        pool.len(),
-        o.peak / 1000,
-        o.longest.as_secs_f64(),
-        o.findings
-    );
-    Ok(o)
+    println!("{}, {} kept, {}", run.progress(), pool.len(), run.extremes());
+    run.end()
 }
 
-/// Tries one case from a file.
-pub fn replay(target: &Target, case: &Path, plan: &Plan) -> std::io::Result<Outcome> {
+/// Tries one case from a file. Returns the number of findings.
+pub fn replay(target: &Target, case: &Path, plan: &Plan) -> io::Result<usize> {
     let bytes = std::fs::read(case)?;
-    std::fs::create_dir_all(&plan.findings)?;
-    let file = plan.findings.join(format!("{}-now-{}.{}", target.name, std::process::id(), target.extension));
-    let start = Instant::now();
-    watch(start, plan.case_seconds, file.clone());
-    let mut run =
-        Run { target, plan, file, start, seen: Seen::new(), found: BTreeMap::new(), outcome: nothing() };
+    let mut run = Run::of(target, plan)?;
     run.case(&bytes)?;
-    std::fs::remove_file(&run.file)?;
-    Ok(run.outcome)
-}
-
-fn nothing() -> Outcome {
-    Outcome { cases: 0, findings: 0, peak: 0, longest: Duration::ZERO }
+    println!("{}, {}", run.progress(), run.extremes());
+    run.end()
 }
 
 struct Run<'a> {
     target: &'a Target,
     plan: &'a Plan,
+    /// Where the case under way lies.
     file: PathBuf,
-    start: Instant,
+    begin: ProcessTime,
     seen: Seen,
+    cases: u64,
     /// How often each thing was found.
     found: BTreeMap<String, usize>,
-    outcome: Outcome,
+    /// The greatest memory of a case.
+    peak: usize,
+    /// The longest case, processor time.
+    longest: Duration,
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    fn of(target: &'a Target, plan: &'a Plan) -> io::Result<Run<'a>> {
+        std::fs::create_dir_all(&plan.findings)?;
+        let name = format!("{}-now-{}.{}", target.name, std::process::id(), target.extension);
+        Ok(Run {
+            target,
+            plan,
+            file: plan.findings.join(name),
+            begin: ProcessTime::now(),
+            seen: Seen::new(),
+            cases: 0,
+            found: BTreeMap::new(),
+            peak: 0,
+            longest: Duration::ZERO,
+        })
+    }
+
+    /// Processor time since the beginning.
+    fn seconds(&self) -> f64 {
+        self.begin.elapsed().as_secs_f64()
+    }
+
+    fn progress(&self) -> String {
+        let (name, edges) = (self.target.name, self.seen.edges());
+        format!("{name}: {:.0} s, {} cases, {edges} edges", self.seconds(), self.cases)
+    }
+
+    fn extremes(&self) -> String {
+        let (peak, longest, findings) = (self.peak / 1000, self.longest.as_secs_f64(), self.found.len());
+        format!("most memory {peak} kB, longest case {longest:.2} s, {findings} findings")
+    }
+
+    /// Number of findings.
+    fn end(self) -> io::Result<usize> {
+        std::fs::remove_file(&self.file)?;
+        Ok(self.found.len())
+    }
+
     /// Tries a case; true if it went where none went before.
-    fn case(&mut self, bytes: &[u8]) -> std::io::Result<bool> {
+    fn case(&mut self, bytes: &[u8]) -> io::Result<bool> {
         // Should the program end here, the case is still there.
         std::fs::write(&self.file, bytes)?;
         self.seen.reset();
-        let begin = self.start.elapsed();
-        SINCE.store(begin.as_millis() as u64 + 1, Relaxed);
+        let begin = ProcessTime::now();
         let job = || catch_unwind(AssertUnwindSafe(|| (self.target.run)(bytes, &self.file)));
-        let (result, memory) = memory::measured(job);
-        SINCE.store(0, Relaxed);
+        let (result, memory) = watch::over(&self.file, || memory::measured(job));
+        self.longest = self.longest.max(begin.elapsed());
         let new = self.seen.is_new();
-        self.outcome.cases += 1;
-        self.outcome.peak = self.outcome.peak.max(memory);
-        self.outcome.longest = self.outcome.longest.max(self.start.elapsed() - begin);
+        self.cases += 1;
+        self.peak = self.peak.max(memory);
         if result.is_err() {
             let said = SAID.lock().map(|s| s.clone()).unwrap_or_default();
             self.finding(bytes, &said)?;
@@ -181,7 +156,7 @@ impl Run<'_> {
     }
 
     /// Writes the case down, unless the same was found before.
-    fn finding(&mut self, bytes: &[u8], said: &str) -> std::io::Result<()> {
+    fn finding(&mut self, bytes: &[u8], said: &str) -> io::Result<()> {
         // The same place is the same finding, whatever the numbers in its message.
         let key: String = said.chars().take(60).filter(|c| !c.is_ascii_digit()).collect();
         let times = self.found.entry(key).or_default();
@@ -189,8 +164,7 @@ impl Run<'_> {
         if *times > 1 {
             return Ok(());
         }
-        self.outcome.findings += 1;
-        let name = format!("{}-{}.{}", self.target.name, self.outcome.findings, self.target.extension);
+        let name = format!("{}-{}.{}", self.target.name, self.found.len(), self.target.extension);
         let path = self.plan.findings.join(name);
         std::fs::write(&path, bytes)?;
         println!("FOUND {}: {said}", path.display());

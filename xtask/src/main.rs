@@ -33,6 +33,19 @@ const STEPS: &[Step] = &[
         "benchmarks compile",
         &["check", "--manifest-path", "bench/Cargo.toml", "--all-targets", "--locked"],
     ),
+    cargo(
+        "fuzzing lints",
+        &[
+            "clippy",
+            "--manifest-path",
+            "fuzz/Cargo.toml",
+            "--all-targets",
+            "--locked",
+            "--",
+            "-D",
+            "warnings",
+        ],
+    ),
     Step {
         name: "viewer packages",
         folder: "crates/viewer/web",

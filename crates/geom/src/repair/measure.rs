@@ -76,7 +76,7 @@ fn common(a: &[[u32; 3]], b: &[[u32; 3]]) -> u64 {
 pub struct Way {
     /// The greatest found.
     pub max: f64,
-    /// Mean over the area.
+    /// Mean over the area; 0 where there is none.
     pub mean: f64,
 }
 
@@ -131,8 +131,8 @@ fn way(from: &Mesh, to: &Mesh, progress: &dyn Progress) -> Result<Way, Deviation
     let mut there: Vec<_> = to.faces.iter().map(|f| place(to, f)).collect();
     there.sort_unstable();
     let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
-    let total: f64 = from.faces.iter().map(|f| area(corners(f))).sum();
     let finite = |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite());
+    let total: f64 = from.faces.iter().filter(finite).map(|f| area(corners(f))).sum();
     let changed = from.faces.iter().filter(finite).filter(|f| there.binary_search(&place(from, f)).is_err());
     let changed: Vec<[Point; 3]> = changed.map(corners).collect();
     if changed.is_empty() {
@@ -143,7 +143,8 @@ fn way(from: &Mesh, to: &Mesh, progress: &dyn Progress) -> Result<Way, Deviation
     let mut way = Way::default();
     for (t, d) in changed.iter().zip(distances.chunks_exact(WEIGHTS.len())) {
         way.max = d.iter().copied().fold(way.max, f64::max);
-        way.mean += area(*t) / total * d.iter().zip(WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
+        let share = if total > 0.0 { area(*t) / total } else { 0.0 };
+        way.mean += share * d.iter().zip(WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
     }
     Ok(way)
 }

@@ -184,12 +184,12 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         }
     }
     let changes = std::mem::take(&mut work.changes);
-    let repaired = work.into_mesh();
-    let counts = Counts::of(&welded, &repaired);
-    let mesh = match changes.is_empty() {
-        true => repaired,
-        false => as_it_is(&compact(repaired))?,
+    let repaired = match changes.is_empty() {
+        true => work.into_mesh(),
+        false => rejoined(work.into_mesh())?,
     };
+    let counts = Counts::of(&welded, &repaired);
+    let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
     let after = check::check(&mesh, None, &check_options, progress)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts })
 }
@@ -198,6 +198,19 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
 fn as_it_is(mesh: &Mesh) -> Result<Mesh, WeldError> {
     let welded = weld::mesh(mesh)?.mesh;
     Ok(if welded.positions.len() == mesh.positions.len() { mesh.clone() } else { welded })
+}
+
+/// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
+/// may have come to lie upon it.
+fn rejoined(mut mesh: Mesh) -> Result<Mesh, WeldError> {
+    let vertex_of = weld::mesh(&mesh)?.vertex_of;
+    let mut first = vec![u32::MAX; mesh.positions.len()];
+    for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
+        let first = &mut first[*number as usize];
+        *first = v.min(*first);
+    }
+    mesh.faces.iter_mut().for_each(|f| *f = f.map(|v| first[vertex_of[v as usize] as usize]));
+    Ok(mesh)
 }
 
 /// Without the vertices that no facet uses; the others keep their order.

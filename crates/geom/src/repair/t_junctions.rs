@@ -24,7 +24,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         let place = dot(minus(work.at(vertex), work.at(a)), along);
         all.push((finding.facets[0], [a, b], place, vertex));
     }
-    if all.is_empty() {
+    if all.is_empty() || all.len() > work.room() {
         return Ok(());
     }
     all.sort_unstable_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2)).then(x.3.cmp(&y.3)));

@@ -30,6 +30,9 @@ pub(super) struct Work<'a> {
     pub parted: BTreeSet<u32>,
     /// How often facets that cross have been torn out.
     pub tears: usize,
+    /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
+    /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
+    most_facets: usize,
     known: Option<Arc<Known>>,
 }
 
@@ -50,6 +53,7 @@ impl<'a> Work<'a> {
     ) -> Result<Work<'a>, RepairError> {
         let single = mesh.positions.iter().flatten().all(|x| f64::from(*x as f32) == *x || !x.is_finite());
         let mut work = Work {
+            most_facets: 100 + 4 * mesh.faces.len(),
             mesh,
             options,
             progress,
@@ -80,6 +84,11 @@ impl<'a> Work<'a> {
 
     pub(super) fn corners(&self, facet: u32) -> [Point; 3] {
         self.mesh.faces[facet as usize].map(|v| self.at(v))
+    }
+
+    /// How many facets cutting may still add.
+    pub(super) fn room(&self) -> usize {
+        self.most_facets.saturating_sub(self.mesh.faces.len())
     }
 
     /// The middle of a facet.

@@ -117,3 +117,43 @@ fn any_mess_comes_to_an_end() {
     let broken = Mesh { positions: vec![[0.0; 3]], faces: vec![[0, 0, 7]] };
     assert!(matches!(repair(&broken, &Options::default(), &Silent), Err(RepairError::Weld(_))));
 }
+
+/// So small that arithmetic is not exact any more, and vertices set off from others come to lie upon them.
+#[test]
+fn counts_are_true_even_where_numbers_end() {
+    for kind in check::KINDS {
+        let (mut mesh, ..) = planted(kind.name, 5);
+        mesh.positions.iter_mut().flatten().for_each(|x| *x *= 1e-300);
+        let repaired = mend(&mesh);
+        // Nothing can be measured against facets at no place.
+        if kind.name == "not_finite_facets" {
+            continue;
+        }
+        let deviation = deviation(&mesh, &repaired.mesh, &Silent).unwrap();
+        for way in [deviation.there, deviation.back] {
+            assert!(way.mean >= 0.0 && way.max.is_finite(), "{}: {way:?}", kind.name);
+        }
+    }
+}
+
+#[test]
+fn facets_at_no_place_are_not_part_of_the_mean() {
+    let (mesh, ..) = planted("not_finite_facets", 1);
+    let holed = Mesh { faces: mesh.faces[1..].to_vec(), ..mesh.clone() };
+    let mean = |to: &Mesh| deviation(&mesh, to, &Silent).unwrap().there.mean;
+    assert_eq!(mean(&mend(&mesh).mesh), 0.0);
+    assert!(
+        mean(&mend_with(&holed, &Options { steps: vec!["not_finite"], ..Options::default() }).mesh) > 0.0
+    );
+}
+
+/// Sheets closer together than the gap: each vertex lies on most edges, and cutting there would never end.
+#[test]
+fn a_heap_of_thin_facets_does_not_grow() {
+    let random = &mut Random::new(21);
+    let place = |_| [100.0 * random.unit(), 0.5 * random.unit(), 0.5 * random.unit()];
+    let positions: Vec<Point> = (0..180).map(place).collect();
+    let faces: Vec<[u32; 3]> = (0..60).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+    let repaired = mend_with(&Mesh { positions, faces }, &Options { gap: Some(1.0), ..Options::default() });
+    assert!(repaired.mesh.faces.len() < 600, "{} facets", repaired.mesh.faces.len());
+}

@@ -1,4 +1,4 @@
-//! What is tried: one target a reader, and one each for the check and the repair of meshes.
+//! The list of targets: one for each reader, and one each for the check and the repair of meshes.
 
 mod meshes;
 mod readers;
@@ -12,7 +12,7 @@ pub struct Target {
     pub name: &'static str,
     /// How files of its cases end.
     pub extension: &'static str,
-    /// What it begins with; the argument is the folder `corpus`.
+    /// The cases it begins with; the argument is the folder `corpus`.
     pub seeds: fn(&Path) -> Vec<Vec<u8>>,
     /// A new case from one and another.
     pub mutate: fn(&mut Random, &[u8], &[u8]) -> Vec<u8>,
@@ -42,11 +42,10 @@ fn files(folder: &Path, extensions: &[&str]) -> Vec<Vec<u8>> {
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
             let path = entry.path();
-            let ends = |e: &&str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
+            let ends = |e: &str| path.extension().is_some_and(|x| x.eq_ignore_ascii_case(e));
             if path.is_dir() {
                 folders.push(path);
-            } else if extensions.iter().any(|e| ends(&e))
-                && entry.metadata().is_ok_and(|m| m.len() <= LONGEST)
+            } else if extensions.iter().any(|e| ends(e)) && entry.metadata().is_ok_and(|m| m.len() <= LONGEST)
             {
                 paths.push(path);
             }
