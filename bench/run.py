@@ -5,7 +5,7 @@ run.py closest --mesh MESH.ply [--points P.npy | --kind scan|far --count N] [--m
 run.py read FILE…                    reading a mesh (and welding it) or a cloud
 run.py compare MEASURED REFERENCE    the whole command, wall time and peak memory
 run.py check MESH…                   loading, welding, checking, beside MeshLib and ADMesh
-run.py fit [--count N]               least-squares elements, beside SciPy
+run.py fit [--only WORDS]            least-squares elements beside SciPy, minimum zones, on one thread
 run.py table --data FOLDER           all of it, against the goals; FOLDER as `inputs.py all` makes it
 
 See README.md. Ratios above 1 mean: the rival needs that many times longer than we do.
@@ -60,7 +60,7 @@ def arguments():
     six = jobs.add_parser("check", parents=[shared])
     six.add_argument("meshes", nargs="+")
     five = jobs.add_parser("fit", parents=[shared])
-    five.add_argument("--count", type=int, default=100_000)
+    five.add_argument("--only", default="", help="cases whose name, like `cylinder 1000 near`, contains this")
     four = jobs.add_parser("table", parents=[shared])
     four.add_argument("--data", required=True)
     four.add_argument("--only", help="lines whose name contains this")
@@ -153,10 +153,14 @@ def do_check(o, tools):
 def do_fit(o, tools):
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for shape in fit.TRUTH:
+        for case in fit.CASES:
+            shape, count, task, _, beside = case
+            if o.only not in f"{shape} {count} {task}":
+                continue
             path = os.path.join(folder, f"{shape}.npy")
-            np.save(path, fit.points(shape, o.count))
-            rows += fit.measure(shape, path, tools.fitters, o.rounds, o.repeat, o.threads)
+            np.save(path, fit.points(shape, count))
+            programs = tools.fitters if beside else {"trueness": tools.fitters["trueness"]}
+            rows += fit.measure(case, path, programs, o.rounds, o.repeat)
     print(report.markdown(rows, fit.COLUMNS))
     return rows
 

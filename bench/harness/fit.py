@@ -1,4 +1,4 @@
-"""Least-squares elements: ours, which looks for its own start, beside SciPy's general solver, which is given one."""
+"""Elements through points: least squares beside SciPy's general solver, zones by ourselves."""
 import statistics
 
 import numpy as np
@@ -13,16 +13,44 @@ TRUTH = {
     "cone": [5.0, -7.0, 0.1, 0.05, 25.0, 0.3],
     "torus": [5.0, -7.0, 3.0, 0.1, 0.05, 60.0, 15.0],
 }
+# Where the axis, the centre and the sizes are among them.
+TILT = {"plane": [0, 1], "sphere": [], "cylinder": [2, 3], "cone": [2, 3], "torus": [3, 4]}
+# What is asked of how many points, and the most milliseconds that one thread may need; SciPy runs beside it where True.
+CASES = [
+    ("cylinder", 1_000, "near", 0.02, True),
+    ("cylinder", 1_000, "global", None, True),
+    ("cylinder", 100_000, "near", 2.0, True),
+    *((shape, 100_000, "global", None, True) for shape in TRUTH),
+    ("cylinder", 10_000_000, "near", 250.0, False),
+    ("cylinder", 10_000_000, "global", None, False),
+    ("plane", 20_000, "zone", 1.0, False),
+    ("cylinder", 20_000, "zone", 4.0, False),
+    ("plane", 10_000_000, "zone", 1000.0, False),
+    ("cylinder", 10_000_000, "zone", 1000.0, False),
+]
 COLUMNS = [
     ("shape", None, "shape"),
+    ("points", ",d", "points"),
+    ("task", None, "task"),
     ("program", None, "program"),
-    ("wall s", ".4f", "query_s"),
-    ("CPU s", ".4f", "cpu_s"),
+    ("wall ms", ".4f", "query_ms"),
+    ("CPU ms", ".4f", "cpu_ms"),
+    ("goal ms", ".2f", "goal_ms"),
     ("× ours", ".1f", "times_ours"),
     ("× ours, CPU", ".1f", "times_ours_cpu"),
     ("rms mm", ".12g", "rms"),
     ("noise", ".2f", "noise"),
 ]
+
+
+def start_of(shape):
+    """Parameters of the start that is given: 3 degrees off, and 2 % in all but the attitude."""
+    start = [1.02 * x for x in TRUTH[shape]]
+    for k in TILT[shape]:
+        start[k] = TRUTH[shape][k]
+    if TILT[shape]:
+        start[TILT[shape][0]] += np.tan(np.radians(3.0))
+    return np.array(start)
 
 
 def points(shape, count, noise=0.01, seed=1):
@@ -60,19 +88,24 @@ def _frame(tilt):
     return np.array([x, np.cross(z, x), z])
 
 
-def measure(shape, path, programs, rounds, repeat, threads):
-    """Two rows; `programs` are ours and the rival's command, in this order."""
+def measure(case, path, programs, rounds, repeat):
+    """A row for each of `programs`, ours first, which takes the task as its last word. On one thread."""
+    shape, count, task, goal, _ = case
+    # Short work is repeated: its first run pays for cold caches.
+    repeat = max(repeat, min(200, 3_000_000 // count))
     runs = {name: [] for name in programs}
     for round_ in range(rounds):
         for name in list(programs) if round_ % 2 == 0 else list(programs)[::-1]:
-            runs[name].append(program.run([*programs[name], path, shape, str(threads), str(repeat)]))
+            runs[name].append(program.run([*programs[name], path, shape, "1", str(repeat), task]))
     ours = runs[next(iter(programs))]
     rows = []
     for name, done in runs.items():
-        middle = lambda key: statistics.median(min(r[key]) for r in done)
-        ratio = lambda key: statistics.median(min(r[key]) / min(o[key]) for r, o in zip(done, ours))
+        typical = lambda run, key: statistics.median(run[key])
+        middle = lambda key: 1e3 * statistics.median(typical(r, key) for r in done)
+        ratio = lambda key: statistics.median(typical(r, key) / typical(o, key) for r, o in zip(done, ours))
         rows.append({
-            "shape": shape, "program": name, "query_s": middle("query_s"), "cpu_s": middle("cpu_s"),
+            "shape": shape, "points": count, "task": task, "program": name, "goal_ms": goal if done is ours else None,
+            "query_ms": middle("query_s"), "cpu_ms": middle("cpu_s"),
             "times_ours": ratio("query_s"), "times_ours_cpu": ratio("cpu_s"), "rms": done[0]["rms"],
             "noise": statistics.median(r["noise"] for r in done),
         })  # fmt: skip

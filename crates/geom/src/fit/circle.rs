@@ -5,7 +5,6 @@ use super::line::flat;
 use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, unit};
@@ -17,14 +16,14 @@ impl Family<3> for Circle2 {
     const LOCAL: [Local; 3] = [Local::Shift(0), Local::Shift(1), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 3>) {
-        let rho = (x * x + y * y).root();
-        let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
-        rows.row(rho - S::of(size[0]), [-(x * inverse), -(y * inverse), S::of(-1.0)]);
+    fn rows(size: [f64; 2], [x, y, _]: Point, rows: &mut impl Rows<3>) {
+        let rho = (x * x + y * y).sqrt();
+        let inverse = 1.0 / rho.max(TINY);
+        rows.row(rho - size[0], [-(x * inverse), -(y * inverse), -1.0]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3]) -> S {
-        (x * x + y * y).root() - S::of(size[0])
+    fn distance(size: [f64; 2], [x, y, _]: Point) -> f64 {
+        (x * x + y * y).sqrt() - size[0]
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0] > 0.0
@@ -65,18 +64,17 @@ impl Family<6> for Circle {
     const SIGNED: bool = false;
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 6>) {
-        let (zero, less) = (S::of(0.0), S::of(-1.0));
-        let rho = (x * x + y * y).root();
-        let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
+    fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
+        let rho = (x * x + y * y).sqrt();
+        let inverse = 1.0 / rho.max(TINY);
         let (nu, nv) = (x * inverse, y * inverse);
-        rows.row(rho - S::of(size[0]), [-nu, -nv, zero, -(z * nu), -(z * nv), less]);
-        rows.row(z, [zero, zero, less, x, y, zero]);
+        rows.row(rho - size[0], [-nu, -nv, 0.0, -(z * nu), -(z * nv), -1.0]);
+        rows.row(z, [0.0, 0.0, -1.0, x, y, 0.0]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
-        let e = (x * x + y * y).root() - S::of(size[0]);
-        (e * e + z * z).root()
+    fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
+        let e = (x * x + y * y).sqrt() - size[0];
+        (e * e + z * z).sqrt()
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0] > 0.0

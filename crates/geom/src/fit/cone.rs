@@ -5,7 +5,6 @@ use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::{TINY, least_squares};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, plus, times, unit};
@@ -20,21 +19,20 @@ impl Family<6> for Cone {
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 6>) {
+    fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
         let (sin, cos) = size[1].sin_cos();
-        let (sin, cos) = (S::of(sin), S::of(cos));
-        let rho = (x * x + y * y).root();
-        let inverse = S::of(1.0) / rho.at_least(S::of(TINY));
+        let rho = (x * x + y * y).sqrt();
+        let inverse = 1.0 / rho.max(TINY);
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
         rows.row(
-            rho * cos - z * sin - S::of(size[0]),
-            [-nu, -nv, -(z * nu) - x * sin, -(z * nv) - y * sin, S::of(-1.0), -(rho * sin) - z * cos],
+            rho * cos - z * sin - size[0],
+            [-nu, -nv, -(z * nu) - x * sin, -(z * nv) - y * sin, -1.0, -(rho * sin) - z * cos],
         );
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
+    fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
         let (sin, cos) = size[1].sin_cos();
-        (x * x + y * y).root() * S::of(cos) - z * S::of(sin) - S::of(size[0])
+        (x * x + y * y).sqrt() * cos - z * sin - size[0]
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0].is_finite() && size[1].abs() < FRAC_PI_2

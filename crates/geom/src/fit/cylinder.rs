@@ -5,7 +5,6 @@ use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::TINY;
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, unit};
@@ -18,15 +17,15 @@ impl Family<5> for Cylinder {
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 5>) {
-        let rho = (x * x + y * y).root();
-        let inverse = S::of(-1.0) / rho.at_least(S::of(TINY));
+    fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<5>) {
+        let rho = (x * x + y * y).sqrt();
+        let inverse = -1.0 / rho.max(TINY);
         let (nu, nv) = (x * inverse, y * inverse);
-        rows.row(rho - S::of(size[0]), [nu, nv, z * nu, z * nv, S::of(-1.0)]);
+        rows.row(rho - size[0], [nu, nv, z * nu, z * nv, -1.0]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3]) -> S {
-        (x * x + y * y).root() - S::of(size[0])
+    fn distance(size: [f64; 2], [x, y, _]: Point) -> f64 {
+        (x * x + y * y).sqrt() - size[0]
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0] > 0.0

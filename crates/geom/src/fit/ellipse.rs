@@ -5,7 +5,6 @@ use super::line::flat;
 use super::pose::{Local, Pose};
 use super::round::{TINY, least_squares};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, plus, times, unit};
@@ -15,45 +14,38 @@ pub(super) struct Ellipse2;
 
 /// The point of the ellipse nearest to a point: cosine and sine of its eccentric angle, the outward unit
 /// normal there, and the signed distance.
-struct Foot<S> {
-    cos: S,
-    sin: S,
-    normal: [S; 2],
-    distance: S,
+struct Foot {
+    cos: f64,
+    sin: f64,
+    normal: [f64; 2],
+    distance: f64,
 }
 
 /// Foot of (x, y). The search steps along the circle of curvature (A. Chou, "A simple method for distance to an
 /// ellipse", 2017, a variant of B. Maisonobe's), in the first quadrant, a fixed number of times: the last steps
 /// change nothing.
 #[inline(always)]
-fn foot<S: Scalar>(size: [f64; 2], x: S, y: S) -> Foot<S> {
-    let (zero, one, tiny) = (S::of(0.0), S::of(1.0), S::of(TINY));
-    let [a, b] = size.map(S::of);
-    let (px, py) = (x.at_least(-x), y.at_least(-y));
+fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
+    let (px, py) = (x.abs(), y.abs());
     let (ea, eb) = ((a * a - b * b) / a, (b * b - a * a) / b);
-    let mut cos = S::of(std::f64::consts::FRAC_1_SQRT_2);
+    let mut cos = std::f64::consts::FRAC_1_SQRT_2;
     let mut sin = cos;
     for _ in 0..STEPS {
         let (ex, ey) = (ea * cos * cos * cos, eb * sin * sin * sin);
         let (rx, ry) = (a * cos - ex, b * sin - ey);
         let (qx, qy) = (px - ex, py - ey);
-        let ratio = ((rx * rx + ry * ry) / (qx * qx + qy * qy).at_least(tiny)).root();
-        cos = ((qx * ratio + ex) / a).at_least(zero);
-        sin = ((qy * ratio + ey) / b).at_least(zero);
-        let length = one / (cos * cos + sin * sin).root().at_least(tiny);
+        let ratio = ((rx * rx + ry * ry) / (qx * qx + qy * qy).max(TINY)).sqrt();
+        cos = ((qx * ratio + ex) / a).max(0.0);
+        sin = ((qy * ratio + ey) / b).max(0.0);
+        let length = 1.0 / (cos * cos + sin * sin).sqrt().max(TINY);
         (cos, sin) = (cos * length, sin * length);
     }
     // The outward normal (b cos, a sin) does not shrink with the distance: its sign is safe on the ellipse.
     let (nx, ny) = (b * cos, a * sin);
-    let length = one / (nx * nx + ny * ny).root();
+    let length = 1.0 / (nx * nx + ny * ny).sqrt();
     let (nx, ny) = (nx * length, ny * length);
     let distance = (px - a * cos) * nx + (py - b * sin) * ny;
-    Foot {
-        cos: cos.signed_as(x),
-        sin: sin.signed_as(y),
-        normal: [nx.signed_as(x), ny.signed_as(y)],
-        distance,
-    }
+    Foot { cos: cos.copysign(x), sin: sin.copysign(y), normal: [nx.copysign(x), ny.copysign(y)], distance }
 }
 
 /// Steps of the search. Each more than doubles the digits; long ellipses need the first few to come near.
@@ -68,12 +60,12 @@ impl Family<5> for Ellipse2 {
     const LOCAL: [Local; 5] = [Local::Shift(0), Local::Shift(1), Local::Turn, Local::Size(0), Local::Size(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 5>) {
+    fn rows(size: [f64; 2], [x, y, _]: Point, rows: &mut impl Rows<5>) {
         let Foot { cos, sin, normal: [nx, ny], distance } = foot(size, x, y);
         rows.row(distance, [-nx, -ny, nx * y - ny * x, -(nx * cos), -(ny * sin)]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], q: [S; 3]) -> S {
+    fn distance(size: [f64; 2], q: Point) -> f64 {
         foot(size, q[0], q[1]).distance
     }
     fn sound(size: [f64; 2]) -> bool {

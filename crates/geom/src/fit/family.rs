@@ -2,7 +2,6 @@
 
 use super::pose::{Local, Pose};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::shape::Shape;
 use crate::space::{Point, times};
 
@@ -13,11 +12,11 @@ pub(super) struct Element {
     pub size: [f64; 2],
 }
 
-/// Takes the rows of one point. (A closure would do, but cannot be told to be inlined, and the wide registers
-/// live only in code inlined into a function compiled for them.)
-pub(super) trait Rows<S, const P: usize> {
+/// Takes the rows of one point: one, or two where the distance is not signed. (A closure would do, but cannot be told to
+/// be inlined, and the wide registers live only in code inlined into a function compiled for them.)
+pub(super) trait Rows<const P: usize> {
     /// A residual and its derivatives by the unknowns.
-    fn row(&mut self, d: S, g: [S; P]);
+    fn row(&mut self, d: f64, g: [f64; P]);
 }
 
 /// One family of elements with `P` unknowns. The formulas are written in the element's own frame, where they
@@ -29,9 +28,9 @@ pub(super) trait Family<const P: usize>: Sync {
     const SIGNED: bool = true;
 
     /// Hands each row of the least-squares problem for the point `q` to `rows`: residual and its derivatives.
-    fn rows<S: Scalar>(size: [f64; 2], q: [S; 3], rows: &mut impl Rows<S, P>);
+    fn rows(size: [f64; 2], q: Point, rows: &mut impl Rows<P>);
     /// Orthogonal distance of the point `q`, positive outside.
-    fn distance<S: Scalar>(size: [f64; 2], q: [S; 3]) -> S;
+    fn distance(size: [f64; 2], q: Point) -> f64;
     /// Whether these sizes make an element.
     fn sound(size: [f64; 2]) -> bool {
         size.iter().all(|x| x.is_finite())
@@ -95,7 +94,7 @@ impl Element {
 /// Distance and its derivatives, whether the rows give it whole or by components.
 pub(super) fn slope<const P: usize, F: Family<P>>(size: [f64; 2], q: Point) -> (f64, [f64; P]) {
     struct Joined<const P: usize>(f64, [f64; P]);
-    impl<const P: usize> Rows<f64, P> for Joined<P> {
+    impl<const P: usize> Rows<P> for Joined<P> {
         fn row(&mut self, d: f64, g: [f64; P]) {
             self.0 += d * d;
             for k in 0..P {
@@ -104,7 +103,7 @@ pub(super) fn slope<const P: usize, F: Family<P>>(size: [f64; 2], q: Point) -> (
         }
     }
     struct Only<const P: usize>(f64, [f64; P]);
-    impl<const P: usize> Rows<f64, P> for Only<P> {
+    impl<const P: usize> Rows<P> for Only<P> {
         fn row(&mut self, d: f64, g: [f64; P]) {
             *self = Only(d, g);
         }

@@ -5,13 +5,16 @@ use super::gauss::{Effort, FULL, Optimum, ROUGH, minimise};
 use super::normal::{Alike, sums};
 use super::sample::Sample;
 use super::scatter::Scatter;
+use super::shape::MOST_NUMBERS;
 use super::solution::{Covariance, Fit, Residuals};
-use super::{FitError, Kind, Options, dense, survey};
+use super::{FitError, Kind, Options, Shape, dense, survey};
 use crate::progress::Progress;
 use crate::space::Point;
 
 /// Points that starts are looked for and compared on.
 const FEW: usize = 256;
+/// Points that a single start is improved on first: it is not compared with others.
+const FEWER: usize = 64;
 /// Points that a start is improved on before all are looked at.
 const SOME: usize = 8192;
 
@@ -25,13 +28,13 @@ pub(super) fn gaussian<const P: usize, F: Family<P>>(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Fit, FitError> {
-    let optimum = optimum::<P, F>(sample, kind, options, progress)?;
+    let (optimum, inverse) = optimum::<P, F>(sample, kind, options, progress)?;
     progress.advance(sample.len() as u64);
     let element = optimum.element;
     let residuals = residuals::<P, F>(&element, sample);
-    let covariance = residuals.std_dev.and_then(|std_dev| {
-        covariance::<P, F>(&element, &optimum.sums.symmetric(), std_dev * sample.scale, sample)
-    });
+    let covariance = residuals
+        .std_dev
+        .and_then(|std_dev| covariance::<P, F>(&element, &inverse, std_dev * sample.scale, sample));
     Ok(Fit {
         shape: F::shape(&element, sample),
         method: options.method,
@@ -51,17 +54,17 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     options: &Options,
 ) -> Result<Element, FitError> {
     let some = sample.thinned(SOME);
-    let optimum = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
+    let (optimum, _) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
     Ok(optimum.element)
 }
 
-/// The element with the least sum of squares.
+/// The element with the least sum of squares, and the inverse of its normal matrix.
 pub(super) fn optimum<const P: usize, F: Family<P>>(
     sample: &Sample,
     kind: Kind,
     options: &Options,
     progress: &dyn Progress,
-) -> Result<Optimum<P>, FitError> {
+) -> Result<(Optimum<P>, [[f64; P]; P]), FitError> {
     let starts = match &options.start {
         Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
         None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),
@@ -79,10 +82,8 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
         optimum.element = settled;
         optimum.sums = sums::<P, F, _>(&settled, sample, &Alike);
     }
-    if !determined(&optimum) {
-        return Err(nothing(sample, kind));
-    }
-    Ok(optimum)
+    let inverse = determined(&optimum).ok_or_else(|| nothing(sample, kind))?;
+    Ok((optimum, inverse))
 }
 
 /// The least-squares element of the few points given, good enough to be compared with others.
@@ -92,14 +93,24 @@ pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Ele
     ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square)).map(|o| o.element)
 }
 
+/// The least-squares element near `start` to seven digits, and the root mean square distance: for those who fit again and
+/// again while their points change.
+pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Shape) -> Option<(Shape, f64)> {
+    let start = F::element(start, sample)?;
+    let found = minimise::<P, F, _>(&start, sample, &Alike, ROUGH)?;
+    let element = F::settled(found.element);
+    let rms = (found.sums.square / found.sums.weight).sqrt() / sample.scale;
+    Some((F::shape(&element, sample), rms))
+}
+
 /// The best of the starts, improved on as many points as that needs.
 fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) -> Option<Element> {
     let improved = |start: &Element, count: usize, effort: Effort| {
         minimise::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
     };
     let best = match starts {
-        [one] if sample.len() <= 2 * FEW => *one,
-        [one] => improved(one, FEW, ROUGH).map_or(*one, |o| o.element),
+        [one] if sample.len() <= 2 * FEWER => *one,
+        [one] => improved(one, FEWER, ROUGH).map_or(*one, |o| o.element),
         many => {
             let few = sample.thinned(FEW);
             let best = |starts: &[Element]| {
@@ -122,12 +133,12 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
     Some(improved(&best, SOME, ROUGH).map_or(best, |o| o.element))
 }
 
-/// Whether a distance the size of rounding could not move an unknown by the size of the part.
-fn determined<const P: usize>(optimum: &Optimum<P>) -> bool {
+/// The inverse of the normal matrix; `None` if a distance the size of rounding could move an unknown by the size of the
+/// part.
+fn determined<const P: usize>(optimum: &Optimum<P>) -> Option<[[f64; P]; P]> {
     const WEAKEST: f64 = 1e-4 / f64::EPSILON;
-    let normal = optimum.sums.symmetric();
-    dense::inverse(&normal)
-        .is_some_and(|inverse| (0..P).all(|k| (inverse[k][k] * optimum.sums.weight).sqrt() < WEAKEST))
+    let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < WEAKEST;
+    dense::inverse(&optimum.sums.symmetric()).filter(|inverse| (0..P).all(|k| firm(inverse[k][k])))
 }
 
 /// The reason why there is no element.
@@ -164,35 +175,40 @@ pub(super) fn statistics<const P: usize, F: Family<P>>(
     }
 }
 
-/// Covariance of the parameters from the normal matrix of the unknowns of `element` and the standard deviation
-/// of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
+/// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element` and the standard
+/// deviation of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
 pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
-    normal: &[[f64; P]; P],
+    inverse: &[[f64; P]; P],
     std_dev: f64,
     sample: &Sample,
 ) -> Option<Covariance> {
-    let inverse = dense::inverse(normal)?;
-    let parameters = |step: [f64; P]| -> Option<Vec<f64>> {
-        Some(F::shape(&element.moved(&F::LOCAL, &step)?, sample).flattened())
+    let size = F::shape(element, sample).flattened().1;
+    let numbers = |step: [f64; P]| -> Option<[f64; MOST_NUMBERS]> {
+        Some(F::shape(&element.moved(&F::LOCAL, &step)?, sample).flattened().0)
     };
-    let mut slopes: Vec<Vec<f64>> = Vec::with_capacity(P);
+    let mut slopes = [[0.0; MOST_NUMBERS]; P];
     for k in 0..P {
         let h = (std_dev * inverse[k][k].sqrt()).clamp(1e-9, 1e-4);
-        let at = |h: f64| parameters(std::array::from_fn(|i| if i == k { h } else { 0.0 }));
+        let at = |h: f64| numbers(std::array::from_fn(|i| if i == k { h } else { 0.0 }));
         let (more, less) = (at(h)?, at(-h)?);
-        slopes.push(more.iter().zip(&less).map(|(a, b)| (a - b) / (2.0 * h)).collect());
+        slopes[k] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
     }
-    let size = slopes.first()?.len();
+    // inverse · slopes
+    let mut told = [[0.0; MOST_NUMBERS]; P];
+    for a in 0..P {
+        for b in 0..P {
+            for n in 0..size {
+                told[a][n] += inverse[a][b] * slopes[b][n];
+            }
+        }
+    }
     let mut values = vec![0.0; size * size];
     for (i, row) in values.chunks_mut(size).enumerate() {
-        for (j, value) in row.iter_mut().enumerate() {
-            for a in 0..P {
-                for b in 0..P {
-                    *value += slopes[a][i] * inverse[a][b] * slopes[b][j];
-                }
+        for a in 0..P {
+            for (n, value) in row.iter_mut().enumerate() {
+                *value += slopes[a][i] * told[a][n] * (std_dev * std_dev);
             }
-            *value *= std_dev * std_dev;
         }
     }
     Some(Covariance { size, values })

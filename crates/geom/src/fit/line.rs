@@ -3,7 +3,6 @@
 use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, unit};
@@ -15,11 +14,11 @@ impl Family<2> for Line2 {
     const LOCAL: [Local; 2] = [Local::Shift(1), Local::Turn];
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3], rows: &mut impl Rows<S, 2>) {
-        rows.row(y, [S::of(-1.0), -x]);
+    fn rows(_: [f64; 2], [x, y, _]: Point, rows: &mut impl Rows<2>) {
+        rows.row(y, [-1.0, -x]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(_: [f64; 2], q: [S; 3]) -> S {
+    fn distance(_: [f64; 2], q: Point) -> f64 {
         q[1]
     }
     fn starts(points: &[Point]) -> Vec<Element> {
@@ -48,14 +47,13 @@ impl Family<4> for Line {
     const SIGNED: bool = false;
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 4>) {
-        let (zero, less) = (S::of(0.0), S::of(-1.0));
-        rows.row(x, [less, zero, -z, zero]);
-        rows.row(y, [zero, less, zero, -z]);
+    fn rows(_: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<4>) {
+        rows.row(x, [-1.0, 0.0, -z, 0.0]);
+        rows.row(y, [0.0, -1.0, 0.0, -z]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(_: [f64; 2], [x, y, _]: [S; 3]) -> S {
-        (x * x + y * y).root()
+    fn distance(_: [f64; 2], [x, y, _]: Point) -> f64 {
+        (x * x + y * y).sqrt()
     }
     fn starts(points: &[Point]) -> Vec<Element> {
         let scatter = Scatter::of(points);

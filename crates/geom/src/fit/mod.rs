@@ -27,6 +27,7 @@ mod ellipse;
 mod family;
 mod gauss;
 mod gaussian;
+mod lanes;
 mod line;
 mod linear;
 mod minimax;
@@ -37,7 +38,6 @@ mod revolution;
 mod robust;
 mod round;
 mod sample;
-mod scalar;
 mod scatter;
 mod shape;
 mod solution;
@@ -208,4 +208,16 @@ pub fn fit(
         Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
         _ => with_family!(kind, zone(&sample, kind, options, progress)),
     }
+}
+
+/// The least-squares element near `start` and the root mean square distance, to about seven digits and without the
+/// statistics of [`fit`]; `None` where the points determine none.
+pub(crate) fn improved(points: &[Point], start: &Shape) -> Option<(Shape, f64)> {
+    let kind = start.kind();
+    if points.len() < kind.fewest_points() {
+        return None;
+    }
+    let sample = sample::Sample::new(points).ok()?;
+    use gaussian::improved;
+    with_family!(kind, improved(&sample, start))
 }

@@ -1,12 +1,12 @@
 //! Normal equations of an element, summed over the points in one pass and without a stored Jacobian.
 //!
-//! Points are cut into blocks of fixed size; a block is summed lane by lane, blocks are added in their order.
+//! Points are cut into blocks of fixed size; a block is summed group by group, blocks are added in their order.
 //! The sums are therefore the same bits on one thread and on many.
 
 use super::dense;
 use super::family::{Element, Family, Rows};
+use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
 use super::sample::Sample;
-use super::scalar::{LANES, Lane, Scalar};
 use crate::space::{Point, Vector, dot, times};
 use rayon::prelude::*;
 
@@ -28,22 +28,26 @@ pub(super) struct Sums<const P: usize> {
 
 /// What a distance costs.
 pub(super) trait Weighing: Sync {
+    /// Whether every point counts alike: its loss is d², its weight 1.
+    const EVEN: bool;
     /// What is summed and made least.
-    fn loss<S: Scalar>(&self, d: S) -> S;
+    fn loss(&self, d: f64) -> f64;
     /// Derivative of the loss by d²: the weight of the point's rows.
-    fn weight<S: Scalar>(&self, d: S) -> S;
+    fn weight(&self, d: f64) -> f64;
 }
 
 /// Every point counts alike.
 pub(super) struct Alike;
 impl Weighing for Alike {
+    const EVEN: bool = true;
+
     #[inline(always)]
-    fn loss<S: Scalar>(&self, d: S) -> S {
+    fn loss(&self, d: f64) -> f64 {
         d * d
     }
     #[inline(always)]
-    fn weight<S: Scalar>(&self, _: S) -> S {
-        S::of(1.0)
+    fn weight(&self, _: f64) -> f64 {
+        1.0
     }
 }
 
@@ -66,55 +70,114 @@ impl Placing {
     }
     /// Coordinates in the element's own frame.
     #[inline(always)]
-    pub(super) fn local<S: Scalar>(&self, p: [S; 3]) -> [S; 3] {
-        let [x, y, z]: [S; 3] = std::array::from_fn(|k| p[k] - S::of(self.center[k]));
+    pub(super) fn local(&self, p: Point) -> Point {
+        let [x, y, z]: Point = std::array::from_fn(|k| p[k] - self.center[k]);
         std::array::from_fn(|k| {
             let a = self.axes[k];
-            (S::of(a[0]) * x + S::of(a[1]) * y + S::of(a[2]) * z) - S::of(self.origin[k])
+            (a[0] * x + a[1] * y + a[2] * z) - self.origin[k]
         })
     }
-}
-
-/// Four points as three registers.
-#[inline(always)]
-pub(super) fn lanes(four: &[Point; LANES]) -> [Lane; 3] {
-    std::array::from_fn(|k| Lane(std::array::from_fn(|l| four[l][k])))
-}
-
-struct Accumulator<S, const P: usize> {
-    normal: [[S; P]; P],
-    gradient: [S; P],
-    square: S,
-    weight: S,
-    /// Of the point whose rows come.
-    present: S,
-}
-
-impl<S: Scalar, const P: usize> Accumulator<S, P> {
+    /// The same of a group, coordinate by coordinate.
     #[inline(always)]
-    fn new() -> Self {
-        let zero = S::of(0.0);
-        Accumulator { normal: [[zero; P]; P], gradient: [zero; P], square: zero, weight: zero, present: zero }
-    }
-    #[inline(always)]
-    fn add<F: Family<P>, W: Weighing>(&mut self, size: [f64; 2], q: [S; 3], weigh: &W) {
-        let distance = F::distance(size, q);
-        self.present = weigh.weight(distance);
-        self.weight = self.weight + self.present;
-        self.square = self.square + weigh.loss(distance);
-        F::rows(size, q, self);
+    pub(super) fn group(&self, points: &[Point; GROUP], local: &mut [Lanes; 3]) {
+        for l in 0..GROUP {
+            let q = self.local(points[l]);
+            for k in 0..3 {
+                local[k][l] = q[k];
+            }
+        }
     }
 }
 
-impl<S: Scalar, const P: usize> Rows<S, P> for Accumulator<S, P> {
+/// Rows of a point at most.
+const ROWS: usize = 2;
+
+/// Where the rows of a group wait for being summed: first, second row of all its points.
+struct Waiting<const P: usize> {
+    distance: [Lanes; ROWS],
+    slope: [[Lanes; P]; ROWS],
+}
+
+/// Writes the rows of one point of the group.
+struct Writer<'a, const P: usize> {
+    distance: &'a mut [Lanes; ROWS],
+    slope: &'a mut [[Lanes; P]; ROWS],
+    lane: usize,
+    row: usize,
+}
+
+impl<const P: usize> Rows<P> for Writer<'_, P> {
     #[inline(always)]
-    fn row(&mut self, d: S, g: [S; P]) {
-        let heavy = self.present * d;
-        for i in 0..P {
-            self.gradient[i] = self.gradient[i] + heavy * g[i];
-            let row = self.present * g[i];
-            for j in i..P {
-                self.normal[i][j] = self.normal[i][j] + row * g[j];
+    fn row(&mut self, d: f64, g: [f64; P]) {
+        self.distance[self.row][self.lane] = d;
+        for k in 0..P {
+            self.slope[self.row][k][self.lane] = g[k];
+        }
+        self.row += 1;
+    }
+}
+
+struct Accumulator<const P: usize> {
+    normal: [[Sum; P]; P],
+    gradient: [Sum; P],
+    square: Sum,
+    weight: Sum,
+}
+
+impl<const P: usize> Accumulator<P> {
+    /// Adds the first `count` points of a group.
+    #[inline(always)]
+    fn add<F: Family<P>, W: Weighing>(
+        &mut self,
+        size: [f64; 2],
+        [x, y, z]: &[Lanes; 3],
+        count: usize,
+        weigh: &W,
+        waiting: &mut Waiting<P>,
+    ) {
+        let Waiting { distance, slope } = waiting;
+        for lane in 0..GROUP {
+            let mut writer = Writer { distance: &mut *distance, slope: &mut *slope, lane, row: 0 };
+            F::rows(size, [x[lane], y[lane], z[lane]], &mut writer);
+        }
+        let rows = if F::SIGNED { 1 } else { ROWS };
+        for lane in count..GROUP {
+            for row in 0..rows {
+                distance[row][lane] = 0.0;
+                slope[row].iter_mut().for_each(|g| g[lane] = 0.0);
+            }
+        }
+        let mut weights = [0.0; GROUP];
+        if !W::EVEN {
+            let mut losses = [0.0; GROUP];
+            for lane in 0..GROUP {
+                let d = F::distance(size, [x[lane], y[lane], z[lane]]);
+                (weights[lane], losses[lane]) = (weigh.weight(d), weigh.loss(d));
+            }
+            losses[count..].fill(0.0);
+            weights[count..].fill(0.0);
+            self.square.add_products(&losses, &[1.0; GROUP]);
+            self.weight.add_products(&weights, &[1.0; GROUP]);
+        }
+        for row in 0..rows {
+            let (d, slopes) = (&distance[row], &slope[row]);
+            if W::EVEN {
+                self.square.add_products(d, d);
+            }
+            for i in 0..P {
+                let mut weighted = [0.0; GROUP];
+                let heavy = if W::EVEN {
+                    &slopes[i]
+                } else {
+                    for lane in 0..GROUP {
+                        weighted[lane] = weights[lane] * slopes[i][lane];
+                    }
+                    &weighted
+                };
+                self.gradient[i].add_products(heavy, d);
+                for j in i..P {
+                    self.normal[i][j].add_products(heavy, &slopes[j]);
+                }
             }
         }
     }
@@ -127,43 +190,26 @@ fn block<const P: usize, F: Family<P>, W: Weighing>(
     placing: &Placing,
     weigh: &W,
 ) -> Sums<P> {
-    let (fours, rest) = points.as_chunks::<LANES>();
-    let mut wide = Accumulator::<Lane, P>::new();
-    for four in fours {
-        wide.add::<F, W>(size, placing.local(lanes(four)), weigh);
-    }
-    let mut last = Accumulator::<f64, P>::new();
-    for p in rest {
-        last.add::<F, W>(size, placing.local(*p), weigh);
-    }
-    let both = |a: Lane, b: f64| a.sum() + b;
-    Sums {
-        normal: std::array::from_fn(|i| std::array::from_fn(|j| both(wide.normal[i][j], last.normal[i][j]))),
-        gradient: std::array::from_fn(|i| both(wide.gradient[i], last.gradient[i])),
-        square: both(wide.square, last.square),
-        weight: both(wide.weight, last.weight),
-    }
-}
-
-/// Compiles `$body` twice, for wide registers and for any processor, and takes what this processor has.
-macro_rules! widest {
-    (fn $name:ident [$($generics:tt)*] [$($use:tt)*] ($($arg:ident : $type:ty),*) -> $out:ty = $body:expr) => {
-        #[allow(unsafe_code)] // one call into code compiled for a processor feature that was asked for
-        fn $name<$($generics)*>($($arg: $type),*) -> $out {
-            #[cfg(target_arch = "x86_64")]
-            {
-                #[target_feature(enable = "avx2")]
-                fn wide<$($generics)*>($($arg: $type),*) -> $out { $body }
-                if std::arch::is_x86_feature_detected!("avx2") {
-                    // SAFETY: the processor was just asked for the feature.
-                    return unsafe { wide::<$($use)*>($($arg),*) };
-                }
-            }
-            $body
-        }
+    let mut all = Accumulator::<P> {
+        normal: [[Sum::ZERO; P]; P],
+        gradient: [Sum::ZERO; P],
+        square: Sum::ZERO,
+        weight: Sum::ZERO,
     };
+    let mut waiting = Waiting { distance: [[0.0; GROUP]; ROWS], slope: [[[0.0; GROUP]; P]; ROWS] };
+    let (mut filled, mut local) = ([[0.0; 3]; GROUP], [[0.0; GROUP]; 3]);
+    for k in 0..groups(points) {
+        let (group, count) = group(points, k, &mut filled);
+        placing.group(group, &mut local);
+        all.add::<F, W>(size, &local, count, weigh, &mut waiting);
+    }
+    Sums {
+        normal: all.normal.map(|row| row.map(Sum::total)),
+        gradient: all.gradient.map(Sum::total),
+        square: all.square.total(),
+        weight: if W::EVEN { points.len() as f64 } else { all.weight.total() },
+    }
 }
-pub(super) use widest;
 
 widest! {
     fn block_sums [const P: usize, F: Family<P>, W: Weighing] [P, F, W]

@@ -3,7 +3,6 @@
 use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, unit};
@@ -15,11 +14,11 @@ impl Family<3> for Plane {
     const LOCAL: [Local; 3] = [Local::Shift(2), Local::Tilt(0), Local::Tilt(1)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(_: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 3>) {
-        rows.row(z, [S::of(-1.0), x, y]);
+    fn rows(_: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<3>) {
+        rows.row(z, [-1.0, x, y]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(_: [f64; 2], q: [S; 3]) -> S {
+    fn distance(_: [f64; 2], q: Point) -> f64 {
         q[2]
     }
     fn starts(points: &[Point]) -> Vec<Element> {

@@ -10,9 +10,8 @@ use super::gauss::{FULL, ROUGH, minimise};
 use super::gaussian;
 use super::normal::{Placing, Weighing};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::solution::{Fit, Residuals};
-use super::{FitError, Kind, Options};
+use super::{FitError, Kind, Options, dense};
 use crate::num::random::Random;
 use crate::progress::Progress;
 use crate::space::Point;
@@ -37,19 +36,21 @@ struct Biweight {
 impl Biweight {
     /// 1 − d²/c², not below zero.
     #[inline(always)]
-    fn rest<S: Scalar>(&self, d: S) -> S {
-        (S::of(1.0) - d * d * S::of(self.sharpness)).at_least(S::of(0.0))
+    fn rest(&self, d: f64) -> f64 {
+        (1.0 - d * d * self.sharpness).max(0.0)
     }
 }
 
 impl Weighing for Biweight {
+    const EVEN: bool = false;
+
     #[inline(always)]
-    fn loss<S: Scalar>(&self, d: S) -> S {
+    fn loss(&self, d: f64) -> f64 {
         let rest = self.rest(d);
-        (S::of(1.0) - rest * rest * rest) * S::of(1.0 / (3.0 * self.sharpness))
+        (1.0 - rest * rest * rest) * 1.0 / (3.0 * self.sharpness)
     }
     #[inline(always)]
-    fn weight<S: Scalar>(&self, d: S) -> S {
+    fn weight(&self, d: f64) -> f64 {
         let rest = self.rest(d);
         rest * rest
     }
@@ -88,7 +89,8 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
     let residuals =
         inliers::<P, F>(&element, sample, cutoff).ok_or_else(|| gaussian::nothing(sample, kind))?;
     let covariance = residuals.std_dev.and_then(|std_dev| {
-        gaussian::covariance::<P, F>(&element, &optimum.sums.symmetric(), std_dev * sample.scale, sample)
+        let inverse = dense::inverse(&optimum.sums.symmetric())?;
+        gaussian::covariance::<P, F>(&element, &inverse, std_dev * sample.scale, sample)
     });
     Ok(Fit {
         shape: F::shape(&element, sample),
@@ -141,7 +143,7 @@ fn trials<const P: usize, F: Family<P>>(
 /// Magnitudes of the distances, in the unit frame.
 fn magnitudes<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Vec<f64> {
     let placing = Placing::new(element, sample);
-    sample.points.iter().map(|&p| F::distance::<f64>(element.size, placing.local(p)).abs()).collect()
+    sample.points.iter().map(|&p| F::distance(element.size, placing.local(p)).abs()).collect()
 }
 
 /// Median magnitude of the distances.

@@ -1,7 +1,7 @@
 //! The points of a fit, checked once, with the centre and scale that take size and position out of it.
 
 use super::FitError;
-use super::scalar::{LANES, Lane, Scalar};
+use super::lanes::widest;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
 
@@ -78,32 +78,32 @@ fn bounds(points: &[Point]) -> Option<Aabb> {
     points.par_chunks(BLOCK).map(block_bounds).reduce(|| Some(Aabb::EMPTY), |a, b| Some(a?.union(&b?)))
 }
 
-fn block_bounds(points: &[Point]) -> Option<Aabb> {
+widest! {
+    fn block_bounds [] [] (points: &[Point]) -> Option<Aabb> = bounds_in(points)
+}
+
+#[inline(always)]
+fn bounds_in(points: &[Point]) -> Option<Aabb> {
+    /// Coordinates side by side: those of 16 points.
+    const SIDE: usize = 48;
     // Minima pass over NaN; a sum of zeros does not.
-    let mut sum = [Lane::of(0.0); 3];
-    let mut low = [Lane::of(f64::INFINITY); 3];
-    let mut high = [Lane::of(f64::NEG_INFINITY); 3];
-    let (flat, _) = points.as_flattened().as_chunks::<{ 3 * LANES }>();
-    let rest = &points[flat.len() * LANES..];
-    for twelve in flat {
-        for k in 0..3 {
-            // The order of the coordinates does not matter yet: lane l of register k holds coordinate (4k+l) mod 3.
-            let x = Lane(std::array::from_fn(|l| twelve[LANES * k + l]));
-            sum[k] = sum[k] + x * Lane::of(0.0);
-            low[k] = low[k].zip(x, |a, b| if b < a { b } else { a });
-            high[k] = high[k].zip(x, |a, b| if b > a { b } else { a });
+    let (mut zeros, mut low, mut high) = ([0.0; SIDE], [f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]);
+    let (parts, _) = points.as_flattened().as_chunks::<SIDE>();
+    for part in parts {
+        for l in 0..SIDE {
+            let x = part[l];
+            zeros[l] += x * 0.0;
+            low[l] = if x < low[l] { x } else { low[l] };
+            high[l] = if x > high[l] { x } else { high[l] };
         }
     }
+    let rest = &points[SIDE / 3 * parts.len()..];
     let mut bounds = Aabb::of(rest);
-    let mut zero: f64 = rest.iter().flatten().map(|x| x * 0.0).sum();
-    for k in 0..3 {
-        zero += sum[k].sum();
-        for l in 0..LANES {
-            let coordinate = (LANES * k + l) % 3;
-            bounds.min[coordinate] = bounds.min[coordinate].min(low[k].0[l]);
-            bounds.max[coordinate] = bounds.max[coordinate].max(high[k].0[l]);
-        }
+    for l in 0..SIDE {
+        bounds.min[l % 3] = bounds.min[l % 3].min(low[l]);
+        bounds.max[l % 3] = bounds.max[l % 3].max(high[l]);
     }
+    let zero = zeros.iter().sum::<f64>() + rest.as_flattened().iter().map(|x| x * 0.0).sum::<f64>();
     (zero == 0.0).then_some(bounds)
 }
 

@@ -116,6 +116,9 @@ pub enum Parameter {
     Vector([f64; 3]),
 }
 
+/// Numbers of the shape that has most: a cone.
+pub(super) const MOST_NUMBERS: usize = 11;
+
 impl Shape {
     /// Which element this is.
     pub fn kind(&self) -> Kind {
@@ -134,47 +137,64 @@ impl Shape {
     }
     /// Names and values of all parameters, in a fixed order.
     pub fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        let mut all = Vec::with_capacity(5);
+        self.each(|name, parameter| all.push((name, parameter)));
+        all
+    }
+    /// Hands name and value of each parameter to `take`, in their order.
+    fn each(&self, mut take: impl FnMut(&'static str, Parameter)) {
         use Parameter::{Number, Vector};
         match *self {
             Shape::Line2 { point, direction } | Shape::Line { point, direction } => {
-                vec![("point", Vector(point)), ("direction", Vector(direction))]
+                take("point", Vector(point));
+                take("direction", Vector(direction));
             }
-            Shape::Plane { point, normal } => vec![("point", Vector(point)), ("normal", Vector(normal))],
+            Shape::Plane { point, normal } => {
+                take("point", Vector(point));
+                take("normal", Vector(normal));
+            }
             Shape::Circle2 { center, radius } | Shape::Sphere { center, radius } => {
-                vec![("center", Vector(center)), ("radius", Number(radius))]
+                take("center", Vector(center));
+                take("radius", Number(radius));
             }
             Shape::Circle { center, normal, radius } => {
-                vec![("center", Vector(center)), ("normal", Vector(normal)), ("radius", Number(radius))]
+                take("center", Vector(center));
+                take("normal", Vector(normal));
+                take("radius", Number(radius));
             }
             Shape::Cylinder { point, direction, radius } => {
-                vec![("point", Vector(point)), ("direction", Vector(direction)), ("radius", Number(radius))]
+                take("point", Vector(point));
+                take("direction", Vector(direction));
+                take("radius", Number(radius));
             }
-            Shape::Cone { apex, direction, half_angle, point, radius } => vec![
-                ("apex", Vector(apex)),
-                ("direction", Vector(direction)),
-                ("half_angle", Number(half_angle)),
-                ("point", Vector(point)),
-                ("radius", Number(radius)),
-            ],
+            Shape::Cone { apex, direction, half_angle, point, radius } => {
+                take("apex", Vector(apex));
+                take("direction", Vector(direction));
+                take("half_angle", Number(half_angle));
+                take("point", Vector(point));
+                take("radius", Number(radius));
+            }
             Shape::Ellipse2 { center, direction, major_radius, minor_radius }
-            | Shape::Torus { center, direction, major_radius, minor_radius } => vec![
-                ("center", Vector(center)),
-                ("direction", Vector(direction)),
-                ("major_radius", Number(major_radius)),
-                ("minor_radius", Number(minor_radius)),
-            ],
+            | Shape::Torus { center, direction, major_radius, minor_radius } => {
+                take("center", Vector(center));
+                take("direction", Vector(direction));
+                take("major_radius", Number(major_radius));
+                take("minor_radius", Number(minor_radius));
+            }
         }
     }
-    /// The parameters' numbers one after the other.
-    pub(super) fn flattened(&self) -> Vec<f64> {
-        let mut numbers = Vec::with_capacity(12);
-        for (_, parameter) in self.parameters() {
-            match parameter {
-                Parameter::Number(x) => numbers.push(x),
-                Parameter::Vector(v) => numbers.extend(v),
-            }
-        }
-        numbers
+    /// The parameters' numbers one after the other, and how many they are; zeros follow.
+    pub(super) fn flattened(&self) -> ([f64; MOST_NUMBERS], usize) {
+        let (mut numbers, mut count) = ([0.0; MOST_NUMBERS], 0);
+        let mut push = |x: f64| {
+            numbers[count] = x;
+            count += 1;
+        };
+        self.each(|_, parameter| match parameter {
+            Parameter::Number(x) => push(x),
+            Parameter::Vector(v) => v.into_iter().for_each(&mut push),
+        });
+        (numbers, count)
     }
     /// Distance of `p` from the element, positive on the outer side: away from the axis or centre, along the
     /// normal of a plane, to the left of a line in the plane. For lines and circles in space it has no sign.

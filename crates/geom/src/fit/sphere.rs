@@ -4,7 +4,6 @@ use super::family::{Element, Family, Rows};
 use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::Point;
@@ -16,14 +15,14 @@ impl Family<4> for Sphere {
     const LOCAL: [Local; 4] = [Local::Shift(0), Local::Shift(1), Local::Shift(2), Local::Size(0)];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 4>) {
-        let rho = (x * x + y * y + z * z).root();
-        let inverse = S::of(-1.0) / rho.at_least(S::of(TINY));
-        rows.row(rho - S::of(size[0]), [x * inverse, y * inverse, z * inverse, S::of(-1.0)]);
+    fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<4>) {
+        let rho = (x * x + y * y + z * z).sqrt();
+        let inverse = -1.0 / rho.max(TINY);
+        rows.row(rho - size[0], [x * inverse, y * inverse, z * inverse, -1.0]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
-        (x * x + y * y + z * z).root() - S::of(size[0])
+    fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
+        (x * x + y * y + z * z).sqrt() - size[0]
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0] > 0.0

@@ -1,9 +1,9 @@
 //! The distances of all points from a finished element: how large, how far apart, and whose are the extremes.
 
 use super::family::{Element, Family};
-use super::normal::{Placing, lanes, widest};
+use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
+use super::normal::Placing;
 use super::sample::Sample;
-use super::scalar::{LANES, Lane, Scalar};
 use crate::space::Point;
 use rayon::prelude::*;
 
@@ -18,30 +18,56 @@ pub(super) struct Survey {
     pub greatest: f64,
 }
 
+/// The group at hand: its points where the last one is filled up, their local coordinates, their distances.
+struct Work {
+    filled: [Point; GROUP],
+    local: [Lanes; 3],
+    distance: Lanes,
+}
+
+impl Work {
+    #[inline(always)]
+    fn new() -> Work {
+        Work { filled: [[0.0; 3]; GROUP], local: [[0.0; GROUP]; 3], distance: [0.0; GROUP] }
+    }
+    /// The distances of group `k`, and how many of them count.
+    #[inline(always)]
+    fn distances<const P: usize, F: Family<P>>(
+        &mut self,
+        points: &[Point],
+        k: usize,
+        size: [f64; 2],
+        placing: &Placing,
+    ) -> usize {
+        let (group, count) = group(points, k, &mut self.filled);
+        placing.group(group, &mut self.local);
+        for l in 0..GROUP {
+            self.distance[l] = F::distance(size, [self.local[0][l], self.local[1][l], self.local[2][l]]);
+        }
+        count
+    }
+}
+
 #[inline(always)]
 fn block<const P: usize, F: Family<P>>(points: &[Point], size: [f64; 2], placing: &Placing) -> Survey {
-    let (fours, rest) = points.as_chunks::<LANES>();
-    let mut square = Lane::of(0.0);
-    let (mut least, mut greatest) = (Lane::of(f64::INFINITY), Lane::of(f64::NEG_INFINITY));
-    for four in fours {
-        let d = F::distance(size, placing.local(lanes(four)));
-        square = square + d * d;
-        least = least.zip(d, |a, b| if b < a { b } else { a });
-        greatest = greatest.at_least(d);
+    let mut square = Sum::ZERO;
+    let (mut least, mut greatest) = ([f64::INFINITY; GROUP], [f64::NEG_INFINITY; GROUP]);
+    let mut work = Work::new();
+    for k in 0..groups(points) {
+        let count = work.distances::<P, F>(points, k, size, placing);
+        for l in 0..GROUP {
+            let d = work.distance[l];
+            least[l] = if d < least[l] { d } else { least[l] };
+            greatest[l] = if d > greatest[l] { d } else { greatest[l] };
+        }
+        work.distance[count..].fill(0.0);
+        square.add_products(&work.distance, &work.distance);
     }
-    let fold = |start: f64, lane: Lane, f: fn(f64, f64) -> f64| lane.0.iter().fold(start, |a, &b| f(a, b));
-    let mut all = Survey {
-        square: square.sum(),
-        least: fold(f64::INFINITY, least, f64::min),
-        greatest: fold(f64::NEG_INFINITY, greatest, f64::max),
-    };
-    for &p in rest {
-        let d = F::distance(size, placing.local(p));
-        all.square += d * d;
-        all.least = all.least.min(d);
-        all.greatest = all.greatest.max(d);
+    Survey {
+        square: square.total(),
+        least: least.into_iter().fold(f64::INFINITY, f64::min),
+        greatest: greatest.into_iter().fold(f64::NEG_INFINITY, f64::max),
     }
-    all
 }
 
 widest! {
@@ -71,9 +97,30 @@ pub(super) fn find<const P: usize, F: Family<P>>(
     let placing = Placing::new(element, sample);
     let start = block * BLOCK;
     let points = sample.points.get(start..(start + BLOCK).min(sample.len()))?;
-    let within =
-        points.iter().position(|&p| F::distance::<f64>(element.size, placing.local(p)) == distance)?;
-    Some(start + within)
+    Some(start + find_block::<P, F>(points, element.size, &placing, distance)?)
+}
+
+widest! {
+    fn find_block [const P: usize, F: Family<P>] [P, F]
+    (points: &[Point], size: [f64; 2], placing: &Placing, distance: f64) -> Option<usize>
+    = find_in::<P, F>(points, size, placing, distance)
+}
+
+#[inline(always)]
+fn find_in<const P: usize, F: Family<P>>(
+    points: &[Point],
+    size: [f64; 2],
+    placing: &Placing,
+    distance: f64,
+) -> Option<usize> {
+    let mut work = Work::new();
+    for k in 0..groups(points) {
+        work.distances::<P, F>(points, k, size, placing);
+        if let Some(l) = work.distance.iter().position(|&d| d == distance) {
+            return Some((k * GROUP + l).min(points.len() - 1));
+        }
+    }
+    None
 }
 
 /// Sum of squares, and the extremes with the first point that has each: `(distance, index)`.

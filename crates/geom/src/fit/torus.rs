@@ -5,7 +5,6 @@ use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile, directions};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
-use super::scalar::Scalar;
 use super::scatter::Scatter;
 use super::shape::Shape;
 use crate::space::{Point, unit};
@@ -25,21 +24,20 @@ impl Family<7> for Torus {
     ];
 
     #[inline(always)]
-    fn rows<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3], rows: &mut impl Rows<S, 7>) {
-        let tiny = S::of(TINY);
-        let rho = (x * x + y * y).root();
-        let inverse = S::of(1.0) / rho.at_least(tiny);
-        let e = rho - S::of(size[0]);
-        let t = (e * e + z * z).root();
-        let other = S::of(1.0) / t.at_least(tiny);
+    fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<7>) {
+        let rho = (x * x + y * y).sqrt();
+        let inverse = 1.0 / rho.max(TINY);
+        let e = rho - size[0];
+        let t = (e * e + z * z).sqrt();
+        let other = 1.0 / t.max(TINY);
         let (er, ez) = (e * other, z * other);
         let (nu, nv) = (er * x * inverse, er * y * inverse);
-        rows.row(t - S::of(size[1]), [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, S::of(-1.0)]);
+        rows.row(t - size[1], [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, -1.0]);
     }
     #[inline(always)]
-    fn distance<S: Scalar>(size: [f64; 2], [x, y, z]: [S; 3]) -> S {
-        let e = (x * x + y * y).root() - S::of(size[0]);
-        (e * e + z * z).root() - S::of(size[1])
+    fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
+        let e = (x * x + y * y).sqrt() - size[0];
+        (e * e + z * z).sqrt() - size[1]
     }
     fn sound(size: [f64; 2]) -> bool {
         size[0] > 0.0 && size[1] > 0.0 && size[0].is_finite() && size[1].is_finite()
@@ -88,7 +86,7 @@ const STARTS: usize = 16;
 /// The `count` best tori about the axes of the frames.
 fn ranked(frames: impl Iterator<Item = Pose>, points: &[Point], count: usize) -> Vec<Element> {
     let square = |element: &Element| -> f64 {
-        points.iter().map(|&p| Torus::distance::<f64>(element.size, element.pose.local(p)).powi(2)).sum()
+        points.iter().map(|&p| Torus::distance(element.size, element.pose.local(p)).powi(2)).sum()
     };
     let mut all: Vec<(f64, Element)> =
         frames.flat_map(|frame| about(&frame, points)).map(|e| (square(&e), e)).collect();

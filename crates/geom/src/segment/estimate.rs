@@ -217,7 +217,7 @@ fn axis_of_revolution(patch: &Patch) -> Option<(Vector, Point)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::surface::normal;
+    use super::super::{probe::Probe, tests::one_of_each};
     use super::*;
 
     /// A piece of each element is recognised from places and normals of either side.
@@ -225,26 +225,18 @@ mod tests {
     fn patches_give_their_element() {
         let direction = unit([0.3, -0.5, 0.8]).unwrap().0;
         let center = [10.0, -4.0, 7.0];
-        let half_angle = 0.3f64;
-        let apex = plus(center, times(-5.0 / half_angle.tan(), direction));
-        let shapes = [
-            Shape::Plane { point: center, normal: direction },
-            Shape::Sphere { center, radius: 5.0 },
-            Shape::Cylinder { point: center, direction, radius: 5.0 },
-            Shape::Cone { apex, direction, half_angle, point: center, radius: 5.0 },
-            Shape::Torus { center, direction, major_radius: 5.0, minor_radius: 2.0 },
-        ];
-        for shape in shapes {
+        for shape in one_of_each(center, direction, 0.3) {
+            let probe = Probe::new(&shape);
             let patch: Vec<(Point, Vector)> = (0..60)
                 .map(|k| {
                     let t = f64::from(k);
                     let mut p =
                         plus(center, [4.0 + (0.9 * t).sin(), 2.0 * (1.7 * t).cos(), 1.5 * (2.3 * t).sin()]);
                     for _ in 0..3 {
-                        p = minus(p, times(shape.distance(p), normal(&shape, p)));
+                        p = minus(p, times(shape.distance(p), probe.normal(p)));
                     }
                     let side = if k % 3 == 0 { -1.0 } else { 1.0 };
-                    (p, times(side, normal(&shape, p)))
+                    (p, times(side, probe.normal(p)))
                 })
                 .collect();
             let found = estimate(shape.kind(), &patch).unwrap();

@@ -2,9 +2,9 @@
 
 use super::estimate::estimate;
 use super::flood::{Marks, flood, patch, rings};
+use super::probe::Probe;
 use super::surface::{Band, Surface};
-use crate::fit::{Kind, Options, Shape, fit};
-use crate::progress::Silent;
+use crate::fit::{Kind, Shape, improved};
 use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
@@ -50,13 +50,6 @@ pub(super) struct Grown {
     pub rms: f64,
 }
 
-/// The least-squares element near `start`, and the root mean square distance.
-pub(super) fn refined(kind: Kind, start: &Shape, points: &[Point]) -> Option<(Shape, f64)> {
-    let options = Options { start: Some(*start), ..Options::default() };
-    let found = fit(points, kind, &options, &Silent).ok()?;
-    Some((found.shape, found.residuals.rms))
-}
-
 impl Grown {
     /// Its weight, less where it fits worse than noise of this standard deviation.
     pub(super) fn merit(&self, noise: f64) -> f64 {
@@ -89,6 +82,10 @@ impl Terms<'_> {
                 if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= DOUBTFUL * self.noise) {
                     return best;
                 }
+            }
+            // Nor can a larger patch; which kind it is, the whole region tells.
+            if best.as_ref().is_some_and(|b| b.pieces.len() >= most) {
+                break;
             }
         }
         best
@@ -139,7 +136,8 @@ impl Terms<'_> {
     fn agreeing(&self, shape: &Shape, pieces: &[u32]) -> f64 {
         let some = pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1));
         let all = some.clone().count().max(1);
-        some.filter(|&&p| self.surface.belongs(p, shape, &self.band)).count() as f64 / all as f64
+        let element = Probe::new(shape);
+        some.filter(|&&p| self.surface.belongs(p, &element, &self.band)).count() as f64 / all as f64
     }
 
     /// The element of one kind that the patch shows, if the given share of it agrees, and its root mean square distance.
@@ -154,7 +152,7 @@ impl Terms<'_> {
         if points.len() < fewest_points(kind) {
             return None;
         }
-        let (shape, rms) = refined(kind, &first, &points).filter(|f| self.sound(&f.0))?;
+        let (shape, rms) = improved(&points, &first).filter(|f| self.sound(&f.0))?;
         (self.agreeing(&shape, patch) >= share).then_some((shape, rms))
     }
 
@@ -171,14 +169,15 @@ impl Terms<'_> {
         let mut limit = GROWTH * patch.len();
         let mut last = 0;
         for _ in 0..ROUNDS {
+            let element = Probe::new(&shape);
             let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, _| {
-                free(piece) && self.surface.belongs(piece, &shape, &self.band)
+                free(piece) && self.surface.belongs(piece, &element, &self.band)
             });
-            let points = self.within(&shape, &pieces);
+            let points = self.within(&element, &pieces);
             if points.len() < fewest_points(kind) {
                 return None;
             }
-            let (better, rms) = refined(kind, &shape, &points).filter(|f| self.sound(&f.0))?;
+            let (better, rms) = improved(&points, &shape).filter(|f| self.sound(&f.0))?;
             let full = pieces.len() >= limit.min(most);
             if pieces.len() >= most || (!full && pieces.len() <= last + last / 100) {
                 let weight = self.surface.weight(&pieces);
@@ -194,9 +193,9 @@ impl Terms<'_> {
     }
 
     /// Some points of the pieces, those that lie within the band.
-    fn within(&self, shape: &Shape, pieces: &[u32]) -> Vec<Point> {
+    fn within(&self, element: &Probe, pieces: &[u32]) -> Vec<Point> {
         let mut points = self.surface.some_places(pieces, ENOUGH);
-        points.retain(|&p| shape.distance(p).abs() <= self.band.distance);
+        points.retain(|&p| element.distance(p).abs() <= self.band.distance);
         points
     }
 

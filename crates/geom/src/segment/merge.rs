@@ -1,8 +1,9 @@
 //! Neighbouring regions that are one face: pieces of one element that form error or a scratch kept apart.
 
-use super::grow::{Grown, Terms, refined};
+use super::grow::{Grown, Terms};
+use super::probe::Probe;
 use super::surface::NONE;
-use crate::fit::Shape;
+use crate::fit::{Shape, improved};
 use crate::space::Point;
 
 /// Points of each region that a joint element is fitted to.
@@ -45,9 +46,8 @@ fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
         places
     };
     let (one, other) = (places(large), places(small));
-    let kind = large.shape.kind();
     let both: Vec<Point> = one.iter().chain(&other).copied().collect();
-    let (shape, _) = refined(kind, &large.shape, &both)?;
+    let (shape, _) = improved(&both, &large.shape)?;
     let square =
         |points: &[Point], shape: &Shape| points.iter().map(|&p| shape.distance(p).powi(2)).sum::<f64>();
     let apart = square(&one, &large.shape) + square(&other, &small.shape);
@@ -57,7 +57,8 @@ fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
     // The small one counts by itself too: among many points of the large one it would not show.
     let alone = square(&other, &shape) / other.len() as f64;
     let own = square(&other, &small.shape) / other.len() as f64;
-    let belong = small.pieces.iter().filter(|&&p| turned(terms, p, &shape)).count();
+    let element = Probe::new(&shape);
+    let belong = small.pieces.iter().filter(|&&p| turned(terms, p, &element)).count();
     let fits = together / count <= TELLS * TELLS * (apart / count).max(floor)
         && alone <= 4.0 * own.max(floor)
         && 10 * belong >= 9 * small.pieces.len();
@@ -65,10 +66,10 @@ fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
 }
 
 /// Whether the piece looks the way the element does.
-fn turned(terms: &Terms, piece: u32, shape: &Shape) -> bool {
+fn turned(terms: &Terms, piece: u32, element: &Probe) -> bool {
     let i = piece as usize;
-    let normal = super::surface::normal(shape, terms.surface.places[i]);
-    crate::space::dot(terms.surface.normals[i], normal).abs() >= terms.band.cosine
+    crate::space::dot(terms.surface.normals[i], element.normal(terms.surface.places[i])).abs()
+        >= terms.band.cosine
 }
 
 /// Pairs of regions that touch, or that one piece of no region lies between.

@@ -8,6 +8,7 @@
 //! | file | what |
 //! |---|---|
 //! | `surface` | pieces and neighbours; `facets` of a mesh, `points` of a cloud |
+//! | `probe` | an element ready for many questions |
 //! | `noise` | how far and how much turned a piece of a face may be |
 //! | `estimate` | an element from places and normals |
 //! | `flood`, `grow` | from a patch to a region |
@@ -21,6 +22,7 @@ mod grow;
 mod merge;
 mod noise;
 mod points;
+mod probe;
 mod search;
 mod seeds;
 mod settle;

@@ -2,9 +2,9 @@
 
 use super::estimate::estimate;
 use super::flood::{Marks, patch};
-use super::grow::refined;
-use super::surface::{Surface, normal};
-use crate::fit::{Kind, Shape};
+use super::probe::Probe;
+use super::surface::Surface;
+use crate::fit::{Kind, Shape, improved};
 use crate::num::random::Random;
 use crate::space::{Point, dot};
 use rayon::prelude::*;
@@ -80,7 +80,7 @@ fn best(surface: &Surface, pieces: &[u32]) -> Option<(f64, f64)> {
         if kind != Kind::Plane && left < kind.unknowns() {
             return None;
         }
-        let (shape, rms) = refined(kind, &estimate(kind, &oriented)?, &points)?;
+        let (shape, rms) = improved(&points, &estimate(kind, &oriented)?)?;
         Some((shape, rms * (points.len() as f64 / left as f64).sqrt()))
     });
     let (shape, rms) = fits.min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -88,8 +88,9 @@ fn best(surface: &Surface, pieces: &[u32]) -> Option<(f64, f64)> {
 }
 
 fn middle_angle(shape: &Shape, oriented: &[(Point, [f64; 3])]) -> f64 {
+    let element = Probe::new(shape);
     let mut angles: Vec<f64> =
-        oriented.iter().map(|&(p, n)| dot(n, normal(shape, p)).abs().min(1.0).acos()).collect();
+        oriented.iter().map(|&(p, n)| dot(n, element.normal(p)).abs().min(1.0).acos()).collect();
     angles.sort_by(f64::total_cmp);
     angles.get(angles.len() / 2).copied().unwrap_or(0.0)
 }

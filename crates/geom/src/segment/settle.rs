@@ -1,6 +1,7 @@
 //! The borders between regions: each piece goes to the neighbouring region that it fits best.
 
 use super::grow::{Grown, Terms};
+use super::probe::Probe;
 use super::surface::{Band, NONE};
 use rayon::prelude::*;
 
@@ -13,15 +14,16 @@ pub(super) fn settle(terms: &Terms, regions: &[Grown], labels: &mut Vec<u32>) {
     let surface = terms.surface;
     // Twice the angle.
     let loose = Band { cosine: 2.0 * terms.band.cosine * terms.band.cosine - 1.0, ..terms.band };
+    let elements: Vec<Probe> = regions.iter().map(|region| Probe::new(&region.shape)).collect();
     for _ in 0..SWEEPS {
         let moved: Vec<u32> = (0..surface.len() as u32)
             .into_par_iter()
             .map(|piece| {
                 let own = labels[piece as usize];
                 let misfit = |label: u32| {
-                    let shape = &regions[label as usize].shape;
+                    let element = &elements[label as usize];
                     let band = if own == NONE { &loose } else { &terms.band };
-                    surface.belongs(piece, shape, band).then(|| surface.misfit(piece, shape, band))
+                    surface.belongs(piece, element, band).then(|| surface.misfit(piece, element, band))
                 };
                 let mut best = (own, if own == NONE { None } else { misfit(own) });
                 let mut last = own;

@@ -2,7 +2,7 @@
 //!
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
-use crate::fit::Shape;
+use super::probe::Probe;
 use crate::space::{Aabb, Point, Vector, dot};
 
 /// No region, no piece.
@@ -88,9 +88,10 @@ impl Surface<'_> {
     }
     /// Whether a piece lies within `band` of the element. Of a facet two corners must; the third, which may be one of
     /// a neighbouring face that is shared at an edge, may be four times as far.
-    pub(super) fn belongs(&self, piece: u32, shape: &Shape, band: &Band) -> bool {
+    #[inline]
+    pub(super) fn belongs(&self, piece: u32, element: &Probe, band: &Band) -> bool {
         let i = piece as usize;
-        let turned = dot(self.normals[i], normal(shape, self.places[i])).abs();
+        let turned = dot(self.normals[i], element.normal(self.places[i])).abs();
         // The normal of a piece without area is zero.
         if turned.is_nan() || turned < band.cosine.max(f64::MIN_POSITIVE) {
             return false;
@@ -98,7 +99,7 @@ impl Surface<'_> {
         let (corners, count) = self.corners(piece);
         let mut outside = 0;
         for &c in &corners[..count] {
-            let d = shape.distance(self.points[c as usize]).abs();
+            let d = element.distance(self.points[c as usize]).abs();
             outside += usize::from(d.is_nan() || d > band.distance);
             if d > 4.0 * band.distance || 3 * outside > count {
                 return false;
@@ -107,12 +108,12 @@ impl Surface<'_> {
         true
     }
     /// How badly a piece fits: 1 at the edge of the band in distance or in angle.
-    pub(super) fn misfit(&self, piece: u32, shape: &Shape, band: &Band) -> f64 {
+    pub(super) fn misfit(&self, piece: u32, element: &Probe, band: &Band) -> f64 {
         let i = piece as usize;
         let (corners, count) = self.corners(piece);
         let square: f64 =
-            corners[..count].iter().map(|&c| shape.distance(self.points[c as usize]).powi(2)).sum();
-        let turned = 1.0 - dot(self.normals[i], normal(shape, self.places[i])).abs();
+            corners[..count].iter().map(|&c| element.distance(self.points[c as usize]).powi(2)).sum();
+        let turned = 1.0 - dot(self.normals[i], element.normal(self.places[i])).abs();
         square / (count as f64 * band.distance * band.distance) + turned / (1.0 - band.cosine)
     }
     /// The box of the measured points of `pieces`.
@@ -121,65 +122,5 @@ impl Surface<'_> {
             let (corners, count) = self.corners(p);
             b.union(&Aabb::of(corners[..count].iter().map(|&c| &self.points[c as usize])))
         })
-    }
-}
-
-/// Unit normal of the element at the place of it nearest to `p`; zero where there are many.
-pub(super) fn normal(shape: &Shape, p: Point) -> Vector {
-    use crate::space::{minus, plus, times, unit};
-    let direct = |v: Vector| unit(v).map_or([0.0; 3], |(v, _)| v);
-    let across = |point: Point, axis: Vector| {
-        let q = minus(p, point);
-        direct(minus(q, times(dot(q, axis), axis)))
-    };
-    match *shape {
-        Shape::Plane { normal, .. } => normal,
-        Shape::Sphere { center, .. } => direct(minus(p, center)),
-        Shape::Cylinder { point, direction, .. } => across(point, direction),
-        Shape::Cone { point, direction, half_angle, .. } => {
-            minus(times(half_angle.cos(), across(point, direction)), times(half_angle.sin(), direction))
-        }
-        Shape::Torus { center, direction, major_radius, .. } => {
-            let ring = plus(center, times(major_radius, across(center, direction)));
-            direct(minus(p, ring))
-        }
-        _ => [0.0; 3],
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::space::{plus, times};
-
-    /// The normal is the gradient of the distance.
-    #[test]
-    fn normals_are_gradients_of_the_distance() {
-        let direction = [0.6, 0.0, 0.8];
-        let (center, half_angle) = ([1.0, 2.0, 3.0], 0.4f64);
-        let apex = plus(center, times(-5.0 / half_angle.tan(), direction));
-        let shapes = [
-            Shape::Plane { point: center, normal: direction },
-            Shape::Sphere { center, radius: 5.0 },
-            Shape::Cylinder { point: center, direction, radius: 5.0 },
-            Shape::Cone { apex, direction, half_angle, point: center, radius: 5.0 },
-            Shape::Torus { center, direction, major_radius: 5.0, minor_radius: 2.0 },
-        ];
-        for shape in shapes {
-            for p in [[4.0, -2.0, 1.0], [-3.0, 7.0, 5.0], [1.5, 8.0, 2.0]] {
-                let gradient: Vector = std::array::from_fn(|k| {
-                    let at = |h: f64| {
-                        let mut q = p;
-                        q[k] += h;
-                        shape.distance(q)
-                    };
-                    (at(1e-5) - at(-1e-5)) / 2e-5
-                });
-                let found = normal(&shape, p);
-                for k in 0..3 {
-                    assert!((found[k] - gradient[k]).abs() < 1e-8, "{shape:?} {found:?} {gradient:?}");
-                }
-            }
-        }
     }
 }

@@ -20,7 +20,13 @@ fn stated_uncertainties_are_the_spread_of_repeated_fits() {
                 let covariance = fit.covariance.unwrap();
                 let stated =
                     (0..covariance.size).map(|k| covariance.values[k * covariance.size + k].max(0.0));
-                (at_foot_of(placement(kind).origin, &fit.shape).flattened(), stated.collect())
+                (
+                    {
+                        let (numbers, count) = at_foot_of(placement(kind).origin, &fit.shape).flattened();
+                        numbers[..count].to_vec()
+                    },
+                    stated.collect(),
+                )
             })
             .collect();
         let count = TRIALS as f64;

@@ -7,8 +7,20 @@ use crate::fit::{Kind, Parameter, Shape};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::space::{Point, dot, minus, norm, times};
+use crate::space::{Point, Vector, dot, minus, norm, times};
 use parts::{Part, bored, turned};
+
+/// A plane, sphere, cylinder, cone and torus about one place, radius 5 there; of the torus' tube 2.
+pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> [Shape; 5] {
+    let apex = minus(center, times(5.0 / half_angle.tan(), direction));
+    [
+        Shape::Plane { point: center, normal: direction },
+        Shape::Sphere { center, radius: 5.0 },
+        Shape::Cylinder { point: center, direction, radius: 5.0 },
+        Shape::Cone { apex, direction, half_angle, point: center, radius: 5.0 },
+        Shape::Torus { center, direction, major_radius: 5.0, minor_radius: 2.0 },
+    ]
+}
 
 /// For each face the region that holds most of its facets; every region must be that of one face and of its kind, and
 /// hold at least `share` of it.

@@ -1,0 +1,85 @@
+//! Points a group at a time: loops of a fixed length over arrays, which the compiler turns into wide registers. (Not in
+//! closures: one that is not inlined is compiled for any processor.)
+//!
+//! Only operations that IEEE 754 rounds alike everywhere are used (no fused multiply-add), and sums are kept in four
+//! parts that are added in one order: the results are the same bits with wide registers and without.
+
+use crate::space::Point;
+
+/// Points of one group: few enough that their rows stay in the nearest cache.
+pub(super) const GROUP: usize = 32;
+/// Numbers that are summed side by side.
+const PARTS: usize = 4;
+
+/// One number of each point of a group.
+pub(super) type Lanes = [f64; GROUP];
+
+/// A sum in four parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sum([f64; PARTS]);
+
+impl Sum {
+    pub(super) const ZERO: Sum = Sum([0.0; PARTS]);
+
+    /// Adds Σ aᵢ·bᵢ.
+    #[inline(always)]
+    pub(super) fn add_products(&mut self, a: &Lanes, b: &Lanes) {
+        let mut sum = self.0;
+        let ((a, _), (b, _)) = (a.as_chunks::<PARTS>(), b.as_chunks::<PARTS>());
+        for (a, b) in a.iter().zip(b) {
+            for l in 0..PARTS {
+                sum[l] += a[l] * b[l];
+            }
+        }
+        self.0 = sum;
+    }
+    /// The parts added up.
+    #[inline(always)]
+    pub(super) fn total(self) -> f64 {
+        (self.0[0] + self.0[1]) + (self.0[2] + self.0[3])
+    }
+}
+
+/// Number of groups of so many points.
+#[inline(always)]
+pub(super) fn groups(points: &[Point]) -> usize {
+    points.len().div_ceil(GROUP)
+}
+
+/// Group `k` of the points and the number of those in it that count: the last group is filled up with its last point, in
+/// `filled`.
+#[inline(always)]
+pub(super) fn group<'a>(
+    points: &'a [Point],
+    k: usize,
+    filled: &'a mut [Point; GROUP],
+) -> (&'a [Point; GROUP], usize) {
+    let from = &points[k * GROUP..];
+    if let Some(whole) = from.first_chunk() {
+        return (whole, GROUP);
+    }
+    for (l, place) in filled.iter_mut().enumerate() {
+        *place = from[l.min(from.len() - 1)];
+    }
+    (filled, from.len())
+}
+
+/// Compiles `$body` twice, for wide registers and for any processor, and takes what this processor has.
+macro_rules! widest {
+    (fn $name:ident [$($generics:tt)*] [$($use:tt)*] ($($arg:ident : $type:ty),*) -> $out:ty = $body:expr) => {
+        #[allow(unsafe_code)] // one call into code compiled for a processor feature that was asked for
+        fn $name<$($generics)*>($($arg: $type),*) -> $out {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx2")]
+                fn wide<$($generics)*>($($arg: $type),*) -> $out { $body }
+                if std::arch::is_x86_feature_detected!("avx2") {
+                    // SAFETY: the processor was just asked for the feature.
+                    return unsafe { wide::<$($use)*>($($arg),*) };
+                }
+            }
+            $body
+        }
+    };
+}
+pub(super) use widest;

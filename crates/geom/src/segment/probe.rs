@@ -1,0 +1,109 @@
+//! An element made ready for being asked about many places.
+
+use crate::fit::Shape;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+
+/// One of the five elements, with what all places have in common worked out. Of other shapes every place lies off.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Probe {
+    Plane { point: Point, normal: Vector },
+    Sphere { center: Point, radius: f64 },
+    Cylinder { point: Point, axis: Vector, radius: f64 },
+    Cone { point: Point, axis: Vector, radius: f64, sin: f64, cos: f64 },
+    Torus { center: Point, axis: Vector, major: f64, minor: f64 },
+    Nothing,
+}
+
+impl Probe {
+    pub(super) fn new(shape: &Shape) -> Probe {
+        match *shape {
+            Shape::Plane { point, normal } => Probe::Plane { point, normal },
+            Shape::Sphere { center, radius } => Probe::Sphere { center, radius },
+            Shape::Cylinder { point, direction, radius } => {
+                Probe::Cylinder { point, axis: direction, radius }
+            }
+            Shape::Cone { direction, half_angle, point, radius, .. } => {
+                let (sin, cos) = half_angle.sin_cos();
+                Probe::Cone { point, axis: direction, radius, sin, cos }
+            }
+            Shape::Torus { center, direction, major_radius, minor_radius } => {
+                Probe::Torus { center, axis: direction, major: major_radius, minor: minor_radius }
+            }
+            _ => Probe::Nothing,
+        }
+    }
+    /// Signed distance of `p`, as [`Shape::distance`].
+    #[inline]
+    pub(super) fn distance(&self, p: Point) -> f64 {
+        // The vector product keeps the digits of small distances from an axis.
+        let off = |point: Point, axis: Vector| {
+            let q = minus(p, point);
+            (norm(cross(q, axis)), dot(q, axis))
+        };
+        match *self {
+            Probe::Plane { point, normal } => dot(minus(p, point), normal),
+            Probe::Sphere { center, radius } => norm(minus(p, center)) - radius,
+            Probe::Cylinder { point, axis, radius } => off(point, axis).0 - radius,
+            Probe::Cone { point, axis, radius, sin, cos } => {
+                let (rho, z) = off(point, axis);
+                (rho - radius) * cos - z * sin
+            }
+            Probe::Torus { center, axis, major, minor } => {
+                let (rho, z) = off(center, axis);
+                let e = rho - major;
+                (e * e + z * z).sqrt() - minor
+            }
+            Probe::Nothing => f64::NAN,
+        }
+    }
+    /// Unit normal of the element at the place of it nearest to `p`; zero where there are many.
+    #[inline]
+    pub(super) fn normal(&self, p: Point) -> Vector {
+        let direct = |v: Vector| unit(v).map_or([0.0; 3], |(v, _)| v);
+        let across = |point: Point, axis: Vector| {
+            let q = minus(p, point);
+            direct(minus(q, times(dot(q, axis), axis)))
+        };
+        match *self {
+            Probe::Plane { normal, .. } => normal,
+            Probe::Sphere { center, .. } => direct(minus(p, center)),
+            Probe::Cylinder { point, axis, .. } => across(point, axis),
+            Probe::Cone { point, axis, sin, cos, .. } => {
+                minus(times(cos, across(point, axis)), times(sin, axis))
+            }
+            Probe::Torus { center, axis, major, .. } => {
+                direct(minus(p, plus(center, times(major, across(center, axis)))))
+            }
+            Probe::Nothing => [0.0; 3],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::one_of_each;
+    use super::*;
+
+    /// The distance is that of the shape, the normal its gradient.
+    #[test]
+    fn distances_and_normals_are_those_of_the_shape() {
+        for shape in one_of_each([1.0, 2.0, 3.0], [0.6, 0.0, 0.8], 0.4) {
+            let probe = Probe::new(&shape);
+            for p in [[4.0, -2.0, 1.0], [-3.0, 7.0, 5.0], [1.5, 8.0, 2.0]] {
+                let gradient: Vector = std::array::from_fn(|k| {
+                    let at = |h: f64| {
+                        let mut q = p;
+                        q[k] += h;
+                        shape.distance(q)
+                    };
+                    (at(1e-5) - at(-1e-5)) / 2e-5
+                });
+                assert!((probe.distance(p) - shape.distance(p)).abs() < 1e-14, "{shape:?}");
+                let found = probe.normal(p);
+                for k in 0..3 {
+                    assert!((found[k] - gradient[k]).abs() < 1e-8, "{shape:?} {found:?} {gradient:?}");
+                }
+            }
+        }
+    }
+}
