@@ -233,10 +233,10 @@ mod tests {
                     let mut p =
                         plus(center, [4.0 + (0.9 * t).sin(), 2.0 * (1.7 * t).cos(), 1.5 * (2.3 * t).sin()]);
                     for _ in 0..3 {
-                        p = minus(p, times(shape.distance(p), probe.normal(p)));
+                        p = minus(p, times(shape.distance(p), unit(probe.normal(p)).unwrap().0));
                     }
                     let side = if k % 3 == 0 { -1.0 } else { 1.0 };
-                    (p, times(side, probe.normal(p)))
+                    (p, times(side, unit(probe.normal(p)).unwrap().0))
                 })
                 .collect();
             let found = estimate(shape.kind(), &patch).unwrap();

@@ -13,6 +13,8 @@ const PATCHES: [usize; 3] = [20, 64, 250];
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
 const GROWTH: usize = 3;
+/// A trial, and a region that is taken, has stopped growing when it gains less than one piece in so many.
+const STILL: [usize; 2] = [16, 100];
 /// Fits of one growing region. Growth threefold each time, it has covered any surface before.
 const ROUNDS: usize = 30;
 /// Share of a patch that must belong to the element estimated from it.
@@ -167,6 +169,7 @@ impl Terms<'_> {
     ) -> Option<Grown> {
         let kind = shape.kind();
         let mut limit = GROWTH * patch.len();
+        let still = if most == usize::MAX { STILL[1] } else { STILL[0] };
         let mut last = 0;
         for _ in 0..ROUNDS {
             let element = Probe::new(&shape);
@@ -179,7 +182,7 @@ impl Terms<'_> {
             }
             let (better, rms) = improved(&points, &shape).filter(|f| self.sound(&f.0))?;
             let full = pieces.len() >= limit.min(most);
-            if pieces.len() >= most || (!full && pieces.len() <= last + last / 100) {
+            if pieces.len() >= most || (!full && pieces.len() <= last + last / still) {
                 let weight = self.surface.weight(&pieces);
                 return Some(Grown { shape: better, pieces, weight, rms });
             }

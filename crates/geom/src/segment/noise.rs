@@ -6,7 +6,7 @@ use super::probe::Probe;
 use super::surface::Surface;
 use crate::fit::{Kind, Shape, improved};
 use crate::num::random::Random;
-use crate::space::{Point, dot};
+use crate::space::Point;
 use rayon::prelude::*;
 
 /// Patches looked at.
@@ -89,8 +89,7 @@ fn best(surface: &Surface, pieces: &[u32]) -> Option<(f64, f64)> {
 
 fn middle_angle(shape: &Shape, oriented: &[(Point, [f64; 3])]) -> f64 {
     let element = Probe::new(shape);
-    let mut angles: Vec<f64> =
-        oriented.iter().map(|&(p, n)| dot(n, element.normal(p)).abs().min(1.0).acos()).collect();
+    let mut angles: Vec<f64> = oriented.iter().map(|&(p, n)| element.cosine(p, n).min(1.0).acos()).collect();
     angles.sort_by(f64::total_cmp);
     angles.get(angles.len() / 2).copied().unwrap_or(0.0)
 }

@@ -1,7 +1,7 @@
 //! An element made ready for being asked about many places.
 
 use crate::fit::Shape;
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Point, Vector, cross, dot, minus, norm, times};
 
 /// One of the five elements, with what all places have in common worked out. Of other shapes every place lies off.
 #[derive(Clone, Copy, Debug)]
@@ -56,26 +56,36 @@ impl Probe {
             Probe::Nothing => f64::NAN,
         }
     }
-    /// Unit normal of the element at the place of it nearest to `p`; zero where there are many.
+    /// A normal of the element at the place of it nearest to `p`, not of unit length; zero where there are many.
     #[inline]
     pub(super) fn normal(&self, p: Point) -> Vector {
-        let direct = |v: Vector| unit(v).map_or([0.0; 3], |(v, _)| v);
         let across = |point: Point, axis: Vector| {
             let q = minus(p, point);
-            direct(minus(q, times(dot(q, axis), axis)))
+            minus(q, times(dot(q, axis), axis))
         };
         match *self {
             Probe::Plane { normal, .. } => normal,
-            Probe::Sphere { center, .. } => direct(minus(p, center)),
+            Probe::Sphere { center, .. } => minus(p, center),
             Probe::Cylinder { point, axis, .. } => across(point, axis),
             Probe::Cone { point, axis, sin, cos, .. } => {
-                minus(times(cos, across(point, axis)), times(sin, axis))
+                let out = across(point, axis);
+                minus(times(cos, out), times(sin * norm(out), axis))
             }
             Probe::Torus { center, axis, major, .. } => {
-                direct(minus(p, plus(center, times(major, across(center, axis)))))
+                let out = across(center, axis);
+                let length = norm(out);
+                if length == 0.0 { [0.0; 3] } else { minus(minus(p, center), times(major / length, out)) }
             }
             Probe::Nothing => [0.0; 3],
         }
+    }
+    /// The cosine of the angle between the unit vector `n` and the normal next to `p`, to whichever side; 0 where the
+    /// normal is none.
+    #[inline]
+    pub(super) fn cosine(&self, p: Point, n: Vector) -> f64 {
+        let normal = self.normal(p);
+        let length = norm(normal);
+        if length > 0.0 { (dot(n, normal) / length).abs() } else { 0.0 }
     }
 }
 
@@ -83,6 +93,7 @@ impl Probe {
 mod tests {
     use super::super::tests::one_of_each;
     use super::*;
+    use crate::space::unit;
 
     /// The distance is that of the shape, the normal its gradient.
     #[test]
@@ -99,7 +110,7 @@ mod tests {
                     (at(1e-5) - at(-1e-5)) / 2e-5
                 });
                 assert!((probe.distance(p) - shape.distance(p)).abs() < 1e-14, "{shape:?}");
-                let found = probe.normal(p);
+                let found = unit(probe.normal(p)).unwrap().0;
                 for k in 0..3 {
                     assert!((found[k] - gradient[k]).abs() < 1e-8, "{shape:?} {found:?} {gradient:?}");
                 }

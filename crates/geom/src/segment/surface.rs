@@ -3,7 +3,7 @@
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
 use super::probe::Probe;
-use crate::space::{Aabb, Point, Vector, dot};
+use crate::space::{Aabb, Point, Vector};
 
 /// No region, no piece.
 pub(super) const NONE: u32 = u32::MAX;
@@ -91,7 +91,7 @@ impl Surface<'_> {
     #[inline]
     pub(super) fn belongs(&self, piece: u32, element: &Probe, band: &Band) -> bool {
         let i = piece as usize;
-        let turned = dot(self.normals[i], element.normal(self.places[i])).abs();
+        let turned = element.cosine(self.places[i], self.normals[i]);
         // The normal of a piece without area is zero.
         if turned.is_nan() || turned < band.cosine.max(f64::MIN_POSITIVE) {
             return false;
@@ -113,7 +113,7 @@ impl Surface<'_> {
         let (corners, count) = self.corners(piece);
         let square: f64 =
             corners[..count].iter().map(|&c| element.distance(self.points[c as usize]).powi(2)).sum();
-        let turned = 1.0 - dot(self.normals[i], element.normal(self.places[i])).abs();
+        let turned = 1.0 - element.cosine(self.places[i], self.normals[i]);
         square / (count as f64 * band.distance * band.distance) + turned / (1.0 - band.cosine)
     }
     /// The box of the measured points of `pieces`.
