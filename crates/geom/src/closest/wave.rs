@@ -2,8 +2,9 @@
 //!
 //! A single walk waits most of the time for its own last result; sixteen independent ones, level by level and without
 //! branches that depend on data, keep the processor busy. All begin at the front that the block has gathered. First every
-//! point descends greedily to one leaf, which gives it a bound. Then a queue of (point, node) pairs is worked off in order;
-//! surviving children are appended by a vector compress, inner nodes to the queue, leaves to a list.
+//! point descends greedily to one leaf, which gives it a bound. Then a queue of (point, node) pairs is worked off, level
+//! by level; surviving children are appended by a vector compress, inner nodes to the queue, leaves to a list. The leaves
+//! of a level are tested before the next level is entered, with the bounds they have tightened.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(
@@ -71,27 +72,39 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s:
                 push::<V>(mask & leaf, i as i32, node, &mut s.found);
             }
         }
-        let mut next = 0;
-        while let Some(&[i, n]) = s.queue.get(next) {
-            next += 1;
-            let node = &tree.nodes[n as usize];
-            let q = kernel::splat::<V>(place[i as usize % BLOCK]);
-            let mask = kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % BLOCK]));
-            let leaf = V::negative(&node.child);
-            push::<V>(mask & !leaf, i, node, &mut s.queue);
-            push::<V>(mask & leaf, i, node, &mut s.found);
-        }
-        for at in 0..s.found.len() {
-            let [i, c] = s.found[at];
-            let i = i as usize % BLOCK;
-            if c != here[i] {
-                probe::<V>(tree, b, i, !c as u32, s, &mut known[i]);
+        let (mut next, mut at) = (0, 0);
+        loop {
+            let level = s.queue.len();
+            while next < level {
+                let [i, n] = s.queue[next];
+                next += 1;
+                let node = &tree.nodes[n as usize];
+                let q = kernel::splat::<V>(place[i as usize % BLOCK]);
+                let mask = kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % BLOCK]));
+                let leaf = V::negative(&node.child);
+                push::<V>(mask & !leaf, i, node, &mut s.queue);
+                push::<V>(mask & leaf, i, node, &mut s.found);
+            }
+            let tested = at;
+            while let Some(&[i, c]) = s.found.get(at) {
+                at += 1;
+                let i = i as usize % BLOCK;
+                if c != here[i] {
+                    probe::<V>(tree, b, i, !c as u32, s, &mut known[i]);
+                }
+            }
+            if next == s.queue.len() {
+                break;
+            }
+            if tested < at {
+                for i in 0..b.len {
+                    bound[i] = b.bound(i, known[i].best2.sqrt().min(limit), known[i].error);
+                }
             }
         }
         settle_rows::<V>(&known, s);
     }
 }
-
 /// Replaces each point's node by the leaf (as a child number) that a greedy walk down from it ends in.
 #[inline(always)]
 unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], here: &mut [i32; BLOCK]) {
