@@ -345,12 +345,12 @@ pub fn build(mesh: &Mesh) -> Tree {
     let root = t.grow(Range::new(&mut items, 0));
     let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
     drop(items);
-    let (slots, corners) = frame::renumber(mesh, &face);
-    let leaf = |&(first, n): &(u32, u32)| {
-        frame::leaf(&slots[first as usize..][..n as usize], &corners, first, scale)
-    };
+    let leaf =
+        |&(first, n): &(u32, u32)| frame::leaf(mesh, &face[first as usize..][..n as usize], first, scale);
     let mut leaves = large_pages(Vec::with_capacity(t.leaves.len()));
-    t.leaves.par_iter().map(leaf).collect_into_vec(&mut leaves);
+    let fill = || t.leaves.par_iter().map(leaf).collect_into_vec(&mut leaves);
+    // The numbers follow each other: one thread gives them while the others fill leaves.
+    let ((slots, corners), ()) = rayon::join(|| frame::renumber(mesh, &face), fill);
     Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }
 }
 

@@ -24,13 +24,13 @@ pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
     (slots, used)
 }
 
-/// Fills one leaf with the frames of its triangles, at most eight.
-pub fn leaf(slots: &[[u32; 3]], corners: &[Point], first: u32, scale: f64) -> Leaf {
+/// Fills one leaf with the frames of these faces, at most eight.
+pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
     let mut out = Leaf { field: [[0.0; 8]; FIELDS], origin: [0.0; 3], first, radius: 0.0 };
     let mut triangles = [[[0.0; 3]; 3]; 8];
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (t, slot) in triangles.iter_mut().zip(slots) {
-        *t = slot.map(|v| corners[v as usize]);
+    for (t, &face) in triangles.iter_mut().zip(faces) {
+        *t = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
         for v in t {
             for k in 0..3 {
                 lo[k] = if v[k] < lo[k] { v[k] } else { lo[k] };
@@ -40,13 +40,13 @@ pub fn leaf(slots: &[[u32; 3]], corners: &[Point], first: u32, scale: f64) -> Le
     }
     out.origin = std::array::from_fn(|k| 0.5 * lo[k] + 0.5 * hi[k]);
     let mut radius2 = 0.0;
-    for (j, t) in triangles[..slots.len()].iter().enumerate() {
+    for (j, t) in triangles[..faces.len()].iter().enumerate() {
         let t = t.map(|v| times(scale, minus(v, out.origin)));
         radius2 = t.iter().map(|&c| dot(c, c)).fold(radius2, |m, d| if d > m { d } else { m });
         frame(t, |field, x| out.field[field][j] = x as f32);
     }
     out.radius = radius2.sqrt() as f32 * 1.000001;
-    for j in slots.len()..8 {
+    for j in faces.len()..8 {
         for axis in 0..3 {
             out.field[AXES + 4 * axis][j] = 1.0;
         }

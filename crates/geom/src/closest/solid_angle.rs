@@ -12,11 +12,14 @@ use crate::closest::tree::{AC, AXES, BASE, Leaf, ORIGIN, Tree};
 use crate::closest::winding::Winding;
 use crate::space::{Point, Vector};
 
+/// Nodes and leaves still to be looked at, and for which points.
+pub type Stack = Vec<(i32, u32)>;
+
 /// The dipoles of a node's children, scaled, relative to the tree's centre.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Group {
-    /// Coordinates of the centre, area vector, and the square of the distance from which on the dipole serves.
+    /// Coordinates of the centre, area vector, and the square of the radius.
     child: [[f32; 8]; 8],
 }
 
@@ -24,10 +27,10 @@ impl Group {
     /// Unused children: dipoles of no strength, never opened.
     pub const EMPTY: Group = Group { child: [[1e9, 1e9, 1e9, 0.0, 0.0, 0.0, 0.0, 0.0]; 8] };
 
-    /// Fills in child `j`, which is a dipole from distance `open` on. All scaled.
-    pub fn set(&mut self, j: usize, centre: Point, vector: Vector, open: f64) {
+    /// Fills in child `j`. All scaled.
+    pub fn set(&mut self, j: usize, centre: Point, vector: Vector, radius: f64) {
         let [c, v] = [centre, vector].map(|a| a.map(|x| x as f32));
-        self.child[j] = [c[0], c[1], c[2], v[0], v[1], v[2], (open * open) as f32, 0.0];
+        self.child[j] = [c[0], c[1], c[2], v[0], v[1], v[2], (radius * radius) as f32, 0.0];
     }
 }
 
@@ -73,21 +76,24 @@ impl<V: Lanes<16>> Angle<V> {
     }
 }
 
-/// Winding numbers of the first `len` of `points`.
+/// Winding numbers of those of `points` whose bits are set in `who`; the others mean nothing. A group is a dipole from
+/// `opening` radii on.
 #[inline(always)]
 pub unsafe fn numbers<V: Lanes<16>>(
     w: &Winding,
     points: &[Point; BLOCK],
-    len: usize,
-    stack: &mut Vec<(i32, u32)>,
+    who: u32,
+    opening: f32,
+    stack: &mut Stack,
 ) -> [f64; BLOCK] {
     unsafe {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let q = from::<V>(w.tree, points, w.tree.centre);
+        let open2 = opening * opening;
         let mut far = zero;
         let mut near = Angle { re: one, im: zero, turns: zero };
         stack.clear();
-        stack.push((w.tree.root, (1 << len) - 1));
+        stack.push((w.tree.root, who));
         while let Some((n, who)) = stack.pop() {
             if n < 0 {
                 leaf_angle(w.tree, !n as usize, points, who, &mut near);
@@ -97,7 +103,7 @@ pub unsafe fn numbers<V: Lanes<16>>(
             for (d, &child) in group.child.iter().zip(&node.child) {
                 let e = [V::splat(d[0]) - q[0], V::splat(d[1]) - q[1], V::splat(d[2]) - q[2]];
                 let d2 = e[0].mul_add(e[0], e[1].mul_add(e[1], e[2] * e[2]));
-                let opened = d2.le(V::splat(d[6])) & who;
+                let opened = d2.le(V::splat(open2 * d[6])) & who;
                 if opened != 0 {
                     stack.push((child, opened));
                 }

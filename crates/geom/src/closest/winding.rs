@@ -3,9 +3,9 @@
 //! The winding number of a point is the sum of the signed solid angles of all triangles over 4π: 1 inside and 0 outside a
 //! closed mesh, and a smooth blend near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a
 //! group of triangles the sum is nearly that of one dipole at their centre, so it is gathered along the search tree and a
-//! group is opened only for points within [`OPENING`] times its radius (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast
+//! group is opened only for points within some times its radius (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast
 //! winding numbers for soups and clouds", 2018; here with the first-order term only, and a wider opening to make up for
-//! it). Sixteen neighbouring points walk together (module `solid_angle`), each with its own decisions.
+//! it). Who only asks for the side is answered from few groups where that is clear. Sixteen neighbouring points walk together (module `solid_angle`), each with its own decisions.
 #![expect(
     unsafe_code,
     reason = "choosing the instruction set at run time; answers written to places of their own"
@@ -16,15 +16,21 @@ use crate::closest::lanes::Plain;
 use crate::closest::limits::QueryError;
 use crate::closest::order;
 use crate::closest::query::Level;
-use crate::closest::solid_angle::{self, Group};
+use crate::closest::solid_angle::{self, Group, Stack};
 use crate::closest::tree::Tree;
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, minus, norm, plus, times};
 use rayon::prelude::*;
 
-/// A group is taken as a dipole from this many radii on.
-pub(super) const OPENING: f64 = 3.0;
+/// A group is taken as a dipole from this many radii on, where the number is wanted.
+const OPENING: f32 = 3.0;
+/// Where the side is wanted: first from so many radii on, which costs a third,
+const ROUGH: f32 = 1.5;
+/// and where that is not [`CLEAR`], from so many.
+const FINE: f32 = 6.0;
+/// A rough number tells the side if it is this far from the limit: twice the greatest error found.
+const CLEAR: f64 = 0.3;
 
 /// The dipole of a group of triangles.
 #[derive(Clone, Copy, Default)]
@@ -62,7 +68,7 @@ impl<'a> Winding<'a> {
             for (j, d) in children[..count].iter().enumerate() {
                 let centre = times(tree.scale, minus(d.centre, tree.centre));
                 let vector = times(tree.scale * tree.scale, d.vector);
-                groups[n].set(j, centre, vector, OPENING * d.radius * tree.scale);
+                groups[n].set(j, centre, vector, d.radius * tree.scale);
             }
             of_node[n] = join(&children[..count]);
         }
@@ -80,19 +86,55 @@ impl<'a> Winding<'a> {
     /// # Errors
     /// [`QueryError::BadPoint`], [`QueryError::Cancelled`].
     pub fn numbers(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, QueryError> {
+        self.map(points, progress, |block, who, stack| {
+            self.block(Level::detect(), block, who, OPENING, stack)
+        })
+    }
+
+    /// Whether the winding number of each point is above `limit`, in the order of `points`: above one half is inside.
+    ///
+    /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters: a number that is not clearly
+    /// above or below is found again with an error of at most 0.01.
+    ///
+    /// # Errors
+    /// Those of [`Winding::numbers`].
+    pub fn above(
+        &self,
+        limit: f64,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, QueryError> {
         let level = Level::detect();
+        self.map(points, progress, |block, who, stack| {
+            let mut numbers = self.block(level, block, who, ROUGH, stack);
+            let unclear =
+                (0..BLOCK).filter(|&i| (numbers[i] - limit).abs() < CLEAR).fold(0, |u, i| u | 1 << i) & who;
+            if unclear != 0 {
+                let fine = self.block(level, block, unclear, FINE, stack);
+                (0..BLOCK).filter(|i| unclear >> i & 1 != 0).for_each(|i| numbers[i] = fine[i]);
+            }
+            numbers.map(|w| w > limit)
+        })
+    }
+
+    /// What `f` tells of each point, in their order. It is given sixteen neighbours at a time, and which of them count.
+    fn map<T: Send>(
+        &self,
+        points: &[Point],
+        progress: &dyn Progress,
+        f: impl Fn(&[Point; BLOCK], u32, &mut Stack) -> [T; BLOCK] + Sync,
+    ) -> Result<Vec<T>, QueryError> {
         let mut out = large_pages(Vec::with_capacity(points.len()));
         let places = Shared::of(&mut out);
-        order::for_each_bucket(points, progress, |stack: &mut Vec<(i32, u32)>, slice, base, items| {
+        order::for_each_bucket(points, progress, |stack, slice, base, items| {
             for part in items.chunks(BLOCK) {
                 let mut block = [[0.0; 3]; BLOCK];
                 for (p, &i) in block.iter_mut().zip(part) {
                     *p = slice[i as u32 as usize];
                 }
-                let numbers = self.block(level, &block, part.len(), stack);
-                for (&i, w) in part.iter().zip(numbers) {
+                for (&i, x) in part.iter().zip(f(&block, (1 << part.len()) - 1, stack)) {
                     // SAFETY: there is room for all, and each index comes exactly once.
-                    unsafe { *places.at(base + i as u32 as usize) = w }
+                    unsafe { *places.at(base + i as u32 as usize) = x }
                 }
             }
         })?;
@@ -101,40 +143,46 @@ impl<'a> Winding<'a> {
         Ok(out)
     }
 
-    /// Winding numbers of the first `len` of `points`.
+    /// Winding numbers of those of `points` whose bits are set in `who`, a group being a dipole from `opening` radii on.
     pub(super) fn block(
         &self,
         level: Level,
         points: &[Point; BLOCK],
-        len: usize,
-        stack: &mut Vec<(i32, u32)>,
+        who: u32,
+        opening: f32,
+        stack: &mut Stack,
     ) -> [f64; BLOCK] {
-        type Stack = Vec<(i32, u32)>;
         #[cfg(target_arch = "x86_64")]
         {
             use crate::closest::lanes_x86::{A16, Z16};
             #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-            fn avx2(w: &Winding, p: &[Point; BLOCK], len: usize, s: &mut Stack) -> [f64; BLOCK] {
+            fn avx2(w: &Winding, p: &[Point; BLOCK], who: u32, opening: f32, s: &mut Stack) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<A16>(w, p, len, s) }
+                unsafe { solid_angle::numbers::<A16>(w, p, who, opening, s) }
             }
             #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-            fn avx512(w: &Winding, p: &[Point; BLOCK], len: usize, s: &mut Stack) -> [f64; BLOCK] {
+            fn avx512(
+                w: &Winding,
+                p: &[Point; BLOCK],
+                who: u32,
+                opening: f32,
+                s: &mut Stack,
+            ) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<Z16>(w, p, len, s) }
+                unsafe { solid_angle::numbers::<Z16>(w, p, who, opening, s) }
             }
             // No more than there is, whatever is asked for.
             match level.min(Level::detect()) {
                 // SAFETY: `Level::detect` found these features.
-                Level::Avx512 => return unsafe { avx512(self, points, len, stack) },
+                Level::Avx512 => return unsafe { avx512(self, points, who, opening, stack) },
                 // SAFETY: `Level::detect` found these features.
-                Level::Avx2 => return unsafe { avx2(self, points, len, stack) },
+                Level::Avx2 => return unsafe { avx2(self, points, who, opening, stack) },
                 Level::Plain => {}
             }
         }
         let _ = level; // other processors have one way only
         // SAFETY: plain Rust needs no special instructions.
-        unsafe { solid_angle::numbers::<Plain<16>>(self, points, len, stack) }
+        unsafe { solid_angle::numbers::<Plain<16>>(self, points, who, opening, stack) }
     }
 }
 

@@ -142,11 +142,11 @@ impl<'t> Surface<'t> {
         progress: &dyn Progress,
         f: impl Fn(usize, f64, Option<&Hit>) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
-        let numbers = match &self.side {
-            Side::Winding(w) => w.numbers(points, &Silent)?,
+        let inside = match &self.side {
+            Side::Winding(w) => self.inside(w, points)?,
             _ => vec![],
         };
-        let outward = if self.choice.inside_out { -1.0 } else { 1.0 };
+        let outward = self.outward();
         let query = Query { max_distance: self.max_distance, ..Query::default() };
         self.tree.map_closest(points, &query, progress, |i, hit| {
             let Some(hit) = hit else { return f(i, Exclusion::MaxDistance.value(), None) };
@@ -157,11 +157,22 @@ impl<'t> Surface<'t> {
             }
             let sign = match &self.side {
                 Side::Pseudonormal(signs) => outward * signs.sign(&points[i], &hit),
-                Side::Winding(_) if outward * numbers[i] > 0.5 => -1.0,
+                Side::Winding(_) if inside[i] => -1.0,
                 Side::Winding(_) | Side::None => 1.0,
             };
             f(i, sign * hit.distance(), Some(&hit))
         })
+    }
+
+    /// −1 for a mesh that is inside out.
+    fn outward(&self) -> f64 {
+        if self.choice.inside_out { -1.0 } else { 1.0 }
+    }
+
+    /// Whether the mesh winds around each point: once in the positive sense, or in the negative one if it is inside out.
+    fn inside(&self, winding: &Winding, points: &[Point]) -> Result<Vec<bool>, QueryError> {
+        let above = winding.above(0.5 * self.outward(), points, &Silent)?;
+        Ok(above.into_iter().map(|above| above != self.choice.inside_out).collect())
     }
 }
 
@@ -181,17 +192,16 @@ impl Surface<'_> {
     /// # Errors
     /// Those of [`Surface::deviations`].
     pub fn disagreement(&self, points: &[Point]) -> Result<Disagreement, QueryError> {
-        let outward = if self.choice.inside_out { -1.0 } else { 1.0 };
+        let outward = self.outward();
         let sides = match &self.side {
             Side::Pseudonormal(s) => s.distances(points, &Query::default(), &Silent)?,
             _ => Signs::new(self.tree).distances(points, &Query::default(), &Silent)?,
         };
-        let numbers = match &self.side {
-            Side::Winding(w) => w.numbers(points, &Silent)?,
-            _ => Winding::new(self.tree).numbers(points, &Silent)?,
+        let inside = match &self.side {
+            Side::Winding(w) => self.inside(w, points)?,
+            _ => self.inside(&Winding::new(self.tree), points)?,
         };
-        let differs = |(d, w): (&f64, &f64)| (outward * d < 0.0) != (outward * w > 0.5);
-        let differing = sides.iter().zip(&numbers).filter(|&(d, w)| differs((d, w))).count();
+        let differing = sides.iter().zip(inside).filter(|&(d, inside)| (outward * d < 0.0) != inside).count();
         Ok(Disagreement { sample: points.len() as u64, differing: differing as u64 })
     }
 }

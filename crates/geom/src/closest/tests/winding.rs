@@ -38,9 +38,8 @@ fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
         .collect()
 }
 
-#[test]
-fn differs_little_from_the_sum_of_all_solid_angles() {
-    let d = &mut Dice(12);
+/// Name, mesh, and how often it covers itself.
+fn meshes(d: &mut Dice) -> Vec<(&'static str, Mesh, f64)> {
     let mut open = sphere(60, 40.0, [1000.0; 3]);
     open.faces.truncate(5000);
     let mut thrice = sphere(30, 1.0, [0.0; 3]);
@@ -49,7 +48,7 @@ fn differs_little_from_the_sum_of_all_solid_angles() {
         let c = d.point(10.0);
         std::array::from_fn(|_| plus(c, d.point(0.5)))
     });
-    let meshes = [
+    vec![
         ("cube", cube(1.0), 1.0),
         ("sphere", sphere(60, 1.0, [0.5; 3]), 1.0),
         ("sphere at 1e6", sphere(40, 100.0, [1e6; 3]), 1.0),
@@ -57,14 +56,40 @@ fn differs_little_from_the_sum_of_all_solid_angles() {
         ("every face thrice", thrice, 3.0),
         ("soup", crossing, 1.0),
         ("tiny", sphere(30, 1e-12, [0.0; 3]), 1.0),
-    ];
-    for (name, mesh, layers) in meshes {
+    ]
+}
+
+#[test]
+fn differs_little_from_the_sum_of_all_solid_angles() {
+    let d = &mut Dice(12);
+    for (name, mesh, layers) in meshes(d) {
         let (worst, mean) = error(&mesh, &around(&mesh, d, 1500));
         assert!(
             worst < 0.05 * layers && mean < 0.004 * layers,
             "{name}: {worst} at worst, {mean} in the mean"
         );
     }
+}
+
+#[test]
+fn is_above_a_limit_where_the_definition_is() {
+    let d = &mut Dice(16);
+    let mut narrow = 0;
+    for (name, mesh, layers) in meshes(d) {
+        let points = around(&mesh, d, 1500);
+        let truth: Vec<f64> = points.iter().map(|p| by_definition(&mesh, p)).collect();
+        let tree = Tree::build(&mesh).unwrap();
+        let winding = Winding::new(&tree);
+        for limit in [-0.5, 0.1, 0.5, 0.9, 2.5] {
+            let above = winding.above(limit, &points, &Silent).unwrap();
+            for (i, (w, above)) in truth.iter().zip(above).enumerate() {
+                let clear = (w - limit).abs();
+                assert!(clear < 0.01 * layers || above == (*w > limit), "{name}, {limit}: {w}, point {i}");
+                narrow += usize::from(clear > 0.01 * layers && clear < 0.05 * layers);
+            }
+        }
+    }
+    assert!(narrow > 100, "{narrow} points try what a rough number cannot tell");
 }
 
 #[test]
@@ -138,7 +163,7 @@ fn instruction_sets_agree_to_single_precision() {
     let winding = Winding::new(&tree);
     for part in around(&mesh, d, 1600).chunks_exact(16) {
         let points: &[Point; 16] = part.try_into().unwrap();
-        let ask = |level| winding.block(level, points, 16, &mut vec![]);
+        let ask = |level| winding.block(level, points, 0xffff, 3.0, &mut vec![]);
         let (plain, best) = (ask(Level::Plain), ask(Level::detect()));
         assert!(plain.iter().zip(best).all(|(a, b)| (a - b).abs() < 2e-5), "{plain:?} {best:?}");
     }
