@@ -97,3 +97,53 @@ pub(super) fn patch(
         surface.counts(piece) && free(piece) && across >= crease
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{facets, tests::parts::bored};
+    use super::*;
+
+    /// Number of steps over neighbours from any of `pieces` to each piece.
+    fn steps(surface: &Surface, pieces: &[u32]) -> Vec<usize> {
+        let mut steps = vec![usize::MAX; surface.len()];
+        pieces.iter().for_each(|&p| steps[p as usize] = 0);
+        for ring in 0..surface.len() {
+            for p in 0..surface.len() as u32 {
+                if steps[p as usize] == ring {
+                    let fresh = surface.neighbours(p).iter().filter(|&&n| steps[n as usize] == usize::MAX);
+                    fresh.copied().collect::<Vec<u32>>().iter().for_each(|&n| steps[n as usize] = ring + 1);
+                }
+            }
+        }
+        steps
+    }
+
+    #[test]
+    fn a_flood_takes_the_nearest_and_rings_are_the_next_two() {
+        let part = bored(16);
+        let surface = facets::surface(&part.mesh);
+        let mut marks = Marks::new(&surface);
+        let reached = flood(&surface, &[40], 30, &mut marks, |_, _| true);
+        let all = steps(&surface, &[40]);
+        let farthest = reached.iter().map(|&p| all[p as usize]).max();
+        assert_eq!(reached.len(), 30);
+        assert!((0..surface.len()).all(|p| reached.contains(&(p as u32)) || Some(all[p]) >= farthest));
+        let mut around = rings(&surface, &reached, &mut marks, |_| true);
+        around.sort_unstable();
+        let beyond = steps(&surface, &reached);
+        let told: Vec<u32> =
+            (0..surface.len() as u32).filter(|&p| (1..=2).contains(&beyond[p as usize])).collect();
+        assert_eq!(around, told);
+    }
+
+    #[test]
+    fn a_patch_ends_at_an_edge() {
+        let part = bored(16);
+        let surface = facets::surface(&part.mesh);
+        let mut marks = Marks::new(&surface);
+        // Facets of the bore are turned by 22.5 degrees against each other, by 90 against the faces.
+        let patch = patch(&surface, 0, usize::MAX, 30f64.to_radians().cos(), &mut marks, |_| true);
+        assert!(patch.iter().all(|&p| part.labels[p as usize] == part.labels[0]));
+        assert_eq!(patch.len(), part.labels.iter().filter(|&&l| l == part.labels[0]).count());
+    }
+}

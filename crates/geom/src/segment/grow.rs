@@ -4,7 +4,8 @@ use super::estimate::estimate;
 use super::flood::{Marks, flood, patch, rings};
 use super::probe::Probe;
 use super::surface::{Band, Surface};
-use crate::fit::{Kind, Shape, improved};
+use crate::fit::{Kind, Options, Shape, fit, improved};
+use crate::progress::Silent;
 use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
@@ -23,6 +24,9 @@ const AGREEING: f64 = 0.6;
 const FITTING: f64 = 0.8;
 /// Share of those rings that must belong to another kind of element before it is tried.
 const GOES_ON: f64 = 0.3;
+
+/// How much less the distances from another kind must be for a region to change to it.
+const CLEARLY: f64 = 0.75;
 
 /// What all regions of a search have in common.
 #[derive(Debug)]
@@ -134,6 +138,23 @@ impl Terms<'_> {
         Some(best)
     }
 
+    /// The same pieces as another kind, where they fit their own worse than noise and that one clearly better: a short
+    /// fillet passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
+    pub(super) fn reconsidered(&self, region: &mut Grown) {
+        let own = region.shape.kind();
+        if own == Kind::Plane || region.rms <= DOUBTFUL * self.noise {
+            return;
+        }
+        let points = self.surface.some_places(&region.pieces, ENOUGH);
+        for &kind in self.kinds.iter().filter(|&&kind| kind != own && kind != Kind::Plane) {
+            let Ok(found) = fit(&points, kind, &Options::default(), &Silent) else { continue };
+            let clearly = found.residuals.rms < CLEARLY * region.rms && self.sound(&found.shape);
+            if clearly && self.agreeing(&found.shape, &region.pieces) >= FITTING {
+                (region.shape, region.rms) = (found.shape, found.residuals.rms);
+            }
+        }
+    }
+
     /// The share of the pieces that belong to the element; of many, some are asked.
     fn agreeing(&self, shape: &Shape, pieces: &[u32]) -> f64 {
         let some = pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1));
@@ -229,7 +250,7 @@ impl Terms<'_> {
             let worth = 1.15 + 0.1 * (others - unknowns) as f64;
             // A plane that is bowed within the tolerance is still a plane.
             let bent = one.shape.kind() != Kind::Plane && one.rms > DOUBTFUL * self.noise;
-            gain > worth || (gain > 0.95 && bent && other.rms < 0.75 * one.rms)
+            gain > worth || (gain > 0.95 && bent && other.rms < CLEARLY * one.rms)
         } else {
             gain > 0.98 && (gain > 1.05 || other.rms < 0.85 * one.rms)
         };
@@ -240,4 +261,46 @@ impl Terms<'_> {
 /// So many points that an element of the kind is more than a coincidence.
 pub(super) fn fewest_points(kind: Kind) -> usize {
     if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{one_of_each, parts::bored, terms};
+    use super::*;
+
+    /// Which of two tells more, by what they cover and how well they fit; noise is 0.01.
+    #[test]
+    fn the_simpler_element_is_preferred_unless_it_covers_less_or_fits_worse() {
+        let [plane, sphere, cylinder, _, torus] = one_of_each([0.0; 3], [0.0, 0.0, 1.0], 0.3);
+        let grown = |shape, weight, rms| Grown { shape, pieces: vec![], weight, rms };
+        terms(&bored(8).mesh, |terms| {
+            let second = |one: (Shape, f64, f64), other: (Shape, f64, f64)| {
+                let better = terms.better(Some(grown(one.0, one.1, one.2)), grown(other.0, other.1, other.2));
+                better.shape == other.0
+            };
+            // Two more unknowns: 35 % more.
+            assert!(!second((plane, 1.0, 0.01), (cylinder, 1.3, 0.01)));
+            assert!(second((plane, 1.0, 0.01), (cylinder, 1.4, 0.01)));
+            // A bowed plane stays one, a ball that fits worse than noise does not.
+            assert!(!second((plane, 1.0, 0.03), (cylinder, 1.0, 0.01)));
+            assert!(second((sphere, 1.0, 0.03), (torus, 1.0, 0.01)));
+            assert!(
+                !second((sphere, 1.0, 0.012), (torus, 1.0, 0.01))
+                    && !second((sphere, 1.0, 0.03), (torus, 0.9, 0.01))
+            );
+            // The other way round.
+            assert!(
+                second((cylinder, 1.0, 0.01), (plane, 1.06, 0.01))
+                    && second((torus, 1.0, 0.01), (sphere, 1.0, 0.008))
+            );
+            assert!(
+                !second((cylinder, 1.0, 0.01), (plane, 1.0, 0.01))
+                    && !second((cylinder, 1.0, 0.01), (plane, 0.9, 0.001))
+            );
+            // Of one kind the larger one.
+            let leaning = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.6, 0.8] };
+            assert!(second((plane, 1.0, 0.01), (leaning, 1.01, 0.02)));
+            assert!(!second((plane, 1.0, 0.01), (leaning, 0.99, 0.0)));
+        });
+    }
 }

@@ -99,3 +99,80 @@ fn neighbours(terms: &Terms, labels: &[u32]) -> Vec<[u32; 2]> {
     pairs.dedup();
     pairs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{parts::bored, terms};
+    use super::*;
+    use crate::fit::Kind;
+    use crate::mesh::Mesh;
+
+    /// A region of these pieces.
+    fn region(terms: &Terms, start: Shape, pieces: Vec<u32>) -> Grown {
+        let (shape, rms) = improved(&terms.surface.some_places(&pieces, ENOUGH), &start).unwrap();
+        Grown { shape, weight: terms.surface.weight(&pieces), pieces, rms }
+    }
+
+    fn labels(regions: &[Grown], count: usize) -> Vec<u32> {
+        let mut labels = vec![NONE; count];
+        for (label, region) in regions.iter().enumerate() {
+            region.pieces.iter().for_each(|&p| labels[p as usize] = label as u32);
+        }
+        labels
+    }
+
+    #[test]
+    fn halves_of_a_face_become_one_and_two_faces_stay_two() {
+        let part = bored(64).noisy(0.01, 6);
+        terms(&part.mesh, |terms| {
+            let of = |face: usize, right: bool| -> Vec<u32> {
+                let all = 0..part.labels.len();
+                let here = |&p: &usize| part.labels[p] == face && (terms.surface.places[p][0] > 0.0) == right;
+                all.filter(here).map(|p| p as u32).collect()
+            };
+            let faces = [(0, true), (0, false), (1, true), (1, false)];
+            let mut regions: Vec<Grown> =
+                faces.iter().map(|&(face, right)| region(terms, part.faces[face], of(face, right))).collect();
+            let mut labels = labels(&regions, part.labels.len());
+            merge(terms, &mut regions, &mut labels);
+            let left: Vec<&Grown> = regions.iter().filter(|r| !r.pieces.is_empty()).collect();
+            assert_eq!(left.len(), 2, "{left:?}");
+            for face in [0, 1] {
+                let mut told = of(face, true);
+                told.extend(of(face, false));
+                let label = labels[told[0] as usize];
+                assert!(told.iter().all(|&p| labels[p as usize] == label));
+                let whole = &regions[label as usize];
+                assert_eq!((whole.pieces.len(), whole.shape.kind()), (told.len(), part.faces[face].kind()));
+                assert!((whole.weight - terms.surface.weight(&told)).abs() < 1e-9 * whole.weight);
+            }
+        });
+    }
+
+    /// A step of three standard deviations: its wall lies near enough to the plane, but does not look its way.
+    #[test]
+    fn a_low_wall_is_no_part_of_the_plane_below() {
+        const LONG: u32 = 30;
+        let mut mesh = Mesh::default();
+        for [x, z] in [[-3.0, 0.0], [-2.0, 0.0], [-1.0, 0.0], [0.0, 0.0], [0.0, 0.03]] {
+            mesh.positions.extend((0..=LONG).map(|k| [x, f64::from(k), z]));
+        }
+        for row in 0..4 {
+            for k in 0..LONG {
+                let [a, b] = [row * (LONG + 1) + k, (row + 1) * (LONG + 1) + k];
+                mesh.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+            }
+        }
+        terms(&mesh, |terms| {
+            let count = mesh.faces.len() as u32;
+            let plane = |normal| Shape::Plane { point: [0.0; 3], normal };
+            let wall = 2 * 3 * LONG;
+            let floor = region(terms, plane([0.0, 0.0, 1.0]), (0..wall).collect());
+            let wall = region(terms, plane([1.0, 0.0, 0.0]), (wall..count).collect());
+            let mut regions = [floor, wall];
+            let mut labels = labels(&regions, count as usize);
+            merge(terms, &mut regions, &mut labels);
+            assert!(regions.iter().all(|r| !r.pieces.is_empty() && r.shape.kind() == Kind::Plane));
+        });
+    }
+}

@@ -37,6 +37,7 @@ use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use grow::{Grown, Terms, fewest_points};
 use noise::Noise;
+use rayon::prelude::*;
 use search::{Limits, search};
 use seeds::Seeds;
 use surface::{Band, NONE, Pieces, Surface};
@@ -241,6 +242,7 @@ fn segment(
     let limits = Limits { weight: options.min_share * total, points: options.min_points, seed: options.seed };
     let (mut regions, mut labels) = search(&terms, &limits, progress)?;
     merge::merge(&terms, &mut regions, &mut labels);
+    regions.par_iter_mut().for_each(|region| terms.reconsidered(region));
     settle::settle(&terms, &regions, &mut labels);
     let (regions, labels) = finished(&terms, regions, &labels, total, &limits);
     Ok(Segmentation { regions, labels, noise, tolerance })

@@ -93,3 +93,24 @@ fn middle_angle(shape: &Shape, oriented: &[(Point, [f64; 3])]) -> f64 {
     angles.sort_by(f64::total_cmp);
     angles.get(angles.len() / 2).copied().unwrap_or(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{facets, seeds::Seeds, tests::parts::bored};
+    use super::*;
+
+    /// The clean part tells, even if it is the smaller one.
+    #[test]
+    fn the_noise_is_that_of_the_cleaner_part() {
+        let fine = bored(128).noisy(0.01, 1);
+        let rough = bored(128).noisy(0.1, 2);
+        let mut mesh = fine.mesh;
+        for (p, q) in mesh.positions.iter_mut().zip(&rough.mesh.positions).filter(|(p, _)| p[0] > -4.0) {
+            *p = *q;
+        }
+        let surface = facets::surface(&mesh);
+        let seeds = Seeds::new(&surface, |_| true);
+        let found = noise(&surface, 32f64.to_radians().cos(), 0, |random| seeds.draw(random));
+        assert!((0.006..0.016).contains(&found.distance), "{found:?}");
+    }
+}

@@ -4,8 +4,9 @@ use super::facets::lists;
 use super::surface::{Pieces, Surface};
 use crate::deviation::neighbours::{Neighbour, PointTree};
 use crate::fit::eigen;
-use crate::space::{Point, Vector, minus, plus, times};
+use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// Neighbours that make a normal, and that make one where so few lie along a line, as on a scanner's row.
 const NORMAL: [usize; 2] = [16, 64];
@@ -19,9 +20,10 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
     let tree = PointTree::new(points);
     let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
         .map(|(i, p)| {
-            let near = tree.k_nearest(p, NORMAL[0], Some(i as u32));
-            let pairs = near.iter().take(NEAR).flat_map(|n| [[i as u32, n.1], [n.1, i as u32]]);
-            (normal(points, &tree, p, &near), pairs.collect())
+            let i = i as u32;
+            let (normal, near) = about(points, &tree, p, i);
+            let around = around(points, p, normal, &near);
+            (normal, around.into_iter().flat_map(|n| [[i, n], [n, i]]).collect())
         })
         .collect();
     let mut normals = Vec::with_capacity(points.len());
@@ -42,16 +44,40 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
     }
 }
 
-/// Normal at `p`, whose nearest neighbours are `near`.
-fn normal(points: &[Point], tree: &PointTree, p: &Point, near: &[Neighbour]) -> Vector {
+/// Normal at point `i`, which lies at `p`, and the neighbours that made it, nearest first.
+fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<Neighbour>) {
     let places = |near: &[Neighbour]| -> Vec<Point> {
         near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect()
     };
-    let (values, rows) = spread(&places(near));
+    let near = tree.k_nearest(p, NORMAL[0], Some(i));
+    let (values, rows) = spread(&places(&near));
     if values[1] >= LINE * values[2] && values[1] > 0.0 {
-        return rows[0];
+        return (rows[0], near);
     }
-    flattest(&places(&tree.k_nearest(p, NORMAL[1], None)))
+    let near = tree.k_nearest(p, NORMAL[1], Some(i));
+    (flattest(&places(&near)), near)
+}
+
+/// The neighbours that a region grows to from `p`: the nearest one in each direction along the surface, for the nearest
+/// of all may lie on one row, and then the nearest of the others.
+fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbour]) -> Vec<u32> {
+    let first = near.iter().find_map(|n| {
+        let q = minus(points[n.1 as usize], *p);
+        unit(minus(q, times(dot(q, normal), normal)))
+    });
+    let Some((u, _)) = first else { return near.iter().take(NEAR).map(|n| n.1).collect() };
+    let v = cross(normal, u);
+    let mut taken = [false; NEAR];
+    // The first neighbour is in the middle of its sector, so that a row lies in two of them.
+    let mut alone = |n: &&Neighbour| {
+        let q = minus(points[n.1 as usize], *p);
+        let turns = dot(q, v).atan2(dot(q, u)) / TAU + 1.0 + 0.5 / NEAR as f64;
+        !std::mem::replace(&mut taken[(turns * NEAR as f64) as usize % NEAR], true)
+    };
+    let (mut chosen, others): (Vec<&Neighbour>, Vec<&Neighbour>) = near.iter().partition(|n| alone(n));
+    let missing = NEAR - chosen.len();
+    chosen.extend(others.into_iter().take(missing));
+    chosen.into_iter().map(|n| n.1).collect()
 }
 
 /// The direction in which the points spread least; zero where they lie on a line or at one place.

@@ -118,3 +118,28 @@ fn shut(terms: &Terms, seed: u32, tried: &mut [bool], marks: &mut Marks) {
     }
     tried[seed as usize] = true;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{parts::turned, terms};
+    use super::*;
+    use crate::progress::Silent;
+
+    /// Regions are as large as asked for, and no piece is in two.
+    #[test]
+    fn regions_are_large_enough_and_apart() {
+        let part = turned(1.0, 72).moved().noisy(0.01, 4);
+        terms(&part.mesh, |terms| {
+            let total: f64 = terms.surface.weights.iter().sum();
+            for share in [0.002, 0.05, 0.15] {
+                let limits = Limits { weight: share * total, points: 0, seed: 1 };
+                let (found, labels) = search(terms, &limits, &Silent).unwrap();
+                assert!(!found.is_empty() && found.iter().all(|region| region.weight >= limits.weight));
+                for (label, region) in found.iter().enumerate() {
+                    assert!(region.pieces.iter().all(|&p| labels[p as usize] == label as u32));
+                    assert!((region.weight - terms.surface.weight(&region.pieces)).abs() < 1e-9 * total);
+                }
+            }
+        });
+    }
+}

@@ -37,3 +37,30 @@ impl Seeds {
         self.pieces.get(index).or(self.pieces.last()).copied().unwrap_or(NONE)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{facets, tests::parts::bored};
+    use super::*;
+
+    /// Of 20,000 draws each face gets its share of the area, within four standard deviations.
+    #[test]
+    fn faces_are_drawn_as_often_as_they_are_large() {
+        const DRAWS: u64 = 20_000;
+        let part = bored(32);
+        let surface = facets::surface(&part.mesh);
+        let seeds = Seeds::new(&surface, |p| part.labels[p as usize] != 2);
+        let (mut drawn, mut area) = (vec![0.0; part.faces.len()], vec![0.0; part.faces.len()]);
+        for k in 0..DRAWS {
+            drawn[part.labels[seeds.draw(&mut Random::stream(3, k)) as usize]] += 1.0;
+        }
+        for (label, weight) in part.labels.iter().zip(&surface.weights).filter(|(label, _)| **label != 2) {
+            area[*label] += weight;
+        }
+        let total: f64 = area.iter().sum();
+        for (drawn, area) in drawn.iter().zip(&area) {
+            let (share, count) = (area / total, DRAWS as f64);
+            assert!((drawn - share * count).abs() <= 4.0 * (share * (1.0 - share) * count).sqrt());
+        }
+    }
+}

@@ -124,3 +124,31 @@ impl Surface<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::facets;
+    use super::*;
+    use crate::fit::Shape;
+    use crate::mesh::Mesh;
+
+    #[test]
+    fn one_corner_may_lie_off_and_no_facet_be_turned() {
+        let band = Band { distance: 0.1, cosine: 0.9 };
+        let plane = Probe::new(&Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
+        let belongs = |heights: [f64; 3]| {
+            let corners = [[0.0, 0.0, heights[0]], [9.0, 0.0, heights[1]], [0.0, 9.0, heights[2]]];
+            let mesh = Mesh { positions: corners.to_vec(), faces: vec![[0, 1, 2]] };
+            facets::surface(&mesh).belongs(0, &plane, &band)
+        };
+        assert!(belongs([0.0; 3]) && belongs([0.09, -0.09, 0.09]) && belongs([0.0, 0.39, 0.05]));
+        assert!(!belongs([0.0, 0.41, 0.05]) && !belongs([0.11, 0.12, 0.0]));
+        // All corners are near, but it leans by more than 26 degrees.
+        let mesh =
+            Mesh { positions: vec![[0.0; 3], [0.1, 0.0, 0.09], [0.0, 9.0, 0.0]], faces: vec![[0, 1, 2]] };
+        assert!(!facets::surface(&mesh).belongs(0, &plane, &band));
+        // Without area it belongs to nothing.
+        let mesh = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0]], faces: vec![[0, 1, 1]] };
+        assert!(!facets::surface(&mesh).belongs(0, &plane, &band));
+    }
+}

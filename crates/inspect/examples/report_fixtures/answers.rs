@@ -9,12 +9,14 @@ use trueness_geom::fit::{self, Kind, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
 use trueness_geom::repair;
+use trueness_geom::segment;
 use trueness_geom::space::Point;
 use trueness_inspect::repair::Around;
 use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::check::CheckDocument;
 use trueness_inspect::results::fit::FitDocument;
 use trueness_inspect::results::repair::OutputRecord;
+use trueness_inspect::results::segment::{PieceKind, SegmentDocument};
 use trueness_inspect::results::{InputRecord, Role};
 
 /// All of them, into `folder`.
@@ -27,6 +29,7 @@ pub fn write_all(folder: &Path) {
     for (name, method) in [("fit", Method::Gaussian), ("zone", Method::MinimumZone)] {
         written(folder, name, fit_page(&lobed_cylinder(), method, &options).0);
     }
+    written(folder, "elements", segment_page(&peg(), &options).0);
 }
 
 /// A sphere of radius 10 with a hole in front, a doubled facet, a fin, and a crumb that floats before it.
@@ -118,6 +121,48 @@ pub fn fit_page(points: &[Point], method: Method, options: &ReportOptions) -> (V
     let page =
         super::bytes(&ReportInput { result: Answer::Fit(&document), objects: &objects, marks, options });
     (page, document)
+}
+
+/// A peg on the plane z = 0: a shaft of radius 10, a cone above it, a cap of radius 8 on that.
+pub fn peg() -> Mesh {
+    const AROUND: u32 = 72;
+    let foot = (1..10).map(|k| [f64::from(k), 0.0]);
+    let shaft = (0..16).map(|k| [10.0, f64::from(k)]);
+    let cone = (0..8).map(|k| [10.0 - 0.5 * f64::from(k), 16.0 + f64::from(k)]);
+    // The cap begins where the cone ends, at radius 6; its middle lies lower.
+    let cap = (0..10).map(|k| {
+        let angle = 0.75f64.acos() + 0.08 * f64::from(k);
+        [8.0 * angle.cos(), 24.0 + 8.0 * (angle.sin() - 0.75f64.acos().sin())]
+    });
+    let section: Vec<[f64; 2]> = foot.chain(shaft).chain(cone).chain(cap).collect();
+    let mut mesh = Mesh::default();
+    for [rho, z] in &section {
+        mesh.positions.extend((0..AROUND).map(|k| {
+            let angle = TAU * f64::from(k) / f64::from(AROUND);
+            [rho * angle.cos(), rho * angle.sin(), *z]
+        }));
+    }
+    for row in 0..section.len() as u32 - 1 {
+        for k in 0..AROUND {
+            let next = (k + 1) % AROUND;
+            let [a, b] = [row * AROUND + k, row * AROUND + next];
+            let [c, d] = [b + AROUND, a + AROUND];
+            mesh.faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+/// The report of the elements of a mesh, and its document.
+pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDocument) {
+    let wish = segment::Options::default();
+    let found = segment::mesh(mesh, &wish, &Silent).unwrap();
+    let files = vec![file(Role::Measured, "peg.stl", mesh)];
+    let document = SegmentDocument::new(&found, PieceKind::Facets, files, &wish, false);
+    let view = trueness_inspect::segment::View::new(&document, mesh, &found.labels);
+    let (objects, marks) = (view.objects(), &view.marks[..]);
+    let result = Answer::Segment(&document);
+    (super::bytes(&ReportInput { result, objects: &objects, marks, options }), document)
 }
 
 fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {

@@ -7,7 +7,7 @@ use crate::space::{Point, Vector, cross, plus, times, unit};
 use std::f64::consts::TAU;
 
 /// A mesh, and for each facet the face that it was made of.
-pub(super) struct Part {
+pub(in crate::segment) struct Part {
     pub mesh: Mesh,
     pub labels: Vec<usize>,
     pub faces: Vec<Shape>,
@@ -35,7 +35,7 @@ fn arc(center: [f64; 2], radius: f64, degrees: [f64; 2], steps: usize, face: usi
 const AXIS: Vector = [0.0, 0.0, 1.0];
 
 /// A turned part: flange, cylinder, fillet, cone, ball. `turn` is the part of the full turn that is there.
-pub(super) fn turned(turn: f64, steps: usize) -> Part {
+pub(in crate::segment) fn turned(turn: f64, steps: usize) -> Part {
     let half_angle = 50f64.to_radians();
     let (sin, cos) = half_angle.sin_cos();
     // The cone leaves the fillet in the direction of its tangent.
@@ -74,7 +74,7 @@ pub(super) fn turned(turn: f64, steps: usize) -> Part {
 }
 
 /// A block of 40 × 40 × 12 with a bore of radius 8 through its middle.
-pub(super) fn bored(steps: usize) -> Part {
+pub(in crate::segment) fn bored(steps: usize) -> Part {
     // Across: 0 on the bore, 1 on the outside.
     let stretches = vec![
         straight([0.0, 0.0], [0.0, 12.0], 10, 0),
@@ -142,7 +142,7 @@ fn swept(
 
 impl Part {
     /// The same part with noise of the given standard deviation in each coordinate.
-    pub(super) fn noisy(mut self, sigma: f64, seed: u64) -> Part {
+    pub(in crate::segment) fn noisy(mut self, sigma: f64, seed: u64) -> Part {
         let mut random = Random::new(seed);
         for p in &mut self.mesh.positions {
             for x in p {
@@ -153,7 +153,7 @@ impl Part {
         self
     }
     /// The same part elsewhere, and leaning.
-    pub(super) fn moved(mut self) -> Part {
+    pub(in crate::segment) fn moved(mut self) -> Part {
         let (w, _) = unit([0.3, -0.5, 0.8]).unwrap();
         let (u, _) = unit(cross([1.0, 0.0, 0.0], w)).unwrap();
         let axes = [u, cross(w, u), w];

@@ -5,8 +5,9 @@ import { fit } from './fit.mjs'
 import { reading } from './reading.mjs'
 import { repair } from './repair.mjs'
 import { scale } from './scale.mjs'
+import { segment } from './segment.mjs'
 import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...views, ...words]
+export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...segment, ...views, ...words]
