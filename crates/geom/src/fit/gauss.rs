@@ -24,6 +24,9 @@ pub(super) const FULL: Effort = Effort { steps: 300, enough: 1e-17 };
 /// Good enough to choose between starts or to start on more points.
 pub(super) const ROUGH: Effort = Effort { steps: 40, enough: 1e-7 };
 
+/// As good as few points can tell: the last step leaves about the square of this.
+pub(super) const NEAR: Effort = Effort { steps: 40, enough: 1e-3 };
+
 /// Where the search ended.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Optimum<const P: usize> {

@@ -1,7 +1,7 @@
 //! From checked points to a least-squares [`Fit`]: starts, choice among them, all points, statistics.
 
 use super::family::{Element, Family};
-use super::gauss::{Effort, FULL, Optimum, ROUGH, minimise};
+use super::gauss::{Effort, FULL, NEAR, Optimum, ROUGH, minimise};
 use super::normal::{Alike, sums};
 use super::sample::Sample;
 use super::scatter::Scatter;
@@ -110,7 +110,7 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
     };
     let best = match starts {
         [one] if sample.len() <= 2 * FEWER => *one,
-        [one] => improved(one, FEWER, ROUGH).map_or(*one, |o| o.element),
+        [one] => improved(one, FEWER, NEAR).map_or(*one, |o| o.element),
         many => {
             let few = sample.thinned(FEW);
             let best = |starts: &[Element]| {

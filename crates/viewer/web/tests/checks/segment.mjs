@@ -22,7 +22,8 @@ async function painted(page, colors) {
   const picture = await screen(page)
   const hues = colors.map(hue)
   const found = { each: colors.map(() => 0), other: 0 }
-  for (let y = Math.ceil(box.y) + 8; y < box.y + box.height - 8; y += 2)
+  // Below the buttons.
+  for (let y = Math.ceil(box.y) + 48; y < box.y + box.height - 8; y += 2)
     for (let x = Math.ceil(box.x) + 8; x < box.x + box.width - 8; x += 2) {
       const h = hue(picture.at(x, y))
       if (h === null || apart(h, CHOSEN) < 12) continue
@@ -55,7 +56,7 @@ export const segment = [
       assert.equal(new Set(colors).size, colors.length)
       for (const { pick, color } of listed) {
         const object = objects.find((o) => o.id === picks[pick].object)
-        assert.equal(object.color, color)
+        assert.equal(`#${object.color}`, color)
       }
       // The foot is seen from below only.
       await page.keyboard.press('2')
