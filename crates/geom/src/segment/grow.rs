@@ -25,6 +25,8 @@ const FITTING: f64 = 0.8;
 /// Share of those rings that must belong to another kind of element before it is tried.
 const GOES_ON: f64 = 0.3;
 
+/// Pieces whose points a start is looked for on.
+const FEW: usize = 60;
 /// How much less the distances from another kind must be for a region to change to it.
 const CLEARLY: f64 = 0.75;
 
@@ -138,19 +140,20 @@ impl Terms<'_> {
         Some(best)
     }
 
-    /// The same pieces as another kind, where they fit their own worse than noise and that one clearly better: a short
-    /// fillet passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
+    /// A ball as another kind, where its pieces fit a ball worse than noise and that one clearly better: a short fillet
+    /// passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
     pub(super) fn reconsidered(&self, region: &mut Grown) {
         let own = region.shape.kind();
-        if own == Kind::Plane || region.rms <= DOUBTFUL * self.noise {
+        if own != Kind::Sphere || region.rms <= DOUBTFUL * self.noise {
             return;
         }
-        let points = self.surface.some_places(&region.pieces, ENOUGH);
-        for &kind in self.kinds.iter().filter(|&&kind| kind != own && kind != Kind::Plane) {
-            let Ok(found) = fit(&points, kind, &Options::default(), &Silent) else { continue };
-            let clearly = found.residuals.rms < CLEARLY * region.rms && self.sound(&found.shape);
-            if clearly && self.agreeing(&found.shape, &region.pieces) >= FITTING {
-                (region.shape, region.rms) = (found.shape, found.residuals.rms);
+        let [few, points] = [FEW, ENOUGH].map(|most| self.surface.some_places(&region.pieces, most));
+        for &kind in self.kinds.iter().filter(|kind| kind.unknowns() > own.unknowns()) {
+            let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+            let Some((shape, rms)) = improved(&points, &start.shape) else { continue };
+            let clearly = rms < CLEARLY * region.rms && self.sound(&shape);
+            if clearly && self.agreeing(&shape, &region.pieces) >= FITTING {
+                (region.shape, region.rms) = (shape, rms);
             }
         }
     }
