@@ -1,6 +1,7 @@
 //! The triangle mesh as data: positions and corners, no adjacency.
 
 use crate::space::{Aabb, Point};
+use rayon::prelude::*;
 
 /// Vertices (millimetres) and faces of three vertex numbers each, outward normal by the right hand.
 ///
@@ -18,5 +19,13 @@ impl Mesh {
     /// Box of all positions, used by a face or not.
     pub fn bounds(&self) -> Aabb {
         Aabb::of(&self.positions)
+    }
+
+    /// Box of the positions that are finite. Runs on the current rayon pool.
+    pub fn finite_bounds(&self) -> Aabb {
+        const CHUNK: usize = 1 << 14;
+        let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
+        let of = |part: &[Point]| Aabb::of(part.iter().filter(finite));
+        self.positions.par_chunks(CHUNK).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
     }
 }

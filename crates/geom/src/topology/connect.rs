@@ -86,7 +86,7 @@ fn avx512(part: &mut Part, fans: &Fans, vertices: std::ops::Range<u32>) {
 
 impl Part<'_> {
     #[inline(always)]
-    fn vertices<S: Same>(&mut self, fans: &Fans, vertices: std::ops::Range<u32>) {
+    fn vertices<S: Same<W>>(&mut self, fans: &Fans, vertices: std::ops::Range<u32>) {
         let mut spokes = std::mem::take(&mut self.spokes);
         for v in vertices {
             fans.spokes(&self.mesh.faces, v, &mut spokes);
@@ -100,7 +100,7 @@ impl Part<'_> {
 
     /// True, and counted, if the facets form one ring around `v`, all running the same way.
     #[inline(always)]
-    fn ring<S: Same>(&mut self, v: u32, spokes: &[Spoke]) -> bool {
+    fn ring<S: Same<W>>(&mut self, v: u32, spokes: &[Spoke]) -> bool {
         let mut before = Row([u32::MAX; W]);
         for (b, s) in before.0.iter_mut().zip(spokes) {
             *b = s[1];
@@ -108,7 +108,7 @@ impl Part<'_> {
         let (mut met, mut follower) = (0, [0u8; W]);
         for (f, s) in follower.iter_mut().zip(spokes) {
             // SAFETY: `connect` chose `S` among what the processor has.
-            let m = unsafe { S::same(&before, s[0]) };
+            let m = unsafe { S::same(&before.0, s[0]) };
             if m.count_ones() != 1 || met & m != 0 {
                 return false;
             }

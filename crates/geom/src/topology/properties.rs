@@ -6,7 +6,7 @@
 
 use super::Topology;
 use crate::mesh::Mesh;
-use crate::num::sum::Sum;
+use crate::num::sum::{Sum, Sums};
 use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 use rayon::prelude::*;
 
@@ -32,17 +32,11 @@ pub struct Properties {
     pub shell_volumes: Vec<f64>,
 }
 
-/// Sums over some facets; lengths are measured from the middle of the box.
-#[derive(Clone, Copy, Default)]
-struct Moments {
-    area: Sum,
-    /// Six times the volume.
-    volume: Sum,
-    /// Area times three times the centre of each facet.
-    area_first: [Sum; 3],
-    /// Six times the volume times four times the centre of each tetrahedron.
-    volume_first: [Sum; 3],
-}
+/// Sums over some facets, lengths measured from the middle of the box: area, area times three times the centre of each
+/// facet, six times the volume, and six times the volume times four times the centre of each tetrahedron.
+type Moments = [Sum; 8];
+const AREA: usize = 0;
+const VOLUME: usize = 4;
 
 /// Area and six-fold volume of consecutive facets of one shell.
 type Run = (u32, Sum, Sum);
@@ -54,8 +48,7 @@ fn add(a: Sum, b: Sum) -> Sum {
 impl Properties {
     /// Of `mesh`, the one that `topology` was made of. Linear time.
     pub fn of(mesh: &Mesh, topology: &Topology) -> Properties {
-        let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-        let bounds = Aabb::of(mesh.positions.iter().filter(finite));
+        let bounds = mesh.finite_bounds();
         let origin: Point = std::array::from_fn(|k| bounds.min[k] + (bounds.max[k] - bounds.min[k]) / 2.0);
         let parts: Vec<(Moments, Vec<Run>)> = (mesh.faces.par_chunks(CHUNK))
             .zip(topology.shell_of.par_chunks(CHUNK))
@@ -64,19 +57,16 @@ impl Properties {
         let mut all = Moments::default();
         let mut shells = vec![(Sum::default(), Sum::default()); topology.shells];
         for (part, runs) in &parts {
-            all.area = add(all.area, part.area);
-            all.volume = add(all.volume, part.volume);
-            for k in 0..3 {
-                all.area_first[k] = add(all.area_first[k], part.area_first[k]);
-                all.volume_first[k] = add(all.volume_first[k], part.volume_first[k]);
-            }
+            all = std::array::from_fn(|i| add(all[i], part[i]));
             for (shell, area, volume) in runs {
                 let of = &mut shells[*shell as usize];
                 *of = (add(of.0, *area), add(of.1, *volume));
             }
         }
-        let (area, volume) = (all.area.value(), all.volume.value() / 6.0);
-        let centre = |first: [Sum; 3], scale: f64| plus(origin, times(scale, first.map(Sum::value)));
+        let (area, volume) = (all[AREA].value(), all[VOLUME].value() / 6.0);
+        let centre = |of: usize, scale: f64| {
+            plus(origin, times(scale, std::array::from_fn(|k| all[of + 1 + k].value())))
+        };
         let sides = bounds.sides();
         // What rounding can make of a volume that is really zero.
         let noise = 1e-14 * sides[0] * sides[1] * sides[2];
@@ -84,8 +74,8 @@ impl Properties {
             bounds,
             area,
             signed_volume: volume,
-            centre_of_mass: (volume.abs() > noise).then(|| centre(all.volume_first, 1.0 / (24.0 * volume))),
-            centre_of_area: (area > 0.0).then(|| centre(all.area_first, 1.0 / (3.0 * area))),
+            centre_of_mass: (volume.abs() > noise).then(|| centre(VOLUME, 1.0 / (24.0 * volume))),
+            centre_of_area: (area > 0.0).then(|| centre(AREA, 1.0 / (3.0 * area))),
             shell_areas: shells.iter().map(|s| s.0.value()).collect(),
             shell_volumes: shells.iter().map(|s| s.1.value() / 6.0).collect(),
         }
@@ -93,22 +83,30 @@ impl Properties {
 }
 
 fn chunk(mesh: &Mesh, origin: Point, faces: &[[u32; 3]], shells: &[u32]) -> (Moments, Vec<Run>) {
-    let (mut sums, mut runs) = (Moments::default(), Vec::<Run>::new());
-    for (face, &shell) in faces.iter().zip(shells).filter(|(_, shell)| **shell != u32::MAX) {
-        let [a, b, c] = face.map(|v| minus(mesh.positions[v as usize], origin));
-        let area = 0.5 * norm(cross(minus(b, a), minus(c, a)));
-        let volume = dot(a, cross(b, c));
-        let thrice_centre = plus(a, plus(b, c));
-        sums.area = sums.area.plus(area);
-        sums.volume = sums.volume.plus(volume);
-        for (k, x) in thrice_centre.into_iter().enumerate() {
-            sums.area_first[k] = sums.area_first[k].plus(area * x);
-            sums.volume_first[k] = sums.volume_first[k].plus(volume * x);
+    let (mut all, mut runs) = (Moments::default(), Vec::<Run>::new());
+    let mut i = 0;
+    while i < faces.len() {
+        let (shell, mut run) = (shells[i], Sums::<8>::ZERO);
+        while i < faces.len() && shells[i] == shell {
+            if shell != u32::MAX {
+                run.add(terms(faces[i].map(|v| minus(mesh.positions[v as usize], origin))));
+            }
+            i += 1;
         }
-        match runs.last_mut() {
-            Some(run) if run.0 == shell => *run = (shell, run.1.plus(area), run.2.plus(volume)),
-            _ => runs.push((shell, Sum::of_two(area, 0.0), Sum::of_two(volume, 0.0))),
+        if shell != u32::MAX {
+            let run = run.each();
+            all = std::array::from_fn(|i| add(all[i], run[i]));
+            runs.push((shell, run[AREA], run[VOLUME]));
         }
     }
-    (sums, runs)
+    (all, runs)
+}
+
+/// What a facet adds to the [`Moments`].
+#[inline(always)]
+fn terms([a, b, c]: [Point; 3]) -> [f64; 8] {
+    let area = 0.5 * norm(cross(minus(b, a), minus(c, a)));
+    let volume = dot(a, cross(b, c));
+    let [x, y, z] = plus(a, plus(b, c));
+    [area, area * x, area * y, area * z, volume, volume * x, volume * y, volume * z]
 }

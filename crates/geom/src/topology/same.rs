@@ -1,4 +1,4 @@
-//! Comparing sixteen vertex numbers at once.
+//! Comparing many vertex numbers at once.
 #![allow(unsafe_code, reason = "vendor intrinsics")]
 
 use crate::closest::lanes::Plain;
@@ -11,49 +11,55 @@ pub(crate) const W: usize = 16;
 #[repr(align(64))]
 pub(crate) struct Row<T>(pub [T; W]);
 
-/// An instruction set that can compare a row of numbers with one number.
-pub(crate) trait Same {
+/// An instruction set that can compare `N` numbers with one number.
+pub(crate) trait Same<const N: usize> {
     /// Bit `i` is set where number `i` of `row` is `x`.
     ///
     /// # Safety
     /// The processor has the instructions.
-    unsafe fn same(row: &Row<u32>, x: u32) -> u32;
+    unsafe fn same(row: &[u32; N], x: u32) -> u32;
 }
 
-impl Same for Plain<W> {
+impl<const N: usize> Same<N> for Plain<N> {
     #[inline(always)]
-    unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
-        (0..W).fold(0, |m, i| m | u32::from(row.0[i] == x) << i)
+    unsafe fn same(row: &[u32; N], x: u32) -> u32 {
+        (0..N).fold(0, |m, i| m | u32::from(row[i] == x) << i)
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Row, Same};
-    use crate::closest::lanes_x86::{A16, Z16};
+    use super::Same;
+    use crate::closest::lanes_x86::{A8, A16, Z16};
     use std::arch::x86_64::*;
 
-    impl Same for A16 {
+    impl Same<8> for A8 {
         #[inline(always)]
-        unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
-            // SAFETY: the caller answers for AVX2; a row is 64 aligned bytes.
+        unsafe fn same(row: &[u32; 8], x: u32) -> u32 {
+            // SAFETY: the caller answers for AVX2.
             unsafe {
-                let (p, x) = (row.0.as_ptr().cast::<__m256i>(), _mm256_set1_epi32(x as i32));
-                let half = |i: usize| {
-                    let equal = _mm256_cmpeq_epi32(_mm256_load_si256(p.add(i)), x);
-                    _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
-                };
-                half(0) | half(1) << 8
+                let row = _mm256_loadu_si256(row.as_ptr().cast());
+                let equal = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(x as i32));
+                _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
             }
         }
     }
 
-    impl Same for Z16 {
+    impl Same<16> for A16 {
         #[inline(always)]
-        unsafe fn same(row: &Row<u32>, x: u32) -> u32 {
-            // SAFETY: the caller answers for AVX-512F; a row is 64 aligned bytes.
+        unsafe fn same(row: &[u32; 16], x: u32) -> u32 {
+            let halves = row.as_chunks::<8>().0;
+            // SAFETY: the caller answers for AVX2.
+            unsafe { A8::same(&halves[0], x) | A8::same(&halves[1], x) << 8 }
+        }
+    }
+
+    impl Same<16> for Z16 {
+        #[inline(always)]
+        unsafe fn same(row: &[u32; 16], x: u32) -> u32 {
+            // SAFETY: the caller answers for AVX-512F.
             unsafe {
-                let row = _mm512_load_si512(row.0.as_ptr().cast());
+                let row = _mm512_loadu_si512(row.as_ptr().cast());
                 u32::from(_mm512_cmpeq_epi32_mask(row, _mm512_set1_epi32(x as i32)))
             }
         }

@@ -7,14 +7,32 @@
 #![expect(clippy::needless_range_loop, reason = "lanes are indices into several arrays at once")]
 
 use super::tree::{Boxes, Frame, Leaf};
-use crate::closest::lanes::Lanes;
+use crate::closest::lanes::{Lanes, Plain};
+#[cfg(target_arch = "x86_64")]
+use crate::closest::lanes_x86::{A8, A16, Z16};
 use crate::mesh::Mesh;
 use crate::space::{Point, cross, dot, minus};
 use crate::topology::same::{Same, W};
 
+/// Triangles looked at together, half a leaf: of a whole one, seldom more than three overlap.
+const HALF: usize = W / 2;
+
 /// An instruction set the filter is written in.
-pub(super) trait Wide: Lanes<W> + Same {}
-impl<T: Lanes<W> + Same> Wide for T {}
+pub(super) trait Wide: Lanes<W> {
+    /// For half a leaf.
+    type Half: Lanes<HALF> + Same<HALF>;
+}
+impl Wide for Plain<W> {
+    type Half = Plain<HALF>;
+}
+#[cfg(target_arch = "x86_64")]
+impl Wide for A16 {
+    type Half = A8;
+}
+#[cfg(target_arch = "x86_64")]
+impl Wide for Z16 {
+    type Half = A8;
+}
 
 /// Distances are formed with less than ten roundings of 2^-24 of the sum of their terms; this allows sixteen.
 const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
@@ -110,6 +128,27 @@ pub(super) unsafe fn left_over<L: Wide>(
     among: u32,
 ) -> u32 {
     let error = reach * ROUNDING + SLACKS * slack + f32::MIN_POSITIVE;
+    let mut left = 0;
+    for half in 0..2 {
+        let among = among >> (half * HALF) & 0xff;
+        if among != 0 {
+            // SAFETY: handed on.
+            left |=
+                unsafe { left_of_half::<L::Half>((l, i, planes), q, half, error, among) } << (half * HALF);
+        }
+    }
+    left
+}
+
+/// [`left_over`] for the first or second half of leaf `q`.
+#[inline(always)]
+unsafe fn left_of_half<L: Lanes<HALF> + Same<HALF>>(
+    (l, i, planes): (&Leaf, usize, &Planes),
+    q: &Leaf,
+    half: usize,
+    error: f32,
+    among: u32,
+) -> u32 {
     let id: [u32; 3] = std::array::from_fn(|j| l.corner[j].0[i]);
     let direction = |d: usize| std::array::from_fn::<f32, 3, _>(|k| planes.direction[d][k][i]);
     // SAFETY: handed on.
@@ -117,8 +156,8 @@ pub(super) unsafe fn left_over<L: Wide>(
         let (mut same, mut at) = ([[0; 3]; 3], [[L::splat(0.0); 3]; 3]);
         for k in 0..3 {
             for j in 0..3 {
-                same[k][j] = L::same(&q.corner[k], id[j]);
-                at[k][j] = L::load(&q.at[k][j].0) - L::splat(l.at[0][j].0[i]);
+                same[k][j] = L::same(&q.corner[k].0.as_chunks().0[half], id[j]);
+                at[k][j] = L::load(&q.at[k][j].0.as_chunks().0[half]) - L::splat(l.at[0][j].0[i]);
             }
         }
         let (more, less) = (L::splat(error), L::splat(-error));
@@ -142,12 +181,12 @@ pub(super) unsafe fn left_over<L: Wide>(
     }
 }
 
-/// Sixteen points along a direction.
+/// Points along a direction.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-unsafe fn along<L: Wide>(d: [f32; 3], at: &[L; 3]) -> L {
+unsafe fn along<L: Lanes<HALF>>(d: [f32; 3], at: &[L; 3]) -> L {
     // SAFETY: handed on.
     unsafe { at[2].mul_add(L::splat(d[2]), at[1].mul_add(L::splat(d[1]), at[0] * L::splat(d[0]))) }
 }

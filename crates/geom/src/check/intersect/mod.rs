@@ -76,7 +76,7 @@ fn with(
     progress: &dyn Progress,
     level: Level,
 ) -> Result<Crossings, Cancelled> {
-    let tree = Tree::build(mesh, |f| topology.shell_of[f] != u32::MAX);
+    let tree = Tree::build(mesh, topology);
     let walk = Walk { mesh, tree: &tree, progress };
     let top = tree.levels.len() - 1;
     let mut pairs = Pairs { limit, count: 0, first: vec![] };

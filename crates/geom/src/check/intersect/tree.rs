@@ -8,8 +8,8 @@
 
 use crate::memory::{Shared, large_pages};
 use crate::mesh::Mesh;
-use crate::num::predicates;
 use crate::space::{Aabb, Point};
+use crate::topology::Topology;
 use crate::topology::same::{Row, W};
 use rayon::prelude::*;
 
@@ -48,14 +48,13 @@ pub(super) struct Tree {
 
 impl Frame {
     /// The frame for vertices at finite places.
-    fn of(positions: &[Point]) -> Frame {
+    fn of(mesh: &Mesh, bounds: &Aabb) -> Frame {
         // Far enough from the ends of single precision that products of three differences stay inside.
         const LARGEST: f64 = 1e9;
         let single = |x: &f64| x.abs() < LARGEST && f64::from(*x as f32) == *x || !x.is_finite();
-        if positions.par_iter().all(|p| p.iter().all(single)) {
+        if mesh.positions.par_iter().all(|p| p.iter().all(single)) {
             return Frame { origin: [0.0; 3], scale: 1.0, slack: 0.0 };
         }
-        let bounds = Aabb::of(positions.iter().filter(|p| p.iter().all(|x| x.is_finite())));
         let origin: Point = std::array::from_fn(|k| bounds.min[k] / 2.0 + bounds.max[k] / 2.0);
         let reach =
             (0..3).map(|k| bounds.max[k] / 2.0 - bounds.min[k] / 2.0).fold(f64::MIN_POSITIVE, f64::max);
@@ -81,10 +80,14 @@ fn spread(x: u32) -> u64 {
 
 /// Faces that are `wanted`, sorted by the Morton code of the centres of their boxes, as keys; and how many low bits of
 /// a key are the face.
-fn sorted(mesh: &Mesh, frame: &Frame, wanted: &(impl Fn(usize) -> bool + Sync)) -> (Vec<u64>, u32) {
+fn sorted(
+    mesh: &Mesh,
+    frame: &Frame,
+    bounds: &Aabb,
+    wanted: impl Fn(usize) -> bool + Sync,
+) -> (Vec<u64>, u32) {
     // 28 bits for the face and 36 for the place, or 31 and 33.
     let face_bits = if mesh.faces.len() <= 1 << 28 { 28 } else { 31 };
-    let bounds = Aabb::of(mesh.positions.iter().filter(|p| p.iter().all(|x| x.is_finite())));
     let extent = bounds.sides().into_iter().fold(f64::MIN_POSITIVE, f64::max) * frame.scale;
     let low = frame.place(&bounds.min);
     let factor = f64::from(1 << 12) * 0.99999 / extent * 0.5;
@@ -147,16 +150,15 @@ const NOTHING: Boxes = Boxes([
     Row([f32::NEG_INFINITY; W]),
 ]);
 
-/// A leaf and its boxes. Flat triangles keep an empty box and are never found.
-fn leaf(mesh: &Mesh, frame: &Frame, faces: impl Iterator<Item = usize>) -> (Leaf, Boxes) {
+/// A leaf and its boxes. Those of the triangles without area, `flat`, stay empty, and these are never found.
+fn leaf(mesh: &Mesh, frame: &Frame, flat: &[u32], faces: impl Iterator<Item = usize>) -> (Leaf, Boxes) {
     let mut leaf =
         Leaf { at: [[Row([0.0; W]); 3]; 3], corner: [Row([u32::MAX; W]); 3], face: Row([u32::MAX; W]) };
     let mut boxes = NOTHING;
     for (i, number) in faces.enumerate() {
         let face = mesh.faces[number];
-        let corners = face.map(|v| mesh.positions[v as usize]);
-        let p = corners.map(|p| frame.place(&p).map(|x| x as f32));
-        if !predicates::is_flat(&corners) {
+        let p = face.map(|v| frame.place(&mesh.positions[v as usize]).map(|x| x as f32));
+        if flat.is_empty() || flat.binary_search(&(number as u32)).is_err() {
             for k in 0..3 {
                 boxes.0[k].0[i] = p[0][k].min(p[1][k]).min(p[2][k]) - frame.slack;
                 boxes.0[k + 3].0[i] = p[0][k].max(p[1][k]).max(p[2][k]) + frame.slack;
@@ -186,17 +188,18 @@ fn hull(b: &Boxes) -> [f32; 6] {
 }
 
 impl Tree {
-    /// The tree of the faces that are `wanted`: they must have finite corners. Uses the current rayon pool.
-    pub fn build(mesh: &Mesh, wanted: impl Fn(usize) -> bool + Sync) -> Tree {
-        let frame = Frame::of(&mesh.positions);
-        let (keys, face_bits) = sorted(mesh, &frame, &wanted);
+    /// The tree of the facets that have a shell. Uses the current rayon pool.
+    pub fn build(mesh: &Mesh, topology: &Topology) -> Tree {
+        let bounds = mesh.finite_bounds();
+        let frame = Frame::of(mesh, &bounds);
+        let (keys, face_bits) = sorted(mesh, &frame, &bounds, |f| topology.shell_of[f] != u32::MAX);
         let face = |key: &u64| (key & ((1 << face_bits) - 1)) as usize;
         let n = keys.len().div_ceil(W);
         let mut leaves: Vec<Leaf> = large_pages(Vec::with_capacity(n));
         let mut boxes: Vec<Boxes> = large_pages(Vec::with_capacity(n));
         let (l, b) = (Shared::of(&mut leaves), Shared::of(&mut boxes));
         keys.par_chunks(W).enumerate().for_each(|(i, part)| {
-            let (leaf, boxes) = leaf(mesh, &frame, part.iter().map(face));
+            let (leaf, boxes) = leaf(mesh, &frame, &topology.collinear, part.iter().map(face));
             // SAFETY: each of the `n` places allocated is written once.
             unsafe { (l.at(i).write(leaf), b.at(i).write(boxes)) };
         });
