@@ -27,7 +27,12 @@ pub(super) struct Connection {
     pub inconsistent: Vec<EdgeAt>,
     pub non_manifold_vertices: Vec<u32>,
     pub duplicates: Vec<[u32; 2]>,
+    /// Vertices with more than [`MANY`] facets.
+    pub hubs: Vec<u32>,
 }
+
+/// From so many facets at a vertex on, it pays not to compare each with each.
+pub(super) const MANY: usize = 500;
 
 /// An edge end at a vertex: the other end, whether the facet runs towards it, position among the spokes, third corner.
 type End = (u32, bool, u32, u32);
@@ -67,6 +72,7 @@ pub(super) fn connect(mesh: &Mesh, fans: &Fans, shells: &Sets, level: Level) -> 
         all.inconsistent.extend(part.inconsistent);
         all.non_manifold_vertices.extend(part.non_manifold_vertices);
         all.duplicates.extend(part.duplicates);
+        all.hubs.extend(part.hubs);
     }
     all.duplicates.sort_unstable_by_key(|d| d[1]);
     all
@@ -134,6 +140,9 @@ impl Part<'_> {
 
     /// The general case: any number of facets in any arrangement around `v`.
     fn count(&mut self, v: u32, spokes: &mut [Spoke]) {
+        if spokes.len() > MANY {
+            self.found.hubs.push(v);
+        }
         spokes.sort_unstable_by_key(|s| s[2]);
         let of_spoke = |(i, s): (u32, &Spoke)| [(s[0], true, i, s[1]), (s[1], false, i, s[0])];
         let mut ends: Vec<End> = (0..).zip(spokes.iter()).flat_map(of_spoke).collect();

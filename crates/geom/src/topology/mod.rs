@@ -67,6 +67,8 @@ pub struct Topology {
     pub shells: usize,
     /// For each facet the number of its shell, [`u32::MAX`] where it does not count.
     pub shell_of: Vec<u32>,
+    /// Vertices with more facets than [`connect::MANY`].
+    pub(crate) hubs: Vec<u32>,
     fans: Fans,
 }
 
@@ -122,6 +124,7 @@ impl Topology {
             not_finite,
             shells,
             shell_of,
+            hubs: found.hubs,
             fans,
         })
     }

@@ -3,10 +3,12 @@
 //! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
 //! that overlap its children; sixteen boxes in one comparison. No walk ever starts at the root. At the bottom the
 //! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
-//! alike (see `filter`). *Exact*: the rest is decided by `meet`.
+//! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: vertices with very many facets, whose boxes all
+//! overlap, are searched in a way of their own (see `hub`), and the walk passes over the pairs found there.
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod filter;
+mod hub;
 mod meet;
 #[cfg(test)]
 mod tests;
@@ -21,6 +23,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::topology::Topology;
 use crate::topology::same::W;
 use filter::Wide;
+use hub::Hub;
 use rayon::prelude::*;
 use tree::{Boxes, Leaf, Tree};
 
@@ -34,7 +37,7 @@ const EVERYWHERE: [f32; 6] = {
 ///
 /// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
 /// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
-/// a facet on a scan. Facets done are told to `progress`. The result is the same for any number of threads.
+/// a facet on a scan; of the facets at one vertex, however many, only neighbours count. Facets done are told to `progress`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -76,17 +79,21 @@ fn with(
     progress: &dyn Progress,
     level: Level,
 ) -> Result<Crossings, Cancelled> {
-    let tree = Tree::build(mesh, topology);
+    let hubs = hub::hubs(mesh, topology);
+    let tree = Tree::build(mesh, topology, &hubs.iter().map(Hub::facets).collect::<Vec<_>>());
     let walk = Walk { mesh, tree: &tree, progress };
     let top = tree.levels.len() - 1;
     let mut pairs = Pairs { limit, count: 0, first: vec![] };
+    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &mut |pair| pairs.push(pair)));
     if !tree.leaves.is_empty() {
+        let mut all = vec![0];
+        tree.without_own_group(top, 0, &mut all);
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => avx2(&walk, top, 0, &[0], &mut pairs),
+            Level::Avx2 => avx2(&walk, top, 0, &all, &mut pairs),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => avx512(&walk, top, 0, &[0], &mut pairs),
-            _ => plain(&walk, top, 0, &[0], &mut pairs),
+            Level::Avx512 => avx512(&walk, top, 0, &all, &mut pairs),
+            _ => plain(&walk, top, 0, &all, &mut pairs),
         }
     }
     if progress.cancelled() {
@@ -233,6 +240,7 @@ impl Walk<'_> {
                 m &= m - 1;
             }
         }
+        self.tree.without_own_group(level - 1, i * W + a, next);
     }
 
     /// Pairs between leaf `i` and the leaves of `list`.

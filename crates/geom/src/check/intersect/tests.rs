@@ -111,3 +111,48 @@ fn a_cancelled_search_says_so() {
     assert_eq!(self_intersections(&mesh, &topology, &Never), Err(Cancelled));
     assert_eq!(self_intersections(&mesh, &topology, &Silent), Ok(vec![]));
 }
+
+/// Fans of very many facets around one vertex: flat, on a cone, with corners near and far, and with facets that are not
+/// where they should be.
+#[test]
+fn vertices_with_very_many_facets() {
+    let random = &mut Random::new(4);
+    for (shape, height, rough, planted) in [
+        ("disc", 0.0, 0.0, 0),
+        ("disc", 0.0, 0.5, 30),
+        ("cone", 3.0, 0.0, 30),
+        ("spikes", 2.0, 0.9, 30),
+        ("ball", 0.0, 0.5, 60),
+    ] {
+        let n = 700;
+        let mut at = |i: usize| -> Point {
+            if shape == "ball" {
+                return std::array::from_fn(|_| random.unit() - 0.5);
+            }
+            let (turn, far) = (i as f64 / n as f64 * std::f64::consts::TAU, 1.0 - rough * random.unit());
+            [10.0 * far * libm::cos(turn), 10.0 * far * libm::sin(turn), -height * far]
+        };
+        let ring: Vec<Point> = (0..n).map(&mut at).collect();
+        let hub = [0.25, 0.5, 1.0];
+        let place = |p: &Point| -> Point { std::array::from_fn(|k| p[k] + hub[k]) };
+        let mut facets: Vec<Facet> =
+            (0..n).map(|i| [hub, place(&ring[i]), place(&ring[(i + 1) % n])]).collect();
+        // Others at the hub, a second vertex with many of the same facets, and facets that have nothing to do with either.
+        let mut any = || random.below(n as u64) as usize;
+        for i in 0..planted {
+            let (a, b, c) = (place(&ring[any()]), place(&ring[any()]), place(&ring[any()]));
+            facets.push(if i % 3 == 0 { [a, b, c] } else { [hub, a, b] });
+        }
+        if shape == "cone" {
+            facets.extend((0..n).map(|i| [[0.0, 0.0, -9.0], place(&ring[i]), place(&ring[(i + 1) % n])]));
+        }
+        for single in [true, false] {
+            let facets: Vec<Facet> = facets
+                .iter()
+                .map(|f| f.map(|p| p.map(|x| if single { f64::from(x as f32) } else { x })))
+                .collect();
+            let pairs = check(&format!("{shape} {rough} {single}"), &facets);
+            assert!(pairs >= planted, "{shape} {rough} {single}: {pairs}");
+        }
+    }
+}

@@ -12,6 +12,7 @@ use crate::space::{Aabb, Point};
 use crate::topology::Topology;
 use crate::topology::same::{Row, W};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// Buckets of the first pass of the sort, as a power of two.
 const TOP: u32 = 12;
@@ -44,6 +45,8 @@ pub(super) struct Tree {
     pub leaves: Vec<Leaf>,
     pub levels: Vec<Vec<Boxes>>,
     pub frame: Frame,
+    /// For each node of each level its group, if all below it is of one; nothing at all where there are no groups.
+    group_of: Vec<Vec<Option<u32>>>,
 }
 
 impl Frame {
@@ -188,11 +191,13 @@ fn hull(b: &Boxes) -> [f32; 6] {
 }
 
 impl Tree {
-    /// The tree of the facets that have a shell. Uses the current rayon pool.
-    pub fn build(mesh: &Mesh, topology: &Topology) -> Tree {
+    /// The tree of the facets that have a shell; those of a group in leaves of their own. Uses the current rayon pool.
+    pub fn build(mesh: &Mesh, topology: &Topology, groups: &[Vec<u32>]) -> Tree {
         let bounds = mesh.finite_bounds();
         let frame = Frame::of(mesh, &bounds);
-        let (keys, face_bits) = sorted(mesh, &frame, &bounds, |f| topology.shell_of[f] != u32::MAX);
+        let grouped: BTreeSet<u32> = groups.iter().flatten().copied().collect();
+        let alone = |f: usize| topology.shell_of[f] != u32::MAX && !grouped.contains(&(f as u32));
+        let (keys, face_bits) = sorted(mesh, &frame, &bounds, alone);
         let face = |key: &u64| (key & ((1 << face_bits) - 1)) as usize;
         let n = keys.len().div_ceil(W);
         let mut leaves: Vec<Leaf> = large_pages(Vec::with_capacity(n));
@@ -205,6 +210,19 @@ impl Tree {
         });
         // SAFETY: all written above.
         unsafe { (leaves.set_len(n), boxes.set_len(n)) };
+        let mut group_of = vec![];
+        if !groups.is_empty() {
+            let mut of_leaf = vec![None; n];
+            for (number, part) in (0..).zip(groups).flat_map(|(i, g)| g.chunks(W).map(move |part| (i, part)))
+            {
+                let faces = part.iter().map(|&f| f as usize);
+                let (leaf, own) = leaf(mesh, &frame, &topology.collinear, faces);
+                leaves.push(leaf);
+                boxes.push(own);
+                of_leaf.push(Some(number));
+            }
+            group_of.push(of_leaf);
+        }
         let mut levels = vec![boxes];
         while levels[levels.len() - 1].len() > 1 {
             let up = levels[levels.len() - 1].par_chunks(W).map(|part| {
@@ -217,7 +235,21 @@ impl Tree {
                 b
             });
             levels.push(up.collect());
+            if let Some(below) = group_of.last() {
+                let common = |part: &[Option<u32>]| part[0].filter(|g| part.iter().all(|h| *h == Some(*g)));
+                let up = below.chunks(W).map(common).collect();
+                group_of.push(up);
+            }
         }
-        Tree { leaves, levels, frame }
+        Tree { leaves, levels, frame, group_of }
+    }
+
+    /// Leaves of `list` those nodes of a level that are not of the same group as node `i`.
+    pub fn without_own_group(&self, level: usize, i: usize, list: &mut Vec<u32>) {
+        if let Some(group_of) = self.group_of.get(level)
+            && let Some(own) = group_of[i]
+        {
+            list.retain(|&j| group_of[j as usize] != Some(own));
+        }
     }
 }
