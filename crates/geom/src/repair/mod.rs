@@ -179,7 +179,8 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
             (step.run)(&mut work)?;
         }
         rounds += 1;
-        if work.changes.len() == done {
+        // A tangle that two rounds have not undone gets no better.
+        if work.changes.len() == done || rounds > 1 && work.is_tangle()? {
             break;
         }
     }

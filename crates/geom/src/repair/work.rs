@@ -127,6 +127,12 @@ impl<'a> Work<'a> {
         Ok(known.crossings.get_or_init(|| crossings).clone())
     }
 
+    /// Whether so many facets cross that not all pairs are listed.
+    pub(super) fn is_tangle(&mut self) -> Result<bool, RepairError> {
+        let crossings = self.crossings()?;
+        Ok(crossings.first.len() < crossings.count)
+    }
+
     /// All that the check finds of a kind which needs no crossings.
     pub(super) fn find(&mut self, kind: &Kind) -> Result<Vec<Finding>, RepairError> {
         let known = self.known()?;

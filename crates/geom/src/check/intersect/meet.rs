@@ -40,6 +40,12 @@ fn segment_triangle(p: &Point, q: &Point, t: &[Point; 3]) -> bool {
     in_triangle(k, p, t) || in_triangle(k, q, t) || (0..3).any(|i| segments(k, [p, q], edge(i)))
 }
 
+/// Whether these corners of a triangle lie strictly on one side of the plane of another.
+fn beyond(corners: &[&Point], [a, b, c]: &[Point; 3]) -> bool {
+    let first = side_of_plane(a, b, c, corners[0]);
+    first != 0 && corners[1..].iter().all(|p| side_of_plane(a, b, c, p) == first)
+}
+
 /// Which corners of `i` are not among those of `j`, and how many.
 fn only(i: &[u32; 3], j: &[u32; 3]) -> ([usize; 3], usize) {
     let (mut which, mut n) = ([0; 3], 0);
@@ -56,11 +62,19 @@ pub(super) fn meet((t, i): &Triangle, (u, j): &Triangle) -> bool {
     let own = only(i, j);
     let other = only(j, i);
     match (&own.0[..own.1], &other.0[..other.1]) {
-        ([_, _, _], _) => (0..3).any(|k| {
-            segment_triangle(&t[k], &t[(k + 1) % 3], u) || segment_triangle(&u[k], &u[(k + 1) % 3], t)
-        }),
+        ([_, _, _], _) => {
+            !beyond(&[&t[0], &t[1], &t[2]], u)
+                && !beyond(&[&u[0], &u[1], &u[2]], t)
+                && (0..3).any(|k| {
+                    segment_triangle(&t[k], &t[(k + 1) % 3], u) || segment_triangle(&u[k], &u[(k + 1) % 3], t)
+                })
+        }
         // One common corner: what they have in common ends on the side opposite to it, of one or the other.
-        (&[a, b], &[c, d]) => segment_triangle(&t[a], &t[b], u) || segment_triangle(&u[c], &u[d], t),
+        (&[a, b], &[c, d]) => {
+            !beyond(&[&t[a], &t[b]], u)
+                && !beyond(&[&u[c], &u[d]], t)
+                && (segment_triangle(&t[a], &t[b], u) || segment_triangle(&u[c], &u[d], t))
+        }
         // A common edge: only if folded flat onto each other.
         (&[a], &[b]) => {
             let (e, f) = (&t[(a + 1) % 3], &t[(a + 2) % 3]);

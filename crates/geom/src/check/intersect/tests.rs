@@ -137,14 +137,17 @@ fn vertices_with_very_many_facets() {
         let place = |p: &Point| -> Point { std::array::from_fn(|k| p[k] + hub[k]) };
         let mut facets: Vec<Facet> =
             (0..n).map(|i| [hub, place(&ring[i]), place(&ring[(i + 1) % n])]).collect();
-        // Others at the hub, a second vertex with many of the same facets, and facets that have nothing to do with either.
+        // Others at the hub, facets that have nothing to do with it, and a second vertex with very many.
         let mut any = || random.below(n as u64) as usize;
         for i in 0..planted {
             let (a, b, c) = (place(&ring[any()]), place(&ring[any()]), place(&ring[any()]));
             facets.push(if i % 3 == 0 { [a, b, c] } else { [hub, a, b] });
         }
         if shape == "cone" {
-            facets.extend((0..n).map(|i| [[0.0, 0.0, -9.0], place(&ring[i]), place(&ring[(i + 1) % n])]));
+            let other = [0.0, 0.0, -9.0];
+            facets.extend((0..n).map(|i| [other, place(&ring[i]), place(&ring[(i + 1) % n])]));
+            // And some that have both.
+            facets.extend((0..520).map(|i| [hub, other, place(&ring[i])]));
         }
         for single in [true, false] {
             let facets: Vec<Facet> = facets

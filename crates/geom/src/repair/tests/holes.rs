@@ -1,6 +1,7 @@
 //! Filling holes: small and large, flat and curved, short and long rings.
 
 use super::*;
+use crate::check::tests::add;
 use crate::closest::tests::sphere;
 use crate::space::{minus, norm};
 use crate::topology::tests::block;
@@ -92,4 +93,17 @@ fn a_hole_across_an_edge_of_a_part_is_closed() {
         let repaired = mend(&mesh);
         assert!(repaired.after.sound, "{spare}: {:?}", counts(&repaired.after));
     }
+}
+
+/// An open box with a pin that stands in its mouth: every patch would cross the pin.
+#[test]
+fn a_hole_that_something_stands_in_stays_open() {
+    let mut mesh = block(4, 4.0);
+    mesh.faces.retain(|f| f.iter().any(|v| mesh.positions[*v as usize][2] != 4.0));
+    let options = Options { steps: vec!["holes"], holes: Holes::All, ..Options::default() };
+    assert!(mend_with(&mesh, &options).after.sound);
+    add(&mut mesh, &block(1, 1.0), [1.5, 1.5, 3.5]);
+    let repaired = mend_with(&mesh, &options);
+    assert_eq!(counts(&repaired.after), counts(&repaired.before));
+    assert_eq!(repaired.changes, []);
 }

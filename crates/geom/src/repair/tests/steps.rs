@@ -42,6 +42,67 @@ fn a_surface_that_runs_into_itself_is_parted() {
     assert!(repaired.after.soundness.closed);
 }
 
+/// The surface of unit cubes with their lowest corners at these places.
+fn cubes(places: &[[i32; 3]]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for place in places {
+        for (k, side) in (0..3).flat_map(|k| [(k, 0), (k, 1)]) {
+            let mut beyond = *place;
+            beyond[k] += 2 * side - 1;
+            if places.contains(&beyond) {
+                continue;
+            }
+            let corner = |u: i32, v: i32| -> Point {
+                let mut p = *place;
+                p[k] += side;
+                p[(k + 1) % 3] += u;
+                p[(k + 2) % 3] += v;
+                p.map(f64::from)
+            };
+            let n = mesh.positions.len() as u32;
+            mesh.positions.extend([corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)]);
+            let quad = if side == 1 { [n, n + 1, n + 2, n + 3] } else { [n, n + 3, n + 2, n + 1] };
+            mesh.faces.extend([[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]);
+        }
+    }
+    mesh
+}
+
+/// Two cubes touch along an edge and are connected at both of its ends, so that neither end has a fan to part.
+#[test]
+fn an_edge_between_connected_ends_is_parted_in_its_middle() {
+    let ends = |z: i32| [[0, 0, z], [1, 0, z], [1, 1, z]];
+    let mesh = cubes(&[&ends(0)[..], &[[0, 0, 1], [1, 1, 1]], &ends(2)].concat());
+    let repaired = mend(&mesh);
+    assert_eq!(repaired.before.soundness.non_manifold_edges, 1);
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert!(repaired.changes.iter().any(|c| c.what == "edge parted in its middle"), "{:?}", repaired.changes);
+    assert!((repaired.after.properties.signed_volume - 8.0).abs() < 1e-3);
+}
+
+#[test]
+fn the_smaller_part_is_turned() {
+    for some in [vec![20], vec![3, 40, 60]] {
+        let mut mesh = block(4, 4.0);
+        some.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
+        let repaired = mend_with(&mesh, &Options { steps: vec!["orient"], ..Options::default() });
+        assert_eq!(repaired.after.properties.signed_volume, 64.0);
+        assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), some.len());
+    }
+}
+
+#[test]
+fn a_scrap_is_a_sheet_and_an_open_cup_is_none() {
+    let only = Options { steps: vec!["scraps"], ..Options::default() };
+    for (facets, gone) in [(2, 1), (11, 0)] {
+        let mut mesh = block(4, 4.0);
+        let mut piece = block(1, 1.0);
+        piece.faces.truncate(facets);
+        add(&mut mesh, &piece, [9.0; 3]);
+        assert_eq!(did(&mend_with(&mesh, &only), "scraps"), gone, "{facets}");
+    }
+}
+
 #[test]
 fn nested_shells_look_outwards_and_inwards_in_turn() {
     for flip in 0..8 {
@@ -77,6 +138,18 @@ fn a_wall_inside_is_removed() {
     let repaired = mend(&mesh);
     assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
     assert_eq!((did(&repaired, "fins"), repaired.after.soundness.shells), (1, 1));
+}
+
+#[test]
+fn a_small_fin_goes_and_a_large_one_may_be_meant() {
+    for (far, gone) in [(3.0, 1), (30.0, 0)] {
+        let mut mesh = block(4, 4.0);
+        let ([a, b, _], n) = (mesh.faces[20], mesh.positions.len() as u32);
+        mesh.positions.push(mesh.positions[a as usize].map(|x| 2.0 + far * (x - 2.0)));
+        mesh.faces.push([a, b, n]);
+        let repaired = mend_with(&mesh, &Options { steps: vec!["fins"], ..Options::default() });
+        assert_eq!((did(&repaired, "fins"), repaired.after.sound), (gone, gone == 1), "{far}");
+    }
 }
 
 #[test]
@@ -148,25 +221,63 @@ fn dust_goes_on_request_only() {
     assert_eq!((did(&repaired, "islands"), repaired.after.soundness.shells), (3, 1));
 }
 
+/// Two of the same facet inside a closed surface, at whose edges all others have their partner: neither is needed.
+#[test]
+fn doubled_walls_that_nobody_needs_go_both() {
+    let positions = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.5, 0.5, 1.0], [0.5, 0.5, -1.0]];
+    let shell = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [1, 0, 4], [2, 1, 4], [0, 2, 4]];
+    for second in [[0, 1, 2], [0, 2, 1]] {
+        let faces = shell.into_iter().chain([[0, 1, 2], second]).collect();
+        let only = Options { steps: vec!["duplicates"], ..Options::default() };
+        let repaired = mend_with(&Mesh { positions: positions.clone(), faces }, &only);
+        assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+        assert_eq!(repaired.mesh.faces, shell);
+    }
+}
+
+/// Puts a flat facet at the edge from `a` to `b`: the facet that runs there is divided at the middle.
+fn cap(mesh: &mut Mesh, a: u32, b: u32) {
+    let runs = |f: &[u32; 3]| (0..3).position(|k| [f[k], f[(k + 1) % 3]] == [a, b]);
+    let (i, k) = mesh.faces.iter().enumerate().find_map(|(i, f)| Some((i, runs(f)?))).unwrap();
+    let (c, n) = (mesh.faces[i][(k + 2) % 3], mesh.positions.len() as u32);
+    let [p, q] = [a, b].map(|v| mesh.positions[v as usize]);
+    mesh.positions.push(std::array::from_fn(|k| (p[k] + q[k]) / 2.0));
+    mesh.faces[i] = [a, n, c];
+    mesh.faces.extend([[n, b, c], [a, b, n]]);
+}
+
+#[test]
+fn two_flat_facets_at_one_facet_are_cut_out_one_after_the_other() {
+    let mut mesh = block(4, 4.0);
+    let [a, b, c] = mesh.faces[20];
+    cap(&mut mesh, b, a);
+    cap(&mut mesh, c, b);
+    let repaired = mend_with(&mesh, &Options { steps: vec!["degenerate"], ..Options::default() });
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert_eq!((repaired.after.properties.signed_volume, did(&repaired, "degenerate")), (64.0, 2));
+}
+
 #[test]
 fn a_flat_facet_is_cut_out_of_its_neighbours() {
     // A cap on a side of the block: its middle vertex splits the long edge of the neighbour.
     let mut mesh = block(1, 4.0);
-    let n = mesh.positions.len() as u32;
-    mesh.positions.push([2.0, 0.0, 0.0]);
-    let along = |f: &[u32; 3]| {
-        (0..3).position(|k| {
-            mesh.positions[f[k] as usize] == [0.0; 3]
-                && mesh.positions[f[(k + 1) % 3] as usize] == [4.0, 0.0, 0.0]
-        })
-    };
-    let (i, k) = mesh.faces.iter().enumerate().find_map(|(i, f)| Some((i, along(f)?))).unwrap();
-    let [a, b, c] = std::array::from_fn(|j| mesh.faces[i][(k + j) % 3]);
-    mesh.faces[i] = [a, n, c];
-    mesh.faces.extend([[n, b, c], [a, b, n]]);
+    let at = |p: Point| mesh.positions.iter().position(|q| *q == p).unwrap() as u32;
+    let [a, b] = [at([0.0; 3]), at([4.0, 0.0, 0.0])];
+    cap(&mut mesh, a, b);
     let repaired = mend(&mesh);
     assert_eq!(repaired.before.found("degenerate_facets").map(|f| f.count), Some(1));
     assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
     assert_eq!((repaired.after.properties.signed_volume, did(&repaired, "degenerate")), (64.0, 1));
     assert_eq!(repaired.changes.len(), 1, "nothing else had to be mended: {:?}", repaired.changes);
+}
+
+#[test]
+fn flat_facets_back_to_back_just_go() {
+    let sound = block(4, 4.0);
+    let at = |x: f64| sound.positions.iter().position(|p| *p == [x, 0.0, 0.0]).unwrap() as u32;
+    let [a, m, b] = [at(0.0), at(1.0), at(2.0)];
+    let mut mesh = sound.clone();
+    mesh.faces.extend([[a, b, m], [b, a, m]]);
+    let repaired = mend_with(&mesh, &Options { steps: vec!["degenerate"], ..Options::default() });
+    assert_eq!((repaired.mesh.faces, repaired.changes.len()), (sound.faces, 2));
 }
