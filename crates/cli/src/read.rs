@@ -1,8 +1,9 @@
 //! Files of the command line, read and described for the result document.
 
+use crate::exit::{Usage, not_negative};
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_files::{Body, Input, PointSource, ReadOptions, SourceMesh};
+use trueness_files::{Body, Input, PointSource, ReadOptions, SourceMesh, Weld};
 use trueness_geom::space::Point;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -21,6 +22,11 @@ pub fn mesh(path: &Path, options: &ReadOptions) -> anyhow::Result<(SourceMesh, I
             path.display()
         ),
     }
+}
+
+/// What `--weld` asks for.
+pub fn weld(distance: Option<f64>) -> Result<Weld, Usage> {
+    distance.map_or(Ok(Weld::Same), |d| Ok(Weld::Within(not_negative("weld", d)?)))
 }
 
 /// All points of a source.

@@ -124,3 +124,26 @@ fn a_comparison_shows_where_its_reference_is_not_sound() {
     assert!(list.contains("data-t=\"defect.boundary_edges\"") && list.contains("<tr data-pick="));
     assert!(text.contains("\"role\":\"defects\"") && text.contains("\"comparison\":0"));
 }
+
+#[test]
+fn vertices_within_the_distance_of_weld_are_one() {
+    let f = Folder::new();
+    // The first face of the cube has a corner of its own, a tenth of a millimetre beside the other's.
+    let torn = CUBE.replace("8 12 0", "9 12 0").replace("\n3 0 2 1\n", "\n0.1 0 0\n3 8 2 1\n");
+    let torn = f.write("torn.off", torn);
+    let with = |weld: &str| document(["check".as_ref(), torn.as_os_str(), "--weld".as_ref(), weld.as_ref()]);
+    assert_eq!(document(["check".as_ref(), torn.as_os_str()])["sound"], false);
+    assert_eq!((&with("0.05")["sound"], &with("0.05")["vertices"]), (&json!(false), &json!(9)));
+    let d = with("0.2");
+    assert_eq!((&d["sound"], &d["vertices"], &d["volume"]), (&json!(true), &json!(8), &json!(1.0)));
+    assert_eq!(d["inputs"][0]["warnings"], json!(["9 vertices became 8: those within 0.2 mm were joined"]));
+    let sound = |weld: &[&str]| {
+        let files = ["compare".as_ref(), torn.as_os_str(), torn.as_os_str()];
+        let d = document(files.into_iter().chain(weld.iter().map(|w| (*w).as_ref())));
+        d["comparisons"][0]["soundness"]["sound"].clone()
+    };
+    assert_eq!((sound(&[]), sound(&["--weld", "0.2"])), (json!(false), json!(true)));
+    let o = trueness(["check".as_ref(), torn.as_os_str(), "--weld".as_ref(), "-1".as_ref()]);
+    assert_eq!(status(&o), 2, "{}", stderr(&o));
+    assert!(stderr(&o).contains("--weld -1: give a number from 0 upwards"), "{}", stderr(&o));
+}

@@ -70,6 +70,20 @@ fn welded(mesh: Mesh, warnings: &mut Vec<Warning>) -> Result<Mesh> {
     Ok(joined)
 }
 
+/// Joins vertices within `distance` of one another.
+pub(crate) fn within(mesh: &Mesh, distance: f64, warnings: &mut Vec<Warning>) -> Result<Mesh> {
+    let before = mesh.positions.len();
+    let joined = weld::within(mesh, distance).map_err(|e| too_many(&e, mesh.faces.len()))?.mesh;
+    if joined.positions.len() < before {
+        warnings.push(Warning::Welded {
+            distance,
+            before: before as u64,
+            after: joined.positions.len() as u64,
+        });
+    }
+    Ok(joined)
+}
+
 /// Position of a corner as a file holds it.
 pub(crate) trait Corner: Position {
     fn widened(self) -> Point;

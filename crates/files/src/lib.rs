@@ -42,6 +42,6 @@ pub use content::{Body, Input, PointSource, Provenance, SourceMesh};
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{FORMATS, Format};
 pub use hash::sha256;
-pub use open::{ReadOptions, open};
+pub use open::{ReadOptions, Weld, open};
 pub use unit::{Unit, UnitError};
 pub use warning::Warning;

@@ -1,7 +1,7 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit, detect,
+    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit, assemble, detect,
     error::Located,
     format::{Format, Once, Parts},
     source::Source,
@@ -18,16 +18,28 @@ pub struct ReadOptions {
     pub columns: Option<Columns>,
     /// Its format; found out otherwise.
     pub format: Option<&'static Format>,
-    /// Whether vertices of a mesh at the same place become one. On by default: without it an STL file is a heap of
-    /// loose triangles, and other formats are torn open where textures or materials meet.
-    pub weld: bool,
+    /// Which vertices of a mesh become one.
+    pub weld: Weld,
     /// About how many points a block of a stream holds.
     pub block: usize,
 }
 
+/// Which vertices of a mesh become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weld {
+    /// None. An STL file is then a heap of loose triangles, and other formats are torn open where textures or materials
+    /// meet.
+    None,
+    /// Those at the same place.
+    #[default]
+    Same,
+    /// Those within this distance of one another, millimetres.
+    Within(f64),
+}
+
 impl Default for ReadOptions {
     fn default() -> ReadOptions {
-        ReadOptions { units: None, columns: None, format: None, weld: true, block: 1 << 21 }
+        ReadOptions { units: None, columns: None, format: None, weld: Weld::Same, block: 1 << 21 }
     }
 }
 
@@ -55,10 +67,13 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     let Some(reader) = format.read else { return Err(crate::Fault::Foreign(format.name).into()) };
     let unit = options.units.unwrap_or_default();
     let (bytes, gzip) = (source.bytes, source.gzip);
-    let parsed = reader(source, options)?;
+    let mut parsed = reader(source, options)?;
     let body = match parsed.content {
         Parts::Mesh(mut mesh) => {
             unit.apply(&mut mesh.mesh.positions);
+            if let Weld::Within(distance) = options.weld {
+                mesh.mesh = assemble::within(&mesh.mesh, distance, &mut parsed.warnings)?;
+            }
             Body::Mesh(mesh)
         }
         Parts::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// An oddity that did not keep a file from being read. Its text says what was done about it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
     /// The file is well-formed and holds nothing.
@@ -44,6 +44,15 @@ pub enum Warning {
         /// Vertices in the mesh.
         after: u64,
     },
+    /// Vertices nearer than the distance asked for became one.
+    Welded {
+        /// That distance, mm.
+        distance: f64,
+        /// Vertices before.
+        before: u64,
+        /// Vertices after.
+        after: u64,
+    },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
     /// The numbers of a row may have been meant with decimal commas.
@@ -78,6 +87,9 @@ impl fmt::Display for Warning {
             Warning::Slight { count } => write!(f, "{count} face(s) of fewer than three vertices left out"),
             Warning::Joined { before, after } => {
                 write!(f, "{before} vertices at {after} places: vertices at the same place were joined")
+            }
+            Warning::Welded { distance, before, after } => {
+                write!(f, "{before} vertices became {after}: those within {distance} mm were joined")
             }
             Warning::RunningNumber => {
                 write!(f, "the first column counts the rows; the three after it were taken as x, y, z")

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Folder, gzip, read};
-use trueness_files::{Body, ReadOptions, open};
+use trueness_files::{Body, ReadOptions, Weld, open};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpus");
 
@@ -98,7 +98,7 @@ fn the_example_has_the_stated_numbers() {
 
 #[test]
 fn without_welding_the_vertices_are_those_of_the_file() {
-    let options = ReadOptions { weld: false, ..ReadOptions::default() };
+    let options = ReadOptions { weld: Weld::None, ..ReadOptions::default() };
     let vertices = |file: &str| match open(format!("{CORPUS}/shapes/{file}").as_ref(), &options).unwrap().body
     {
         Body::Mesh(m) => m.mesh.positions.len(),

@@ -10,7 +10,7 @@ use crate::{
     format::{Format, Head, Parsed},
     lines::{count_lines, line_end, parts},
     number::{integer, number},
-    open::ReadOptions,
+    open::{ReadOptions, Weld},
     source::Source,
     unicode::without_mark,
     write::{Loss, corner_positions, push_number},
@@ -83,7 +83,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         return Ok(Parsed::cloud("obj", positions));
     }
     let mut warnings = vec![];
-    let mesh = faces.mesh(positions, options.weld, &mut warnings)?;
+    let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh("obj", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
 }
 

@@ -7,7 +7,7 @@ use crate::{
     format::{Format, Head, Parsed},
     lines::{Lines, words},
     number::{count, whole_number},
-    open::ReadOptions,
+    open::{ReadOptions, Weld},
     source::Source,
     unicode::without_mark,
     write::{Loss, corner_positions, push_number},
@@ -81,7 +81,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         return Ok(Parsed::cloud("off", positions));
     }
     let mut warnings = vec![];
-    let mesh = faces.mesh(positions, options.weld, &mut warnings)?;
+    let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh("off", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
 }
 

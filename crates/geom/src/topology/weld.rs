@@ -10,6 +10,9 @@
 #![allow(unsafe_code, reason = "prefetching")]
 
 mod bits;
+mod within;
+
+pub use within::within;
 
 use crate::memory::{atomics, large_pages, triples};
 use crate::mesh::Mesh;

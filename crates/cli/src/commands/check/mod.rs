@@ -34,6 +34,9 @@ pub struct CheckArgs {
     /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
     #[arg(long, value_name = "MM")]
     gap: Option<f64>,
+    /// Join vertices within this distance before looking, mm [default: those at the same place]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    weld: Option<f64>,
     /// Facets with a smaller angle than this are slivers, degrees
     #[arg(long, value_name = "DEGREES", default_value = "0.1")]
     sliver_angle: f64,
@@ -71,7 +74,8 @@ impl CheckArgs {
 /// Runs the command.
 pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
-    let (source, mut record) = read(&args.mesh, args.units)?;
+    let reading = ReadOptions { units: args.units, weld: read::weld(args.weld)?, ..ReadOptions::default() };
+    let (source, mut record) = read(&args.mesh, &reading)?;
     let facets = source.mesh.faces.len() as u64;
     let stage = Stage::new(common.progress, "checking", "facets", Some(facets));
     let (hash, report) = rayon::join(
@@ -97,9 +101,8 @@ pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
-fn read(path: &Path, units: Option<Unit>) -> anyhow::Result<(SourceMesh, InputRecord)> {
-    let Input { provenance, body, warnings } =
-        trueness_files::open(path, &ReadOptions { units, ..ReadOptions::default() })?;
+fn read(path: &Path, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
+    let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
     let source = match body {
         Body::Mesh(source) => source,
         // Without vertices, too, it is as empty as an STL file of no facets.

@@ -4,7 +4,7 @@ use crate::exit::Usage;
 use crate::read;
 use anyhow::Context;
 use std::path::Path;
-use trueness_files::{Body, PointSource, ReadError, ReadOptions};
+use trueness_files::{Body, PointSource, ReadError, ReadOptions, Weld};
 use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
@@ -35,7 +35,7 @@ impl Measured {
         sample: Option<u64>,
         seed: u64,
     ) -> anyhow::Result<Measured> {
-        let input = trueness_files::open(path, &ReadOptions { weld: false, ..reading.clone() })?;
+        let input = trueness_files::open(path, &ReadOptions { weld: Weld::None, ..reading.clone() })?;
         let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
         let mesh = match input.body {
             Body::Points(_) if sample.is_some() => {

@@ -73,6 +73,9 @@ pub struct CompareArgs {
     /// Add bootstrap intervals, a normality test, the best distribution, Moran's I
     #[arg(long)]
     research: bool,
+    /// Join vertices of the references within this distance, mm [default: those at the same place]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    weld: Option<f64>,
     /// Unit of files that do not say theirs [default: mm]
     #[arg(long, value_name = "UNIT")]
     units: Option<Unit>,
@@ -155,7 +158,8 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage("--both needs a measured mesh: points have no facets to measure back to".into()).into()
         );
     }
-    let reading = ReadOptions { units: args.reference_units.or(args.units), ..reading };
+    let units = args.reference_units.or(args.units);
+    let reading = ReadOptions { units, weld: read::weld(args.weld)?, ..reading };
     let (mut meshes, mut files) = (vec![], vec![measured.record.clone()]);
     for path in &args.references {
         let (mesh, record) = read::mesh(path, &reading)?;

@@ -15,7 +15,7 @@ use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
     format::{Format, Head, Parsed},
-    open::ReadOptions,
+    open::{ReadOptions, Weld},
     scalar::{Order, Scalar},
     source::Source,
 };
@@ -67,7 +67,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mut faces = Faces::default();
     faces::read(feed.all()?, at, lines, header.encoding, after, &positions, &mut faces)?;
     let mut warnings = vec![];
-    let mesh = faces.mesh(positions, options.weld, &mut warnings)?;
+    let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh(variant, SourceMesh { mesh, ..SourceMesh::default() }, warnings))
 }
 

@@ -10,7 +10,7 @@ use crate::{
     detect::is_text,
     error::{Fault, Result},
     format::{Format, Head, Parsed},
-    open::ReadOptions,
+    open::{ReadOptions, Weld},
     source::Source,
     unicode::without_mark,
 };
@@ -92,7 +92,7 @@ fn mesh<F: Facet>(
         good = &kept;
     }
     let mesh = crate::SourceMesh {
-        mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld)?,
+        mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld != Weld::None)?,
         stored_normals: Some(good.par_iter().map(F::normal).collect()),
         nonfinite_facets: bad.len() as u64,
     };
