@@ -14,7 +14,7 @@ def run(command, timeout=600, accept=(0,)):
     whole process, its exit `status`, and `noise`: how many processors were busy with something else meanwhile.
     An exit status not in `accept` is a failure."""
     idle_before, began = _busy(), time.perf_counter()
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     try:
         said, _ = _communicate(child, timeout)
     except subprocess.TimeoutExpired:

@@ -73,12 +73,12 @@ impl Bounds {
 type Item = Bounds;
 
 /// Items looked at, about, to choose a plane: of larger ranges every n-th.
-const SAMPLE: usize = 4096;
+const SAMPLE: usize = 1024;
 
 /// Ranges up to this size are sorted along the axis of their largest extent, and every place to split is tried.
 const FEW: usize = 16;
 /// Ranges up to this size are split on one of the two axes of largest extent.
-const TWO_AXES: usize = 64;
+const TWO_AXES: usize = 256;
 
 /// A plane between two bins of an axis.
 #[derive(Clone, Copy)]
