@@ -1,5 +1,6 @@
 //! Writing points and meshes. Files appear whole or not at all.
 
+mod held;
 mod loss;
 mod regions;
 #[cfg(test)]
@@ -11,8 +12,10 @@ use crate::{
     error::{WriteError, WriteFault},
     open,
 };
+pub use held::HeldPoints;
 pub use loss::Loss;
 pub use regions::{Pieces, regions};
+use spool::Spool;
 use std::path::{Path, PathBuf};
 use trueness_geom::{mesh::Mesh, space::Point};
 
@@ -40,12 +43,19 @@ pub struct Block<'a> {
 ///
 /// Errors: an extension that no writer of points has; those of the system.
 pub fn points(path: &Path, layout: Layout) -> Result<PointsFile, WriteError> {
-    let begin = |path: &Path| {
+    begin(path, layout).map(|(file, _)| file)
+}
+
+/// As [`points`], with a spool beside the file.
+fn begin(path: &Path, layout: Layout) -> Result<(PointsFile, Spool), WriteError> {
+    let begin = || {
         let (writer, extension) = by_extension(path, "points", |f| f.points)?;
-        writer(AtomicFile::create(path)?, layout, extension)
+        let file = AtomicFile::create(path)?;
+        let spool = Spool::beside(&file)?;
+        Ok((writer(file, layout, extension)?, spool))
     };
-    let writing = begin(path).map_err(|e| e.in_file(path))?;
-    Ok(PointsFile { writing, layout, path: path.into(), count: 0 })
+    let (writing, spool) = begin().map_err(|e: WriteFault| e.in_file(path))?;
+    Ok((PointsFile { writing, layout, path: path.into(), count: 0 }, spool))
 }
 
 /// A file of points being written. Unless it is finished, nothing of it remains.

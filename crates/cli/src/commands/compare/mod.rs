@@ -203,7 +203,7 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         document.sampling = Some(Sampling { shown, total: found.count });
     }
     if let Some(files) = points_files {
-        files.finish()?;
+        files.finish(&document.scale)?;
     }
     args.output.write_json(&document)?;
     let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());

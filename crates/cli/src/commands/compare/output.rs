@@ -8,7 +8,7 @@ use clap::Args;
 use rayon::prelude::*;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use trueness_files::write::{self, Layout, PointsFile};
+use trueness_files::write::{self, HeldPoints, Layout, PointsFile};
 use trueness_files::{AtomicFile, WriteError};
 use trueness_inspect::compare;
 use trueness_inspect::report::Answer;
@@ -102,44 +102,66 @@ pub fn json_file(path: Option<&Path>, document: &impl serde::Serialize) -> anyho
     Ok(false)
 }
 
-/// The per-point files of `--out`: one a reference.
-pub struct PointFiles {
-    files: Vec<PointsFile>,
-    scale: Option<Scale>,
+/// The per-point files of `--out`: one a reference. Files that are looked at, PLY and VTP, are coloured always, the others
+/// where the scale is known beforehand.
+pub struct PointFiles(Vec<PointFile>);
+
+enum PointFile {
+    /// Written as the points come, coloured if there is a scale.
+    Now(PointsFile, Option<Scale>),
+    /// Written when the scale is known.
+    Later(HeldPoints),
 }
 
 impl PointFiles {
-    /// Begins `path`, or `name.1.ext`, `name.2.ext` … for several references. Points are coloured where the scale is
-    /// known beforehand.
+    /// Begins `path`, or `name.1.ext`, `name.2.ext` … for several references; `scale` if it is known beforehand.
     pub fn create(path: &Path, references: usize, scale: Option<Scale>) -> Result<PointFiles, WriteError> {
-        let layout = Layout { deviation: true, colour: scale.is_some() };
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let looked_at = ["ply", "vtp"].iter().any(|e| extension.eq_ignore_ascii_case(e));
         let name = |i: usize| match references {
             1 => path.to_path_buf(),
-            _ => {
-                let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-                path.with_extension(format!("{}.{extension}", i + 1))
+            _ => path.with_extension(format!("{}.{extension}", i + 1)),
+        };
+        let file = |i: usize| match &scale {
+            None if looked_at => HeldPoints::create(&name(i)).map(PointFile::Later),
+            scale => {
+                let layout = Layout { deviation: true, colour: scale.is_some() };
+                Ok(PointFile::Now(write::points(&name(i), layout)?, scale.clone()))
             }
         };
-        let files = (0..references).map(|i| write::points(&name(i), layout)).collect::<Result<_, _>>()?;
-        Ok(PointFiles { files, scale })
+        (0..references).map(file).collect::<Result<_, _>>().map(PointFiles)
     }
 
     /// Adds a block to every file.
     pub fn write(&mut self, block: &compare::Block) -> Result<(), WriteError> {
-        for (file, deviations) in self.files.iter_mut().zip(block.deviations) {
+        for (file, deviations) in self.0.iter_mut().zip(block.deviations) {
             let deviation: Vec<f64> =
                 deviations.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect();
-            let colour: Vec<[u8; 3]> = match &self.scale {
-                Some(scale) => deviations.par_iter().map(|&d| scale.color(d)).collect(),
-                None => vec![],
-            };
-            file.write(&write::Block { points: block.points, deviation: &deviation, colour: &colour })?;
+            match file {
+                PointFile::Now(file, scale) => {
+                    let colour = scale.as_ref().map_or(vec![], |scale| colours(scale, &deviation));
+                    file.write(&write::Block {
+                        points: block.points,
+                        deviation: &deviation,
+                        colour: &colour,
+                    })?;
+                }
+                PointFile::Later(file) => file.write(block.points, &deviation)?,
+            }
         }
         Ok(())
     }
 
-    /// Puts the files in their places.
-    pub fn finish(self) -> Result<(), WriteError> {
-        self.files.into_iter().try_for_each(|f| f.finish().map(drop))
+    /// Puts the files in their places, in the colours of `scale` if they have not got any yet.
+    pub fn finish(self, scale: &Scale) -> Result<(), WriteError> {
+        self.0.into_iter().try_for_each(|file| match file {
+            PointFile::Now(file, _) => file.finish().map(drop),
+            PointFile::Later(file) => file.finish(|deviation| colours(scale, deviation)).map(drop),
+        })
     }
+}
+
+/// The colour of each deviation; grey for none.
+fn colours(scale: &Scale, deviation: &[f64]) -> Vec<[u8; 3]> {
+    deviation.par_iter().map(|&d| scale.color(d)).collect()
 }

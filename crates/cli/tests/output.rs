@@ -1,0 +1,32 @@
+//! The per-point files of `trueness compare`.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+use common::*;
+
+#[test]
+fn what_people_look_at_is_coloured_without_a_scale_too() {
+    let f = Folder::new();
+    let cube = f.write("cube.off", CUBE);
+    let points = f.write("p.xyz", "0.5 0.5 1.25\n0.5 0.5 0.875\n0.5 1.5 0.5\n0.5 0.5 30\n");
+    let compare = |more: &[&std::ffi::OsStr]| {
+        let files = [
+            "compare".as_ref(),
+            points.as_os_str(),
+            cube.as_os_str(),
+            "--max-distance".as_ref(),
+            "9".as_ref(),
+        ];
+        document(files.into_iter().chain(more.iter().copied()))
+    };
+    for extension in ["ply", "vtp", "csv"] {
+        let [plain, scaled] = ["plain", "scaled"].map(|name| f.file(&format!("{name}.{extension}")));
+        let d = compare(&["--out".as_ref(), plain.as_os_str()]);
+        let scale = f.write("scale.json", d["scale"].to_string());
+        compare(&["--out".as_ref(), scaled.as_os_str(), "--scale".as_ref(), scale.as_os_str()]);
+        let same = std::fs::read(plain).unwrap() == std::fs::read(scaled).unwrap();
+        assert_eq!(same, extension != "csv", "{extension}");
+    }
+    let ply = String::from_utf8_lossy(&std::fs::read(f.file("plain.ply")).unwrap()).into_owned();
+    assert!(ply.contains("property uchar red"), "{ply}");
+}

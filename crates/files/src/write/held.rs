@@ -1,0 +1,103 @@
+//! Points that are coloured only when all of them have been seen.
+
+use super::spool::Spool;
+use super::{Block, Layout, PointsFile, begin};
+use crate::error::{WriteError, WriteFault};
+use std::path::Path;
+use trueness_geom::space::Point;
+
+/// Points between two blocks of the file.
+const BLOCK: usize = 1 << 16;
+/// Bytes of a point: three coordinates and a deviation.
+const RECORD: usize = 32;
+
+/// A file of points with deviations whose colours are not known yet. Unless it is finished, nothing of it remains.
+///
+/// The points wait in memory or, when they are many, in a file beside the one to be written.
+pub struct HeldPoints {
+    file: PointsFile,
+    waiting: Spool,
+}
+
+impl HeldPoints {
+    /// Begins a file in the format of the path's extension.
+    ///
+    /// Errors: those of [`points`](super::points).
+    pub fn create(path: &Path) -> Result<HeldPoints, WriteError> {
+        let (file, waiting) = begin(path, Layout { deviation: true, colour: true })?;
+        Ok(HeldPoints { file, waiting })
+    }
+
+    /// Adds points and as many deviations, millimetres; NaN for a point that has none.
+    pub fn write(&mut self, points: &[Point], deviation: &[f64]) -> Result<(), WriteError> {
+        let record = |(p, d): (&Point, &f64)| [p[0], p[1], p[2], *d].map(f64::to_le_bytes);
+        let bytes = points.iter().zip(deviation).flat_map(record).flatten();
+        self.waiting.write(bytes).map_err(|e| WriteFault::from(e).in_file(&self.file.path))
+    }
+
+    /// Writes all of them, each block with the colours that `colour` has for its deviations, and puts the file in its
+    /// place.
+    pub fn finish(self, colour: impl Fn(&[f64]) -> Vec<[u8; 3]>) -> Result<u64, WriteError> {
+        let HeldPoints { mut file, mut waiting } = self;
+        let (mut bytes, mut failed) = (Vec::new(), None);
+        let mut pass = |bytes: &mut Vec<u8>, least: usize| {
+            while bytes.len() >= least.max(RECORD) {
+                let whole = (bytes.len() / RECORD).min(BLOCK) * RECORD;
+                let numbers: Vec<[f64; 4]> = (bytes[..whole].as_chunks::<8>().0.as_chunks::<4>().0.iter())
+                    .map(|record| record.map(f64::from_le_bytes))
+                    .collect();
+                let points: Vec<Point> = numbers.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+                let deviation: Vec<f64> = numbers.iter().map(|n| n[3]).collect();
+                let block = Block { points: &points, deviation: &deviation, colour: &colour(&deviation) };
+                file.write(&block)?;
+                bytes.drain(..whole);
+            }
+            Ok(())
+        };
+        let played = waiting.play(|part| {
+            bytes.extend_from_slice(part);
+            pass(&mut bytes, BLOCK * RECORD).map_err(|e| {
+                failed = Some(e);
+                std::io::Error::other("the points could not be written")
+            })
+        });
+        let rest = pass(&mut bytes, RECORD);
+        if let Some(e) = failed {
+            return Err(e);
+        }
+        played.map_err(|e| WriteFault::from(e).in_file(&file.path))?;
+        rest?;
+        file.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::points;
+    use crate::write::scratch::Folder;
+
+    #[test]
+    fn is_the_file_that_colours_known_beforehand_give() {
+        let folder = Folder::new();
+        let n = 1_100_000;
+        let points_of = |from: usize| (from..n).map(|i| [i as f64, 0.5, -1.0]).collect::<Vec<Point>>();
+        let (all, deviation): (Vec<Point>, Vec<f64>) =
+            (points_of(0), (0..n).map(|i| if i % 7 == 0 { f64::NAN } else { i as f64 }).collect());
+        let colour = |d: &[f64]| d.iter().map(|d| [*d as u8, 1, 2]).collect::<Vec<_>>();
+        for extension in ["ply", "vtp", "csv"] {
+            let [now, later] = ["now", "later"].map(|name| folder.path().join(format!("{name}.{extension}")));
+            let mut file = points(&now, Layout { deviation: true, colour: true }).unwrap();
+            file.write(&Block { points: &all, deviation: &deviation, colour: &colour(&deviation) }).unwrap();
+            file.finish().unwrap();
+            let mut held = HeldPoints::create(&later).unwrap();
+            for (p, d) in all.chunks(333_333).zip(deviation.chunks(333_333)) {
+                held.write(p, d).unwrap();
+            }
+            assert_eq!(held.finish(colour).unwrap(), n as u64);
+            assert!(std::fs::read(now).unwrap() == std::fs::read(later).unwrap(), "{extension}");
+        }
+        drop(HeldPoints::create(&folder.path().join("none.ply")).unwrap());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
+    }
+}
