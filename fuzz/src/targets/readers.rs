@@ -8,7 +8,7 @@ use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
 use std::io::{Read, Write};
 use std::path::Path;
-use trueness_files::{Body, Format, ReadError, ReadOptions, SourceMesh, open};
+use trueness_files::{Body, Format, ReadError, ReadOptions, SourceMesh, Weld, open};
 
 /// STL in text and binary.
 pub const STL: Target = Target {
@@ -198,7 +198,7 @@ fn unpacked(bytes: &[u8]) -> Vec<u8> {
 
 fn both(path: &Path, format: Option<&'static Format>) {
     read(path, &ReadOptions::default());
-    read(path, &ReadOptions { format, weld: false, block: 5, ..ReadOptions::default() });
+    read(path, &ReadOptions { format, weld: Weld::None, block: 5, ..ReadOptions::default() });
 }
 
 /// Reads to the end and checks what is promised of all that was read.
