@@ -30,6 +30,10 @@ impl HeldPoints {
 
     /// Adds points and as many deviations, millimetres; NaN for a point that has none.
     pub fn write(&mut self, points: &[Point], deviation: &[f64]) -> Result<(), WriteError> {
+        if points.len() != deviation.len() {
+            let (points, values) = (points.len(), deviation.len());
+            return Err(WriteFault::Uneven { what: "deviations", points, values }.in_file(&self.file.path));
+        }
         let record = |(p, d): (&Point, &f64)| [p[0], p[1], p[2], *d].map(f64::to_le_bytes);
         let bytes = points.iter().zip(deviation).flat_map(record).flatten();
         self.waiting.write(bytes).map_err(|e| WriteFault::from(e).in_file(&self.file.path))
@@ -97,7 +101,9 @@ mod tests {
             assert_eq!(held.finish(colour).unwrap(), n as u64);
             assert!(std::fs::read(now).unwrap() == std::fs::read(later).unwrap(), "{extension}");
         }
-        drop(HeldPoints::create(&folder.path().join("none.ply")).unwrap());
+        let mut none = HeldPoints::create(&folder.path().join("none.ply")).unwrap();
+        assert!(none.write(&all, &deviation[1..]).is_err());
+        drop(none);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
     }
 }

@@ -94,7 +94,8 @@ impl<'a> Winding<'a> {
     /// Whether the winding number of each point is above `limit`, in the order of `points`: above one half is inside.
     ///
     /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters: a number that is not clearly
-    /// above or below is found again with an error of at most 0.01.
+    /// above or below is found again with an error of at most 0.01, of each further layer as much again (found by test,
+    /// not proved).
     ///
     /// # Errors
     /// Those of [`Winding::numbers`].

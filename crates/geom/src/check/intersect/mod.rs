@@ -37,7 +37,8 @@ const EVERYWHERE: [f32; 6] = {
 ///
 /// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
 /// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
-/// a facet on a scan; of the facets at one vertex, however many, only neighbours count. Facets done are told to `progress`. The result is the same for any number of threads.
+/// a facet on a scan; n facets around one vertex take n log n, two such fans that lie upon each other the product of
+/// their facets. Facets done are told to `progress`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// [`Cancelled`].
