@@ -14,6 +14,10 @@ fn sign(x: f64) -> i32 {
 /// Side of `d` on the plane through `a`, `b`, `c`: +1 where the three run clockwise as seen from `d`, −1 where they run
 /// counter-clockwise (`d` lies outside of that face), 0 in the plane.
 pub fn side_of_plane(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
+    // Sides of boxes: long arithmetic would find the same.
+    if (0..3).any(|k| a[k] == d[k] && b[k] == d[k] && c[k] == d[k]) {
+        return 0;
+    }
     let p = |p: &Point| Coord3D { x: p[0], y: p[1], z: p[2] };
     sign(orient3d(p(a), p(b), p(c), p(d)))
 }

@@ -12,7 +12,7 @@ use super::{RepairError, Step};
 use crate::check::finding::area;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::topology::union::Sets;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub(super) const EDGES: Step = Step {
     name: "non_manifold_edges",
@@ -68,16 +68,25 @@ fn part(
         return Ok(());
     }
     let before = work.mesh().clone();
-    let crossings = work.crossings()?.count;
+    let changing: BTreeSet<u32> = lost
+        .iter()
+        .flat_map(|(_, fan)| fan)
+        .chain(again.iter().flat_map(|(_, pair)| pair))
+        .copied()
+        .collect();
+    let crossings = work.crossings_of(|f, _| changing.contains(&f))?.count;
+    let first = before.positions.len() as u32;
     for (i, offset) in OFFSETS.into_iter().enumerate() {
         let distance = offset * work.gap;
         set_off(work, &lost, &again, distance);
-        if work.crossings()?.count <= crossings || i + 1 == OFFSETS.len() {
+        // What has changed has a new vertex.
+        let now = work.crossings_of(|_, face| face.iter().any(|v| *v >= first))?.count;
+        if now <= crossings || i + 1 == OFFSETS.len() {
             break;
         }
         work.restore(before.clone());
     }
-    work.parted.extend(before.positions.len() as u32..work.mesh().positions.len() as u32);
+    work.parted.extend(first..work.mesh().positions.len() as u32);
     for (v, fan) in &lost {
         work.log(step, "fan of facets given its own vertex", before.positions[*v as usize], fan.len(), 0.0);
     }
@@ -135,7 +144,7 @@ fn shared_twice(edges: &Edges, pairs: &Pairs, lost: &[(u32, Vec<u32>)]) -> Vec<(
     let fan_of =
         |f: u32, v: u32| moved.binary_search_by_key(&(f, v), |m| (m.0, m.1)).map_or(0, |i| moved[i].2);
     let mut again = vec![];
-    let mut touched = std::collections::BTreeSet::new();
+    let mut touched = BTreeSet::new();
     for edge in edges.iter().filter(|e| e.len() > 2) {
         let ends = edge[0].ends;
         let mut seen = vec![];

@@ -116,21 +116,30 @@ impl<'a> Work<'a> {
     /// Pairs of facets that meet where they should not. In a tangle, where pairs outnumber facets many times, only some
     /// are listed: all pairs of a large one would not fit into memory.
     pub(super) fn crossings(&mut self) -> Result<Crossings, RepairError> {
-        const LISTED: usize = 10_000;
         let known = self.known()?;
         if let Some(crossings) = known.crossings.get() {
             return Ok(crossings.clone());
         }
-        let limit = LISTED + 8 * self.mesh.faces.len();
+        let limit = self.listed();
         let crossings =
             intersect::first_self_intersections(&self.mesh, &known.topology, limit, self.progress)?;
         Ok(known.crossings.get_or_init(|| crossings).clone())
     }
 
-    /// Whether so many facets cross that not all pairs are listed.
-    pub(super) fn is_tangle(&mut self) -> Result<bool, RepairError> {
-        let crossings = self.crossings()?;
-        Ok(crossings.first.len() < crossings.count)
+    /// The most pairs that are listed.
+    fn listed(&self) -> usize {
+        10_000 + 8 * self.mesh.faces.len()
+    }
+
+    /// The pairs that hang on facets chosen by number and corners; all others are as they were before those changed.
+    pub(super) fn crossings_of(
+        &mut self,
+        chosen: impl Fn(u32, &[u32; 3]) -> bool,
+    ) -> Result<Crossings, RepairError> {
+        let known = self.known()?;
+        let some: Vec<bool> = (0..).zip(&self.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
+        let limit = self.listed();
+        Ok(intersect::self_intersections_of(&some, &self.mesh, &known.topology, limit, self.progress)?)
     }
 
     /// All that the check finds of a kind which needs no crossings.

@@ -98,14 +98,20 @@ impl Hub {
         self.arcs.iter().map(|a| a.facet).collect()
     }
 
-    /// Calls `found` with all pairs of its facets that meet where they should not.
-    pub fn pairs(&self, mesh: &Mesh, progress: &dyn Progress, found: &mut impl FnMut([u32; 2])) {
+    /// Calls `found` with all pairs of its facets that are asked for and meet where they should not.
+    pub fn pairs(
+        &self,
+        mesh: &Mesh,
+        progress: &dyn Progress,
+        asked: &impl Fn([u32; 2]) -> bool,
+        found: &mut impl FnMut([u32; 2]),
+    ) {
         let triangle = |facet: u32| {
             let face = mesh.faces[facet as usize];
             (face.map(|v| mesh.positions[v as usize]), face)
         };
         let mut decide = |a: u32, b: u32| {
-            if meet(&triangle(a), &triangle(b)) {
+            if asked([a, b]) && meet(&triangle(a), &triangle(b)) {
                 found([a.min(b), a.max(b)]);
             }
         };

@@ -70,22 +70,42 @@ pub fn first_self_intersections(
     limit: usize,
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
-    with(mesh, topology, limit, progress, Level::detect())
+    with(&Search { mesh, topology, some: None, limit }, progress, Level::detect())
 }
 
-fn with(
+/// As [`first_self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet):
+/// what has changed against everything, say. Takes little more than sorting all facets and looking around those few.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn self_intersections_of(
+    some: &[bool],
     mesh: &Mesh,
     topology: &Topology,
     limit: usize,
     progress: &dyn Progress,
-    level: Level,
 ) -> Result<Crossings, Cancelled> {
+    with(&Search { mesh, topology, some: Some(some), limit }, progress, Level::detect())
+}
+
+/// What is searched.
+struct Search<'a> {
+    mesh: &'a Mesh,
+    topology: &'a Topology,
+    /// Flags of the facets of which each pair has one; `None`: all.
+    some: Option<&'a [bool]>,
+    limit: usize,
+}
+
+fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
+    let &Search { mesh, topology, some, limit } = search;
     let hubs = hub::hubs(mesh, topology);
-    let tree = Tree::build(mesh, topology, &hubs.iter().map(Hub::facets).collect::<Vec<_>>());
+    let tree = Tree::build(mesh, topology, &hubs.iter().map(Hub::facets).collect::<Vec<_>>(), some);
     let walk = Walk { mesh, tree: &tree, progress };
     let top = tree.levels.len() - 1;
     let mut pairs = Pairs { limit, count: 0, first: vec![] };
-    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &mut |pair| pairs.push(pair)));
+    let asked = |[a, b]: [u32; 2]| some.is_none_or(|some| some[a as usize] || some[b as usize]);
+    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &asked, &mut |pair| pairs.push(pair)));
     if !tree.leaves.is_empty() {
         let mut all = vec![0];
         tree.without_own_group(top, 0, &mut all);
@@ -230,9 +250,13 @@ impl Walk<'_> {
     #[inline(always)]
     unsafe fn inherit<L: Wide>(&self, level: usize, i: usize, a: usize, list: &[u32], next: &mut Vec<u32>) {
         let b = lane(&self.tree.levels[level][i], a);
+        let any = self.tree.is_asked(level, i, a);
         for &j in list {
             // SAFETY: handed on.
             let mut m = unsafe { filter::overlap::<L>(&self.tree.levels[level][j as usize], &b) };
+            if !any {
+                m &= self.tree.asked[level][j as usize];
+            }
             if i == j as usize {
                 m &= u32::MAX << a;
             }
@@ -267,6 +291,9 @@ impl Walk<'_> {
                 let mut among = unsafe { filter::overlap::<L>(boxes, &b) };
                 if i == j {
                     among &= u32::MAX << a << 1;
+                }
+                if !t.is_asked(0, i, a) {
+                    among &= t.asked[0][j];
                 }
                 if among == 0 || b[0] > b[3] {
                     continue; // an empty box has no area, or fills up

@@ -26,10 +26,22 @@ fn check(name: &str, facets: &[Facet]) -> usize {
     want.sort_unstable();
     for (level, threads) in levels().flat_map(|l| [(l, 1), (l, 3)]) {
         for limit in [usize::MAX, 7, 0] {
-            let got = on_threads(threads, || with(&mesh, &topology, limit, &Silent, level)).unwrap();
+            let search = Search { mesh: &mesh, topology: &topology, some: None, limit };
+            let got = on_threads(threads, || with(&search, &Silent, level)).unwrap();
             let first = &want[..want.len().min(limit)];
             assert_eq!(got.count, want.len(), "{name} {level:?} {threads} {limit}");
             assert!(got.first == first, "{name} {level:?} {threads} {limit}");
+        }
+        // The last tenth, every third, the first, none.
+        let n = mesh.faces.len();
+        let chosen: [&dyn Fn(usize) -> bool; 4] =
+            [&|f| f >= n - n / 10, &|f| f % 3 == 0, &|f| f == 0, &|_| false];
+        for (i, chosen) in chosen.into_iter().enumerate() {
+            let some: Vec<bool> = (0..n).map(chosen).collect();
+            let search = Search { mesh: &mesh, topology: &topology, some: Some(&some), limit: usize::MAX };
+            let got = on_threads(threads, || with(&search, &Silent, level)).unwrap().first;
+            let want = want.iter().filter(|pair| pair.iter().any(|f| some[*f as usize]));
+            assert!(want.eq(&got), "{name} {i} {level:?} {threads}");
         }
     }
     want.len()

@@ -47,6 +47,8 @@ pub(super) struct Tree {
     pub frame: Frame,
     /// For each node of each level its group, if all below it is of one; nothing at all where there are no groups.
     group_of: Vec<Vec<Option<u32>>>,
+    /// For each node of each level the children (bit by bit) that hold a facet of `some`; nothing at all where all do.
+    pub asked: Vec<Vec<u32>>,
 }
 
 impl Frame {
@@ -190,9 +192,20 @@ fn hull(b: &Boxes) -> [f32; 6] {
     })
 }
 
+/// One bit each, the first the lowest.
+fn bits(flags: impl Iterator<Item = bool>) -> u32 {
+    (0..).zip(flags).fold(0, |bits, (i, flag)| bits | u32::from(flag) << i)
+}
+
+/// Which facets of each leaf are among `some`.
+fn asked(leaves: &[Leaf], some: &[bool]) -> Vec<u32> {
+    let flag = |facet: u32| some.get(facet as usize).copied().unwrap_or(false);
+    leaves.par_iter().map(|leaf| bits(leaf.face.0.into_iter().map(flag))).collect()
+}
+
 impl Tree {
     /// The tree of the facets that have a shell; those of a group in leaves of their own. Uses the current rayon pool.
-    pub fn build(mesh: &Mesh, topology: &Topology, groups: &[Vec<u32>]) -> Tree {
+    pub fn build(mesh: &Mesh, topology: &Topology, groups: &[Vec<u32>], some: Option<&[bool]>) -> Tree {
         let bounds = mesh.finite_bounds();
         let frame = Frame::of(mesh, &bounds);
         let grouped: BTreeSet<u32> = groups.iter().flatten().copied().collect();
@@ -223,6 +236,7 @@ impl Tree {
             }
             group_of.push(of_leaf);
         }
+        let mut asked: Vec<Vec<u32>> = some.map(|some| asked(&leaves, some)).into_iter().collect();
         let mut levels = vec![boxes];
         while levels[levels.len() - 1].len() > 1 {
             let up = levels[levels.len() - 1].par_chunks(W).map(|part| {
@@ -240,8 +254,18 @@ impl Tree {
                 let up = below.chunks(W).map(common).collect();
                 group_of.push(up);
             }
+            if let Some(below) = asked.last() {
+                let up = below.chunks(W).map(|part| bits(part.iter().map(|b| *b != 0))).collect();
+                asked.push(up);
+            }
         }
-        Tree { leaves, levels, frame, group_of }
+        Tree { leaves, levels, frame, group_of, asked }
+    }
+
+    /// Whether child `a` of node `i` holds a facet of `some`: then its pairs with all others are asked for.
+    #[inline(always)]
+    pub fn is_asked(&self, level: usize, i: usize, a: usize) -> bool {
+        self.asked.get(level).is_none_or(|asked| asked[i] >> a & 1 == 1)
     }
 
     /// Leaves of `list` those nodes of a level that are not of the same group as node `i`.

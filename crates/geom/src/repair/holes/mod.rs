@@ -142,7 +142,7 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
 /// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending.
 fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
     let known = work.known()?;
-    let crossings = work.crossings()?;
+    let crossings = work.crossings_of(|f, _| f >= first)?;
     if crossings.first.len() < crossings.count {
         return Ok((first..work.mesh().faces.len() as u32).collect());
     }

@@ -4,10 +4,10 @@ mod holes;
 mod steps;
 
 use super::*;
-use crate::check::tests::{counts, planted, sound};
+use crate::check::tests::{add, counts, planted, sound};
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::topology::tests::on_threads;
+use crate::topology::tests::{block, on_threads};
 use std::collections::BTreeSet;
 
 pub(super) fn mend(mesh: &Mesh) -> Repaired {
@@ -156,4 +156,40 @@ fn a_heap_of_thin_facets_does_not_grow() {
     let faces: Vec<[u32; 3]> = (0..60).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
     let repaired = mend_with(&Mesh { positions, faces }, &Options { gap: Some(1.0), ..Options::default() });
     assert!(repaired.mesh.faces.len() < 600, "{} facets", repaired.mesh.faces.len());
+}
+
+/// Facets that lie upon each other in a plane, nearly all against all, beside a box with a pin in its mouth and a box that
+/// touches its corner: patches and parted vertices are searched by themselves, not with the whole heap each time.
+#[test]
+fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
+    let random = &mut Random::new(22);
+    let mut mesh = block(4, 4.0);
+    mesh.faces.retain(|f| f.iter().any(|v| mesh.positions[*v as usize][2] != 4.0));
+    add(&mut mesh, &block(1, 1.0), [1.5, 1.5, 3.5]);
+    add(&mut mesh, &block(1, 1.0), [-1.0; 3]);
+    let place = |_| [random.unit(), random.unit(), 9.0];
+    let heap = Mesh {
+        positions: (0..4500).map(place).collect(),
+        faces: (0..1500).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(),
+    };
+    add(&mut mesh, &heap, [0.0; 3]);
+    let steps = vec!["holes", "non_manifold_vertices"];
+    let repaired = mend_with(&mesh, &Options { steps, ..Options::default() });
+    assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{:?}", repaired.changes);
+}
+
+/// Flat facets in a plane with corners on each other's edges: cut there they make ever more that cross.
+#[test]
+fn a_heap_that_gets_worse_is_left_alone_after_two_rounds() {
+    let random = &mut Random::new(8);
+    let place = |_| [1000.0, random.below(2) as f64 * 0.25, random.below(64) as f64 / 8.0];
+    let positions: Vec<Point> = (0..73).map(place).collect();
+    let face = |_| {
+        let first = random.below(73) as u32;
+        std::array::from_fn(|k| (first + k as u32 * (1 + random.below(3) as u32)) % 73)
+    };
+    let repaired = mend(&Mesh { positions, faces: (0..111).map(face).collect() });
+    let crossings = |r: &Report| r.found("self_intersections").map_or(0, |f| f.count);
+    assert_eq!(repaired.rounds, 2);
+    assert!(crossings(&repaired.before) < crossings(&repaired.after));
 }
