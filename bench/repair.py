@@ -5,9 +5,9 @@
 The python given needs meshlib, pymeshfix, trimesh and numpy; admesh must be on the PATH. Files that are not STL become
 binary STL first, so that all programs read the same. A result counts as sound when `trueness check` finds no defect in the file
 written. Deviation is the largest distance of either surface from the other, at places no farther apart than a hundredth of
-the diagonal, as a share of the diagonal. A vertex counts as moved when its place is gone and another has come within a
-twentieth of the diagonal: so vertices of facets that were torn out count as well where a patch has others nearby. All but the
-first number of a row are of the files that its program and trueness made sound.
+the diagonal, as a share of the diagonal. A vertex counts as gone when no facet of the result has a corner at its very place:
+it was moved, joined with another, or its facets were removed. All but the first number of a row are of the files that its
+program and trueness made sound.
 """
 import argparse
 import json
@@ -48,11 +48,10 @@ def spread(path, step, out):
                     print(*(u * x + v * y + w * z for x, y, z in zip(a, b, c)), file=file)
 
 
-def moved(before, after, near):
-    """Places that are gone while others have come nearby."""
+def gone(before, after):
+    """How many places of a file are not in the other."""
     before, after = ({p for f in facets(path) for p in f} for path in (before, after))
-    gone, come = before - after, list(after - before)
-    return sum(any(math.dist(p, q) < near for q in come) for p in gone)
+    return len(before - after)
 
 
 class Judge:
@@ -82,12 +81,12 @@ class Judge:
         out.unlink(missing_ok=True)
         self.repair(program, path, out)
         if not out.exists() or out.stat().st_size <= 84:
-            return {"sound": False, "moved": None, "deviation": None}
+            return {"sound": False, "gone": None, "deviation": None}
         step = diagonal / 100
         far = max(self.deviation(path, out, step, folder), self.deviation(out, path, step, folder))
         return {
             "sound": self.sound(out),
-            "moved": moved(path, out, diagonal / 20),
+            "gone": gone(path, out),
             "deviation": far / diagonal,
         }
 
@@ -113,17 +112,17 @@ def main():
             folder = pathlib.Path(name)
             stl, diagonal = as_stl(arguments.trueness, path, folder)
             rows[path.name] = [judge.judge(p, stl, folder, diagonal) for p in PROGRAMS]
-        cells = [f"{'sound' if r['sound'] else '-----'} {r['moved']} {r['deviation']}" for r in rows[path.name]]
+        cells = [f"{'sound' if r['sound'] else '-----'} {r['gone']} {r['deviation']}" for r in rows[path.name]]
         print(path.name, *cells, sep=" | ", flush=True)
     print(f"\n{len(rows)} files\n")
-    print("| program | files made sound | moved | of trueness there | largest deviation, mean | of trueness there |")
+    print("| program | files made sound | vertices gone | of trueness there | largest deviation, mean | of trueness there |")
     print("|---|---|---|---|---|---|")
     for i, program in enumerate(PROGRAMS):
         made = sum(row[i]["sound"] for row in rows.values())
         both = [row for row in rows.values() if row[i]["sound"] and row[0]["sound"]]
-        shifted = [sum(row[k]["moved"] for row in both) for k in (i, 0)]
+        vertices = [sum(row[k]["gone"] for row in both) for k in (i, 0)]
         mean = [100 * sum(row[k]["deviation"] for row in both) / max(len(both), 1) for k in (i, 0)]
-        print(f"| {program} | {made} of {len(rows)} | {shifted[0]} | {shifted[1]} | {mean[0]:.3f} % | {mean[1]:.3f} % |")
+        print(f"| {program} | {made} of {len(rows)} | {vertices[0]} | {vertices[1]} | {mean[0]:.3f} % | {mean[1]:.3f} % |")
 
 
 main()

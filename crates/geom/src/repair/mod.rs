@@ -171,7 +171,6 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let welded = as_it_is(mesh)?;
     let before = check::check(&welded, None, &check_options, progress)?;
     let wanted: Vec<&Step> = STEPS.into_iter().filter(|s| options.steps.contains(&s.name)).collect();
-    let crossings = before.found("self_intersections").map_or(0, |found| found.count);
     let mut work = Work::new(welded.clone(), options, progress)?;
     let mut rounds = 0;
     while rounds < ROUNDS {
@@ -180,7 +179,8 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
             (step.run)(&mut work)?;
         }
         rounds += 1;
-        if work.changes.len() == done || rounds > 1 && gets_no_better(&mut work, crossings)? {
+        // A tangle that two rounds have not undone gets no better.
+        if work.changes.len() == done || rounds > 1 && work.crossings(|_, _| true)?.is_none() {
             break;
         }
     }
@@ -193,14 +193,6 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
     let after = check::check(&mesh, None, &check_options, progress)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts })
-}
-
-/// Whether this is a tangle that two rounds have not undone: far more facets cross than at first, or too many to be listed.
-fn gets_no_better(work: &mut Work, at_first: usize) -> Result<bool, RepairError> {
-    /// So many more cross at times where the next round mends it.
-    const MORE: usize = 100;
-    let crossings = work.crossings()?;
-    Ok(crossings.count > at_first + MORE || crossings.first.len() < crossings.count)
 }
 
 /// The mesh itself if its vertices are distinct places that facets use; else welded.

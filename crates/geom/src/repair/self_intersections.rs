@@ -19,12 +19,10 @@ const MOST: f64 = 0.75;
 const CRUMB: f64 = 0.25;
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
-    let found = work.crossings()?;
-    let crossings = found.first;
-    // Of a tangle too large to be listed nothing would be left.
-    if crossings.is_empty() || crossings.len() < found.count {
+    // Of a tangle nothing would be left.
+    let Some(crossings) = work.crossings(|_, _| true)?.filter(|pairs| !pairs.is_empty()) else {
         return Ok(());
-    }
+    };
     let known = work.known()?;
     let shell_of = known.topology.shell_of.clone();
     let mut torn = vec![false; work.mesh().faces.len()];

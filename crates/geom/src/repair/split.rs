@@ -74,13 +74,14 @@ fn part(
         .chain(again.iter().flat_map(|(_, pair)| pair))
         .copied()
         .collect();
-    let crossings = work.crossings_of(|f, _| changing.contains(&f))?.count;
+    let count = |pairs: Option<Vec<_>>| pairs.map_or(usize::MAX, |pairs| pairs.len());
+    let crossings = count(work.crossings(|f, _| changing.contains(&f))?);
     let first = before.positions.len() as u32;
     for (i, offset) in OFFSETS.into_iter().enumerate() {
         let distance = offset * work.gap;
         set_off(work, &lost, &again, distance);
         // What has changed has a new vertex.
-        let now = work.crossings_of(|_, face| face.iter().any(|v| *v >= first))?.count;
+        let now = count(work.crossings(|_, face| face.iter().any(|v| *v >= first))?);
         if now <= crossings || i + 1 == OFFSETS.len() {
             break;
         }

@@ -5,14 +5,14 @@
 
 use super::{Change, Options, RepairError};
 use crate::check::free_edges::FreeEdges;
-use crate::check::intersect::{self, Crossings};
+use crate::check::intersect;
 use crate::check::{self, Finding, Inspected, Kind};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, plus, times};
 use crate::topology::{Properties, Topology};
 use std::collections::BTreeSet;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// What a step works on.
 pub(super) struct Work<'a> {
@@ -41,7 +41,6 @@ pub(super) struct Known {
     pub topology: Topology,
     pub properties: Properties,
     pub free_edges: FreeEdges,
-    crossings: OnceLock<Crossings>,
 }
 
 impl<'a> Work<'a> {
@@ -108,38 +107,22 @@ impl<'a> Work<'a> {
         let topology = Topology::of(&self.mesh)?;
         let properties = Properties::of(&self.mesh, &topology);
         let free_edges = FreeEdges::of(&topology);
-        let known = Arc::new(Known { topology, properties, free_edges, crossings: OnceLock::new() });
+        let known = Arc::new(Known { topology, properties, free_edges });
         self.known = Some(known.clone());
         Ok(known)
     }
 
-    /// Pairs of facets that meet where they should not. In a tangle, where pairs outnumber facets many times, only some
-    /// are listed: all pairs of a large one would not fit into memory.
-    pub(super) fn crossings(&mut self) -> Result<Crossings, RepairError> {
-        let known = self.known()?;
-        if let Some(crossings) = known.crossings.get() {
-            return Ok(crossings.clone());
-        }
-        let limit = self.listed();
-        let crossings =
-            intersect::first_self_intersections(&self.mesh, &known.topology, limit, self.progress)?;
-        Ok(known.crossings.get_or_init(|| crossings).clone())
-    }
-
-    /// The most pairs that are listed.
-    fn listed(&self) -> usize {
-        10_000 + 8 * self.mesh.faces.len()
-    }
-
-    /// The pairs that hang on facets chosen by number and corners; all others are as they were before those changed.
-    pub(super) fn crossings_of(
+    /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners): of facets that
+    /// change, all others stay as they are. `None` for a tangle, where pairs outnumber facets many times.
+    pub(super) fn crossings(
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,
-    ) -> Result<Crossings, RepairError> {
+    ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+        const FEW: usize = 10_000;
         let known = self.known()?;
+        let most = FEW + 8 * self.mesh.faces.len();
         let some: Vec<bool> = (0..).zip(&self.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
-        let limit = self.listed();
-        Ok(intersect::self_intersections_of(&some, &self.mesh, &known.topology, limit, self.progress)?)
+        Ok(intersect::few_self_intersections(&self.mesh, &known.topology, &some, most, self.progress)?)
     }
 
     /// All that the check finds of a kind which needs no crossings.

@@ -25,6 +25,8 @@ use crate::topology::same::W;
 use filter::Wide;
 use hub::Hub;
 use rayon::prelude::*;
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 use tree::{Boxes, Leaf, Tree};
 
 const EVERYWHERE: [f32; 6] = {
@@ -70,22 +72,24 @@ pub fn first_self_intersections(
     limit: usize,
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
-    with(&Search { mesh, topology, some: None, limit }, progress, Level::detect())
+    with(&Search { mesh, topology, some: None, limit, most: usize::MAX }, progress, Level::detect())
 }
 
-/// As [`first_self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet):
-/// what has changed against everything, say. Takes little more than sorting all facets and looking around those few.
+/// As [`self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet): what
+/// has changed against everything, say. `None` if there are more than `most`: the search ends where that is known.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn self_intersections_of(
-    some: &[bool],
+pub fn few_self_intersections(
     mesh: &Mesh,
     topology: &Topology,
-    limit: usize,
+    some: &[bool],
+    most: usize,
     progress: &dyn Progress,
-) -> Result<Crossings, Cancelled> {
-    with(&Search { mesh, topology, some: Some(some), limit }, progress, Level::detect())
+) -> Result<Option<Vec<[u32; 2]>>, Cancelled> {
+    let search = Search { mesh, topology, some: Some(some), limit: usize::MAX, most };
+    let found = with(&search, progress, Level::detect())?;
+    Ok((found.count <= most).then_some(found.first))
 }
 
 /// What is searched.
@@ -94,18 +98,26 @@ struct Search<'a> {
     topology: &'a Topology,
     /// Flags of the facets of which each pair has one; `None`: all.
     some: Option<&'a [bool]>,
+    /// How many of the pairs are listed.
     limit: usize,
+    /// Beyond so many pairs there is no need to find more.
+    most: usize,
 }
 
 fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
-    let &Search { mesh, topology, some, limit } = search;
+    let &Search { mesh, topology, some, limit, most } = search;
     let hubs = hub::hubs(mesh, topology);
     let tree = Tree::build(mesh, topology, &hubs.iter().map(Hub::facets).collect::<Vec<_>>(), some);
-    let walk = Walk { mesh, tree: &tree, progress };
+    let walk = Walk { mesh, tree: &tree, progress, most, found: AtomicUsize::new(0) };
     let top = tree.levels.len() - 1;
     let mut pairs = Pairs { limit, count: 0, first: vec![] };
-    let asked = |[a, b]: [u32; 2]| some.is_none_or(|some| some[a as usize] || some[b as usize]);
-    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &asked, &mut |pair| pairs.push(pair)));
+    let asked =
+        |[a, b]: [u32; 2]| some.is_none_or(|some| some[a as usize] || some[b as usize]) && !walk.has_enough();
+    let mut found = |pair| {
+        walk.found.fetch_add(1, Relaxed);
+        pairs.push(pair);
+    };
+    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &asked, &mut found));
     if !tree.leaves.is_empty() {
         let mut all = vec![0];
         tree.without_own_group(top, 0, &mut all);
@@ -129,6 +141,9 @@ struct Walk<'a> {
     mesh: &'a Mesh,
     tree: &'a Tree,
     progress: &'a dyn Progress,
+    most: usize,
+    /// Pairs found so far, wherever.
+    found: AtomicUsize,
 }
 
 /// Pairs found so far, of which the `limit` least are of interest.
@@ -202,6 +217,10 @@ fn lane(b: &Boxes, i: usize) -> [f32; 6] {
 }
 
 impl Walk<'_> {
+    fn has_enough(&self) -> bool {
+        self.found.load(Relaxed) > self.most
+    }
+
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
     ///
     /// # Safety
@@ -274,6 +293,10 @@ impl Walk<'_> {
     /// The processor has the instructions of `L`.
     #[inline(always)]
     unsafe fn leaf_pairs<L: Wide>(&self, i: usize, list: &[u32], out: &mut Pairs) {
+        if self.has_enough() {
+            return;
+        }
+        let before = out.count;
         let t = self.tree;
         let (l, own) = (&t.leaves[i], &t.levels[0][i]);
         let planes = filter::planes(self.mesh, &t.frame, l);
@@ -307,6 +330,9 @@ impl Walk<'_> {
                 let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
+        }
+        if out.count > before {
+            self.found.fetch_add(out.count - before, Relaxed);
         }
     }
 

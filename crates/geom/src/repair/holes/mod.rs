@@ -142,11 +142,10 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
 /// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending.
 fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
     let known = work.known()?;
-    let crossings = work.crossings_of(|f, _| f >= first)?;
-    if crossings.first.len() < crossings.count {
+    let Some(crossings) = work.crossings(|f, _| f >= first)? else {
         return Ok((first..work.mesh().faces.len() as u32).collect());
-    }
-    let mut bad: Vec<u32> = crossings.first.into_iter().flatten().collect();
+    };
+    let mut bad: Vec<u32> = crossings.into_iter().flatten().collect();
     for edge in &known.topology.non_manifold_edges {
         bad.extend(known.topology.facets_at_edge(work.mesh(), edge.vertices));
     }

@@ -107,3 +107,17 @@ fn a_hole_that_something_stands_in_stays_open() {
     assert_eq!(counts(&repaired.after), counts(&repaired.before));
     assert_eq!(repaired.changes, []);
 }
+
+/// The patch is one facet, and that crosses a pin.
+#[test]
+fn a_hole_of_one_facet_that_something_stands_in_stays_open() {
+    let mut mesh = block(1, 4.0);
+    let top =
+        mesh.faces.iter().position(|f| f.iter().all(|v| mesh.positions[*v as usize][2] == 4.0)).unwrap();
+    let corners = mesh.faces.remove(top).map(|v| mesh.positions[v as usize]);
+    let middle: Point = std::array::from_fn(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
+    let options = Options { steps: vec!["holes"], ..Options::default() };
+    assert!(mend_with(&mesh, &options).after.sound);
+    add(&mut mesh, &block(1, 0.5), middle.map(|x| x - 0.25));
+    assert_eq!(mend_with(&mesh, &options).changes, []);
+}

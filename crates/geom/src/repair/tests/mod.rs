@@ -1,6 +1,7 @@
 //! Planted defects are mended, sound meshes left alone; what each step does in its special cases.
 
 mod holes;
+mod joints;
 mod steps;
 
 use super::*;
@@ -178,9 +179,9 @@ fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
     assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{:?}", repaired.changes);
 }
 
-/// Flat facets in a plane with corners on each other's edges: cut there they make ever more that cross.
+/// Flat facets in a plane with corners on each other's edges: cut there, they would only make ever more that cross.
 #[test]
-fn a_heap_that_gets_worse_is_left_alone_after_two_rounds() {
+fn facets_that_lie_upon_each_other_are_not_cut() {
     let random = &mut Random::new(8);
     let place = |_| [1000.0, random.below(2) as f64 * 0.25, random.below(64) as f64 / 8.0];
     let positions: Vec<Point> = (0..73).map(place).collect();
@@ -189,7 +190,7 @@ fn a_heap_that_gets_worse_is_left_alone_after_two_rounds() {
         std::array::from_fn(|k| (first + k as u32 * (1 + random.below(3) as u32)) % 73)
     };
     let repaired = mend(&Mesh { positions, faces: (0..111).map(face).collect() });
+    assert!(repaired.before.found("t_junctions").is_some_and(|found| found.count > 300));
     let crossings = |r: &Report| r.found("self_intersections").map_or(0, |f| f.count);
-    assert_eq!(repaired.rounds, 2);
-    assert!(crossings(&repaired.before) < crossings(&repaired.after));
+    assert!(crossings(&repaired.after) <= crossings(&repaired.before));
 }

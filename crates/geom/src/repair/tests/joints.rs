@@ -1,0 +1,132 @@
+//! What is joined, what is parted, and that neither undoes the other.
+
+use super::*;
+use crate::space::plus;
+use crate::topology::weld;
+
+fn only(steps: &[&'static str]) -> Options {
+    Options { steps: steps.to_vec(), ..Options::default() }
+}
+
+/// Two blocks, the second with its lowest corner at `offset`.
+fn two(offset: Point) -> Mesh {
+    let mut mesh = block(4, 4.0);
+    add(&mut mesh, &block(4, 4.0), offset);
+    mesh
+}
+
+#[test]
+fn the_larger_fan_keeps_the_vertex() {
+    let mut mesh = block(1, 0.5);
+    add(&mut mesh, &block(4, 4.0), [0.5; 3]);
+    let repaired = mend(&mesh);
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    // The new vertex lies inside the small block.
+    let new = repaired.mesh.positions.last().unwrap();
+    assert!(new.iter().all(|x| *x > 0.49 && *x < 0.5), "{new:?}");
+}
+
+/// So small a gap that single precision rounds the first offsets to nothing.
+#[test]
+fn parts_go_farther_from_each_other_until_they_do_not_touch() {
+    let options = Options { gap: Some(1e-9), ..only(&["non_manifold_edges"]) };
+    let repaired = mend_with(&two([4.0, 4.0, 0.0]), &options);
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert_eq!(repaired.after.soundness.shells, 2);
+}
+
+#[test]
+fn vertices_that_cannot_be_set_off_become_one_again() {
+    let options = Options { gap: Some(1e-15), ..only(&["non_manifold_vertices"]) };
+    let repaired = mend_with(&two([4.0; 3]), &options);
+    assert_eq!(repaired.after.soundness.non_manifold_vertices, 1);
+    let places = weld::mesh(&repaired.mesh).unwrap().mesh.positions.len();
+    assert_eq!(places, repaired.mesh.positions.len());
+}
+
+/// Two facets that touch at a corner are parted; the new vertex comes to lie within the gap of a vertex of a third facet, or
+/// its edge within the stitching distance of one. Joined again, they would be parted again, and so on.
+#[test]
+fn what_was_parted_is_not_stitched() {
+    for (below, end) in [(0.045, -9.0), (0.055, -0.015)] {
+        let positions = vec![
+            [0.0; 3],
+            [20.0, 0.0, 0.0],
+            [20.0, 20.0, 0.0],
+            [-10.0, 0.0, 0.0],
+            [-10.0, -10.0, 0.0],
+            [0.0, 0.0, -below],
+            [-10.0, 0.0, end],
+            [-5.0, 5.0, -10.0],
+        ];
+        let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 3, 4], [5, 6, 7]] };
+        let options = Options { gap: Some(0.01), stitch: Some(0.02), ..Options::default() };
+        let repaired = mend_with(&mesh, &options);
+        let place = repaired.mesh.positions.last();
+        assert_eq!(place, Some(&[0.0, 0.0, -0.04]), "{below}: set off by four gaps");
+        assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{below}: {:?}", repaired.changes);
+    }
+}
+
+#[test]
+fn the_vertex_with_more_facets_stays_whatever_its_number() {
+    let mut mesh = block(4, 4.0);
+    let first = mesh.positions.len() as u32;
+    let loose = mesh.faces[20].map(|v| plus(mesh.positions[v as usize], [3e-5, -2e-5, 1e-5]));
+    mesh.positions.extend(loose);
+    mesh.faces[20] = [first, first + 1, first + 2];
+    // The loose facet has the lowest numbers now.
+    mesh.positions.reverse();
+    mesh.faces.iter_mut().for_each(|f| *f = f.map(|v| first + 2 - v));
+    let repaired = mend(&mesh);
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert_eq!(repaired.mesh.positions, mesh.positions[3..]);
+}
+
+/// The stitching distance is longer than the edges of a square hole, but it does not fold up.
+#[test]
+fn a_hole_narrower_than_the_stitching_distance_is_filled_and_not_stitched() {
+    let mut mesh = block(4, 4.0);
+    let corner = |p: &Point| p[2] == 4.0 && p[0] <= 2.0 && p[1] <= 2.0 && p[0] >= 1.0 && p[1] >= 1.0;
+    mesh.faces.retain(|f| !f.iter().all(|v| corner(&mesh.positions[*v as usize])));
+    let repaired = mend_with(&mesh, &Options { stitch: Some(2.0), ..Options::default() });
+    assert_eq!((repaired.before.soundness.boundary_edges, repaired.counts.facets_added), (4, 2));
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert_eq!(repaired.after.properties.signed_volume, 64.0);
+}
+
+#[test]
+fn of_doubled_facets_that_look_both_ways_the_right_one_stays() {
+    let sound = block(4, 4.0);
+    for first in [true, false] {
+        let mut mesh = sound.clone();
+        let [a, b, c] = mesh.faces[20];
+        mesh.faces.push([a, c, b]);
+        if first {
+            mesh.faces.swap_remove(20);
+            mesh.faces.push([a, b, c]);
+        }
+        let repaired = mend_with(&mesh, &only(&["duplicates"]));
+        assert!(repaired.after.sound, "{first}: {:?}", counts(&repaired.after));
+        assert_eq!(repaired.mesh.faces.len(), sound.faces.len());
+    }
+}
+
+/// Three pages at one spine: once a small one is gone, the others are a surface.
+#[test]
+fn of_two_fins_at_one_edge_one_is_needed() {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.5, 100.0, 0.0], [0.5, -1.0, 0.5], [0.5, -1.0, -0.5]];
+    let mesh = Mesh { positions, faces: vec![[0, 1, 2], [1, 0, 3], [1, 0, 4]] };
+    let repaired = mend_with(&mesh, &only(&["fins"]));
+    assert_eq!((repaired.changes.len(), repaired.mesh.faces.len()), (1, 2));
+}
+
+#[test]
+fn small_sheets_beside_a_large_one_are_no_scraps() {
+    let mut mesh = block(4, 4.0);
+    mesh.faces.truncate(8);
+    let mut piece = block(1, 0.25);
+    piece.faces.truncate(1);
+    add(&mut mesh, &piece, [9.0; 3]);
+    assert_eq!(mend_with(&mesh, &only(&["scraps"])).changes, []);
+}
