@@ -1,13 +1,14 @@
 //! Least squares of orthogonal distances: Levenberg–Marquardt on streamed normal equations.
 //!
 //! D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963).
-//! Ours differs in three points. The unknowns are small motions about the present element, so the frame is
+//! Ours differs in four points. The unknowns are small motions about the present element, so the frame is
 //! renewed in every step. Damping starts at zero, as the starts are good. And once the linear model says that
 //! the sum of squares cannot fall by more than its own rounding, steps are taken unseen until they stop
-//! shrinking: the gradient still has digits where the sum has none left.
+//! shrinking: the gradient still has digits where the sum has none left. By then the normal matrix changes no more that
+//! shows, and is kept: only the gradient is summed.
 
 use super::family::{Element, Family};
-use super::normal::{Sums, Weighing, sums};
+use super::normal::{Sums, Weighing, sums, sums_near};
 use super::sample::Sample;
 
 /// When to stop.
@@ -31,7 +32,8 @@ pub(super) const NEAR: Effort = Effort { steps: 40, enough: 1e-3 };
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Optimum<const P: usize> {
     pub element: Element,
-    /// Of the last pass: before the very last step, which changes nothing that shows.
+    /// Of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one or
+    /// two passes before, as long as the steps since were short ([`ALIKE`]).
     pub sums: Sums<P>,
     pub steps: usize,
     pub converged: bool,
@@ -41,6 +43,11 @@ pub(super) struct Optimum<const P: usize> {
 const VISIBLE_FALL: f64 = 1e-11;
 /// Steps below this, root mean square in the unit frame, are in the reach of rounding.
 const ROUNDING_REACH: f64 = 1e-10;
+/// Steps below this, root mean square in the unit frame, leave the normal matrix as it is, to more digits than steps and
+/// uncertainties need.
+const ALIKE: f64 = 1e-6;
+/// What remains of a step in the next while steps shrink fast: if more does, the normal matrix is renewed.
+const SWIFT: f64 = 0.1;
 /// Damping below which none is used, and the first damping used once it is needed.
 const DAMPING: (f64, f64) = (1e-7, 1e-3);
 
@@ -80,7 +87,11 @@ pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
             now.converged = true;
             break;
         }
-        let next = sums::<P, F, W>(&element, sample, weigh);
+        let next = if length <= ALIKE && length <= SWIFT * last_length {
+            sums_near::<P, F, W>(&element, sample, weigh, &now.sums)
+        } else {
+            sums::<P, F, W>(&element, sample, weigh)
+        };
         let gain = (now.sums.square - next.square) / fall;
         if unseen || gain > 1e-4 {
             now.element = element;

@@ -8,14 +8,15 @@ use crate::space::Point;
 
 /// Points of one group: few enough that their rows stay in the nearest cache.
 pub(super) const GROUP: usize = 32;
-/// Numbers that are summed side by side.
-const PARTS: usize = 4;
+/// Numbers that are summed, or compared, side by side.
+pub(super) const PARTS: usize = 4;
 
 /// One number of each point of a group.
 pub(super) type Lanes = [f64; GROUP];
 
 /// A sum in four parts.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub(super) struct Sum([f64; PARTS]);
 
 impl Sum {
@@ -25,10 +26,9 @@ impl Sum {
     #[inline(always)]
     pub(super) fn add_products(&mut self, a: &Lanes, b: &Lanes) {
         let mut sum = self.0;
-        let ((a, _), (b, _)) = (a.as_chunks::<PARTS>(), b.as_chunks::<PARTS>());
-        for (a, b) in a.iter().zip(b) {
+        for first in 0..GROUP / PARTS {
             for l in 0..PARTS {
-                sum[l] += a[l] * b[l];
+                sum[l] += a[PARTS * first + l] * b[PARTS * first + l];
             }
         }
         self.0 = sum;
@@ -44,24 +44,6 @@ impl Sum {
 #[inline(always)]
 pub(super) fn groups(points: &[Point]) -> usize {
     points.len().div_ceil(GROUP)
-}
-
-/// Group `k` of the points and the number of those in it that count: the last group is filled up with its last point, in
-/// `filled`.
-#[inline(always)]
-pub(super) fn group<'a>(
-    points: &'a [Point],
-    k: usize,
-    filled: &'a mut [Point; GROUP],
-) -> (&'a [Point; GROUP], usize) {
-    let from = &points[k * GROUP..];
-    if let Some(whole) = from.first_chunk() {
-        return (whole, GROUP);
-    }
-    for (l, place) in filled.iter_mut().enumerate() {
-        *place = from[l.min(from.len() - 1)];
-    }
-    (filled, from.len())
 }
 
 /// Compiles `$body` twice, for wide registers and for any processor, and takes what this processor has.

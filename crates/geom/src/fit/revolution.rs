@@ -8,6 +8,7 @@
 use super::pose::Pose;
 use super::sample::mean;
 use crate::space::{Point, Vector, dot, minus, plus, times};
+use std::sync::LazyLock;
 
 /// Mean and covariances of the coordinates `p` and of the products `q = (xx, xy, xz, yy, yz, zz)`.
 pub(super) struct Powers {
@@ -82,10 +83,9 @@ impl Powers {
         Powers { mean, product_mean, linear, mixed, square }
     }
 
-    /// The best algebraic body about the direction `w`.
-    fn axis(&self, w: Vector, profile: Profile) -> Option<Axis> {
-        let frame = Pose::along(self.mean, w);
-        let [u, v, w] = frame.axes;
+    /// The best algebraic body about the third of the directions `axes`.
+    fn axis(&self, axes: [Vector; 3], profile: Profile) -> Option<Axis> {
+        let [u, v, w] = axes;
         let along = product_form(w);
         let across: [f64; 6] = std::array::from_fn(|k| f64::from(matches!(k, 0 | 3 | 5)) - along[k]);
         let covariance = |b: &[f64; 6]| -> [f64; 6] { std::array::from_fn(|i| dot6(&self.square[i], b)) };
@@ -109,7 +109,6 @@ impl Powers {
             }
             Profile::Parabola => {
                 let g = with_linear(&along);
-                let axes = [u, v, w];
                 let mut normal: Vec<Vec<f64>> =
                     axes.iter().map(|&a| axes.iter().map(|&b| m(a, b)).collect()).collect();
                 for (row, &a) in normal.iter_mut().zip(&axes) {
@@ -128,7 +127,7 @@ impl Powers {
             dot6(&across, &self.product_mean) + center[0] * center[0] + center[1] * center[1];
         let origin = plus(self.mean, plus(times(center[0], u), times(center[1], v)));
         Some(Axis {
-            pose: Pose { origin, axes: frame.axes },
+            pose: Pose { origin, axes },
             error: error.max(0.0) / (4.0 * radius_squared.max(1e-30)),
             radius_squared,
         })
@@ -137,31 +136,27 @@ impl Powers {
     /// The best axis for each of an even grid of directions and for those in `first`.
     pub(super) fn grid(&self, profile: Profile, first: &[Vector]) -> Vec<Axis> {
         let directions = first.iter().copied().chain(directions());
-        directions.filter_map(|w| self.axis(w, profile)).filter(|a| a.error.is_finite()).collect()
+        let axes = directions.filter_map(|w| self.axis(Pose::along(self.mean, w).axes, profile));
+        axes.filter(|a| a.error.is_finite()).collect()
     }
 
     /// At most `count` axes that are best among their neighbours, best first. `first` are directions that are
     /// looked at besides the grid.
     pub(super) fn axes(&self, profile: Profile, first: &[Vector], count: usize) -> Vec<Axis> {
-        let mut valleys = apart(self.grid(profile, first), count);
-        for axis in &mut valleys {
-            *axis = self.refined(*axis, profile);
+        let mut valleys = Vec::with_capacity(count);
+        for axis in apart(self.grid(profile, first), count) {
+            valleys.extend(self.refined(axis, profile, &valleys));
         }
         apart(valleys, count)
     }
 
-    /// A few Newton steps on the direction, by differences.
-    fn refined(&self, mut best: Axis, profile: Profile) -> Axis {
+    /// A few Newton steps on the direction, by differences; `None` where they lead into one of the `known` valleys and to
+    /// nothing better.
+    fn refined(&self, mut best: Axis, profile: Profile, known: &[Axis]) -> Option<Axis> {
         let mut h = 0.02;
         for _ in 0..4 {
-            let at = |a: f64, b: f64| {
-                let moved = best.pose.moved([0.0; 3], [a, b], 0.0);
-                self.axis(moved.axes[2], profile)
-            };
-            let error = |a: f64, b: f64| {
-                // The frame that `axis` builds about a direction is its own: only the error is compared.
-                at(a, b).map_or(f64::INFINITY, |x| x.error)
-            };
+            let at = |a: f64, b: f64| self.axis(best.pose.moved([0.0; 3], [a, b], 0.0).axes, profile);
+            let error = |a: f64, b: f64| at(a, b).map_or(f64::INFINITY, |x| x.error);
             let (e0, xp, xm, yp, ym) =
                 (best.error, error(h, 0.0), error(-h, 0.0), error(0.0, h), error(0.0, -h));
             let xy = error(h, h);
@@ -178,25 +173,30 @@ impl Powers {
                 break;
             }
             best = next;
+            if known.iter().any(|k| !apart_from(k, &best) && k.error <= best.error) {
+                return None;
+            }
             h *= 0.2;
         }
-        best
+        Some(best)
     }
 }
 
 /// The best `count` of the axes that are not of one valley, best first.
-fn apart(mut all: Vec<Axis>, count: usize) -> Vec<Axis> {
-    /// Directions closer than this are one valley: cos 12°.
-    const SAME: f64 = 0.978;
-    all.sort_by(|a, b| a.error.total_cmp(&b.error));
-    let mut chosen: Vec<Axis> = Vec::with_capacity(count);
-    for axis in all {
-        let far = |c: &Axis| dot(c.pose.axes[2], axis.pose.axes[2]).abs() < SAME;
-        if chosen.len() < count && chosen.iter().all(far) {
-            chosen.push(axis);
-        }
+fn apart(mut rest: Vec<Axis>, count: usize) -> Vec<Axis> {
+    let mut chosen = Vec::with_capacity(count);
+    while chosen.len() < count {
+        let Some(&best) = rest.iter().min_by(|a, b| a.error.total_cmp(&b.error)) else { break };
+        rest.retain(|axis| apart_from(&best, axis));
+        chosen.push(best);
     }
     chosen
+}
+
+/// Whether two axes are of two valleys: their directions differ by more than 12°.
+fn apart_from(a: &Axis, b: &Axis) -> bool {
+    const COSINE: f64 = 0.978;
+    dot(a.pose.axes[2], b.pose.axes[2]).abs() < COSINE
 }
 
 /// Directions of the even grid over the half sphere: about 15° apart.
@@ -204,7 +204,8 @@ const GRID: usize = 80;
 
 /// The directions of the grid.
 pub(super) fn directions() -> impl Iterator<Item = Vector> {
-    (0..GRID).map(grid_direction)
+    static ALL: LazyLock<[Vector; GRID]> = LazyLock::new(|| std::array::from_fn(grid_direction));
+    ALL.iter().copied()
 }
 
 /// The `k`-th direction of the grid: a spiral of the golden angle.

@@ -84,8 +84,8 @@ widest! {
 
 #[inline(always)]
 fn bounds_in(points: &[Point]) -> Option<Aabb> {
-    /// Coordinates side by side: those of 16 points.
-    const SIDE: usize = 48;
+    /// Coordinates side by side: those of 8 points.
+    const SIDE: usize = 24;
     // Minima pass over NaN; a sum of zeros does not.
     let (mut zeros, mut low, mut high) = ([0.0; SIDE], [f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]);
     let (parts, _) = points.as_flattened().as_chunks::<SIDE>();

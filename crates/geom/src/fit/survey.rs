@@ -1,7 +1,7 @@
 //! The distances of all points from a finished element: how large, how far apart, and whose are the extremes.
 
 use super::family::{Element, Family};
-use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
+use super::lanes::{GROUP, Lanes, PARTS, Sum, groups, widest};
 use super::normal::Placing;
 use super::sample::Sample;
 use crate::space::Point;
@@ -18,9 +18,9 @@ pub(super) struct Survey {
     pub greatest: f64,
 }
 
-/// The group at hand: its points where the last one is filled up, their local coordinates, their distances.
+/// The group at hand: where its points are, and their distances. Aligned as for the sums.
+#[repr(align(64))]
 struct Work {
-    filled: [Point; GROUP],
     local: [Lanes; 3],
     distance: Lanes,
 }
@@ -28,7 +28,7 @@ struct Work {
 impl Work {
     #[inline(always)]
     fn new() -> Work {
-        Work { filled: [[0.0; 3]; GROUP], local: [[0.0; GROUP]; 3], distance: [0.0; GROUP] }
+        Work { local: [[0.0; GROUP]; 3], distance: [0.0; GROUP] }
     }
     /// The distances of group `k`, and how many of them count.
     #[inline(always)]
@@ -39,8 +39,7 @@ impl Work {
         size: [f64; 2],
         placing: &Placing,
     ) -> usize {
-        let (group, count) = group(points, k, &mut self.filled);
-        placing.group(group, &mut self.local);
+        let count = placing.group(points, k, &mut self.local);
         for l in 0..GROUP {
             self.distance[l] = F::distance(size, [self.local[0][l], self.local[1][l], self.local[2][l]]);
         }
@@ -51,14 +50,16 @@ impl Work {
 #[inline(always)]
 fn block<const P: usize, F: Family<P>>(points: &[Point], size: [f64; 2], placing: &Placing) -> Survey {
     let mut square = Sum::ZERO;
-    let (mut least, mut greatest) = ([f64::INFINITY; GROUP], [f64::NEG_INFINITY; GROUP]);
+    let (mut least, mut greatest) = ([f64::INFINITY; PARTS], [f64::NEG_INFINITY; PARTS]);
     let mut work = Work::new();
     for k in 0..groups(points) {
         let count = work.distances::<P, F>(points, k, size, placing);
-        for l in 0..GROUP {
-            let d = work.distance[l];
-            least[l] = if d < least[l] { d } else { least[l] };
-            greatest[l] = if d > greatest[l] { d } else { greatest[l] };
+        for first in 0..GROUP / PARTS {
+            for l in 0..PARTS {
+                let d = work.distance[PARTS * first + l];
+                least[l] = if d < least[l] { d } else { least[l] };
+                greatest[l] = if d > greatest[l] { d } else { greatest[l] };
+            }
         }
         work.distance[count..].fill(0.0);
         square.add_products(&work.distance, &work.distance);
