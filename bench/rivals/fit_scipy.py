@@ -7,8 +7,11 @@ import json
 import os
 import sys
 
-import numpy as np
-from scipy.optimize import least_squares
+# Read by the linear algebra of NumPy and SciPy when they are loaded.
+os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = sys.argv[3]
+
+import numpy as np  # noqa: E402
+from scipy.optimize import least_squares  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from harness.fit import TRUTH, start_of  # noqa: E402
