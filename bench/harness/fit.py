@@ -91,8 +91,8 @@ def _frame(tilt):
 def measure(case, path, programs, rounds, repeat):
     """A row for each of `programs`, ours first, which takes the task as its last word. On one thread."""
     shape, count, task, goal, _ = case
-    # Short work is repeated: its first run pays for cold caches.
-    repeat = max(repeat, min(200, 3_000_000 // count))
+    # Short work is repeated: its first run pays for cold caches, and a processor takes a while to come up to speed.
+    repeat = max(repeat, min(1000, 3_000_000 // count))
     runs = {name: [] for name in programs}
     for round_ in range(rounds):
         for name in list(programs) if round_ % 2 == 0 else list(programs)[::-1]:

@@ -20,8 +20,8 @@ pub(super) struct Effort {
     pub enough: f64,
 }
 
-/// To the last digits.
-pub(super) const FULL: Effort = Effort { steps: 300, enough: 1e-17 };
+/// To the last digits: half of what a distance of 1 is rounded by.
+pub(super) const FULL: Effort = Effort { steps: 300, enough: 5e-17 };
 /// Good enough to choose between starts or to start on more points.
 pub(super) const ROUGH: Effort = Effort { steps: 40, enough: 1e-7 };
 

@@ -42,7 +42,8 @@ impl Subject for SegmentDocument {
         section(h, "elements", |h| elements(h, self));
         section(h, "model", |h| {
             h.raw("<dl class=\"facts pairs\">");
-            let pieces = if self.inputs.iter().any(|i| i.facets.is_some()) { "facets.title" } else { "points" };
+            let pieces =
+                if self.inputs.iter().any(|i| i.facets.is_some()) { "facets.title" } else { "points" };
             for (key, count) in [(pieces, self.count), ("pieces.none", self.unassigned)] {
                 fact(h, key, |h| {
                     h.count(count);
