@@ -8,7 +8,7 @@ use trueness_geom::space::{Point, cross, minus, norm, plus};
 
 /// Cuts the polygon `corners` (indices into `positions`, all of them valid) and hands each triangle to `out`.
 ///
-/// Fewer than three corners give nothing. Cost: linear where convex, else cubic at worst in the number of corners.
+/// Fewer than three corners give nothing. Cost: linear where convex, else quadratic in the number of corners.
 pub(crate) fn triangulate(positions: &[Point], corners: &[u32], mut out: impl FnMut([u32; 3])) {
     let [a, b, rest @ ..] = corners else { return };
     if let [c] = rest {
@@ -37,9 +37,11 @@ struct Ears {
     left: Vec<usize>,
 }
 
-/// Beyond this many corners a polygon is cut as a fan: cutting ears would take minutes, which only a file made to
-/// do harm asks for.
+/// Beyond this many corners a polygon is cut as a fan: a file full of longer ones, made to do harm, would take minutes.
 const MOST: usize = 4096;
+/// How often all corners are looked at again where none is known to be an ear. A polygon that does not cross itself never
+/// needs it: cutting an ear off makes or unmakes ears at its two neighbours only.
+const RECOUNTS: usize = 4;
 
 impl Ears {
     /// `None` where the polygon has no area to look along.
@@ -107,11 +109,18 @@ impl Ears {
     }
 
     fn cut(&mut self, mut out: impl FnMut([usize; 3])) {
+        let all = |ears: &Ears| (0..ears.left.len()).map(|k| ears.ear(k)).collect::<Vec<bool>>();
+        let mut ears = all(self);
+        let mut recounts = 0;
         let mut i = 0;
         while self.left.len() > 3 {
             let n = self.left.len();
+            if recounts < RECOUNTS && !ears.contains(&true) {
+                recounts += 1;
+                ears = all(self);
+            }
+            let next = (i..i + n).map(|k| k % n).find(|&k| ears[k]);
             // Where no corner is an ear, one that is flat does least harm, else any.
-            let next = (i..i + n).map(|k| k % n).find(|&k| self.ear(k));
             let flat = || {
                 (0..n).find(|&k| {
                     let [a, b, c] = self.around(k);
@@ -121,6 +130,10 @@ impl Ears {
             i = next.or_else(flat).unwrap_or(0);
             out(self.around(i));
             self.left.remove(i);
+            ears.remove(i);
+            for k in [(i + n - 2) % (n - 1), i % (n - 1)] {
+                ears[k] = self.ear(k);
+            }
         }
         if let [a, b, c] = self.left[..] {
             out([a, b, c]);
@@ -182,6 +195,17 @@ mod tests {
             })
             .collect();
         check(&star, 15.0 * (std::f64::consts::PI / 5.0).sin());
+    }
+
+    /// A file may hold many such outlines: each has to be done in a fraction of a second.
+    #[test]
+    fn long_outlines_that_cross_themselves_come_to_an_end() {
+        let at = |i: usize, k: usize| (i * k % 4093) as f64 * (1.0 + 1e-3 * (i % 7) as f64);
+        let positions: Vec<Point> = (0..MOST).map(|i| [at(i, 1237), at(i, 2791), 0.0]).collect();
+        let corners: Vec<u32> = (0..MOST as u32).collect();
+        let mut n = 0;
+        triangulate(&positions, &corners, |_| n += 1);
+        assert_eq!(n, MOST - 2);
     }
 
     #[test]
