@@ -35,13 +35,14 @@ fn fan(corners: &[u32], mut out: impl FnMut([u32; 3])) {
 struct Ears {
     places: Vec<[f64; 2]>,
     left: Vec<usize>,
+    gone: Vec<bool>,
+    /// For each corner: no corner before this one lies in its triangle. It only grows while the triangle stays the same, so
+    /// that every corner is looked at once for each triangle.
+    clear: Vec<usize>,
 }
 
 /// Beyond this many corners a polygon is cut as a fan: a file full of longer ones, made to do harm, would take minutes.
 const MOST: usize = 4096;
-/// How often all corners are looked at again where none is known to be an ear. A polygon that does not cross itself never
-/// needs it: cutting an ear off makes or unmakes ears at its two neighbours only.
-const RECOUNTS: usize = 4;
 
 impl Ears {
     /// `None` where the polygon has no area to look along.
@@ -60,7 +61,8 @@ impl Ears {
         let axis = (0..3).max_by(|a, b| area[*a].abs().total_cmp(&area[*b].abs()))?;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let (u, v) = if area[axis] > 0.0 { (u, v) } else { (v, u) };
-        Some(Ears { places: near.iter().map(|p| [p[u], p[v]]).collect(), left: (0..n).collect() })
+        let places = near.iter().map(|p| [p[u], p[v]]).collect();
+        Some(Ears { places, left: (0..n).collect(), gone: vec![false; n], clear: vec![0; n] })
     }
 
     /// Twice the area of a triangle of places, positive when counter-clockwise.
@@ -96,7 +98,7 @@ impl Ears {
     }
 
     /// An ear: a corner turning left whose triangle holds no other corner.
-    fn ear(&self, i: usize) -> bool {
+    fn ear(&mut self, i: usize) -> bool {
         let [a, b, c] = self.around(i);
         let inside = |p: usize| {
             let same = |q: usize| self.places[p] == self.places[q];
@@ -105,22 +107,21 @@ impl Ears {
                 && self.turn(b, c, p) >= 0.0
                 && self.turn(c, a, p) >= 0.0
         };
-        self.turn(a, b, c) > 0.0 && !self.left.iter().any(|&p| inside(p))
+        let n = self.places.len();
+        if self.turn(a, b, c) > 0.0 {
+            let first = (self.clear[b]..n).find(|&p| !self.gone[p] && inside(p));
+            self.clear[b] = first.unwrap_or(n);
+            return first.is_none();
+        }
+        false
     }
 
     fn cut(&mut self, mut out: impl FnMut([usize; 3])) {
-        let all = |ears: &Ears| (0..ears.left.len()).map(|k| ears.ear(k)).collect::<Vec<bool>>();
-        let mut ears = all(self);
-        let mut recounts = 0;
         let mut i = 0;
         while self.left.len() > 3 {
             let n = self.left.len();
-            if recounts < RECOUNTS && !ears.contains(&true) {
-                recounts += 1;
-                ears = all(self);
-            }
-            let next = (i..i + n).map(|k| k % n).find(|&k| ears[k]);
             // Where no corner is an ear, one that is flat does least harm, else any.
+            let next = (i..i + n).map(|k| k % n).find(|&k| self.ear(k));
             let flat = || {
                 (0..n).find(|&k| {
                     let [a, b, c] = self.around(k);
@@ -128,12 +129,11 @@ impl Ears {
                 })
             };
             i = next.or_else(flat).unwrap_or(0);
-            out(self.around(i));
+            let [a, b, c] = self.around(i);
+            out([a, b, c]);
             self.left.remove(i);
-            ears.remove(i);
-            for k in [(i + n - 2) % (n - 1), i % (n - 1)] {
-                ears[k] = self.ear(k);
-            }
+            self.gone[b] = true;
+            (self.clear[a], self.clear[c]) = (0, 0);
         }
         if let [a, b, c] = self.left[..] {
             out([a, b, c]);
@@ -197,15 +197,54 @@ mod tests {
         check(&star, 15.0 * (std::f64::consts::PI / 5.0).sin());
     }
 
-    /// A file may hold many such outlines: each has to be done in a fraction of a second.
+    /// The triangles of [`Ears::cut`], every corner looked at anew for every ear.
+    fn plain(places: &[[f64; 2]]) -> Vec<[usize; 3]> {
+        let (mut left, mut all, mut i) = ((0..places.len()).collect::<Vec<_>>(), vec![], 0);
+        while left.len() > 2 {
+            let now = |left: &[usize]| Ears {
+                places: places.to_vec(),
+                left: left.to_vec(),
+                gone: (0..places.len()).map(|p| !left.contains(&p)).collect(),
+                clear: vec![0; places.len()],
+            };
+            let n = left.len();
+            let ears = &mut now(&left);
+            let next = (i..i + n).map(|k| k % n).find(|&k| n > 3 && ears.ear(k));
+            let turn = |k: usize| {
+                let [a, b, c] = ears.around(k);
+                ears.turn(a, b, c)
+            };
+            i = if n == 3 { 1 } else { next.or_else(|| (0..n).find(|&k| turn(k) == 0.0)).unwrap_or(0) };
+            all.push(ears.around(i));
+            left.remove(i);
+        }
+        all
+    }
+
     #[test]
-    fn long_outlines_that_cross_themselves_come_to_an_end() {
-        let at = |i: usize, k: usize| (i * k % 4093) as f64 * (1.0 + 1e-3 * (i % 7) as f64);
-        let positions: Vec<Point> = (0..MOST).map(|i| [at(i, 1237), at(i, 2791), 0.0]).collect();
-        let corners: Vec<u32> = (0..MOST as u32).collect();
-        let mut n = 0;
-        triangulate(&positions, &corners, |_| n += 1);
-        assert_eq!(n, MOST - 2);
+    fn what_is_remembered_changes_nothing() {
+        let random = &mut trueness_geom::num::random::Random::new(5);
+        for case in 0..60 {
+            let n = 4 + random.below(40) as usize;
+            let place = |k: usize| {
+                let (r, angle) = (1.0 + random.unit(), k as f64 * std::f64::consts::TAU / n as f64);
+                match case % 3 {
+                    0 => [r * angle.cos(), r * angle.sin()],
+                    1 => [random.unit(), random.unit()],
+                    _ => [random.below(5) as f64, random.below(5) as f64],
+                }
+            };
+            let places: Vec<[f64; 2]> = (0..n).map(place).collect();
+            let mut ears = Ears {
+                places: places.clone(),
+                left: (0..n).collect(),
+                gone: vec![false; n],
+                clear: vec![0; n],
+            };
+            let mut got = vec![];
+            ears.cut(|t| got.push(t));
+            assert_eq!(got, plain(&places), "{case}");
+        }
     }
 
     #[test]

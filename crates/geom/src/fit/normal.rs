@@ -110,7 +110,7 @@ impl Placing {
 const ROWS: usize = 2;
 
 /// The group at hand: where its points are, and one row of each, waiting for being summed. Aligned, as a wide register that
-/// lies in two lines of the cache takes twice as long.
+/// lies in two lines of the cache takes longer.
 #[repr(align(64))]
 struct Work<const P: usize> {
     local: [Lanes; 3],
@@ -246,7 +246,7 @@ pub(super) fn sums<const P: usize, F: Family<P>, W: Weighing>(
     all_sums::<P, F, W, true>(element, sample, weigh)
 }
 
-/// As [`sums`], in half the time, with the normal matrix of `near`: the sums of an element nearby.
+/// As [`sums`], in less time, with the normal matrix of `near`: the sums of an element nearby.
 pub(super) fn sums_near<const P: usize, F: Family<P>, W: Weighing>(
     element: &Element,
     sample: &Sample,
