@@ -1,6 +1,7 @@
 //! The few dense operations a fit needs, for matrices of at most nine rows.
 
-/// Lower triangle `L` of `L Lᵀ = a`, or `None` where `a` is not positive definite to working accuracy.
+/// Lower triangle `L` of `L Lᵀ = a`, or `None` where `a` is not positive definite to working accuracy. Its diagonal
+/// holds the reciprocals: they are what is multiplied by, and dividing takes long.
 ///
 /// A pivot that lost all but [`f64::EPSILON`] of its diagonal entry counts as zero: the rows then say nothing
 /// about that unknown.
@@ -14,25 +15,25 @@ pub(super) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N
                 if rest.is_nan() || rest.is_infinite() || rest <= 4.0 * f64::EPSILON * a[i][i] {
                     return None;
                 }
-                l[i][i] = rest.sqrt();
+                l[i][i] = 1.0 / rest.sqrt();
             } else {
-                l[i][j] = rest / l[j][j];
+                l[i][j] = rest * l[j][j];
             }
         }
     }
     Some(l)
 }
 
-/// Solution of `L Lᵀ x = b`.
+/// Solution of `L Lᵀ x = b` for `L` as [`cholesky`] gives it.
 pub(super) fn cholesky_solve<const N: usize>(l: &[[f64; N]; N], b: &[f64; N]) -> [f64; N] {
     let mut x = *b;
     for i in 0..N {
         let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
+        x[i] = (x[i] - sum) * l[i][i];
     }
     for i in (0..N).rev() {
         let sum: f64 = (i + 1..N).map(|k| l[k][i] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
+        x[i] = (x[i] - sum) * l[i][i];
     }
     x
 }

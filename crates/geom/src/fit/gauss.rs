@@ -43,11 +43,11 @@ pub(super) struct Optimum<const P: usize> {
 const VISIBLE_FALL: f64 = 1e-11;
 /// Steps below this, root mean square in the unit frame, are in the reach of rounding.
 const ROUNDING_REACH: f64 = 1e-10;
-/// Steps below this, root mean square in the unit frame, leave the normal matrix as it is, to more digits than steps and
-/// uncertainties need.
-const ALIKE: f64 = 1e-6;
-/// What remains of a step in the next while steps shrink fast: if more does, the normal matrix is renewed.
-const SWIFT: f64 = 0.1;
+/// Steps below this, root mean square in the unit frame, are thought to leave the normal matrix as it is.
+const ALIKE: f64 = 1e-5;
+/// What remains of a step in the next, at most, where they did: the matrix then has three digits and more, enough for steps
+/// and uncertainties. If more remains, it is renewed.
+const SWIFT: f64 = 1e-3;
 /// Damping below which none is used, and the first damping used once it is needed.
 const DAMPING: (f64, f64) = (1e-7, 1e-3);
 

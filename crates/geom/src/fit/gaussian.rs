@@ -185,7 +185,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
 ) -> Option<Covariance> {
     let size = F::shape(element, sample).flattened().1;
     let numbers = |step: [f64; P]| -> Option<[f64; MOST_NUMBERS]> {
-        Some(F::shape(&element.moved(&F::LOCAL, &step)?, sample).flattened().0)
+        Some(F::shape(&element.nudged(&F::LOCAL, &step)?, sample).flattened().0)
     };
     let mut slopes = [[0.0; MOST_NUMBERS]; P];
     for k in 0..P {

@@ -116,16 +116,12 @@ fn violated<const P: usize>(
         }
     }
     for (i, f) in functions.iter().enumerate() {
-        let mut value = f.level;
-        let mut size = f.level.abs() + y[P].abs();
-        for k in 0..P {
-            let term = f.slope[k] * y[k];
-            value += term;
-            size += term.abs();
-        }
-        let beyond = value - y[P];
-        if beyond > most && beyond > 8.0 * f64::EPSILON * size && !(any && worst.is_some()) {
-            (worst, most) = (Some(Held::Function(i)), beyond);
+        let beyond = (0..P).fold(f.level, |value, k| value + f.slope[k] * y[k]) - y[P];
+        if beyond > most && !(any && worst.is_some()) {
+            let size = (0..P).fold(f.level.abs() + y[P].abs(), |size, k| size + (f.slope[k] * y[k]).abs());
+            if beyond > 8.0 * f64::EPSILON * size {
+                (worst, most) = (Some(Held::Function(i)), beyond);
+            }
         }
     }
     worst

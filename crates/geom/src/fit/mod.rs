@@ -199,15 +199,19 @@ pub fn fit(
     } else {
         points
     };
-    let sample = sample::Sample::new(points)?;
     use gaussian::gaussian;
     use robust::robust;
     use zone::zone;
-    match options.method {
-        Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
-        Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
-        _ => with_family!(kind, zone(&sample, kind, options, progress)),
-    }
+    let work = || {
+        let sample = sample::Sample::new(points)?;
+        match options.method {
+            Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
+            Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
+            _ => with_family!(kind, zone(&sample, kind, options, progress)),
+        }
+    };
+    // Among the threads once and for all: from outside, each pass over the points would wake one and wait for it.
+    if points.len() <= normal::BLOCK { work() } else { rayon::scope(|_| work()) }
 }
 
 /// The least-squares element near `start` and the root mean square distance, to about seven digits and without the

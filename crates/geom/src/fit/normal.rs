@@ -5,13 +5,13 @@
 
 use super::dense;
 use super::family::{Element, Family, Rows};
-use super::lanes::{GROUP, Lanes, Sum, groups, widest};
+use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
 use super::sample::Sample;
 use crate::space::{Point, Vector, dot, times};
 use rayon::prelude::*;
 
 /// Points of one block: large enough to make sharing out cheap, small enough for the nearest caches.
-const BLOCK: usize = 8192;
+pub(super) const BLOCK: usize = 8192;
 
 /// What one pass over the points gives, in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -74,48 +74,25 @@ impl Placing {
         let (c, [u, v, w], o) = (self.center, self.axes, self.origin);
         let [x, y, z] = [p[0] - c[0], p[1] - c[1], p[2] - c[2]];
         [
-            (u[0] * x + u[1] * y + u[2] * z) - o[0],
-            (v[0] * x + v[1] * y + v[2] * z) - o[1],
-            (w[0] * x + w[1] * y + w[2] * z) - o[2],
+            u[0].mul_add(x, u[1].mul_add(y, u[2].mul_add(z, -o[0]))),
+            v[0].mul_add(x, v[1].mul_add(y, v[2].mul_add(z, -o[1]))),
+            w[0].mul_add(x, w[1].mul_add(y, w[2].mul_add(z, -o[2]))),
         ]
-    }
-    /// The same of group `k` of the points, coordinate by coordinate. Returns how many of them count: the last group is
-    /// filled up with its last point.
-    #[inline(always)]
-    pub(super) fn group(&self, points: &[Point], k: usize, local: &mut [Lanes; 3]) -> usize {
-        let rest = &points[k * GROUP..];
-        if let Some(whole) = rest.first_chunk() {
-            self.locals(whole, local);
-            return GROUP;
-        }
-        let mut filled = [[0.0; 3]; GROUP];
-        for l in 0..GROUP {
-            filled[l] = rest[l.min(rest.len() - 1)];
-        }
-        self.locals(&filled, local);
-        rest.len()
-    }
-    #[inline(always)]
-    fn locals(&self, points: &[Point; GROUP], local: &mut [Lanes; 3]) {
-        for l in 0..GROUP {
-            let q = self.local(points[l]);
-            for k in 0..3 {
-                local[k][l] = q[k];
-            }
-        }
     }
 }
 
 /// Rows of a point at most.
 const ROWS: usize = 2;
 
-/// The group at hand: where its points are, and one row of each, waiting for being summed. Aligned, as a wide register that
-/// lies in two lines of the cache takes longer.
+/// One row of each point of the group at hand, waiting for being summed. Aligned, as a wide register that lies in two lines
+/// of the cache takes longer.
 #[repr(align(64))]
 struct Work<const P: usize> {
-    local: [Lanes; 3],
     distance: Lanes,
     slope: [Lanes; P],
+    /// Of the points, where they do not count alike.
+    weight: Lanes,
+    loss: Lanes,
 }
 
 /// Writes the row `wanted` of one point of the group.
@@ -148,57 +125,27 @@ struct Accumulator<const P: usize> {
 }
 
 impl<const P: usize> Accumulator<P> {
-    /// Adds the first `count` points of a group; to the normal matrix only where `CURVED`.
+    /// Adds the rows at hand; to the normal matrix only where `CURVED`.
     #[inline(always)]
-    fn add<F: Family<P>, W: Weighing, const CURVED: bool>(
-        &mut self,
-        size: [f64; 2],
-        count: usize,
-        weigh: &W,
-        work: &mut Work<P>,
-    ) {
-        let Work { local: [x, y, z], distance, slope } = work;
-        let mut weights = [0.0; GROUP];
-        if !W::EVEN {
-            let mut losses = [0.0; GROUP];
-            for lane in 0..GROUP {
-                let d = F::distance(size, [x[lane], y[lane], z[lane]]);
-                (weights[lane], losses[lane]) = (weigh.weight(d), weigh.loss(d));
-            }
-            losses[count..].fill(0.0);
-            weights[count..].fill(0.0);
-            self.square.add_products(&losses, &[1.0; GROUP]);
-            self.weight.add_products(&weights, &[1.0; GROUP]);
+    fn add<W: Weighing, const CURVED: bool>(&mut self, work: &Work<P>) {
+        let Work { distance, slope, weight, .. } = work;
+        if W::EVEN {
+            self.square.add_products(distance, distance);
         }
-        for wanted in 0..if F::SIGNED { 1 } else { ROWS } {
-            for lane in 0..GROUP {
-                let mut writer = Writer { distance, slope, lane, wanted, row: 0 };
-                F::rows(size, [x[lane], y[lane], z[lane]], &mut writer);
-            }
-            for lane in count..GROUP {
-                distance[lane] = 0.0;
-                for k in 0..P {
-                    slope[k][lane] = 0.0;
+        for i in 0..P {
+            let mut weighted = [0.0; GROUP];
+            let heavy = if W::EVEN {
+                &slope[i]
+            } else {
+                for lane in 0..GROUP {
+                    weighted[lane] = weight[lane] * slope[i][lane];
                 }
-            }
-            if W::EVEN {
-                self.square.add_products(distance, distance);
-            }
-            for i in 0..P {
-                let mut weighted = [0.0; GROUP];
-                let heavy = if W::EVEN {
-                    &slope[i]
-                } else {
-                    for lane in 0..GROUP {
-                        weighted[lane] = weights[lane] * slope[i][lane];
-                    }
-                    &weighted
-                };
-                self.gradient[i].add_products(heavy, distance);
-                if CURVED {
-                    for j in i..P {
-                        self.normal[i][j].add_products(heavy, &slope[j]);
-                    }
+                &weighted
+            };
+            self.gradient[i].add_products(heavy, distance);
+            if CURVED {
+                for j in i..P {
+                    self.normal[i][j].add_products(heavy, &slope[j]);
                 }
             }
         }
@@ -218,10 +165,35 @@ fn block<const P: usize, F: Family<P>, W: Weighing, const CURVED: bool>(
         square: Sum::ZERO,
         weight: Sum::ZERO,
     };
-    let mut work = Work { local: [[0.0; GROUP]; 3], distance: [0.0; GROUP], slope: [[0.0; GROUP]; P] };
+    let mut work =
+        Work { distance: [0.0; GROUP], slope: [[0.0; GROUP]; P], weight: [0.0; GROUP], loss: [0.0; GROUP] };
+    let mut filled = [[0.0; 3]; GROUP];
     for k in 0..groups(points) {
-        let count = placing.group(points, k, &mut work.local);
-        all.add::<F, W, CURVED>(size, count, weigh, &mut work);
+        let (group, count) = group(points, k, &mut filled);
+        if !W::EVEN {
+            for lane in 0..GROUP {
+                let d = F::distance(size, placing.local(group[lane]));
+                (work.weight[lane], work.loss[lane]) = (weigh.weight(d), weigh.loss(d));
+            }
+            work.loss[count..].fill(0.0);
+            work.weight[count..].fill(0.0);
+            all.square.add_products(&work.loss, &[1.0; GROUP]);
+            all.weight.add_products(&work.weight, &[1.0; GROUP]);
+        }
+        for wanted in 0..if F::SIGNED { 1 } else { ROWS } {
+            for lane in 0..GROUP {
+                let Work { distance, slope, .. } = &mut work;
+                let mut writer = Writer { distance, slope, lane, wanted, row: 0 };
+                F::rows(size, placing.local(group[lane]), &mut writer);
+            }
+            for lane in count..GROUP {
+                work.distance[lane] = 0.0;
+                for k in 0..P {
+                    work.slope[k][lane] = 0.0;
+                }
+            }
+            all.add::<W, CURVED>(&work);
+        }
     }
     Sums {
         normal: all.normal.map(|row| row.map(Sum::total)),
@@ -314,5 +286,46 @@ impl<const P: usize> Sums<P> {
         let full = self.symmetric();
         let square: f64 = (0..P).map(|i| (0..P).map(|j| step[i] * full[i][j] * step[j]).sum::<f64>()).sum();
         (square.max(0.0) / self.weight).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cylinder::Cylinder;
+    use super::super::pose::Pose;
+    use super::super::torus::Torus;
+    use super::*;
+
+    #[test]
+    fn wide_registers_give_the_same_bits() {
+        struct Heavier;
+        impl Weighing for Heavier {
+            const EVEN: bool = false;
+            fn loss(&self, d: f64) -> f64 {
+                (1.0 + d * d).ln()
+            }
+            fn weight(&self, d: f64) -> f64 {
+                1.0 / (1.0 + d * d)
+            }
+        }
+        fn same<const P: usize, F: Family<P>, W: Weighing>(points: &[Point], element: &Element, weigh: &W) {
+            let sample = Sample::new(points).unwrap();
+            let placing = Placing::new(element, &sample);
+            let wide = block_sums::<P, F, W, true>(points, element.size, &placing, weigh);
+            let plain = block::<P, F, W, true>(points, element.size, &placing, weigh);
+            assert_eq!(wide.normal, plain.normal);
+            assert_eq!(wide.gradient, plain.gradient);
+            assert_eq!((wide.square, wide.weight), (plain.square, plain.weight));
+        }
+        let element = Element { pose: Pose::along([0.1, 0.02, -0.3], [0.3, -0.5, 0.8]), size: [0.61, 0.17] };
+        for count in [5, 32, 777] {
+            let points: Vec<Point> = (0..count)
+                .map(f64::from)
+                .map(|k| [k.sin(), 1.3 * (2.7 * k).cos(), 0.7 * (0.9 * k).sin()])
+                .collect();
+            same::<5, Cylinder, _>(&points, &element, &Alike);
+            same::<5, Cylinder, _>(&points, &element, &Heavier);
+            same::<7, Torus, _>(&points, &element, &Alike);
+        }
     }
 }

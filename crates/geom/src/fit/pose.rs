@@ -55,12 +55,19 @@ impl Pose {
     }
     /// The frame after the small motions `shift` (along its axes), `tilt` and `turn`.
     pub(super) fn moved(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
-        let [u, v, w] = self.axes;
-        let origin =
-            plus(self.origin, plus(plus(times(shift[0], u), times(shift[1], v)), times(shift[2], w)));
-        let w = plus(w, plus(times(tilt[0], u), times(tilt[1], v)));
+        let Pose { origin, axes: [u, _, w] } = self.nudged(shift, tilt, turn);
         let w = unit(w).map_or(self.axes[2], |(w, _)| w);
-        Pose::toward(origin, w, plus(u, times(turn, v)))
+        Pose::toward(origin, w, u)
+    }
+    /// As [`Pose::moved`] to first order: the axes are left a little too long.
+    pub(super) fn nudged(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
+        let [u, v, w] = self.axes;
+        let along = |[a, b, c]: Vector| plus(plus(times(a, u), times(b, v)), times(c, w));
+        let [a, b] = tilt;
+        Pose {
+            origin: plus(self.origin, along(shift)),
+            axes: [along([1.0, turn, -a]), along([-turn, 1.0, -b]), along([a, b, 1.0])],
+        }
     }
 }
 

@@ -61,10 +61,11 @@ impl<'a> Sample<'a> {
     }
     /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
     pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
-        let golden = (5f64.sqrt() - 1.0) / 2.0;
+        const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15; // of 2⁶⁴
         let all = self.len();
-        let pick = move |k: usize| ((k as f64 * golden).fract() * all as f64) as usize;
-        (0..count.min(all)).map(move |k| if all <= count { k } else { pick(k).min(all - 1) })
+        let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN));
+        let pick = move |k: usize| ((turn(k) * all as u128) >> 64) as usize;
+        (0..count.min(all)).map(move |k| if all <= count { k } else { pick(k) })
     }
 }
 

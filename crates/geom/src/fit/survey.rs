@@ -1,7 +1,7 @@
 //! The distances of all points from a finished element: how large, how far apart, and whose are the extremes.
 
 use super::family::{Element, Family};
-use super::lanes::{GROUP, Lanes, PARTS, Sum, groups, widest};
+use super::lanes::{GROUP, Lanes, PARTS, Sum, group, groups, widest};
 use super::normal::Placing;
 use super::sample::Sample;
 use crate::space::Point;
@@ -18,32 +18,22 @@ pub(super) struct Survey {
     pub greatest: f64,
 }
 
-/// The group at hand: where its points are, and their distances. Aligned as for the sums.
+/// The distances of the points of a group. Aligned as for the sums.
 #[repr(align(64))]
-struct Work {
-    local: [Lanes; 3],
-    distance: Lanes,
-}
+struct Distances(Lanes);
 
-impl Work {
+impl Distances {
+    /// Takes those of the points given.
     #[inline(always)]
-    fn new() -> Work {
-        Work { local: [[0.0; GROUP]; 3], distance: [0.0; GROUP] }
-    }
-    /// The distances of group `k`, and how many of them count.
-    #[inline(always)]
-    fn distances<const P: usize, F: Family<P>>(
+    fn take<const P: usize, F: Family<P>>(
         &mut self,
-        points: &[Point],
-        k: usize,
+        group: &[Point; GROUP],
         size: [f64; 2],
         placing: &Placing,
-    ) -> usize {
-        let count = placing.group(points, k, &mut self.local);
+    ) {
         for l in 0..GROUP {
-            self.distance[l] = F::distance(size, [self.local[0][l], self.local[1][l], self.local[2][l]]);
+            self.0[l] = F::distance(size, placing.local(group[l]));
         }
-        count
     }
 }
 
@@ -51,18 +41,19 @@ impl Work {
 fn block<const P: usize, F: Family<P>>(points: &[Point], size: [f64; 2], placing: &Placing) -> Survey {
     let mut square = Sum::ZERO;
     let (mut least, mut greatest) = ([f64::INFINITY; PARTS], [f64::NEG_INFINITY; PARTS]);
-    let mut work = Work::new();
+    let (mut distances, mut filled) = (Distances([0.0; GROUP]), [[0.0; 3]; GROUP]);
     for k in 0..groups(points) {
-        let count = work.distances::<P, F>(points, k, size, placing);
+        let (group, count) = group(points, k, &mut filled);
+        distances.take::<P, F>(group, size, placing);
         for first in 0..GROUP / PARTS {
             for l in 0..PARTS {
-                let d = work.distance[PARTS * first + l];
+                let d = distances.0[PARTS * first + l];
                 least[l] = if d < least[l] { d } else { least[l] };
                 greatest[l] = if d > greatest[l] { d } else { greatest[l] };
             }
         }
-        work.distance[count..].fill(0.0);
-        square.add_products(&work.distance, &work.distance);
+        distances.0[count..].fill(0.0);
+        square.add_products(&distances.0, &distances.0);
     }
     Survey {
         square: square.total(),
@@ -114,10 +105,11 @@ fn find_in<const P: usize, F: Family<P>>(
     placing: &Placing,
     distance: f64,
 ) -> Option<usize> {
-    let mut work = Work::new();
+    let (mut distances, mut filled) = (Distances([0.0; GROUP]), [[0.0; 3]; GROUP]);
     for k in 0..groups(points) {
-        work.distances::<P, F>(points, k, size, placing);
-        if let Some(l) = work.distance.iter().position(|&d| d == distance) {
+        let (group, _) = group(points, k, &mut filled);
+        distances.take::<P, F>(group, size, placing);
+        if let Some(l) = distances.0.iter().position(|&d| d == distance) {
             return Some((k * GROUP + l).min(points.len() - 1));
         }
     }
