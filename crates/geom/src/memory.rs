@@ -4,7 +4,7 @@
 //! most of it.
 #![expect(
     unsafe_code,
-    reason = "advice to the system about fresh memory, and arrays of atomics without a pass over them"
+    reason = "advice to the system and the processor about memory, and arrays of atomics without a pass over them"
 )]
 
 use std::sync::atomic::AtomicU32;
@@ -54,6 +54,18 @@ pub(crate) fn triples(v: Vec<AtomicU32>) -> Vec<[u32; 3]> {
     // SAFETY: three atomics have the size and alignment of [u32; 3]; the capacity is a whole number of triples, so the
     // allocation's layout is that of the new vector; `v` is not dropped.
     unsafe { Vec::from_raw_parts(v.as_mut_ptr().cast(), length, capacity) }
+}
+
+/// Asks for `x` to be near when it is needed.
+#[inline(always)]
+pub(crate) fn prefetch<T>(x: &T) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a prefetch never faults.
+    unsafe {
+        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(std::ptr::from_ref(x).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = x;
 }
 
 /// A pointer through which several threads write, each to places of its own.

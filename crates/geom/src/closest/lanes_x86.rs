@@ -10,7 +10,7 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// 8 lanes, AVX2.
 #[derive(Clone, Copy)]
-pub struct A8(__m256);
+pub struct A8(pub(crate) __m256);
 /// 16 lanes as two AVX2 registers.
 #[derive(Clone, Copy)]
 pub struct A16(A8, A8);

@@ -30,27 +30,25 @@ impl<const N: usize> Same<N> for Plain<N> {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::Same;
-    use crate::closest::lanes_x86::{A8, A16, Z16};
+    use crate::closest::lanes_x86::{A16, Z16};
     use std::arch::x86_64::*;
-
-    impl Same<8> for A8 {
-        #[inline(always)]
-        unsafe fn same(row: &[u32; 8], x: u32) -> u32 {
-            // SAFETY: the caller answers for AVX2.
-            unsafe {
-                let row = _mm256_loadu_si256(row.as_ptr().cast());
-                let equal = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(x as i32));
-                _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
-            }
-        }
-    }
 
     impl Same<16> for A16 {
         #[inline(always)]
         unsafe fn same(row: &[u32; 16], x: u32) -> u32 {
             let halves = row.as_chunks::<8>().0;
             // SAFETY: the caller answers for AVX2.
-            unsafe { A8::same(&halves[0], x) | A8::same(&halves[1], x) << 8 }
+            unsafe { half(&halves[0], x) | half(&halves[1], x) << 8 }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn half(row: &[u32; 8], x: u32) -> u32 {
+        // SAFETY: the caller answers for AVX2.
+        unsafe {
+            let row = _mm256_loadu_si256(row.as_ptr().cast());
+            let equal = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(x as i32));
+            _mm256_movemask_ps(_mm256_castsi256_ps(equal)) as u32
         }
     }
 

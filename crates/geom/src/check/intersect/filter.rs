@@ -1,4 +1,4 @@
-//! Which of sixteen triangles cannot meet one: seen in single precision, from four planes.
+//! Which of eight triangles cannot meet one: seen in single precision, from four planes.
 //!
 //! Of a triangle four planes are looked at: its own and the three that stand on its edges. A pair is settled when the
 //! corners of the other triangle lie all beyond one of them, where corners shared with the first *and in that plane*
@@ -6,33 +6,10 @@
 //! corner counts as beyond when the rounded distance says so by more than its error.
 #![expect(clippy::needless_range_loop, reason = "lanes are indices into several arrays at once")]
 
-use super::tree::{Boxes, Frame, Leaf};
-use crate::closest::lanes::{Lanes, Plain};
-#[cfg(target_arch = "x86_64")]
-use crate::closest::lanes_x86::{A8, A16, Z16};
+use super::masks::Masks;
+use super::tree::{Boxes, Frame, Leaf, W};
 use crate::mesh::Mesh;
 use crate::space::{Point, cross, dot, minus};
-use crate::topology::same::{Same, W};
-
-/// Triangles looked at together, half a leaf: of a whole one, seldom more than three overlap.
-const HALF: usize = W / 2;
-
-/// An instruction set the filter is written in.
-pub(super) trait Wide: Lanes<W> {
-    /// For half a leaf.
-    type Half: Lanes<HALF> + Same<HALF>;
-}
-impl Wide for Plain<W> {
-    type Half = Plain<HALF>;
-}
-#[cfg(target_arch = "x86_64")]
-impl Wide for A16 {
-    type Half = A8;
-}
-#[cfg(target_arch = "x86_64")]
-impl Wide for Z16 {
-    type Half = A8;
-}
 
 /// Distances are formed with less than ten roundings of 2^-24 of the sum of their terms; this allows sixteen.
 const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
@@ -52,11 +29,11 @@ pub(super) struct Planes {
 #[inline(always)]
 fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
     if frame.slack == 0.0 {
-        return leaf.at.map(|corner| corner.map(|row| row.0.map(f64::from)));
+        return leaf.at.map(|corner| corner.map(|row| row.map(f64::from)));
     }
     let mut at = [[[0.0; W]; 3]; 3];
     for (corner, numbers) in at.iter_mut().zip(&leaf.corner) {
-        for (i, number) in numbers.0.iter().enumerate() {
+        for (i, number) in numbers.iter().enumerate() {
             let place = mesh.positions.get(*number as usize).map_or([0.0; 3], |p| frame.place(p));
             for (row, x) in corner.iter_mut().zip(place) {
                 row[i] = x;
@@ -97,21 +74,29 @@ pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
     out
 }
 
-/// Which of sixteen boxes overlap `b`.
+/// Which of the boxes overlap `b`.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-pub(super) unsafe fn overlap<L: Wide>(boxes: &Boxes, b: &[f32; 6]) -> u32 {
-    let mut both = 0xffff;
-    for k in 0..3 {
-        // SAFETY: handed on.
-        unsafe {
-            both &= L::load(&boxes.0[k].0).le(L::splat(b[k + 3]));
-            both &= L::splat(b[k]).le(L::load(&boxes.0[k + 3].0));
-        }
+pub(super) unsafe fn overlap<L: Masks>(boxes: &Boxes, b: &[f32; 6]) -> u32 {
+    // SAFETY: handed on.
+    unsafe {
+        let x = both::<L>(boxes, b, 0);
+        let y = both::<L>(boxes, b, 1);
+        let z = both::<L>(boxes, b, 2);
+        L::bits(L::both(L::both(x, y), z))
     }
-    both
+}
+
+/// Which of the boxes overlap `b` along axis `k`.
+#[inline(always)]
+unsafe fn both<L: Masks>(boxes: &Boxes, b: &[f32; 6], k: usize) -> L::Mask {
+    // SAFETY: handed on.
+    unsafe {
+        let below = L::load(&boxes.0[k]).at_most(L::splat(b[k + 3]));
+        L::both(below, L::splat(b[k]).at_most(L::load(&boxes.0[k + 3])))
+    }
 }
 
 /// Which triangles `among` those of leaf `q` may meet triangle `i` of leaf `l`; `reach` is the sum of the sides of a
@@ -120,7 +105,7 @@ pub(super) unsafe fn overlap<L: Wide>(boxes: &Boxes, b: &[f32; 6]) -> u32 {
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-pub(super) unsafe fn left_over<L: Wide>(
+pub(super) unsafe fn left_over<L: Masks>(
     (l, i, planes): (&Leaf, usize, &Planes),
     q: &Leaf,
     reach: f32,
@@ -128,65 +113,45 @@ pub(super) unsafe fn left_over<L: Wide>(
     among: u32,
 ) -> u32 {
     let error = reach * ROUNDING + SLACKS * slack + f32::MIN_POSITIVE;
-    let mut left = 0;
-    for half in 0..2 {
-        let among = among >> (half * HALF) & 0xff;
-        if among != 0 {
-            // SAFETY: handed on.
-            left |=
-                unsafe { left_of_half::<L::Half>((l, i, planes), q, half, error, among) } << (half * HALF);
-        }
-    }
-    left
-}
-
-/// [`left_over`] for the first or second half of leaf `q`.
-#[inline(always)]
-unsafe fn left_of_half<L: Lanes<HALF> + Same<HALF>>(
-    (l, i, planes): (&Leaf, usize, &Planes),
-    q: &Leaf,
-    half: usize,
-    error: f32,
-    among: u32,
-) -> u32 {
-    let id: [u32; 3] = std::array::from_fn(|j| l.corner[j].0[i]);
-    let direction = |d: usize| std::array::from_fn::<f32, 3, _>(|k| planes.direction[d][k][i]);
-    // SAFETY: handed on.
+    // SAFETY: handed on. (No closures: they would not be compiled for the instructions of `L`.)
     unsafe {
-        let (mut same, mut at) = ([[0; 3]; 3], [[L::splat(0.0); 3]; 3]);
+        let (more, less) = (L::splat(error), L::splat(-error));
+        let mut same = [[more.at_most(less); 3]; 3];
+        let mut at = [[more; 3]; 3];
         for k in 0..3 {
             for j in 0..3 {
-                same[k][j] = L::same(&q.corner[k].0.as_chunks().0[half], id[j]);
-                at[k][j] = L::load(&q.at[k][j].0.as_chunks().0[half]) - L::splat(l.at[0][j].0[i]);
+                same[k][j] = L::equal(&q.corner[k], l.corner[j][i]);
+                at[k][j] = L::load(&q.at[k][j]) - L::splat(l.at[0][j][i]);
             }
         }
-        let (more, less) = (L::splat(error), L::splat(-error));
-        let (mut above, mut below) = (u32::MAX, u32::MAX);
-        let own = direction(0);
+        let (mut above, mut below) = (less.at_most(more), less.at_most(more));
         for k in 0..3 {
-            let (d, shared) = (along(own, &at[k]), same[k][0] | same[k][1] | same[k][2]);
-            above &= more.le(d) | shared;
-            below &= d.le(less) | shared;
+            let shared = L::either(L::either(same[k][0], same[k][1]), same[k][2]);
+            let d = along::<L>(&planes.direction[0], i, &at[k]);
+            above = L::both(above, L::either(more.at_most(d), shared));
+            below = L::both(below, L::either(d.at_most(less), shared));
         }
-        let mut left = among & !(above | below);
+        let mut settled = L::either(above, below);
         for e in 0..3 {
             let limit = if e == 1 { L::splat(planes.offset[i] + error) } else { more };
-            let (mut beyond, d) = (u32::MAX, direction(e + 1));
+            let mut beyond = less.at_most(more);
             for k in 0..3 {
-                beyond &= limit.le(along(d, &at[k])) | same[k][e] | same[k][(e + 1) % 3];
+                let d = along::<L>(&planes.direction[e + 1], i, &at[k]);
+                let shared = L::either(same[k][e], same[k][(e + 1) % 3]);
+                beyond = L::both(beyond, L::either(limit.at_most(d), shared));
             }
-            left &= !beyond;
+            settled = L::either(settled, beyond);
         }
-        left
+        among & !L::bits(settled)
     }
 }
 
-/// Points along a direction.
+/// Points along direction `i`.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-unsafe fn along<L: Lanes<HALF>>(d: [f32; 3], at: &[L; 3]) -> L {
+unsafe fn along<L: Masks>(d: &[[f32; W]; 3], i: usize, at: &[L; 3]) -> L {
     // SAFETY: handed on.
-    unsafe { at[2].mul_add(L::splat(d[2]), at[1].mul_add(L::splat(d[1]), at[0] * L::splat(d[0]))) }
+    unsafe { at[2].mul_add(L::splat(d[2][i]), at[1].mul_add(L::splat(d[1][i]), at[0] * L::splat(d[0][i]))) }
 }

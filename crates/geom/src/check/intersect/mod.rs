@@ -1,7 +1,7 @@
 //! All pairs of facets that cross, touch or overlap where they should not.
 //!
 //! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
-//! that overlap its children; sixteen boxes in one comparison. No walk ever starts at the root. At the bottom the
+//! that overlap its children; eight boxes in one comparison. No walk ever starts at the root. At the bottom the
 //! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
 //! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: vertices with very many facets, whose boxes all
 //! overlap, are searched in a way of their own (see `hub`), and the walk passes over the pairs found there.
@@ -9,6 +9,7 @@
 
 mod filter;
 mod hub;
+mod masks;
 mod meet;
 #[cfg(test)]
 mod tests;
@@ -17,17 +18,16 @@ mod tree;
 use crate::closest::Level;
 use crate::closest::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
-use crate::closest::lanes_x86::{A16, Z16};
+use crate::closest::lanes_x86::A8;
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::Topology;
-use crate::topology::same::W;
-use filter::Wide;
 use hub::Hub;
+use masks::Masks;
 use rayon::prelude::*;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
-use tree::{Boxes, Leaf, Tree};
+use tree::{Boxes, Leaf, Tree, W};
 
 const EVERYWHERE: [f32; 6] = {
     let i = f32::INFINITY;
@@ -123,9 +123,7 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
         tree.without_own_group(top, 0, &mut all);
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => avx2(&walk, top, 0, &all, &mut pairs),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => avx512(&walk, top, 0, &all, &mut pairs),
+            Level::Avx2 | Level::Avx512 => avx2(&walk, top, 0, &all, &mut pairs),
             _ => plain(&walk, top, 0, &all, &mut pairs),
         }
     }
@@ -136,6 +134,9 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     pairs.first.par_sort_unstable();
     Ok(Crossings { count: pairs.count, first: pairs.first })
 }
+
+/// Nodes up to this level are not worth the work of several threads.
+const ALONE: usize = 2;
 
 struct Walk<'a> {
     mesh: &'a Mesh,
@@ -194,26 +195,15 @@ fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
     #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
     fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
         // SAFETY: the instructions are those of this function.
-        unsafe { walk.descend::<A16>(level, i, list, out, avx2) }
+        unsafe { walk.descend::<A8>(level, i, list, out, avx2) }
     }
     // SAFETY: reached from `with` only, for a level that the processor has.
     unsafe { run(walk, level, i, list, out) }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn avx512(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,popcnt")]
-    fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-        // SAFETY: the instructions are those of this function.
-        unsafe { walk.descend::<Z16>(level, i, list, out, avx512) }
-    }
-    // SAFETY: as above.
-    unsafe { run(walk, level, i, list, out) }
-}
-
 #[inline(always)]
 fn lane(b: &Boxes, i: usize) -> [f32; 6] {
-    std::array::from_fn(|k| b.0[k].0[i])
+    std::array::from_fn(|k| b.0[k][i])
 }
 
 impl Walk<'_> {
@@ -226,13 +216,20 @@ impl Walk<'_> {
     /// # Safety
     /// The processor has the instructions of `L`.
     #[inline(always)]
-    unsafe fn descend<L: Wide>(&self, level: usize, i: usize, list: &[u32], out: &mut Pairs, deeper: Deeper) {
+    unsafe fn descend<L: Masks>(
+        &self,
+        level: usize,
+        i: usize,
+        list: &[u32],
+        out: &mut Pairs,
+        deeper: Deeper,
+    ) {
         if level == 0 {
             // SAFETY: handed on.
             return unsafe { self.leaf_pairs::<L>(i, list, out) };
         }
         let children = 0..W.min(self.tree.levels[level - 1].len() - i * W);
-        if level == 1 {
+        if level <= ALONE {
             if self.progress.cancelled() {
                 return;
             }
@@ -243,7 +240,9 @@ impl Walk<'_> {
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
                 deeper(self, level - 1, i * W + a, &next, out);
             }
-            self.progress.advance((children.len() * W) as u64);
+            if level == 1 {
+                self.progress.advance((children.len() * W) as u64);
+            }
             return;
         }
         let mut lists = vec![];
@@ -267,7 +266,7 @@ impl Walk<'_> {
     /// # Safety
     /// The processor has the instructions of `L`.
     #[inline(always)]
-    unsafe fn inherit<L: Wide>(&self, level: usize, i: usize, a: usize, list: &[u32], next: &mut Vec<u32>) {
+    unsafe fn inherit<L: Masks>(&self, level: usize, i: usize, a: usize, list: &[u32], next: &mut Vec<u32>) {
         let b = lane(&self.tree.levels[level][i], a);
         let any = self.tree.is_asked(level, i, a);
         for &j in list {
@@ -292,7 +291,7 @@ impl Walk<'_> {
     /// # Safety
     /// The processor has the instructions of `L`.
     #[inline(always)]
-    unsafe fn leaf_pairs<L: Wide>(&self, i: usize, list: &[u32], out: &mut Pairs) {
+    unsafe fn leaf_pairs<L: Masks>(&self, i: usize, list: &[u32], out: &mut Pairs) {
         if self.has_enough() {
             return;
         }
@@ -340,14 +339,14 @@ impl Walk<'_> {
     #[inline(always)]
     fn decide(&self, (l, a): (&Leaf, usize), q: &Leaf, mut left: u32, out: &mut Pairs) {
         let triangle = |leaf: &Leaf, i: usize| {
-            let face = self.mesh.faces[leaf.face.0[i] as usize];
+            let face = self.mesh.faces[leaf.face[i] as usize];
             (face.map(|v| self.mesh.positions[v as usize]), face)
         };
         while left != 0 {
             let c = left.trailing_zeros() as usize;
             left &= left - 1;
             if meet::meet(&triangle(l, a), &triangle(q, c)) {
-                let (x, y) = (l.face.0[a], q.face.0[c]);
+                let (x, y) = (l.face[a], q.face[c]);
                 out.push([x.min(y), x.max(y)]);
             }
         }

@@ -1,4 +1,4 @@
-//! Triangles in space-filling order, sixteen to a leaf, leaves sixteen to a node, and so on: no pointers.
+//! Triangles in space-filling order, eight to a leaf, leaves eight to a node, and so on: no pointers.
 //!
 //! Coordinates are kept in single precision. Where those of the mesh are single precision (any STL), that is exact.
 //! Otherwise they are moved and scaled (by a power of two) into [−1, 1] before they are rounded, and `slack` bounds what
@@ -6,30 +6,35 @@
 #![expect(unsafe_code, reason = "arrays written by several threads, each place once")]
 #![expect(clippy::needless_range_loop, reason = "axes and lanes are indices into several arrays at once")]
 
-use crate::memory::{Shared, large_pages};
+use crate::memory::{Shared, large_pages, prefetch};
 use crate::mesh::Mesh;
 use crate::space::{Aabb, Point};
 use crate::topology::Topology;
-use crate::topology::same::{Row, W};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
+/// Triangles of a leaf, children of a node: what one vector holds.
+pub(super) const W: usize = 8;
 /// Buckets of the first pass of the sort, as a power of two.
 const TOP: u32 = 12;
 const CHUNK: usize = 1 << 15;
+/// Leaves of one task.
+const LEAVES: usize = 1 << 9;
 /// Key of a face that stays out.
 const LEFT_OUT: u64 = u64::MAX;
 
-/// Boxes of the sixteen children of a node (least and greatest coordinates); empty boxes fill up.
+/// Boxes of the children of a node (least and greatest coordinates); empty boxes fill up.
 #[derive(Clone, Copy)]
-pub(super) struct Boxes(pub [Row<f32>; 6]);
+#[repr(align(64))]
+pub(super) struct Boxes(pub [[f32; W]; 6]);
 
-/// Sixteen triangles: nine coordinates, three corners, face.
+/// Triangles: nine coordinates, three corners, face.
 #[derive(Clone, Copy)]
+#[repr(align(32))]
 pub(super) struct Leaf {
-    pub at: [[Row<f32>; 3]; 3],
-    pub corner: [Row<u32>; 3],
-    pub face: Row<u32>,
+    pub at: [[[f32; W]; 3]; 3],
+    pub corner: [[u32; W]; 3],
+    pub face: [u32; W],
 }
 
 /// From the mesh to single precision: `(p - origin) * scale`, off by at most `slack` in each coordinate.
@@ -40,7 +45,7 @@ pub(super) struct Frame {
     pub slack: f32,
 }
 
-/// `levels[0][i]` holds the boxes of the triangles of leaf `i`, `levels[k][i]` those of `levels[k - 1][16 i..]`.
+/// `levels[0][i]` holds the boxes of the triangles of leaf `i`, `levels[k][i]` those of `levels[k - 1][8 i..]`.
 pub(super) struct Tree {
     pub leaves: Vec<Leaf>,
     pub levels: Vec<Vec<Boxes>>,
@@ -74,6 +79,14 @@ impl Frame {
     }
 }
 
+/// The least and the greatest of three numbers, none of them NaN: as plain comparisons, which are one instruction each.
+#[inline(always)]
+fn extremes<T: Copy + PartialOrd>([a, b, c]: [T; 3]) -> (T, T) {
+    let least = |a: T, b: T| if b < a { b } else { a };
+    let greatest = |a: T, b: T| if b > a { b } else { a };
+    (least(least(a, b), c), greatest(greatest(a, b), c))
+}
+
 /// Spreads twelve bits, two places between them.
 fn spread(x: u32) -> u64 {
     let x = u64::from(x);
@@ -99,7 +112,7 @@ fn sorted(
     let key = |i: usize, face: &[u32; 3]| {
         let p = face.map(|v| frame.place(&mesh.positions[v as usize]));
         let cell = |k: usize| {
-            let (a, b) = (p[0][k].min(p[1][k]).min(p[2][k]), p[0][k].max(p[1][k]).max(p[2][k]));
+            let (a, b) = extremes([p[0][k], p[1][k], p[2][k]]);
             spread((((a - low[k]) + (b - low[k])) * factor) as u32 & 0xFFF)
         };
         let code = cell(0) << 2 | cell(1) << 1 | cell(2);
@@ -147,33 +160,33 @@ fn sorted(
 }
 
 const NOTHING: Boxes = Boxes([
-    Row([f32::INFINITY; W]),
-    Row([f32::INFINITY; W]),
-    Row([f32::INFINITY; W]),
-    Row([f32::NEG_INFINITY; W]),
-    Row([f32::NEG_INFINITY; W]),
-    Row([f32::NEG_INFINITY; W]),
+    [f32::INFINITY; W],
+    [f32::INFINITY; W],
+    [f32::INFINITY; W],
+    [f32::NEG_INFINITY; W],
+    [f32::NEG_INFINITY; W],
+    [f32::NEG_INFINITY; W],
 ]);
 
 /// A leaf and its boxes. Those of the triangles without area, `flat`, stay empty, and these are never found.
 fn leaf(mesh: &Mesh, frame: &Frame, flat: &[u32], faces: impl Iterator<Item = usize>) -> (Leaf, Boxes) {
-    let mut leaf =
-        Leaf { at: [[Row([0.0; W]); 3]; 3], corner: [Row([u32::MAX; W]); 3], face: Row([u32::MAX; W]) };
+    let mut leaf = Leaf { at: [[[0.0; W]; 3]; 3], corner: [[u32::MAX; W]; 3], face: [u32::MAX; W] };
     let mut boxes = NOTHING;
     for (i, number) in faces.enumerate() {
         let face = mesh.faces[number];
         let p = face.map(|v| frame.place(&mesh.positions[v as usize]).map(|x| x as f32));
         if flat.is_empty() || flat.binary_search(&(number as u32)).is_err() {
             for k in 0..3 {
-                boxes.0[k].0[i] = p[0][k].min(p[1][k]).min(p[2][k]) - frame.slack;
-                boxes.0[k + 3].0[i] = p[0][k].max(p[1][k]).max(p[2][k]) + frame.slack;
+                let (least, greatest) = extremes([p[0][k], p[1][k], p[2][k]]);
+                boxes.0[k][i] = least - frame.slack;
+                boxes.0[k + 3][i] = greatest + frame.slack;
             }
         }
-        leaf.face.0[i] = number as u32;
+        leaf.face[i] = number as u32;
         for j in 0..3 {
-            leaf.corner[j].0[i] = face[j];
+            leaf.corner[j][i] = face[j];
             for k in 0..3 {
-                leaf.at[j][k].0[i] = p[j][k];
+                leaf.at[j][k][i] = p[j][k];
             }
         }
     }
@@ -182,14 +195,15 @@ fn leaf(mesh: &Mesh, frame: &Frame, flat: &[u32], faces: impl Iterator<Item = us
 
 /// Box of all children.
 fn hull(b: &Boxes) -> [f32; 6] {
-    let pick = |r: &Row<f32>, f: fn(f32, f32) -> f32| r.0.into_iter().fold(r.0[0], f);
-    std::array::from_fn(|k| {
-        if k < 3 {
-            pick(&b.0[k], |a, b| if b < a { b } else { a })
-        } else {
-            pick(&b.0[k], |a, b| if b > a { b } else { a })
+    let mut hull = b.0.map(|row| row[0]);
+    for i in 1..W {
+        for k in 0..3 {
+            let (low, high) = (b.0[k][i], b.0[k + 3][i]);
+            hull[k] = if low < hull[k] { low } else { hull[k] };
+            hull[k + 3] = if high > hull[k + 3] { high } else { hull[k + 3] };
         }
-    })
+    }
+    hull
 }
 
 /// One bit each, the first the lowest.
@@ -200,7 +214,7 @@ fn bits(flags: impl Iterator<Item = bool>) -> u32 {
 /// Which facets of each leaf are among `some`.
 fn asked(leaves: &[Leaf], some: &[bool]) -> Vec<u32> {
     let flag = |facet: u32| some.get(facet as usize).copied().unwrap_or(false);
-    leaves.par_iter().map(|leaf| bits(leaf.face.0.into_iter().map(flag))).collect()
+    leaves.par_iter().map(|leaf| bits(leaf.face.into_iter().map(flag))).collect()
 }
 
 impl Tree {
@@ -216,10 +230,17 @@ impl Tree {
         let mut leaves: Vec<Leaf> = large_pages(Vec::with_capacity(n));
         let mut boxes: Vec<Boxes> = large_pages(Vec::with_capacity(n));
         let (l, b) = (Shared::of(&mut leaves), Shared::of(&mut boxes));
-        keys.par_chunks(W).enumerate().for_each(|(i, part)| {
-            let (leaf, boxes) = leaf(mesh, &frame, &topology.collinear, part.iter().map(face));
-            // SAFETY: each of the `n` places allocated is written once.
-            unsafe { (l.at(i).write(leaf), b.at(i).write(boxes)) };
+        keys.par_chunks(W * LEAVES).enumerate().for_each(|(i, keys)| {
+            // Faces and corners lie anywhere: those of the next leaves are sent for.
+            let ahead = |leaf: usize| keys.iter().skip(leaf * W).take(W).map(face);
+            for (j, part) in keys.chunks(W).enumerate() {
+                ahead(j + 4).for_each(|f| prefetch(&mesh.faces[f]));
+                ahead(j + 2).flat_map(|f| mesh.faces[f]).for_each(|v| prefetch(&mesh.positions[v as usize]));
+                let (leaf, boxes) = leaf(mesh, &frame, &topology.collinear, part.iter().map(face));
+                let at = i * LEAVES + j;
+                // SAFETY: each of the `n` places allocated is written once.
+                unsafe { (l.at(at).write(leaf), b.at(at).write(boxes)) };
+            }
         });
         // SAFETY: all written above.
         unsafe { (leaves.set_len(n), boxes.set_len(n)) };
@@ -243,7 +264,7 @@ impl Tree {
                 let mut b = NOTHING;
                 for (i, c) in part.iter().enumerate() {
                     for (k, x) in hull(c).into_iter().enumerate() {
-                        b.0[k].0[i] = x;
+                        b.0[k][i] = x;
                     }
                 }
                 b
