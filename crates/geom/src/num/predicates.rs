@@ -35,7 +35,8 @@ pub fn axis(triangle: &[Point; 3]) -> Option<usize> {
 }
 
 /// True if the corners of the triangle lie on one line. Nearly always settled by one rounded vector product.
-pub fn is_flat(triangle: &[Point; 3]) -> bool {
+#[inline]
+pub fn is_flat(triangle: [&Point; 3]) -> bool {
     // Each component is formed with fewer than ten roundings of 2^-53; this allows for a hundred.
     const ROUNDING: f64 = 1e-14;
     let d = |j: usize, k: usize| triangle[j][k] - triangle[0][k];
@@ -43,7 +44,7 @@ pub fn is_flat(triangle: &[Point; 3]) -> bool {
         let (s, t) = (d(1, a) * d(2, b), d(1, b) * d(2, a));
         (s - t).abs() > ROUNDING * (s.abs() + t.abs())
     };
-    !(clear(0, 1) || clear(1, 2) || clear(2, 0)) && axis(triangle).is_none()
+    !(clear(0, 1) || clear(1, 2) || clear(2, 0)) && axis(&triangle.map(|p| *p)).is_none()
 }
 
 #[cfg(test)]
@@ -63,9 +64,9 @@ mod tests {
         // 0.1 + 0.2 is one unit in the last place off the line through 0.3.
         let p = |x: f64| [x, x, 1.0];
         let off = [0.1 + 0.2, 0.3, 1.0];
-        assert!(is_flat(&[p(-1.0), p(0.3), p(1e9)]));
-        assert!(!is_flat(&[p(-1.0), off, p(1e9)]));
+        assert!(is_flat([&p(-1.0), &p(0.3), &p(1e9)]));
+        assert!(!is_flat([&p(-1.0), &off, &p(1e9)]));
         assert_eq!(side_of_line(2, &p(-1.0), &p(1e9), &off), -1);
-        assert!(is_flat(&[[1.0, 2.0, 3.0], [1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]));
+        assert!(is_flat([&[1.0, 2.0, 3.0], &[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0]]));
     }
 }

@@ -152,13 +152,14 @@ impl Topology {
     }
 }
 
+#[inline(always)]
 fn shape(mesh: &Mesh, face: &[u32; 3], finite: bool) -> Shape {
-    let corners = face.map(|v| mesh.positions[v as usize]);
-    if !finite && corners.iter().flatten().any(|x| !x.is_finite()) {
+    let corners = face.map(|v| &mesh.positions[v as usize]);
+    if !finite && corners.into_iter().flatten().any(|x| !x.is_finite()) {
         Shape::NotFinite
     } else if face[0] == face[1] || face[1] == face[2] || face[2] == face[0] {
         Shape::Repeated
-    } else if predicates::is_flat(&corners) {
+    } else if predicates::is_flat(corners) {
         Shape::Collinear
     } else {
         Shape::Fine

@@ -64,7 +64,7 @@ impl Sets {
     /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree
     /// about `counts`.
     pub(crate) fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> (usize, Vec<u32>) {
-        let is_first = |i: &u32| self.root(*i) == *i && counts(*i);
+        let is_first = |i: &u32| self.0[*i as usize].load(Relaxed) == *i && counts(*i);
         let n = self.0.len();
         let firsts: Vec<Vec<u32>> = (0..n.div_ceil(PART))
             .into_par_iter()

@@ -7,14 +7,13 @@
 //! A thread that meets a position represented by a later item than its own takes the slot over and leaves a forwarding
 //! entry; following those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch
 //! ahead: the table is larger than any cache, and waiting for it is what a weld does.
-#![allow(unsafe_code, reason = "prefetching")]
 
 mod bits;
 mod within;
 
 pub use within::within;
 
-use crate::memory::{atomics, large_pages, triples};
+use crate::memory::{atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
 use bits::Bits;
 use rayon::prelude::*;
@@ -130,6 +129,12 @@ pub(super) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     if facets > MOST_FACETS {
         return Err(WeldError::TooManyFacets { facets });
     }
+    // Nearly always all is well, and the largest number says so soonest.
+    let largest = |part: &[[u32; 3]]| part.as_flattened().iter().fold(0, |most: u32, v| most.max(*v));
+    let largest = mesh.faces.par_chunks(CHUNK).map(largest).max();
+    if largest.is_none_or(|v| (v as usize) < vertices) {
+        return Ok(());
+    }
     let bad = |v: &&u32| **v as usize >= vertices;
     let first = |(facet, f): (usize, &[u32; 3])| f.iter().find(bad).map(|&v| (facet, v));
     match mesh.faces.par_iter().enumerate().find_map_first(first) {
@@ -168,17 +173,6 @@ fn first_of_its_kind<P: Position>(
         }
     });
     first
-}
-
-#[inline(always)]
-fn prefetch<T>(x: &T) {
-    #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch never faults.
-    unsafe {
-        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(std::ptr::from_ref(x).cast());
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = x;
 }
 
 /// Writes for each item an equal one that is not later. False if the table of `size` slots became too full.

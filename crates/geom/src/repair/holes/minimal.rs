@@ -110,7 +110,7 @@ impl<'a> Table<'a> {
 
     fn triangle(&self, i: usize, m: usize, j: usize, whole: bool) -> Cost {
         let corners = [self.at[i], self.at[m], self.at[j]];
-        if self.ring[i] == self.ring[j] || predicates::is_flat(&corners) {
+        if self.ring[i] == self.ring[j] || predicates::is_flat(corners.each_ref()) {
             return Cost::IMPOSSIBLE;
         }
         let normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
@@ -160,7 +160,7 @@ fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32
     let ear = |before: &[usize], next: &[usize], i: usize| -> Option<Ear> {
         let (a, b, c) = (at(before[i]), at(i), at(next[i]));
         let (p, q) = (ring.vertices[before[i]], ring.vertices[next[i]]);
-        let usable = p != q && !site.has_edge(p, q) && !predicates::is_flat(&[a, b, c]);
+        let usable = p != q && !site.has_edge(p, q) && !predicates::is_flat([&a, &b, &c]);
         // An ear that points inwards comes last.
         let inwards = dot(cross(minus(b, a), minus(c, a)), up) <= 0.0;
         usable.then(|| Ear { inwards, chord: dot(minus(c, a), minus(c, a)), vertex: i, version: 0 })

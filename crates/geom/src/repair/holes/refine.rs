@@ -138,7 +138,7 @@ fn flip(site: &Site, patch: &mut Patch) -> bool {
             sides.contains_key(&edge) || made.contains(&edge) || (edge[1] < NEW && site.has_edge(c, d));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| patch.at(site.work, v));
         let new = [[a, d, c], [d, b, c]];
-        let fine = |f: &[u32; 3]| !predicates::is_flat(&f.map(|v| patch.at(site.work, v)));
+        let fine = |f: &[u32; 3]| !predicates::is_flat(f.map(|v| patch.at(site.work, v)).each_ref());
         if c != d
             && !exists
             && angle(pc, pa, pb) + angle(pd, pa, pb) > std::f64::consts::PI + 1e-9
