@@ -22,6 +22,8 @@ use std::sync::atomic::{
     Ordering::{AcqRel, Acquire, Relaxed},
 };
 
+/// Slots in a page of memory.
+const PAGE: usize = 4096 / size_of::<AtomicU32>();
 /// Items hashed and prefetched together.
 const BATCH: usize = 96;
 /// Items of one task.
@@ -178,6 +180,8 @@ fn first_of_its_kind<P: Position>(
 /// Writes for each item an equal one that is not later. False if the table of `size` slots became too full.
 fn enter<P: Position>(size: usize, item: &(impl Fn(usize) -> P + Sync), first: &[AtomicU32]) -> bool {
     let table = atomics(size);
+    // A page that is read before it is written is mapped twice, and the second time all threads are interrupted.
+    table.par_chunks(PAGE).for_each(|page| page[0].store(0, Relaxed));
     let shift = 64 - size.trailing_zeros();
     let used = AtomicUsize::new(0);
     let limit = size / 8 * 5;
