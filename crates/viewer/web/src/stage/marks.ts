@@ -69,6 +69,12 @@ export class Marks {
     return out
   }
 
+  /** Whether the mark with this number over all marks is one of these. */
+  has(mark: number): boolean {
+    const { first, groups } = this.object
+    return mark >= first && mark < first + groups.reduce((n, group) => n + group.count, 0)
+  }
+
   /** Highlights a mark by its number over all marks; none at −1. */
   select(mark: number): void {
     this.shared.selected.value = mark

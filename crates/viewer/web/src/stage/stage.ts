@@ -103,7 +103,9 @@ export class Stage {
     for (const marks of this.marks) {
       const { role, comparison } = marks.object
       marks.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
-      marks.select(this.state.manifest.picks[this.state.picked]?.mark ?? -1)
+      const mark = this.state.manifest.picks[this.state.picked]?.mark ?? -1
+      marks.select(mark)
+      if (marks.has(mark)) this.scene.add(marks.drawn) // again, and so last: over the other marks
     }
     this.values.clear()
     this.draw()
