@@ -4,8 +4,8 @@
 //! Ours differs in four points. The unknowns are small motions about the present element, so the frame is
 //! renewed in every step. Damping starts at zero, as the starts are good. And once the linear model says that
 //! the sum of squares cannot fall by more than its own rounding, steps are taken unseen until they stop
-//! shrinking: the gradient still has digits where the sum has none left. By then the normal matrix changes no more that
-//! shows, and is kept: only the gradient is summed.
+//! shrinking: the gradient still has digits where the sum has none left. While steps are short, and shrink as they do with
+//! the right normal matrix, that matrix is kept and only the gradient is summed.
 
 use super::family::{Element, Family};
 use super::normal::{Sums, Weighing, sums, sums_near};
@@ -120,4 +120,45 @@ fn harder(damping: f64) -> f64 {
 fn easier(damping: f64) -> f64 {
     let less = damping / 8.0;
     if less < DAMPING.0 { 0.0 } else { less }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cylinder::Cylinder;
+    use super::super::normal::Alike;
+    use super::super::pose::Pose;
+    use super::*;
+    use crate::num::random::Random;
+    use crate::space::Point;
+
+    /// A cylinder of radius 0.05, so that small motions change the slopes much, seen over a third of its turn.
+    #[test]
+    fn the_normal_matrix_kept_is_that_of_the_element_found() {
+        let mut random = Random::new(9);
+        let mut point = |_| -> Point {
+            let (angle, rho) = (2.0 * random.unit(), 0.05 + 1e-3 * (random.unit() - 0.5));
+            [rho * angle.cos(), rho * angle.sin(), 2.0 * random.unit() - 1.0]
+        };
+        let points: Vec<Point> = (0..500).map(&mut point).collect();
+        let sample = Sample::new(&points).unwrap();
+        let element = Element {
+            pose: Pose::along(sample.unit([0.0; 3]), [0.0, 0.0, 1.0]),
+            size: [0.05 * sample.scale, 0.0],
+        };
+        let best = minimise::<5, Cylinder, _>(&element, &sample, &Alike, FULL).unwrap().element;
+        for off in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            let start = best.moved(&Cylinder::LOCAL, &[off, -off, off, off, off]).unwrap();
+            let found = minimise::<5, Cylinder, _>(&start, &sample, &Alike, FULL).unwrap();
+            assert!(found.converged);
+            let there = sums::<5, Cylinder, _>(&found.element, &sample, &Alike).symmetric();
+            let kept = found.sums.symmetric();
+            for i in 0..5 {
+                for j in 0..5 {
+                    let scale = (there[i][i] * there[j][j]).sqrt();
+                    let error = (kept[i][j] - there[i][j]).abs() / scale;
+                    assert!(error < 1e-3, "{off} {i} {j}: {error}");
+                }
+            }
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::FitError;
 use super::lanes::widest;
+use crate::num::random::GOLDEN;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
 
@@ -61,7 +62,6 @@ impl<'a> Sample<'a> {
     }
     /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
     pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
-        const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15; // of 2⁶⁴
         let all = self.len();
         let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN));
         let pick = move |k: usize| ((turn(k) * all as u128) >> 64) as usize;

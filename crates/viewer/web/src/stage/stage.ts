@@ -100,10 +100,10 @@ export class Stage {
       part.setBack(meant !== null && meant !== part.object.id)
       part.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
     }
+    const mark = this.state.manifest.picks[this.state.picked]?.mark ?? -1
     for (const marks of this.marks) {
       const { role, comparison } = marks.object
       marks.drawn.visible = this.state.visible[role] && (comparison === null || comparison === this.state.comparison)
-      const mark = this.state.manifest.picks[this.state.picked]?.mark ?? -1
       marks.select(mark)
       if (marks.has(mark)) this.scene.add(marks.drawn) // again, and so last: over the other marks
     }
