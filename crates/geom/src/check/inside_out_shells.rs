@@ -4,24 +4,29 @@ use super::islands::shell_bounds;
 use super::near::Near;
 use super::nesting::Container;
 use super::{Finding, Inspected, Kind, Severity};
-use crate::space::Aabb;
+use crate::mesh::Mesh;
+use crate::num::exact::Exact;
+use crate::space::{Aabb, times};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 pub(super) const KIND: Kind = Kind {
     name: "inside_out_shells",
     severity: Severity::Error,
     about: "Closed, consistently oriented shells that look inwards, or outwards where they bound a cavity: inside an odd \
-            number of others a shell must look inwards. Facets: the first of the shell.",
+            number of others a shell must look inwards. One that encloses nothing looks neither way. Facets: the first of \
+            the shell.",
     size: "volume enclosed, mm³",
     find: |m| {
         let closed = closed_shells(m);
         let bounds = shell_bounds(m);
-        let depth = depths(m, &closed, &bounds);
+        let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
+        let depth = depths(m, &closed, &bounds, &facets);
         let wrong = |s: &usize| {
-            let outward = m.properties.shell_volumes[*s] > 0.0;
-            closed[*s] && outward != depth[*s].is_multiple_of(2)
+            let inward = if depth[*s].is_multiple_of(2) { -1 } else { 1 };
+            closed[*s] && looks(m, *s, &facets) == inward
         };
-        let shells: Vec<usize> = (0..closed.len()).filter(wrong).collect();
+        let shells: Vec<usize> = (0..closed.len()).into_par_iter().filter(wrong).collect();
         m.each(&shells, |&s| {
             let (first, bounds) = bounds[s];
             let position = std::array::from_fn(|k| bounds.min[k] / 2.0 + bounds.max[k] / 2.0);
@@ -42,8 +47,49 @@ fn closed_shells(m: &Inspected) -> Vec<bool> {
     closed
 }
 
+/// The facets of each shell, ascending, made when first asked for.
+type Facets<'a> = LazyLock<Vec<Vec<u32>>, Box<dyn FnOnce() -> Vec<Vec<u32>> + Send + 'a>>;
+
+/// Whether a closed shell looks outwards (1) or inwards (−1), or encloses nothing (0): the exact sign of its volume.
+fn looks(m: &Inspected, shell: usize, facets: &Facets) -> i32 {
+    /// What rounding adds at most to the volume for each facet, as a share of the cube of half the diagonal.
+    const ROUNDING: f64 = 1e-15;
+    let volume = m.properties.shell_volumes[shell];
+    let radius = m.properties.bounds.diagonal() / 2.0;
+    if volume.abs() > ROUNDING * m.mesh.faces.len() as f64 * radius.powi(3) {
+        return if volume > 0.0 { 1 } else { -1 };
+    }
+    exact_volume(m.mesh, &facets[shell]).sign()
+}
+
+/// Six times the volume of a closed shell, in units that keep its products in the range of `f64`.
+fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
+    /// Facets of one task.
+    const PART: usize = 1 << 10;
+    let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
+    let size = |f: &u32| corners(*f).iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
+    let largest = facets.par_iter().map(size).reduce(|| 0.0, f64::max);
+    let unit = 2f64.powi(-(largest.max(f64::MIN_POSITIVE).log2().floor() as i32).max(-1000));
+    let of_part = |part: &[u32]| {
+        let mut sum = Exact::default();
+        for &f in part {
+            let [a, b, c] = corners(f).map(|p| times(unit, p));
+            for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+                sum.add_product(a[i], b[j], c[k]);
+                sum.add_product(a[i], -b[k], c[j]);
+            }
+        }
+        sum
+    };
+    let both = |mut a: Exact, b: Exact| {
+        a.merge(&b);
+        a
+    };
+    facets.par_chunks(PART).map(of_part).reduce(Exact::default, both)
+}
+
 /// How many closed shells each closed shell lies in.
-fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)]) -> Vec<u32> {
+fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facets) -> Vec<u32> {
     let mut depth = vec![0; closed.len()];
     let corner = |s: usize| (bounds[s].1.min, s as u32);
     let near = Near::new((0..closed.len()).filter(|&s| closed[s]).map(corner).collect());
@@ -68,7 +114,6 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)]) -> Vec<u32> {
     if outer.is_empty() {
         return depth;
     }
-    let facets = by_shell(&m.topology.shell_of, closed.len());
     // One after the other: all lists together might have as many entries as there are pairs of shells.
     for s in outer {
         let container = Container::new(m.mesh, &facets[s]);
@@ -95,4 +140,59 @@ fn by_shell(shell_of: &[u32], shells: usize) -> Vec<Vec<u32>> {
         }
     }
     facets
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::check::tests::{add, inverted};
+    use crate::check::{Options, check};
+    use crate::mesh::Mesh;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+    use crate::topology::tests::block;
+
+    fn wrong(mesh: &Mesh) -> Vec<u32> {
+        let report = check(mesh, None, &Options::default(), &Silent).unwrap();
+        report.found("inside_out_shells").unwrap().items.iter().map(|finding| finding.facets[0]).collect()
+    }
+
+    /// Their volumes are less than what rounding does to sums over the whole.
+    #[test]
+    fn tiny_shells_far_from_the_middle_are_told_apart() {
+        let random = &mut Random::new(3);
+        let mut mesh = block(4, 1000.0);
+        let (mut expected, tiny) = (vec![], block(2, 1e-3));
+        for k in 0..200 {
+            let first = mesh.faces.len() as u32;
+            let place = [1000.0 + random.unit(), 1000.0 * random.unit(), f64::from(k)];
+            if random.below(2) == 0 {
+                add(&mut mesh, &inverted(tiny.clone()), place);
+                expected.push(first);
+            } else {
+                add(&mut mesh, &tiny, place);
+            }
+        }
+        assert_eq!(wrong(&mesh), expected);
+        for scale in [1e-200, 1e200] {
+            let mut scaled = mesh.clone();
+            scaled.positions.iter_mut().flatten().for_each(|x| *x *= scale);
+            assert_eq!(wrong(&scaled), expected, "{scale}");
+        }
+    }
+
+    /// The same square twice, divided along the one diagonal and along the other, one corner off by the last digit or not.
+    #[test]
+    fn what_encloses_nothing_looks_neither_way() {
+        const LAST_DIGIT: f64 = f64::EPSILON / 2.0;
+        for (z, expected) in [(0.0, 0), (LAST_DIGIT, 0), (-LAST_DIGIT, 1)] {
+            let positions = vec![
+                [0.125, 0.125, 0.0],
+                [0.875, 0.125, 0.375],
+                [0.875, 0.875, 0.75 + z],
+                [0.125, 0.875, 0.375],
+            ];
+            let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]] };
+            assert_eq!(wrong(&mesh).len(), expected, "{z}");
+        }
+    }
 }

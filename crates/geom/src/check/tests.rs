@@ -1,3 +1,5 @@
+mod places;
+
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
