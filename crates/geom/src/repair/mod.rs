@@ -155,6 +155,9 @@ impl From<CheckError> for RepairError {
     }
 }
 
+/// Torn holes are widened by no more than this share of the whole area, all together.
+const WIDEN: f64 = 0.25;
+
 /// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
 const ROUNDS: usize = 8;
 
@@ -170,19 +173,13 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let welded = as_it_is(mesh)?;
     let before = check::check(&welded, None, &check_options, progress)?;
-    let wanted: Vec<&Step> = STEPS.into_iter().filter(|s| options.steps.contains(&s.name)).collect();
     let mut work = Work::new(welded.clone(), options, progress)?;
-    let mut rounds = 0;
-    while rounds < ROUNDS {
-        let done = work.changes.len();
-        for step in &wanted {
-            (step.run)(&mut work)?;
-        }
-        rounds += 1;
-        // A tangle that two rounds have not undone gets no better.
-        if work.changes.len() == done || rounds > 1 && work.crossings(|_, _| true)?.is_none() {
-            break;
-        }
+    work.may_widen = WIDEN * before.properties.area;
+    let mut rounds = go_through(&mut work)?;
+    if work.widened && work.has_torn_hole()? {
+        // All for nothing: what was torn out in vain shall stay.
+        work = Work::new(welded.clone(), options, progress)?;
+        rounds = go_through(&mut work)?;
     }
     let changes = std::mem::take(&mut work.changes);
     let repaired = match changes.is_empty() {
@@ -193,6 +190,22 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
     let after = check::check(&mesh, None, &check_options, progress)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts })
+}
+
+/// Goes through the steps until nothing is left to do; how often.
+fn go_through(work: &mut Work) -> Result<usize, RepairError> {
+    let wanted: Vec<&Step> = STEPS.into_iter().filter(|s| work.options.steps.contains(&s.name)).collect();
+    for round in 1..=ROUNDS {
+        let done = work.changes.len();
+        for step in &wanted {
+            (step.run)(work)?;
+        }
+        // A tangle that two rounds have not undone gets no better.
+        if work.changes.len() == done || round > 1 && work.crossings(|_, _| true)?.is_none() {
+            return Ok(round);
+        }
+    }
+    Ok(ROUNDS)
 }
 
 /// The mesh itself if its vertices are distinct places that facets use; else welded.

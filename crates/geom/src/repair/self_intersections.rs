@@ -1,7 +1,7 @@
 //! Facets that cross.
 //!
-//! The facets of all crossing pairs are torn out, in later rounds with their neighbours, and what is left of a shell beside
-//! its largest piece goes too if it is small. The holes are filled by the step that fills holes, whatever their size.
+//! The facets of all crossing pairs are torn out, and what is left of a shell beside its largest piece goes too if it is
+//! small. The holes are filled by the step that fills holes, whatever their size; where nothing fits it widens them.
 
 use super::work::Work;
 use super::{RepairError, Step};
@@ -9,7 +9,7 @@ use crate::check::finding::area;
 
 pub(super) const STEP: Step = Step {
     name: "self_intersections",
-    about: "Tears out facets that cross others, with more of their neighbourhood each time; the holes are filled afterwards.",
+    about: "Tears out facets that cross others, and what they cut off; the holes are filled afterwards.",
     run,
 };
 
@@ -27,16 +27,6 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let shell_of = known.topology.shell_of.clone();
     let mut torn = vec![false; work.mesh().faces.len()];
     crossings.iter().flatten().for_each(|f| torn[*f as usize] = true);
-    for _ in 0..work.tears {
-        let vertices: Vec<u32> = (0..)
-            .zip(&torn)
-            .filter(|(_, t)| **t)
-            .flat_map(|(f, _): (u32, _)| work.mesh().faces[f as usize])
-            .collect();
-        for v in vertices {
-            known.topology.facets_at_vertex(v).into_iter().for_each(|f| torn[f as usize] = true);
-        }
-    }
     let area_of = |wanted: bool| -> f64 {
         let facets = (0..).zip(&torn).filter(|(_, t)| **t || !wanted);
         facets.map(|(f, _)| area(work.corners(f))).sum()
@@ -44,7 +34,6 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     if area_of(true) > MOST * area_of(false) {
         return Ok(());
     }
-    work.tears += 1;
     let removed: Vec<u32> = (0..).zip(&torn).filter(|(_, t)| **t).map(|(f, _)| f).collect();
     let place = work.middle(crossings[0][0]);
     work.log(STEP.name, "crossing facets torn out", place, removed.len(), 0.0);

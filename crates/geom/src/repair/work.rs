@@ -28,8 +28,10 @@ pub(super) struct Work<'a> {
     torn: BTreeSet<u32>,
     /// Vertices that were parted from others on purpose and must not be joined again.
     pub parted: BTreeSet<u32>,
-    /// How often facets that cross have been torn out.
-    pub tears: usize,
+    /// Torn holes have been widened.
+    pub widened: bool,
+    /// Area, mm², by which they may still be.
+    pub may_widen: f64,
     /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
@@ -61,7 +63,8 @@ impl<'a> Work<'a> {
             changes: vec![],
             torn: BTreeSet::new(),
             parted: BTreeSet::new(),
-            tears: 0,
+            widened: false,
+            may_widen: 0.0,
             known: None,
         };
         let spacing = check::spacing(&work.known()?.properties.bounds);
@@ -206,6 +209,11 @@ impl<'a> Work<'a> {
     /// Whether the ring is the rim of a hole that a step has torn.
     pub(super) fn is_torn(&self, ring: &[u32]) -> bool {
         ring.iter().all(|v| self.torn.contains(v))
+    }
+
+    /// Whether a hole that a step has torn is still open.
+    pub(super) fn has_torn_hole(&mut self) -> Result<bool, RepairError> {
+        Ok(self.known()?.free_edges.rings.iter().any(|ring| self.is_torn(ring)))
     }
 
     pub(super) fn log(

@@ -73,60 +73,77 @@ struct Trial {
     ring: Ring,
     /// The next way to try.
     way: usize,
-    patch: Patch,
+    /// `None` where nothing fits, or where the hole is too large.
+    patch: Option<Patch>,
     /// Where its facets are while they are in the mesh.
     facets: Range<u32>,
 }
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
-    let trial = |ring| Trial { ring, way: 0, patch: Patch::default(), facets: 0..0 };
-    let mut open: Vec<Trial> = Ring::all(&known).into_iter().map(trial).collect();
-    open.retain_mut(|trial| propose(&Site { work, known: &known }, trial));
-    if open.is_empty() {
-        return Ok(());
-    }
+    let trial = |ring| Trial { ring, way: 0, patch: None, facets: 0..0 };
+    let mut trials: Vec<Trial> = Ring::all(&known).into_iter().map(trial).collect();
+    trials.iter_mut().for_each(|trial| propose(&Site { work, known: &known }, trial));
     let (facets, vertices) = (work.mesh().faces.len() as u32, work.mesh().positions.len());
-    loop {
-        for trial in &mut open {
-            trial.facets = insert(work, &trial.patch);
+    while trials.iter().any(|trial| trial.patch.is_some()) {
+        for trial in &mut trials {
+            trial.facets = trial.patch.as_ref().map_or(0..0, |patch| insert(work, patch));
         }
         let bad = misfits(work, facets)?;
         let hit = |trial: &Trial| {
             let from = bad.partition_point(|f| *f < trial.facets.start);
-            bad.get(from).is_some_and(|f| *f < trial.facets.end)
+            trial.patch.is_some() && bad.get(from).is_some_and(|f| *f < trial.facets.end)
         };
-        if !open.iter().any(hit) {
+        let again: Vec<usize> = (0..trials.len()).filter(|&i| hit(&trials[i])).collect();
+        if again.is_empty() {
             break;
         }
-        let mut again = open.iter().map(hit).collect::<Vec<bool>>().into_iter();
         work.truncate(facets, vertices);
-        let site = Site { work, known: &known };
-        open.retain_mut(|trial| !again.next().unwrap_or(false) || propose(&site, trial));
+        again.into_iter().for_each(|i| propose(&Site { work, known: &known }, &mut trials[i]));
     }
-    for trial in open {
-        let place = trial.ring.middle(work);
-        let area = trial.facets.clone().map(|f| finding::area(work.corners(f))).sum();
-        work.log(STEP.name, "hole filled", place, trial.patch.facets.len(), area);
+    for Trial { ring, patch, facets, .. } in &trials {
+        if let Some(patch) = patch {
+            let area = facets.clone().map(|f| finding::area(work.corners(f))).sum();
+            work.log(STEP.name, "hole filled", ring.middle(work), patch.facets.len(), area);
+        }
     }
+    widen(work, &known, trials.iter().filter(|trial| trial.patch.is_none()).map(|trial| &trial.ring));
     Ok(())
 }
 
-/// Finds the next patch for the hole. False if there is none, or if the hole is too large.
-fn propose(site: &Site, trial: &mut Trial) -> bool {
-    while let Some(way) = WAYS.get(trial.way) {
-        trial.way += 1;
-        if let Some(patch) = way(site, &trial.ring) {
-            trial.patch = patch;
-            let work = site.work;
-            let limit = match work.options.holes {
-                Holes::UpTo(share) => share * trial.ring.shell_area,
-                Holes::All => f64::INFINITY,
-            };
-            return work.is_torn(&trial.ring.vertices) || trial.patch.area(work) <= limit;
-        }
+/// Tears out the facets around torn holes that nothing fits, so that the next round may find something that does: what was
+/// torn out of two bodies that cross leaves rims so near to each other that patches would cross again.
+fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
+    let rings = rings.filter(|ring| work.is_torn(&ring.vertices));
+    let mut removed: Vec<u32> =
+        rings.flat_map(|ring| &ring.vertices).flat_map(|v| known.topology.facets_at_vertex(*v)).collect();
+    removed.sort_unstable();
+    removed.dedup();
+    let area = removed.iter().map(|&f| finding::area(work.corners(f))).sum::<f64>();
+    if removed.is_empty() || area > work.may_widen {
+        work.may_widen = 0.0;
+        return;
     }
-    false
+    work.may_widen -= area;
+    work.widened = true;
+    work.log(STEP.name, "holes widened that nothing fits", work.middle(removed[0]), removed.len(), area);
+    work.tear(&removed);
+}
+
+/// Finds the next patch for the hole, if there is one and the hole is not too large.
+fn propose(site: &Site, trial: &mut Trial) {
+    let work = site.work;
+    trial.patch = WAYS[trial.way..].iter().find_map(|way| {
+        trial.way += 1;
+        way(site, &trial.ring)
+    });
+    let limit = match work.options.holes {
+        Holes::UpTo(share) => share * trial.ring.shell_area,
+        Holes::All => f64::INFINITY,
+    };
+    if !work.is_torn(&trial.ring.vertices) && trial.patch.as_ref().is_some_and(|p| p.area(work) > limit) {
+        trial.patch = None;
+    }
 }
 
 /// Puts the patch into the mesh.

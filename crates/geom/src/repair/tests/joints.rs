@@ -130,3 +130,83 @@ fn small_sheets_beside_a_large_one_are_no_scraps() {
     add(&mut mesh, &piece, [9.0; 3]);
     assert_eq!(mend_with(&mesh, &only(&["scraps"])).changes, []);
 }
+
+/// A sheet so narrow that its long edges lie within the stitching distance of each other.
+#[test]
+fn a_narrow_strip_is_not_folded_up() {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.01, 0.0], [0.0, 0.01, 0.0]];
+    let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3]] };
+    assert_eq!(mend_with(&mesh, &Options { stitch: Some(0.1), ..only(&["stitch"]) }).changes, []);
+}
+
+/// A rim with a step above a straight one: the lower part of the step is joined first, and then the upper one must not be,
+/// or the riser between them would fold up.
+#[test]
+fn a_step_in_a_rim_is_not_folded_up() {
+    let positions = vec![
+        [-1.0, 0.0, 0.0],
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.0, -5.0, 0.0],
+        [-1.0, 0.2, 0.0],
+        [0.0, 0.2, 0.0],
+        [0.0, 0.01, 0.0],
+        [1.0, 0.01, 0.0],
+        [0.5, 5.0, 0.0],
+    ];
+    let faces = vec![[0, 3, 1], [1, 3, 2], [4, 5, 8], [5, 6, 8], [6, 7, 8]];
+    let mesh = Mesh { positions, faces };
+    let repaired = mend_with(&mesh, &Options { stitch: Some(0.25), ..only(&["stitch"]) });
+    assert_eq!((repaired.changes.len(), repaired.counts.vertices_removed), (2, 2), "{:?}", repaired.changes);
+    assert_eq!(repaired.after.found("degenerate_facets").map(|found| found.count), Some(0));
+}
+
+/// The vertex lies within the gap of both long edges of a needle.
+#[test]
+fn a_vertex_cuts_a_facet_once() {
+    let positions = vec![
+        [0.0; 3],
+        [10.0, 0.0, 0.0],
+        [10.0, 0.1, 0.0],
+        [5.0, 0.02, 0.0],
+        [4.0, 0.0, 5.0],
+        [6.0, 0.0, 5.0],
+    ];
+    let mesh = Mesh { positions, faces: vec![[0, 1, 2], [3, 4, 5]] };
+    let repaired = mend_with(&mesh, &Options { gap: Some(0.05), ..only(&["t_junctions"]) });
+    assert_eq!(repaired.before.found("t_junctions").map(|found| found.count), Some(2));
+    assert_eq!(repaired.mesh.faces.len(), 3);
+    assert_eq!(repaired.after.found("degenerate_facets").map(|found| found.count), Some(0));
+}
+
+/// Two holes that touch at a corner, where a fin stands as well: the fin is parted, but what lies between the holes stays one
+/// by their filling.
+#[test]
+fn fans_between_holes_wait_until_these_are_filled() {
+    let mut mesh = block(4, 4.0);
+    let at = |p: Point| mesh.positions.iter().position(|q| *q == p).unwrap() as u32;
+    let [v, w, left, behind, right, before] =
+        [[2.0, 2.0], [3.0, 3.0], [1.0, 2.0], [2.0, 3.0], [3.0, 2.0], [2.0, 1.0]]
+            .map(|[x, y]| at([x, y, 4.0]));
+    let holes = [[v, left, behind], [v, right, before]];
+    mesh.faces.retain(|f| !holes.iter().any(|hole| hole.iter().all(|v| f.contains(v))));
+    mesh.faces.push([v, w, mesh.positions.len() as u32]);
+    mesh.positions.push([2.5, 2.5, 90.0]);
+    let repaired = mend_with(&mesh, &only(&["non_manifold_edges", "holes"]));
+    let steps: Vec<&str> = repaired.changes.iter().map(|c| c.step).collect();
+    assert_eq!(steps, ["non_manifold_edges", "holes", "holes"]);
+    assert_eq!(repaired.after.soundness.boundary_edges, 3);
+}
+
+/// What crosses before the parting is no reason to set vertices farther and farther off.
+#[test]
+fn facets_that_crossed_before_do_not_drive_parts_away() {
+    let mut mesh = two([4.0, 4.0, 0.0]);
+    let n = mesh.positions.len() as u32;
+    mesh.positions.extend([[3.7, 4.3, 0.3], [4.3, 4.4, 0.35], [4.1, 4.3, 0.6]]);
+    mesh.faces.push([n, n + 1, n + 2]);
+    let repaired = mend_with(&mesh, &only(&["non_manifold_edges"]));
+    let new: Vec<&Point> = repaired.mesh.positions.iter().filter(|p| !mesh.positions.contains(p)).collect();
+    assert_eq!(new.len(), 5);
+    assert!(new.iter().all(|p| p[..2].iter().all(|x| (x - 4.0).abs() < 1e-4)), "{new:?}");
+}

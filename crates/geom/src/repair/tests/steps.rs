@@ -206,6 +206,36 @@ fn crossing_blocks_become_sound() {
     assert!(repaired.after.soundness.closed);
 }
 
+/// Two blocks that cross, the second turned and with its lowest corner at `offset`, mended; how often holes were widened.
+fn crossing(cells: [u32; 2], offset: Point) -> (Repaired, usize) {
+    let (mut mesh, mut other) = (block(cells[0], 4.0), block(cells[1], 3.0));
+    other.positions.iter_mut().for_each(|p| *p = [0.8 * p[0] - 0.6 * p[1], 0.6 * p[0] + 0.8 * p[1], p[2]]);
+    add(&mut mesh, &other, offset);
+    let repaired = mend(&mesh);
+    let widened = repaired.changes.iter().filter(|c| c.what == "holes widened that nothing fits").count();
+    (repaired, widened)
+}
+
+/// Where facets of two fine bodies that cross were torn out, their rims lie so near each other that patches cross again.
+#[test]
+fn torn_holes_are_widened_until_something_fits() {
+    for (cells, offset, times) in [([8, 12], [3.3, 2.1, 2.7], 1), ([24, 8], [3.0, -0.5, 3.1], 2)] {
+        let (repaired, widened) = crossing(cells, offset);
+        assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+        assert_eq!(widened, times);
+        let volume = repaired.after.properties.signed_volume;
+        assert!(volume > 0.85 * 91.0 && volume < 91.0, "{volume}");
+    }
+}
+
+/// With half of each body in the other all of them would go. What was torn out in vain stays.
+#[test]
+fn holes_are_not_widened_for_nothing() {
+    let (repaired, widened) = crossing([24, 22], [2.0, 0.7, 1.3]);
+    assert_eq!((repaired.after.sound, widened), (false, 0));
+    assert!(repaired.after.properties.area > 0.75 * repaired.before.properties.area);
+}
+
 #[test]
 fn what_only_consists_of_crossings_is_left_alone() {
     let mesh = two([0.5, 0.5, 0.5]);
