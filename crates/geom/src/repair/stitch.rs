@@ -21,6 +21,8 @@ pub(super) const STEP: Step = Step {
 const REACH: f64 = 1e-4;
 /// By how much the distance grows from pass to pass.
 const GROWTH: f64 = 4.0;
+/// Of the edges near one only so many are considered in a pass: in a heap of edges each lies near all others.
+const PARTNERS: usize = 8;
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
     if work.known()?.topology.boundary_edges.is_empty() {
@@ -85,8 +87,11 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
     let middle = |e: u32| times(0.5, plus(work.at(ends(e)[0]), work.at(ends(e)[1])));
     let near = Near::new((0..edges.len() as u32).map(|e| (middle(e), e)).collect());
     let apart = |a: u32, b: u32| norm(minus(work.at(a), work.at(b)));
-    let mut found: Vec<(f64, u32, u32, [[u32; 2]; 2])> = vec![];
+    type Found = (f64, u32, u32, [[u32; 2]; 2]);
+    let nearer = |x: &Found, y: &Found| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2)));
+    let mut found: Vec<Found> = vec![];
     for e in 0..edges.len() as u32 {
+        let mut own: Vec<Found> = vec![];
         let (at, [a, b]): (Point, _) = (middle(e), ends(e));
         let close = |x: &Aabb| (0..3).all(|k| at[k] >= x.min[k] - reach && at[k] <= x.max[k] + reach);
         near.visit(close, |_, f| {
@@ -97,13 +102,15 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
             let limit = reach.min(0.25 * length(e).min(length(f)));
             for pairs in [[[a, d], [b, c]], [[a, c], [b, d]]] {
                 let distance = apart(pairs[0][0], pairs[0][1]).max(apart(pairs[1][0], pairs[1][1]));
-                if distance <= limit {
-                    found.push((distance, e, f, pairs));
+                if distance <= limit && distance.is_finite() {
+                    own.push((distance, e, f, pairs));
                 }
             }
         });
+        own.sort_unstable_by(nearer);
+        found.extend(own.into_iter().take(PARTNERS));
     }
-    found.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+    found.sort_unstable_by(nearer);
     let parted = |v: &u32| work.parted.contains(v);
     let mut used = vec![false; edges.len()];
     let mut pairs = vec![];
