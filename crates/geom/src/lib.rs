@@ -13,6 +13,7 @@
 //! | all defects of a mesh | [`check`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
+//! | instruction sets | [`simd`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod check;
@@ -26,5 +27,6 @@ pub mod num;
 pub mod progress;
 pub mod repair;
 pub mod segment;
+pub mod simd;
 pub mod space;
 pub mod topology;

@@ -21,7 +21,11 @@ fn arrows(source: &Path) -> io::Result<Arrows> {
     let modules = modules::of_crate(source)?;
     let mut arrows = Arrows::new();
     for (number, module) in modules.iter().enumerate() {
-        let mut paths: Vec<Vec<String>> = module.imports.values().cloned().collect();
+        let used = |name: &String| {
+            !module.handed_on.contains(name) || module.tokens.iter().any(|tokens| paths::names(tokens, name))
+        };
+        let mut paths: Vec<Vec<String>> =
+            module.imports.iter().filter(|(name, _)| used(name)).map(|(_, path)| path.clone()).collect();
         module.tokens.iter().for_each(|tokens| paths::written_in(tokens, &mut paths));
         let from = arrows.entry(module.file.clone()).or_default();
         for path in paths {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use syn::{Attribute, Item, Meta, UseTree};
+use syn::{Attribute, Item, Meta, UseTree, Visibility};
 
 /// A module: a file, or a part of one.
 pub struct Module {
@@ -18,6 +18,8 @@ pub struct Module {
     pub items: Vec<String>,
     /// Names that it imports, with the path of each as written.
     pub imports: BTreeMap<String, Vec<String>>,
+    /// Those of the imported names that it hands on: no arrow unless it uses them itself.
+    pub handed_on: Vec<String>,
     /// Paths of which it imports all names.
     pub globs: Vec<Vec<String>>,
     /// The tokens of its items, without imports and without modules.
@@ -63,6 +65,7 @@ fn add(
         children: BTreeMap::new(),
         items: vec![],
         imports: BTreeMap::new(),
+        handed_on: vec![],
         globs: vec![],
         tokens: vec![],
     });
@@ -83,7 +86,15 @@ fn add(
                 modules[number].children.insert(name, child);
             }
             Item::Use(u) if for_tests(&u.attrs) => {}
-            Item::Use(u) => imports(&u.tree, &mut vec![], &mut modules[number]),
+            Item::Use(u) => {
+                let module = &mut modules[number];
+                let before: Vec<String> = module.imports.keys().cloned().collect();
+                imports(&u.tree, &mut vec![], module);
+                if !matches!(u.vis, Visibility::Inherited) {
+                    let new = module.imports.keys().filter(|name| !before.contains(name)).cloned();
+                    module.handed_on.extend(new);
+                }
+            }
             item => {
                 if let Some(name) = name_of(&item) {
                     modules[number].items.push(name);

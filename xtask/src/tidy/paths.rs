@@ -94,6 +94,15 @@ pub fn written_in(tokens: &TokenStream, out: &mut Vec<Vec<String>>) {
     end(&mut path, out);
 }
 
+/// Whether `name` stands anywhere in `tokens`.
+pub fn names(tokens: &TokenStream, name: &str) -> bool {
+    tokens.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(i) => i == name,
+        TokenTree::Group(group) => names(&group.stream(), name),
+        _ => false,
+    })
+}
+
 fn end(path: &mut Vec<String>, out: &mut Vec<Vec<String>>) {
     if path.len() > 1 {
         out.push(std::mem::take(path));

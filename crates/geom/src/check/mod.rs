@@ -22,6 +22,7 @@ mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;
+mod options;
 mod precision;
 mod precondition;
 mod reversed_normals;
@@ -33,6 +34,7 @@ pub(crate) mod tests;
 mod unshared_vertices;
 
 pub use finding::{Finding, Found, Inspected, Kind, Severity};
+pub use options::Options;
 pub use precision::spacing;
 pub use precondition::Precondition;
 
@@ -62,34 +64,6 @@ pub const KINDS: [&Kind; 17] = [
     &islands::KIND,
     &not_finite_facets::KIND,
 ];
-
-/// What to look for and from where on it counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Findings of each kind that are listed; all are counted.
-    pub limit: usize,
-    /// Look for self-intersections, which takes as long as all the rest.
-    pub self_intersections: bool,
-    /// Distance, mm, up to which two places may have been meant as one: for T-junctions and unshared vertices. `None`:
-    /// eight times the spacing of single-precision numbers at the largest coordinate.
-    pub gap: Option<f64>,
-    /// Facets with a smaller angle than this, radians, are slivers.
-    pub sliver_angle: f64,
-    /// Shells with a smaller diagonal than this share of the diagonal of the whole are islands.
-    pub island_share: f64,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            limit: 1000,
-            self_intersections: true,
-            gap: None,
-            sliver_angle: 0.1f64.to_radians(),
-            island_share: 0.01,
-        }
-    }
-}
 
 /// What [`check`] found.
 #[derive(Clone, Debug)]

@@ -1,6 +1,7 @@
 //! A block of neighbouring points, the buffers of the thread that answers it, and the error bounds.
 
-use crate::closest::tree::{Node, Tree};
+use crate::closest::layout::Node;
+use crate::closest::tree::Tree;
 use crate::space::Point;
 
 /// Points in a block: the width of an AVX-512 register.

@@ -10,7 +10,9 @@
 //! on the number of threads.
 
 use crate::closest::frame;
-use crate::closest::tree::{Node, Tree};
+use crate::closest::layout::Node;
+use crate::closest::limits::{self, MeshError};
+use crate::closest::tree::Tree;
 use crate::memory::large_pages;
 use crate::mesh::Mesh;
 use crate::space::Aabb;
@@ -321,8 +323,23 @@ impl Subtree {
     }
 }
 
+impl Tree {
+    /// Prepares `mesh`, whose faces may be degenerate, doubled or crossing; vertices that no face uses do not count.
+    ///
+    /// Runs on the current rayon pool; the tree does not depend on its size. Cost: `n log n`, about 0.3 s and 200 MB for
+    /// a million faces on two cores.
+    ///
+    /// # Errors
+    /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
+    /// finite or beyond [`MAX_COORDINATE`](crate::closest::MAX_COORDINATE).
+    pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
+        limits::check_mesh(mesh)?;
+        Ok(build(mesh))
+    }
+}
+
 /// Builds the tree of a mesh that [`check_mesh`](super::limits::check_mesh) has passed.
-pub fn build(mesh: &Mesh) -> Tree {
+fn build(mesh: &Mesh) -> Tree {
     let limits = limits(mesh);
     let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * limits.min[k] + 0.5 * limits.max[k]);
     let extent = limits.sides().into_iter().fold(0.0, f64::max);

@@ -3,8 +3,8 @@
 
 use crate::closest::block::{Block, Candidate, DENSE, ROUNDING, Scratch, norm};
 use crate::closest::kernel;
-use crate::closest::lanes::Lanes;
 use crate::closest::tree::Tree;
+use crate::simd::lanes::Lanes;
 
 /// Finds, in `s.leaves`, the triangles near enough to the block, tests each against all points, and lists in `s.pairs`
 /// those worth settling.

@@ -1,6 +1,6 @@
 //! Filling the leaves: each triangle in a frame of its own (see the module `tree`), and the corners in leaf order.
 
-use crate::closest::tree::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
+use crate::closest::layout::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
 use crate::mesh::Mesh;
 use crate::space::{Point, Vector, cross, dot, minus, times, unit};
 

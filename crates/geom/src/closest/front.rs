@@ -5,9 +5,10 @@
 
 use crate::closest::block::{Block, FRONT, ROUNDING, Scratch, Seed, norm};
 use crate::closest::kernel::{self, Rival};
-use crate::closest::lanes::Lanes;
-use crate::closest::tree::{Leaf, Node, Tree};
-use crate::closest::walk::prefetch;
+use crate::closest::layout::{Leaf, Node};
+use crate::closest::tree::Tree;
+use crate::memory::prefetch;
+use crate::simd::lanes::Lanes;
 use crate::space::Point;
 
 /// Finds the leaves that the surface point `x` does not dominate for the whole block, breadth first, as long as they are

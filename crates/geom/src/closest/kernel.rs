@@ -3,8 +3,8 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::lanes::Lanes;
-use crate::closest::tree::{AC, AXES, BASE, BC, Leaf, Node, ORIGIN};
+use crate::closest::layout::{AC, AXES, BASE, BC, Leaf, Node, ORIGIN};
+use crate::simd::lanes::Lanes;
 
 /// Squared distance from `(x, y, z)`, given in triangle frames, to the triangles with sides `base`, `ac`, `bc`
 /// (direction x, direction y, length).

@@ -27,10 +27,9 @@ mod dense;
 mod edges;
 mod frame;
 mod front;
+mod hit;
 mod kernel;
-pub(crate) mod lanes;
-#[cfg(target_arch = "x86_64")]
-pub(crate) mod lanes_x86;
+mod layout;
 mod limits;
 mod order;
 mod query;
@@ -44,9 +43,10 @@ mod wave;
 mod winding;
 
 pub use edges::FreeEdges;
+pub use hit::Hit;
 pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
 pub(crate) use limits::{check_mesh, check_points};
-pub use query::{Hit, Level, Query};
+pub use query::Query;
 pub use sign::Signs;
 pub use tree::{Closest, Tree};
 pub use triangle::Feature;

@@ -18,75 +18,15 @@
 )]
 
 use crate::closest::block::Scratch;
+use crate::closest::hit::Hit;
 use crate::closest::limits::{QueryError, sane};
 use crate::closest::order;
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::walk;
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
+use crate::simd::Level;
 use crate::space::Point;
-
-/// The answer for one point, as the search finds it. [`Tree::place`] tells the rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Squared distance, the least over all faces: what [`brute::closest`](crate::closest::brute::closest) finds, bit
-    /// for bit.
-    pub distance_squared: f64,
-    /// The lowest face that attains it.
-    pub face: u32,
-    /// Where the tree keeps that face.
-    pub(super) slot: u32,
-    /// Height over that face times the length of its normal, if the closest point is inside it; 0 if on its rim.
-    pub(super) height: f64,
-}
-
-impl Hit {
-    /// No face yet.
-    pub(super) const NONE: Hit =
-        Hit { distance_squared: f64::INFINITY, face: u32::MAX, slot: u32::MAX, height: 0.0 };
-
-    /// Distance, millimetres.
-    #[inline(always)]
-    pub fn distance(&self) -> f64 {
-        self.distance_squared.sqrt()
-    }
-}
-
-/// Instruction set of the inner loops. All give the same bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
-    /// No vector instructions beyond those of every processor of the family.
-    Plain,
-    /// AVX2 with fused multiply-add.
-    Avx2,
-    /// AVX-512 (F, VL, DQ, BW).
-    Avx512,
-}
-
-impl Level {
-    /// The best this processor has.
-    pub fn detect() -> Level {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let avx2 = is_x86_feature_detected!("avx2")
-                && is_x86_feature_detected!("fma")
-                && is_x86_feature_detected!("bmi1")
-                && is_x86_feature_detected!("bmi2")
-                && is_x86_feature_detected!("lzcnt")
-                && is_x86_feature_detected!("popcnt");
-            let avx512 = is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512bw");
-            match (avx2, avx512) {
-                (true, true) => return Level::Avx512,
-                (true, false) => return Level::Avx2,
-                _ => {}
-            }
-        }
-        Level::Plain
-    }
-}
 
 /// What is asked of a batch of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -200,11 +140,11 @@ fn answer_items(
     scratch: &mut Scratch,
     sink: walk::Sink,
 ) {
-    use crate::closest::lanes::Plain;
+    use crate::simd::lanes::Plain;
     let far = query.max_distance;
     #[cfg(target_arch = "x86_64")]
     {
-        use crate::closest::lanes_x86::{A4d, A8, A16, Z8d, Z16};
+        use crate::simd::lanes_x86::{A4d, A8, A16, Z8d, Z16};
         #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
         fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: walk::Sink) {
             // SAFETY: the features above are those of the types.

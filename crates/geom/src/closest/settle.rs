@@ -2,11 +2,11 @@
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
 use crate::closest::block::{Block, Scratch};
-use crate::closest::lanes::Real;
-use crate::closest::query::Hit;
+use crate::closest::hit::Hit;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
-use crate::closest::walk::prefetch;
+use crate::memory::prefetch;
+use crate::simd::lanes::Real;
 
 /// Settles `s.pairs` in double precision; the least wins, then the lowest face.
 ///

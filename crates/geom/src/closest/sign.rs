@@ -7,8 +7,9 @@
 //! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
 
 use crate::closest::edges::{Across, Fans};
+use crate::closest::hit::Hit;
 use crate::closest::limits::QueryError;
-use crate::closest::query::{Hit, Query};
+use crate::closest::query::Query;
 use crate::closest::tree::Tree;
 use crate::closest::triangle::{self, Feature};
 use crate::progress::Progress;

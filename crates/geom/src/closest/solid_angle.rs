@@ -7,9 +7,9 @@
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
 use crate::closest::block::BLOCK;
-use crate::closest::lanes::Lanes;
-use crate::closest::tree::{AC, AXES, BASE, Leaf, ORIGIN, Tree};
-use crate::closest::winding::Winding;
+use crate::closest::layout::{AC, AXES, BASE, Leaf, ORIGIN};
+use crate::closest::tree::Tree;
+use crate::simd::lanes::Lanes;
 use crate::space::{Point, Vector};
 
 /// Nodes and leaves still to be looked at, and for which points.
@@ -80,7 +80,8 @@ impl<V: Lanes<16>> Angle<V> {
 /// `opening` radii on.
 #[inline(always)]
 pub unsafe fn numbers<V: Lanes<16>>(
-    w: &Winding,
+    tree: &Tree,
+    groups: &[Group],
     points: &[Point; BLOCK],
     who: u32,
     opening: f32,
@@ -88,18 +89,18 @@ pub unsafe fn numbers<V: Lanes<16>>(
 ) -> [f64; BLOCK] {
     unsafe {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let q = from::<V>(w.tree, points, w.tree.centre);
+        let q = from::<V>(tree, points, tree.centre);
         let open2 = opening * opening;
         let mut far = zero;
         let mut near = Angle { re: one, im: zero, turns: zero };
         stack.clear();
-        stack.push((w.tree.root, who));
+        stack.push((tree.root, who));
         while let Some((n, who)) = stack.pop() {
             if n < 0 {
-                leaf_angle(w.tree, !n as usize, points, who, &mut near);
+                leaf_angle(tree, !n as usize, points, who, &mut near);
                 continue;
             }
-            let (group, node) = (&w.groups[n as usize], &w.tree.nodes[n as usize]);
+            let (group, node) = (&groups[n as usize], &tree.nodes[n as usize]);
             for (d, &child) in group.child.iter().zip(&node.child) {
                 let e = [V::splat(d[0]) - q[0], V::splat(d[1]) - q[1], V::splat(d[2]) - q[2]];
                 let d2 = e[0].mul_add(e[0], e[1].mul_add(e[1], e[2] * e[2]));

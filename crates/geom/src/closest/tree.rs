@@ -14,66 +14,10 @@
 //! **Slots.** Triangles are stored again in the order of the leaves ("slots"), as indices into vertices renumbered by
 //! first use, so that the double-precision finish reads memory that neighbours in space share.
 
-use crate::closest::limits::{self, MeshError};
+use crate::closest::hit::Hit;
+use crate::closest::layout::{Leaf, Node};
 use crate::closest::triangle::{self, Feature};
-use crate::closest::{Hit, build};
-use crate::mesh::Mesh;
 use crate::space::Point;
-
-/// Inner node: boxes of up to eight children, structure of arrays.
-#[repr(C, align(64))]
-#[derive(Clone, Copy)]
-pub struct Node {
-    /// `bounds[axis]` the low and `bounds[axis + 3]` the high sides. An unused child is an empty box (+inf, -inf).
-    pub bounds: [[f32; 8]; 6],
-    /// Index of a node, or `!index` of a leaf.
-    pub child: [i32; 8],
-}
-
-impl Node {
-    /// No child.
-    pub const EMPTY: Node = Node {
-        bounds: [
-            [f32::INFINITY; 8],
-            [f32::INFINITY; 8],
-            [f32::INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-        ],
-        child: [0; 8],
-    };
-}
-
-/// Numbers kept for each triangle of a leaf: see the constants.
-pub const FIELDS: usize = 19;
-/// Frame axes: `x` in fields 0..3, `y` in 3..6, `z` in 6..9.
-pub const AXES: usize = 0;
-/// Corner `A` in the frame's directions: 9..12. Subtracted after the rotation.
-pub const ORIGIN: usize = 9;
-/// Length of `AB`.
-pub const BASE: usize = 12;
-/// Direction (x, y) and length of `AC`.
-pub const AC: usize = 13;
-/// Direction (x, y) and length of `BC`.
-pub const BC: usize = 16;
-
-/// Up to eight triangles, structure of arrays: `field[f][j]` is field `f` of triangle `j`.
-#[repr(C, align(64))]
-#[derive(Clone, Copy)]
-pub struct Leaf {
-    /// See [`FIELDS`].
-    pub field: [[f32; 8]; FIELDS],
-    /// Point (unscaled, double precision) that the leaf's numbers are relative to.
-    pub origin: Point,
-    /// Slot of the first triangle; triangle `j` has slot `first + j`.
-    pub first: u32,
-    /// Scaled distance from `origin` to the farthest corner: with the query's distance, it bounds the rounding error.
-    pub radius: f32,
-}
-
-/// An unused lane stands this far away (scaled) along its normal: never a candidate, and its square is finite.
-pub const NOWHERE: f32 = 1e18;
 
 /// A mesh prepared for closest-point queries: build once, ask often, from any number of threads.
 ///
@@ -109,19 +53,6 @@ pub struct Closest {
 }
 
 impl Tree {
-    /// Prepares `mesh`, whose faces may be degenerate, doubled or crossing; vertices that no face uses do not count.
-    ///
-    /// Runs on the current rayon pool; the tree does not depend on its size. Cost: `n log n`, about 0.3 s and 200 MB for
-    /// a million faces on two cores.
-    ///
-    /// # Errors
-    /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
-    /// finite or beyond [`MAX_COORDINATE`](crate::closest::MAX_COORDINATE).
-    pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
-        limits::check_mesh(mesh)?;
-        Ok(build::build(mesh))
-    }
-
     /// Number of faces.
     pub fn faces(&self) -> usize {
         self.face.len()

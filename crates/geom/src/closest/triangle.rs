@@ -9,7 +9,7 @@
 //! or a point is answered by its edges. The plane is used only where its normal is well determined ([`PLANE_MIN`]).
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
-use crate::closest::lanes::Real;
+use crate::simd::lanes::Real;
 use crate::space::Point;
 
 /// The plane counts only if sin² of the angle at the first corner exceeds this; below, the triangle is so thin (width

@@ -1,14 +1,15 @@
 //! The work on one block of sixteen points: walk, gather, test, settle. See the module `query` for the plan.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
-#![expect(unsafe_code, reason = "loads of vector types need their instructions; prefetching")]
+#![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
 use crate::closest::block::{BLOCK, Block, DENSE, Scratch};
-use crate::closest::lanes::{Lanes, Real};
-use crate::closest::query::Hit;
+use crate::closest::hit::Hit;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
 use crate::closest::{dense::dense, front, settle::settle, wave::wave};
+use crate::memory::prefetch;
+use crate::simd::lanes::{Lanes, Real};
 use crate::space::Point;
 
 /// Takes the answers of a block: items, and as many hits. Not generic, so that the search is compiled once for each
@@ -43,16 +44,6 @@ pub unsafe fn all<V: Lanes<8>, W: Lanes<16>, D: Real>(
         unsafe { block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
         sink(part, &hits[..part.len()]);
     }
-}
-
-#[inline(always)]
-pub fn prefetch<T>(p: &T) {
-    #[cfg(target_arch = "x86_64")]
-    // SAFETY: every x86-64 processor has the instruction, and it has no effect but on the cache.
-    unsafe {
-        std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(std::ptr::from_ref(p).cast())
-    };
-    let _ = p;
 }
 
 /// Answers up to sixteen points.

@@ -14,9 +14,10 @@
 
 use crate::closest::block::{BLOCK, Block, FRONT, ROUNDING, Row, Scratch};
 use crate::closest::kernel;
-use crate::closest::lanes::Lanes;
-use crate::closest::tree::{Node, Tree};
-use crate::closest::walk::prefetch;
+use crate::closest::layout::Node;
+use crate::closest::tree::Tree;
+use crate::memory::prefetch;
+use crate::simd::lanes::Lanes;
 use crate::space::Point;
 
 /// What is known of a point's distance.

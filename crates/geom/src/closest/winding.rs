@@ -12,14 +12,14 @@
 )]
 
 use crate::closest::block::BLOCK;
-use crate::closest::lanes::Plain;
 use crate::closest::limits::QueryError;
 use crate::closest::order;
-use crate::closest::query::Level;
 use crate::closest::solid_angle::{self, Group, Stack};
 use crate::closest::tree::Tree;
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
+use crate::simd::Level;
+use crate::simd::lanes::Plain;
 use crate::space::{Point, Vector, cross, minus, norm, plus, times};
 use rayon::prelude::*;
 
@@ -155,11 +155,11 @@ impl<'a> Winding<'a> {
     ) -> [f64; BLOCK] {
         #[cfg(target_arch = "x86_64")]
         {
-            use crate::closest::lanes_x86::{A16, Z16};
+            use crate::simd::lanes_x86::{A16, Z16};
             #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
             fn avx2(w: &Winding, p: &[Point; BLOCK], who: u32, opening: f32, s: &mut Stack) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<A16>(w, p, who, opening, s) }
+                unsafe { solid_angle::numbers::<A16>(w.tree, &w.groups, p, who, opening, s) }
             }
             #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
             fn avx512(
@@ -170,7 +170,7 @@ impl<'a> Winding<'a> {
                 s: &mut Stack,
             ) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<Z16>(w, p, who, opening, s) }
+                unsafe { solid_angle::numbers::<Z16>(w.tree, &w.groups, p, who, opening, s) }
             }
             // No more than there is, whatever is asked for.
             match level.min(Level::detect()) {
@@ -183,7 +183,7 @@ impl<'a> Winding<'a> {
         }
         let _ = level; // other processors have one way only
         // SAFETY: plain Rust needs no special instructions.
-        unsafe { solid_angle::numbers::<Plain<16>>(self, points, who, opening, stack) }
+        unsafe { solid_angle::numbers::<Plain<16>>(self.tree, &self.groups, points, who, opening, stack) }
     }
 }
 

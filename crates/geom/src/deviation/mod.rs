@@ -5,6 +5,7 @@ pub mod moments;
 pub mod neighbours;
 pub mod paired;
 pub mod paper;
+mod part;
 pub mod quantiles;
 pub mod research;
 pub mod sample;

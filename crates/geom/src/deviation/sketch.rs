@@ -5,8 +5,8 @@
 //! neither on the order of the values nor on how the stream was shared out. Memory: 128 KiB for every power of two
 //! that occurs, some 5 MB in practice.
 
+use super::part::Part;
 use super::quantiles::{from_key, key_of};
-use super::statistics::Part;
 use rayon::prelude::*;
 
 /// Greatest relative error of a quantile: half a bin.

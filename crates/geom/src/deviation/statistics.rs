@@ -1,6 +1,7 @@
 //! Statistics of deviations: all, the positive and the negative ones apart.
 
 use super::moments::{CHUNK, MomentTree, Moments};
+pub use super::part::Part;
 use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
 use super::sketch::Sketch;
 use rayon::prelude::*;
@@ -30,33 +31,6 @@ pub enum Missing {
 
 /// A statistic, or the reason why there is none. Never NaN.
 pub type Number = Result<f64, Missing>;
-
-/// Which deviations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// All of them.
-    All,
-    /// Those above zero.
-    Positive,
-    /// Those below zero.
-    Negative,
-}
-
-impl Part {
-    /// The part lies strictly between these.
-    fn limits(self) -> (f64, f64) {
-        match self {
-            Part::All => (f64::NEG_INFINITY, f64::INFINITY),
-            Part::Positive => (0.0, f64::INFINITY),
-            Part::Negative => (f64::NEG_INFINITY, 0.0),
-        }
-    }
-    /// True if the part has this value; never for a value that is not finite.
-    pub fn holds(self, x: f64) -> bool {
-        let (above, below) = self.limits();
-        x > above && x < below
-    }
-}
 
 /// The statistics of one set of numbers (millimetres; variance in square millimetres).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,6 +8,7 @@
 //! | area, volume, centre of mass | [`Properties`] |
 
 mod connect;
+mod edge;
 mod fans;
 mod properties;
 pub(crate) mod same;
@@ -17,25 +18,17 @@ pub(crate) mod tests;
 pub(crate) mod union;
 pub mod weld;
 
+pub use edge::EdgeAt;
 pub use properties::Properties;
 pub use soundness::{Flaw, Soundness};
 
-use crate::closest::Level;
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::simd::Level;
 use fans::Fans;
 use rayon::prelude::*;
 use union::Sets;
 use weld::WeldError;
-
-/// An edge, and the lowest of the facets at it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct EdgeAt {
-    /// The two ends, in the direction in which `facet` runs along the edge.
-    pub vertices: [u32; 2],
-    /// The lowest facet at the edge.
-    pub facet: u32,
-}
 
 /// How the facets of a welded mesh hang together.
 ///

@@ -1,7 +1,7 @@
 //! Comparing many vertex numbers at once.
 #![allow(unsafe_code, reason = "vendor intrinsics")]
 
-use crate::closest::lanes::Plain;
+use crate::simd::lanes::Plain;
 
 /// Numbers compared together.
 pub(crate) const W: usize = 16;
@@ -30,7 +30,7 @@ impl<const N: usize> Same<N> for Plain<N> {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::Same;
-    use crate::closest::lanes_x86::{A16, Z16};
+    use crate::simd::lanes_x86::{A16, Z16};
     use std::arch::x86_64::*;
 
     impl Same<16> for A16 {

@@ -2,7 +2,7 @@
 #![allow(unsafe_code, reason = "vendor intrinsics")]
 
 use super::tree::W;
-use crate::closest::lanes::{Lanes, Plain};
+use crate::simd::lanes::{Lanes, Plain};
 
 /// Lanes with comparisons whose outcome is a vector.
 pub(super) trait Masks: Lanes<W> {
@@ -52,7 +52,7 @@ mod x86 {
     //! SAFETY of every intrinsic: the values were made by `splat` or `load`, whose caller answers for AVX2, as does that of
     //! `equal`.
     use super::{Masks, W};
-    use crate::closest::lanes_x86::A8;
+    use crate::simd::lanes_x86::A8;
     use std::arch::x86_64::*;
 
     impl Masks for A8 {

@@ -15,12 +15,12 @@ mod meet;
 mod tests;
 mod tree;
 
-use crate::closest::Level;
-use crate::closest::lanes::Plain;
-#[cfg(target_arch = "x86_64")]
-use crate::closest::lanes_x86::A8;
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
+use crate::simd::Level;
+use crate::simd::lanes::Plain;
+#[cfg(target_arch = "x86_64")]
+use crate::simd::lanes_x86::A8;
 use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;

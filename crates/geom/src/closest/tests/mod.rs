@@ -6,9 +6,10 @@ mod sign;
 mod traps;
 mod winding;
 
-use crate::closest::{Closest, Hit, Level, Query, Tree};
+use crate::closest::{Closest, Hit, Query, Tree};
 use crate::mesh::Mesh;
 use crate::progress::{Progress, Silent};
+use crate::simd::Level;
 use crate::space::{Point, plus};
 use std::f64::consts::PI;
 use std::sync::Mutex;

@@ -1,6 +1,7 @@
 //! Weld with a tolerance: vertices nearer to each other than a distance become one.
 
-use super::{WeldError, Welded, check_corners, renumbered};
+use super::error::WeldError;
+use super::exact::{Welded, check_corners, mesh as weld_equal, renumbered};
 use crate::mesh::Mesh;
 use crate::space::{Point, minus, norm};
 use crate::topology::union::Sets;
@@ -22,7 +23,7 @@ type Placed = ([f64; 3], u32);
 pub fn within(mesh: &Mesh, distance: f64) -> Result<Welded, WeldError> {
     check_corners(mesh)?;
     if !(distance > 0.0 && distance.is_finite()) {
-        return super::mesh(mesh);
+        return weld_equal(mesh);
     }
     // The diagonal of a cell is `distance`: all that lie in one are near.
     let side = distance / 3f64.sqrt();

@@ -4,7 +4,7 @@
 //! processor having the instructions; loads and stores go through references to arrays of exactly their size.
 #![expect(unsafe_code, reason = "vendor intrinsics")]
 
-use crate::closest::lanes::{Lanes, Real};
+use crate::simd::lanes::{Lanes, Real};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -8,14 +8,10 @@
 //! entry; following those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch
 //! ahead: the table is larger than any cache, and waiting for it is what a weld does.
 
-mod bits;
-mod within;
-
-pub use within::within;
-
+use super::bits::Bits;
+use super::error::{MOST_FACETS, WeldError};
 use crate::memory::{atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
-use bits::Bits;
 use rayon::prelude::*;
 use std::sync::atomic::{
     AtomicU32, AtomicUsize,
@@ -28,29 +24,6 @@ const PAGE: usize = 4096 / size_of::<AtomicU32>();
 const BATCH: usize = 96;
 /// Items of one task.
 const CHUNK: usize = 128 * BATCH;
-/// Facets whose corners can be numbered by a `u32`, one number and one more being kept free.
-pub const MOST_FACETS: usize = (u32::MAX as usize - 1) / 3;
-
-/// Why a mesh could not be welded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum WeldError {
-    /// Corners are numbered in 32 bits.
-    #[error("{facets} facets are more than the {MOST_FACETS} that one mesh can hold: split the model")]
-    TooManyFacets {
-        /// Number of facets asked for.
-        facets: usize,
-    },
-    /// A face names a vertex that is not there.
-    #[error("facet {facet} names vertex {vertex}, but there are only {vertices} vertices")]
-    NoSuchVertex {
-        /// Index of the face.
-        facet: usize,
-        /// The number it names.
-        vertex: u32,
-        /// Number of positions.
-        vertices: usize,
-    },
-}
 
 /// A position as it lies in memory or in a file: three numbers of either precision.
 pub trait Position: Copy + Send + Sync + Bits {}
@@ -126,7 +99,7 @@ pub(super) fn renumbered(mesh: &Mesh, first_of: impl Fn(u32) -> u32) -> Welded {
 }
 
 /// That every corner of `mesh` can be numbered and names a vertex that is there.
-pub(super) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
+pub(crate) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     let (facets, vertices) = (mesh.faces.len(), mesh.positions.len());
     if facets > MOST_FACETS {
         return Err(WeldError::TooManyFacets { facets });

@@ -1,0 +1,10 @@
+//! Vector instructions: what the processor has, and vectors of numbers for it.
+//!
+//! Every kernel is written once for any type of [`lanes::Lanes`] and compiled for each [`Level`]. All levels give the same bits.
+
+pub(crate) mod lanes;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod lanes_x86;
+mod level;
+
+pub use level::Level;
