@@ -9,6 +9,7 @@
 //! | sums, random numbers | [`num`] |
 //! | closest points, distances, signs | [`closest`] |
 //! | welding, edges, shells, soundness | [`topology`] |
+//! | lines, planes, cylinders …: parameters, distances | [`shape`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
 //! | elements found in a mesh or cloud | [`segment`] |
@@ -21,12 +22,14 @@ pub mod closest;
 pub mod cloud;
 pub mod deviation;
 pub mod fit;
+mod frame;
 mod memory;
 pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
 pub mod segment;
+pub mod shape;
 pub mod simd;
 pub mod space;
 pub mod topology;

@@ -13,7 +13,8 @@ use crate::scale::Scale;
 use rayon::prelude::*;
 use trueness_geom::deviation::histogram::{Histogram, nice_edges};
 use trueness_geom::deviation::statistics::Summary;
-use trueness_geom::fit::{Fit, Shape};
+use trueness_geom::fit::Fit;
+use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,

@@ -2,11 +2,12 @@
 
 use super::family::{Element, Family, Rows};
 use super::line::flat;
-use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, unit};
 
 /// Circle in the plane z = 0.

@@ -1,12 +1,13 @@
 //! Right circular cones.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::{TINY, least_squares};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, plus, times, unit};
 use std::f64::consts::FRAC_PI_2;
 

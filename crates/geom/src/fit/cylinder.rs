@@ -1,12 +1,13 @@
 //! Right circular cylinders.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile};
 use super::round::TINY;
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, unit};
 
 /// Cylinder about the third axis of its frame.

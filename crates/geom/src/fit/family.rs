@@ -1,8 +1,9 @@
 //! What an element is to the solvers: unknowns, rows and distances in its own frame.
 
-use super::pose::{Local, Pose};
 use super::sample::Sample;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, Vector, times};
 
 /// A frame and at most two sizes: an element of whatever family, in the unit frame of its sample.

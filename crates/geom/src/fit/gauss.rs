@@ -126,8 +126,8 @@ fn easier(damping: f64) -> f64 {
 mod tests {
     use super::super::cylinder::Cylinder;
     use super::super::normal::Alike;
-    use super::super::pose::Pose;
     use super::*;
+    use crate::frame::Pose;
     use crate::num::random::Random;
     use crate::space::Point;
 

@@ -5,10 +5,10 @@ use super::gauss::{Effort, FULL, NEAR, Optimum, ROUGH, minimise};
 use super::normal::{Alike, sums};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::MOST_NUMBERS;
 use super::solution::{Covariance, Fit, Residuals};
 use super::{FitError, Kind, Options, Shape, dense, survey};
 use crate::progress::Progress;
+use crate::shape::MOST_NUMBERS;
 use crate::space::Point;
 
 /// Points that starts are looked for and compared on.

@@ -1,10 +1,11 @@
 //! Straight lines, in the plane and in space.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, unit};
 
 /// Line in the plane z = 0: the first axis of its frame.

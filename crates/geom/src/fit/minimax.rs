@@ -72,7 +72,7 @@ fn functions<const P: usize, F: Family<P>>(
 
 fn pin<const P: usize, F: Family<P>>(g: &mut [f64; P]) {
     for (x, local) in g.iter_mut().zip(F::LOCAL) {
-        if local == super::pose::Local::Size(0) {
+        if local == super::unknown::Local::Size(0) {
             *x = 0.0;
         }
     }

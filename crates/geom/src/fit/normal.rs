@@ -292,9 +292,9 @@ impl<const P: usize> Sums<P> {
 #[cfg(test)]
 mod tests {
     use super::super::cylinder::Cylinder;
-    use super::super::pose::Pose;
     use super::super::torus::Torus;
     use super::*;
+    use crate::frame::Pose;
 
     #[test]
     fn wide_registers_give_the_same_bits() {

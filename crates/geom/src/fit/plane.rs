@@ -1,10 +1,11 @@
 //! Planes.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, unit};
 
 /// Plane: the first two axes of its frame.

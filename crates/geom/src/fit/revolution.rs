@@ -5,8 +5,8 @@
 //! along the axis besides) then costs a few dozen operations, so the whole half sphere of directions can be
 //! looked through. The cylinder part follows D. Eberly, "Fitting 3D data with a cylinder" (2003).
 
-use super::pose::Pose;
 use super::sample::mean;
+use crate::frame::Pose;
 use crate::space::{Point, Vector, dot, minus, plus, times};
 use std::sync::LazyLock;
 

@@ -1,7 +1,7 @@
 //! What a fit tells: the element, how well the points keep to it, how well they determine it.
 
 use super::Method;
-use super::shape::{Parameter, Shape};
+use crate::shape::{Parameter, Shape};
 
 /// An element fitted to points. Lengths in millimetres, angles in radians.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,12 @@
 //! Spheres.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::Point;
 
 /// Sphere about the origin of its frame.

@@ -1,12 +1,13 @@
 //! Ring tori.
 
 use super::family::{Element, Family, Rows};
-use super::pose::{Local, Pose};
 use super::revolution::{Powers, Profile, directions};
 use super::round::{TINY, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
-use super::shape::Shape;
+use super::unknown::Local;
+use crate::frame::Pose;
+use crate::shape::Shape;
 use crate::space::{Point, unit};
 
 /// Torus about the third axis of its frame; sizes: major and minor radius.

@@ -6,9 +6,9 @@
 
 use super::family::{Element, Family};
 use super::minimax::{Aim, Low, minimax};
-use super::pose::Local;
 use super::sample::Sample;
 use super::solution::{Fit, Touching};
+use super::unknown::Local;
 use super::{FitError, Kind, Method, Options, gaussian, survey};
 use crate::num::random::Random;
 use crate::progress::Progress;

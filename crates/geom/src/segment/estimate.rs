@@ -5,7 +5,8 @@
 //! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7).
 
 use super::points::flattest;
-use crate::fit::{Kind, Shape, eigen, solve};
+use crate::fit::{eigen, solve};
+use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// Places with unit normals.

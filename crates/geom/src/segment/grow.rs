@@ -4,8 +4,9 @@ use super::estimate::estimate;
 use super::flood::{Marks, flood, patch, rings};
 use super::probe::Probe;
 use super::surface::{Band, Surface};
-use crate::fit::{Kind, Options, Shape, fit, improved};
+use crate::fit::{Options, fit, improved};
 use crate::progress::Silent;
+use crate::shape::{Kind, Shape};
 use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.

@@ -3,7 +3,8 @@
 use super::grow::{Grown, Terms};
 use super::probe::Probe;
 use super::surface::NONE;
-use crate::fit::{Shape, improved};
+use crate::fit::improved;
+use crate::shape::Shape;
 use crate::space::Point;
 
 /// Points of each region that a joint element is fitted to.
@@ -104,8 +105,8 @@ fn neighbours(terms: &Terms, labels: &[u32]) -> Vec<[u32; 2]> {
 mod tests {
     use super::super::tests::{parts::bored, terms};
     use super::*;
-    use crate::fit::Kind;
     use crate::mesh::Mesh;
+    use crate::shape::Kind;
 
     /// A region of these pieces.
     fn region(terms: &Terms, start: Shape, pieces: Vec<u32>) -> Grown {

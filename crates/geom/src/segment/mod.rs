@@ -30,9 +30,10 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-use crate::fit::{self, Fit, Kind};
+use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress, Silent};
+use crate::shape::Kind;
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use grow::{Grown, Terms, fewest_points};

@@ -4,8 +4,9 @@ use super::estimate::estimate;
 use super::flood::{Marks, patch};
 use super::probe::Probe;
 use super::surface::Surface;
-use crate::fit::{Kind, Shape, improved};
+use crate::fit::improved;
 use crate::num::random::Random;
+use crate::shape::{Kind, Shape};
 use crate::space::Point;
 use rayon::prelude::*;
 

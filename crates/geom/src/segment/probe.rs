@@ -1,6 +1,6 @@
 //! An element made ready for being asked about many places.
 
-use crate::fit::Shape;
+use crate::shape::Shape;
 use crate::space::{Point, Vector, cross, dot, minus, norm, times};
 
 /// One of the five elements, with what all places have in common worked out. Of other shapes every place lies off.

@@ -129,8 +129,8 @@ impl Surface<'_> {
 mod tests {
     use super::super::facets;
     use super::*;
-    use crate::fit::Shape;
     use crate::mesh::Mesh;
+    use crate::shape::Shape;
 
     #[test]
     fn one_corner_may_lie_off_and_no_facet_be_turned() {

@@ -3,8 +3,8 @@
 use crate::report::Mark;
 use crate::results::fit::Extent;
 use std::f64::consts::TAU;
-use trueness_geom::fit::Shape;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::shape::Shape;
 use trueness_geom::space::{Point, Vector, plus, times};
 
 /// Steps of a full turn.

@@ -2,7 +2,7 @@
 
 use crate::results::fit::Extent;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use trueness_geom::fit::Shape;
+use trueness_geom::shape::Shape;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// Cells of the circle in which points are looked for.

@@ -5,8 +5,8 @@ use super::element::element;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::fit::FitDocument;
 use crate::scale::palette::category;
-use trueness_geom::fit::Shape;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
 
 /// A fit prepared for drawing.

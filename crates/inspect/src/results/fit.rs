@@ -6,7 +6,8 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::fit::{Fit, Parameter};
+use trueness_geom::fit::Fit;
+use trueness_geom::shape::Parameter;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/fit/1";
@@ -196,8 +197,9 @@ impl FitDocument {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueness_geom::fit::{Kind, Method, Options, fit};
+    use trueness_geom::fit::{Method, Options, fit};
     use trueness_geom::progress::Silent;
+    use trueness_geom::shape::Kind;
 
     #[test]
     fn a_document_is_read_back_as_it_was_written() {

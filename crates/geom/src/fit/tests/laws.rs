@@ -1,7 +1,7 @@
 //! What must not change the answer does not; what must is refused by name.
 
 use super::{Fit, FitError, Kind, Made, Method, fitted, methods, placement};
-use crate::fit::pose::Pose;
+use crate::frame::Pose;
 use crate::num::random::Random;
 use crate::space::{Point, plus, times};
 

@@ -9,10 +9,11 @@ mod robust;
 mod slopes;
 mod spread;
 
-use super::pose::Pose;
-use super::{Fit, FitError, Kind, Method, Options, Parameter, Shape, fit};
+use super::{Fit, FitError, Method, Options, fit};
+use crate::frame::Pose;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Point, Vector, plus, times};
 
 /// Points on an element of the kind, with noise across it.

@@ -3,8 +3,8 @@
 use super::dual::Dual;
 use super::{Kind, Made};
 use crate::fit::family::{Element, Family, slope};
-use crate::fit::pose::Local;
 use crate::fit::sample::Sample;
+use crate::fit::unknown::Local;
 use crate::fit::{circle, cone, cylinder, ellipse, line, plane, sphere, torus};
 use crate::space::Point;
 

@@ -1,7 +1,7 @@
 //! Stated uncertainties against the spread of many fits.
 
 use super::{Kind, Made, Method, fitted, placement};
-use crate::fit::Shape;
+use crate::shape::Shape;
 use crate::space::{Point, dot, minus, plus, times};
 
 /// 600 sets of points with fresh noise: the standard deviation of each parameter over them agrees with what one

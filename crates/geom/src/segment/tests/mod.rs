@@ -5,10 +5,10 @@ pub(super) mod parts;
 use super::grow::Terms;
 use super::surface::Band;
 use super::{KINDS, Options, SegmentError, Segmentation, cloud, facets, mesh};
-use crate::fit::{Kind, Parameter, Shape};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
 use parts::{Part, bored, turned};
 

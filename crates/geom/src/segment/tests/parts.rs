@@ -1,8 +1,8 @@
 //! Parts whose faces are known: a ring of sections, each a chain of corners, neighbours joined by two facets.
 
-use crate::fit::Shape;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
+use crate::shape::Shape;
 use crate::space::{Point, Vector, cross, plus, times, unit};
 use std::f64::consts::TAU;
 

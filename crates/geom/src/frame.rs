@@ -1,6 +1,6 @@
-//! The local frame of an element, and the small motions of it that a fit solves for.
+//! A right-handed frame, and small motions of it.
 //!
-//! Every element is written in a frame of its own: the axis (or normal) is the third axis, the centre the
+//! A fit writes every element in a frame of its own: the axis (or normal) is the third axis, the centre the
 //! origin. A step shifts and tilts that frame by small amounts about where it is now, so that no direction is
 //! singular, whatever way the element lies.
 
@@ -8,30 +8,17 @@ use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// A right-handed orthonormal frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pose {
+pub(crate) struct Pose {
     /// Where the frame sits.
     pub origin: Point,
     /// Its axes u, v, w as rows.
     pub axes: [Vector; 3],
 }
 
-/// One unknown of a fit: what a unit of it does to the element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Local {
-    /// Moves the origin along axis 0, 1 or 2.
-    Shift(usize),
-    /// Leans the third axis towards axis 0 or 1.
-    Tilt(usize),
-    /// Turns the first axis towards the second.
-    Turn,
-    /// Adds to the size with this index.
-    Size(usize),
-}
-
 impl Pose {
     /// A frame at `origin` whose third axis is along `w`; the other two are chosen away from `w`.
     /// Falls back to the world's axes where `w` has no direction.
-    pub(super) fn along(origin: Point, w: Vector) -> Pose {
+    pub(crate) fn along(origin: Point, w: Vector) -> Pose {
         let w = unit(w).map_or([0.0, 0.0, 1.0], |(w, _)| w);
         let least = (0..3).min_by(|&i, &j| w[i].abs().total_cmp(&w[j].abs())).unwrap_or(0);
         let mut away = [0.0; 3];
@@ -39,28 +26,28 @@ impl Pose {
         Pose::toward(origin, w, away)
     }
     /// As [`Pose::along`], with the first axis as near to `u` as it can be.
-    pub(super) fn toward(origin: Point, w: Vector, u: Vector) -> Pose {
+    pub(crate) fn toward(origin: Point, w: Vector, u: Vector) -> Pose {
         let flat = minus(u, times(dot(u, w), w));
         let Some((u, _)) = unit(flat) else { return Pose::along(origin, w) };
         Pose { origin, axes: [u, cross(w, u), w] }
     }
     /// The frame of the plane z = 0, for elements in two dimensions.
-    pub(super) fn flat(origin: Point, u: Vector) -> Pose {
+    pub(crate) fn flat(origin: Point, u: Vector) -> Pose {
         Pose::toward(origin, [0.0, 0.0, 1.0], u)
     }
     /// Coordinates of `p` in this frame.
-    pub(super) fn local(&self, p: Point) -> Point {
+    pub(crate) fn local(&self, p: Point) -> Point {
         let q = minus(p, self.origin);
         self.axes.map(|a| dot(a, q))
     }
     /// The frame after the small motions `shift` (along its axes), `tilt` and `turn`.
-    pub(super) fn moved(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
+    pub(crate) fn moved(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
         let Pose { origin, axes: [u, _, w] } = self.nudged(shift, tilt, turn);
         let w = unit(w).map_or(self.axes[2], |(w, _)| w);
         Pose::toward(origin, w, u)
     }
     /// As [`Pose::moved`] to first order: the axes are left a little too long.
-    pub(super) fn nudged(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
+    pub(crate) fn nudged(&self, shift: Vector, tilt: [f64; 2], turn: f64) -> Pose {
         let [u, v, w] = self.axes;
         let along = |[a, b, c]: Vector| plus(plus(times(a, u), times(b, v)), times(c, w));
         let [a, b] = tilt;

@@ -1,84 +1,9 @@
 //! The elements as users know them.
 
-use super::pose::Pose;
+use super::ellipse;
+use super::kind::Kind;
+use crate::frame::Pose;
 use crate::space::{Point, Vector, cross, dot, minus, norm};
-
-/// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Kind {
-    /// Straight line in the plane.
-    Line2,
-    /// Straight line in space.
-    Line,
-    /// Plane.
-    Plane,
-    /// Circle in the plane.
-    Circle2,
-    /// Circle in space.
-    Circle,
-    /// Ellipse in the plane.
-    Ellipse2,
-    /// Sphere.
-    Sphere,
-    /// Right circular cylinder.
-    Cylinder,
-    /// Right circular cone.
-    Cone,
-    /// Ring torus.
-    Torus,
-}
-
-impl Kind {
-    /// All kinds.
-    pub const ALL: [Kind; 10] = [
-        Kind::Line2,
-        Kind::Line,
-        Kind::Plane,
-        Kind::Circle2,
-        Kind::Circle,
-        Kind::Ellipse2,
-        Kind::Sphere,
-        Kind::Cylinder,
-        Kind::Cone,
-        Kind::Torus,
-    ];
-    /// The word for it: `line`, `plane`, … The same in the plane and in space.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Line2 | Kind::Line => "line",
-            Kind::Plane => "plane",
-            Kind::Circle2 | Kind::Circle => "circle",
-            Kind::Ellipse2 => "ellipse",
-            Kind::Sphere => "sphere",
-            Kind::Cylinder => "cylinder",
-            Kind::Cone => "cone",
-            Kind::Torus => "torus",
-        }
-    }
-    /// Number of unknowns: fewer points do not determine it.
-    pub fn unknowns(self) -> usize {
-        match self {
-            Kind::Line2 => 2,
-            Kind::Plane | Kind::Circle2 => 3,
-            Kind::Line | Kind::Sphere => 4,
-            Kind::Ellipse2 | Kind::Cylinder => 5,
-            Kind::Circle | Kind::Cone => 6,
-            Kind::Torus => 7,
-        }
-    }
-    /// Fewest points that can determine it. A point of a curve in space counts for two.
-    pub fn fewest_points(self) -> usize {
-        match self {
-            Kind::Line => 2,
-            Kind::Circle => 3,
-            kind => kind.unknowns(),
-        }
-    }
-    /// Whether it lies in the plane z = 0.
-    pub fn is_flat(self) -> bool {
-        matches!(self, Kind::Line2 | Kind::Circle2 | Kind::Ellipse2)
-    }
-}
 
 /// A fitted element, millimetres and radians. Directions are unit vectors whose component of largest magnitude
 /// is positive, except a cone's, which points from the apex into the cone.
@@ -117,7 +42,7 @@ pub enum Parameter {
 }
 
 /// Numbers of the shape that has most: a cone.
-pub(super) const MOST_NUMBERS: usize = 11;
+pub(crate) const MOST_NUMBERS: usize = 11;
 
 impl Shape {
     /// Which element this is.
@@ -184,7 +109,7 @@ impl Shape {
         }
     }
     /// The parameters' numbers one after the other, and how many they are; zeros follow.
-    pub(super) fn flattened(&self) -> ([f64; MOST_NUMBERS], usize) {
+    pub(crate) fn flattened(&self) -> ([f64; MOST_NUMBERS], usize) {
         let (mut numbers, mut count) = ([0.0; MOST_NUMBERS], 0);
         let mut push = |x: f64| {
             numbers[count] = x;
@@ -214,7 +139,7 @@ impl Shape {
             }
             Shape::Ellipse2 { center, direction, major_radius, minor_radius } => {
                 let q = Pose::flat(center, direction).local(p);
-                super::ellipse::distance([major_radius, minor_radius], q)
+                ellipse::distance([major_radius, minor_radius], q)
             }
             Shape::Sphere { center, radius } => norm(minus(p, center)) - radius,
             Shape::Cylinder { point, direction, radius } => off_axis(p, point, direction).0 - radius,
