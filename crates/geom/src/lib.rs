@@ -5,7 +5,9 @@
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
-//! | statistics of deviations | [`deviation::statistics`] |
+//! | deviations from a reference | [`deviation`] |
+//! | statistics of numbers with a sign | [`stats`] |
+//! | neighbours among points | [`spatial`] |
 //! | sums, random numbers | [`num`] |
 //! | closest points, distances, signs | [`closest`] |
 //! | welding, edges, shells, soundness | [`topology`] |
@@ -32,4 +34,6 @@ pub mod segment;
 pub mod shape;
 pub mod simd;
 pub mod space;
+pub mod spatial;
+pub mod stats;
 pub mod topology;

@@ -25,7 +25,7 @@ mod tests;
 pub use differences::Differences;
 pub use facet::Value;
 
-use super::neighbours::PointTree;
+use crate::spatial::neighbours::PointTree;
 use crate::closest::{MeshError, QueryError, check_mesh, check_points};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};

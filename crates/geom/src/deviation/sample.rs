@@ -1,6 +1,6 @@
 //! Points spread evenly over a mesh, and distances between two meshes from both sides.
 
-use super::statistics::{Number, Statistics};
+use crate::stats::statistics::{Number, Statistics};
 use crate::closest::{MeshError, check_mesh};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
@@ -93,7 +93,7 @@ impl TwoSided {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviation::statistics::{Missing, Summary};
+    use crate::stats::statistics::{Missing, Summary};
 
     fn two_facets() -> Mesh {
         // Areas 3 : 1, and a facet without area between them.

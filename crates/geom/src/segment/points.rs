@@ -2,7 +2,7 @@
 
 use super::facets::lists;
 use super::surface::{Pieces, Surface};
-use crate::deviation::neighbours::{Neighbour, PointTree};
+use crate::spatial::neighbours::{Neighbour, PointTree};
 use crate::fit::eigen;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use rayon::prelude::*;

@@ -9,14 +9,14 @@ use crate::results::{InputRecord, UNITS, VERSION, Verdict};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{Found, Kind};
-use trueness_geom::deviation::histogram::Limits;
+use trueness_geom::stats::histogram::Limits;
 use trueness_geom::deviation::paper::Differences;
 use trueness_geom::deviation::sign_choice::SignChoice;
 
 mod geom {
-    pub use trueness_geom::deviation::histogram::Histogram;
-    pub use trueness_geom::deviation::paired::Paired;
-    pub use trueness_geom::deviation::statistics::Statistics;
+    pub use trueness_geom::stats::histogram::Histogram;
+    pub use trueness_geom::stats::paired::Paired;
+    pub use trueness_geom::stats::statistics::Statistics;
 }
 use trueness_geom::deviation::surface::Disagreement;
 

@@ -22,7 +22,7 @@ use crate::tolerance::Tolerance;
 use reference::Running;
 use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::cloud::PointStream;
-use trueness_geom::deviation::paired::Paired;
+use trueness_geom::stats::paired::Paired;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;

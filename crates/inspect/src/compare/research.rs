@@ -3,8 +3,8 @@
 use super::reference::{Compared, Values};
 use super::shown::ShownPoints;
 use crate::results::research::*;
-use trueness_geom::deviation::research::distributions::{Family, fits};
-use trueness_geom::deviation::research::{blocks, bootstrap, moran, normality};
+use trueness_geom::stats::research::distributions::{Family, fits};
+use trueness_geom::stats::research::{blocks, bootstrap, moran, normality};
 
 /// Points, at most, of the sample that has places.
 pub const PLACES: usize = 1 << 18;
@@ -36,7 +36,7 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
             anderson_darling: finding(normality::anderson_darling(values, SAMPLE, seed).map(test)),
         },
         distributions: finding(fits(values, SAMPLE, seed).map(|all| {
-            let record = |f: &trueness_geom::deviation::research::distributions::Fit| Distribution {
+            let record = |f: &trueness_geom::stats::research::distributions::Fit| Distribution {
                 family: name(f.family).into(),
                 location: f.location,
                 scale: f.scale,
@@ -60,7 +60,7 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
     }
 }
 
-fn intervals(c: &Compared, seed: u64) -> Result<Bootstrap, trueness_geom::deviation::statistics::Missing> {
+fn intervals(c: &Compared, seed: u64) -> Result<Bootstrap, trueness_geom::stats::statistics::Missing> {
     let options = bootstrap::Options { seed, ..bootstrap::Options::default() };
     let found = match &c.values {
         Values::All(values) => bootstrap::bootstrap(values, &options),

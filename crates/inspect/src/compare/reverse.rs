@@ -5,7 +5,7 @@ use super::reference::Compared;
 use crate::results::compare::Reverse;
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
 use trueness_geom::deviation::sample::TwoSided;
-use trueness_geom::deviation::statistics::Summary;
+use trueness_geom::stats::statistics::Summary;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 

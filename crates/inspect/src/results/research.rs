@@ -31,7 +31,7 @@ pub struct Research {
     pub moran: Finding<Moran>,
 }
 
-/// Bootstrap intervals (BCa for few points, see `geom::deviation::research::bootstrap`).
+/// Bootstrap intervals (BCa for few points, see `geom::stats::research::bootstrap`).
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Bootstrap {
     /// Interval of the mean.

@@ -1,7 +1,7 @@
 //! How the paper's values differ from the distances to the surface.
 
 use super::Value;
-use crate::deviation::sketch::Sketch;
+use crate::stats::sketch::Sketch;
 
 /// Counts over the points that have both values.
 #[derive(Clone, Debug, Default)]

@@ -175,7 +175,7 @@ fn accelerated(mut replicates: Vec<f64>, estimate: f64, acceleration: f64, confi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviation::statistics::Summary;
+    use crate::stats::statistics::Summary;
 
     /// Expected: SciPy 1.17 `stats.bootstrap(method="BCa", n_resamples=100000)`; two seeds differ there by 0.005.
     #[test]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::deviation::sketch::RELATIVE_ERROR;
+use crate::stats::sketch::RELATIVE_ERROR;
 use crate::num::random::Random;
 use crate::num::sum::Sum;
 

@@ -213,7 +213,7 @@ impl Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviation::statistics::{Accumulator, Summary};
+    use crate::stats::statistics::{Accumulator, Summary};
     use crate::num::random::Random;
 
     #[test]

@@ -1,0 +1,3 @@
+//! Search among points.
+
+pub mod neighbours;

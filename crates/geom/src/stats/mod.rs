@@ -1,0 +1,19 @@
+//! Statistics of numbers with a sign, which know nothing of what was measured.
+//!
+//! | task | where |
+//! |---|---|
+//! | all of them at once, from a stream | [`statistics`] |
+//! | mean, variance, skewness, kurtosis | [`moments`] |
+//! | percentiles, of numbers held and of a stream | [`quantiles`], [`sketch`] |
+//! | histogram | [`histogram`] |
+//! | which of two series is the smaller | [`paired`] |
+//! | bootstrap, normality, distributions, spatial autocorrelation | [`research`] |
+
+pub mod histogram;
+pub mod moments;
+pub mod paired;
+mod part;
+pub mod quantiles;
+pub mod research;
+pub mod sketch;
+pub mod statistics;
