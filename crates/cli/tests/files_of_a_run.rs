@@ -4,7 +4,6 @@
 mod common;
 use common::*;
 use std::ffi::OsStr;
-use std::path::Path;
 
 const POINTS: &str = "0 0 2\n1 1 3\n0.5 0.5 0.5\n";
 
