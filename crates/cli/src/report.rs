@@ -1,6 +1,6 @@
 //! The report that every command can write: its options, and the writing.
 
-use crate::commands::compare::output::whole_file;
+use crate::output::whole_file;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_inspect::report::{
@@ -85,10 +85,10 @@ impl ReportArgs {
             up: self.up.into(),
         };
         let input = ReportInput { result, objects, marks, options: &options };
-        whole_file(path, |mut file| match report::write(&input, &mut file) {
+        Ok(whole_file(path, |mut file| match report::write(&input, &mut file) {
             Ok(_) => Ok(()),
             Err(ReportError::Write(e)) => Err(e),
             Err(e) => Err(std::io::Error::other(e)),
-        })
+        })?)
     }
 }

@@ -145,7 +145,7 @@ fn wrong_usage_and_inputs_leave_nothing_behind() {
         (&cube, &out, &["--holes=-1"], 2, "--holes"),
         (&cube, &out, &["--only", "wonders"], 2, "outward"),
         (&cube, &out, &["--only", "holes", "--skip", "orient"], 2, "--skip"),
-        (&cube, &odd, &[], 3, ".stl"),
+        (&cube, &odd, &[], 2, ".stl"),
         (&cube, &lost, &[], 3, "o.stl"),
         (&points, &out, &[], 3, "p.xyz"),
         (&cut, &out, &[], 3, "cut.stl"),

@@ -60,6 +60,10 @@ impl Format {
     pub fn reads(&self) -> bool {
         self.read.is_some()
     }
+    /// Whether it is a table, whose columns can be chosen.
+    pub fn has_columns(&self) -> bool {
+        *self == formats::table::TABLE || *self == formats::npy::NPY
+    }
     /// Whether points, with deviations or without, can be written.
     pub fn writes_points(&self) -> bool {
         self.points.is_some()

@@ -8,6 +8,7 @@
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
+//! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
 //! | the hash of a file | [`sha256`] |
 //!
 //! Readers take their input for hostile: a count in a header is compared with the bytes that are there before
@@ -31,6 +32,7 @@ mod polygon;
 
 mod scalar;
 mod source;
+mod temporary;
 mod unicode;
 mod unit;
 mod warning;
@@ -43,5 +45,6 @@ pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{FORMATS, Format};
 pub use hash::sha256;
 pub use open::{ReadOptions, Weld, open};
+pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
 pub use warning::Warning;

@@ -176,6 +176,7 @@ fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
         unit_assumed: "mm".into(),
         points: mesh.positions.len() as u64,
         facets: (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64),
+        bounds: None,
         warnings: vec![],
     }
 }

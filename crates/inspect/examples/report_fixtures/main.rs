@@ -215,6 +215,7 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         unit_assumed: "mm".into(),
         points: body.measured.positions.len() as u64,
         facets,
+        bounds: None,
         warnings: vec![],
     };
     let mut inputs = vec![record(Role::Measured, measured, None)];
@@ -270,9 +271,12 @@ fn comparison(
         ToleranceShares {
             lower,
             upper,
-            inside: share(&|v| lower <= v && v <= upper),
-            above: share(&|v| v > upper),
-            below: share(&|v| v < lower),
+            inside: Some(share(&|v| lower <= v && v <= upper)),
+            inside_reason: None,
+            above: Some(share(&|v| v > upper)),
+            above_reason: None,
+            below: Some(share(&|v| v < lower)),
+            below_reason: None,
             required: 1.0,
         }
     });
@@ -281,6 +285,7 @@ fn comparison(
     Comparison {
         reference: reference.into(),
         rank: n as u32 + 1,
+        warnings: vec![],
         sign: sign(),
         soundness: soundness(),
         deviation: BySide {
@@ -293,8 +298,11 @@ fn comparison(
         } else {
             BTreeMap::new()
         },
+        verdict: shares.as_ref().map(|s| match s.inside {
+            Some(inside) if inside >= s.required => Verdict::Pass,
+            _ => Verdict::Fail,
+        }),
         tolerance: shares,
-        verdict: shares.map(|s| if s.inside >= s.required { Verdict::Pass } else { Verdict::Fail }),
         histogram: Some(histogram(&values)),
         worst: worst(body, field),
         reverse: None,

@@ -137,7 +137,7 @@ mod tests {
     fn drawn(mesh: &Mesh) -> Vec<(String, Vec<[usize; 3]>)> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();
         let file = InputRecord {
-            role: Role::Reference,
+            role: Role::Mesh,
             path: "x".into(),
             format: "STL".into(),
             bytes: 0,
@@ -146,6 +146,7 @@ mod tests {
             unit_assumed: "mm".into(),
             points: 0,
             facets: None,
+            bounds: None,
             warnings: vec![],
         };
         let document = document(&report, file, mesh.faces.len() as u64, 0, &Options::default());

@@ -1,6 +1,7 @@
 //! One measured set against one or several references, in one pass over the points.
 
 mod document;
+pub mod plausibility;
 mod reference;
 mod research;
 mod reverse;

@@ -69,6 +69,19 @@ impl Html {
         self.number(percent(share, decimals), decimals, false).raw("\u{a0}%")
     }
 
+    /// A share as a percentage, or a dash with the reason why there is none as its tooltip.
+    pub fn optional_percent(
+        &mut self,
+        share: Option<f64>,
+        reason: Option<&str>,
+        decimals: usize,
+    ) -> &mut Html {
+        match share {
+            Some(share) => self.percent(share, decimals),
+            None => self.optional(None, reason, decimals, false),
+        }
+    }
+
     /// A number, or a dash with the reason why there is none as its tooltip.
     pub fn optional(
         &mut self,

@@ -120,6 +120,7 @@ impl From<Role> for ViewRole {
         match role {
             Role::Measured => ViewRole::Measured,
             Role::Reference => ViewRole::Reference,
+            Role::Mesh => ViewRole::Part,
         }
     }
 }

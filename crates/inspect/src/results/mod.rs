@@ -10,6 +10,7 @@ pub mod repair;
 pub mod research;
 pub mod segment;
 
+use compare::Bounds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +22,7 @@ pub const UNITS: &str = "mm";
 /// A file that was read.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct InputRecord {
-    /// `measured` or `reference`.
+    /// What it was taken for.
     pub role: Role,
     /// As given on the command line; `-` is the standard input.
     pub path: String,
@@ -41,6 +42,8 @@ pub struct InputRecord {
     /// Facets; absent for a cloud.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub facets: Option<u64>,
+    /// Box of its points or vertices, mm, after units were converted; `null` where there are none.
+    pub bounds: Option<Bounds>,
     /// What the reader noticed and mended or passed over.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub warnings: Vec<String>,
@@ -54,6 +57,8 @@ pub enum Role {
     Measured,
     /// Nominal, or the mesh under test.
     Reference,
+    /// A mesh that is looked at by itself, beside no other.
+    Mesh,
 }
 
 /// The answer to a question about conformity.

@@ -88,7 +88,7 @@ export interface MapEntry {
   name: string
   count: number
   mean: number | null
-  tolerance: { lower: number; upper: number; inside: number } | null
+  tolerance: { lower: number; upper: number; inside: number | null } | null
   histogram: Histogram | null
   quantiles: number[]
 }

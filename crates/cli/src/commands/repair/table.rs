@@ -1,6 +1,7 @@
 //! The repair as a table for people.
 
-use crate::console::{columns, grouped};
+use crate::console::columns;
+use crate::number::{FACETS, SHELLS, VERTICES, counted, fixed, grouped, scientific};
 use std::collections::BTreeMap;
 use trueness_inspect::results::repair::{RepairDocument, State};
 
@@ -28,8 +29,11 @@ pub fn text(d: &RepairDocument) -> String {
             &mut out,
             "deviation",
             &format!(
-                "{:.6} mm at most, {:.6} mm on average (old to new); {:.6} and {:.6} (new to old)",
-                x.removed.max, x.removed.mean, x.added.max, x.added.mean
+                "{} mm at most, {} mm on average (old to new); {} and {} (new to old)",
+                fixed(x.removed.max, 6),
+                fixed(x.removed.mean, 6),
+                fixed(x.added.max, 6),
+                fixed(x.added.mean, 6)
             ),
         ),
         (None, reason) => {
@@ -47,10 +51,10 @@ fn line(out: &mut String, name: &str, text: &str) {
 }
 
 fn state(s: &State) -> String {
-    let volume = s.volume.map_or("open".into(), |v| format!("{v:.6} mm³"));
-    let counts = [(s.facets, "facets"), (s.vertices, "vertices"), (s.shells, "shells")];
-    let counts = counts.map(|(n, what)| format!("{} {what}", grouped(n))).join(", ");
-    format!("{counts}, {:.6} mm², {volume}", s.area)
+    let volume = s.volume.map_or("open".into(), |v| format!("{} mm³", fixed(v, 6)));
+    let counts = [(s.facets, FACETS), (s.vertices, VERTICES), (s.shells, SHELLS)];
+    let counts = counts.map(|(n, what)| counted(n, what)).join(", ");
+    format!("{counts}, {} mm², {volume}", fixed(s.area, 6))
 }
 
 /// What was done, by step and kind.
@@ -100,7 +104,7 @@ fn verdict(d: &RepairDocument) -> String {
     let o = &d.output;
     let rounded = match o.rounded_vertices {
         0 => String::new(),
-        n => format!(", {} vertices rounded by up to {:.3e} mm", grouped(n), o.rounding),
+        n => format!(", {} rounded by up to {} mm", counted(n, VERTICES), scientific(o.rounding, 3)),
     };
     let written = format!("written to {}{rounded}", o.path);
     match (d.after.sound, o.sound) {

@@ -3,7 +3,6 @@
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
 use super::{Head, Pick, Subject};
-use crate::results::InputRecord;
 use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
 use serde_json::Value;
@@ -23,10 +22,6 @@ impl Subject for CheckDocument {
             (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
             (false, _) => Headline { key: "not_sound", tone: Tone::Fail },
         }
-    }
-
-    fn role(&self, _: &InputRecord) -> &'static str {
-        "mesh"
     }
 
     fn picture(&self) -> &'static str {

@@ -7,7 +7,7 @@ mod repair;
 mod segment;
 
 use super::html::Html;
-use super::page::blocks::{Headline, role_key};
+use super::page::blocks::Headline;
 use crate::results::InputRecord;
 use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
@@ -64,10 +64,6 @@ pub trait Subject {
     fn head(&self) -> Head<'_>;
     /// The first word.
     fn headline(&self) -> Headline;
-    /// Key of what a file is called.
-    fn role(&self, input: &InputRecord) -> &'static str {
-        role_key(input.role)
-    }
     /// Key of a convention that every number on the page follows.
     fn convention(&self) -> Option<&'static str> {
         None

@@ -4,7 +4,6 @@ use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
 use super::{Head, Pick, Subject};
 use crate::repair::by_step;
-use crate::results::InputRecord;
 use crate::results::repair::{Distances, RepairDocument, State};
 use crate::scale::palette::category;
 use serde_json::Value;
@@ -26,10 +25,6 @@ impl Subject for RepairDocument {
             (true, _) => Headline { key: "repaired", tone: Tone::Pass },
             (false, _) => Headline { key: "not_repaired", tone: Tone::Fail },
         }
-    }
-
-    fn role(&self, _: &InputRecord) -> &'static str {
-        "mesh"
     }
 
     fn picture(&self) -> &'static str {

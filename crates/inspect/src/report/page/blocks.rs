@@ -124,21 +124,30 @@ pub fn role_key(role: Role) -> &'static str {
     match role {
         Role::Measured => "measured",
         Role::Reference => "reference",
+        Role::Mesh => "mesh",
     }
 }
 
 /// The files read.
-pub fn files(h: &mut Html, inputs: &[InputRecord], role: impl Fn(&InputRecord) -> &'static str) {
-    section(h, "files", |h| inputs.iter().for_each(|input| file(h, input, role(input))));
+pub fn files(h: &mut Html, inputs: &[InputRecord]) {
+    section(h, "files", |h| inputs.iter().for_each(|input| file(h, input)));
 }
 
-fn file(h: &mut Html, input: &InputRecord, role: &str) {
+fn file(h: &mut Html, input: &InputRecord) {
+    let role = role_key(input.role);
     h.raw(&format!("<div class=\"file\"><p><span class=\"chip {role}\"><i></i>")).word(role).raw("</span> ");
     h.name(&input.path).raw("</p><p class=\"note\">").text(&input.format).raw(" · ").count(input.bytes);
     let what = if input.facets.is_some() { "vertices" } else { "points" };
     h.raw("\u{a0}B · ").count(input.points).raw(" ").word(what);
     if let Some(facets) = input.facets {
         h.raw(" · ").count(facets).raw(" ").word("facets");
+    }
+    if let Some(b) = &input.bounds {
+        h.raw(" · ");
+        for k in 0..3 {
+            h.raw(if k > 0 { "\u{2009}×\u{2009}" } else { "" }).number(b.max[k] - b.min[k], 3, false);
+        }
+        h.raw("\u{a0}mm");
     }
     h.raw(" · ").word("unit_assumed").raw(" ").text(&input.unit_assumed).raw("</p>");
     match &input.sha256 {

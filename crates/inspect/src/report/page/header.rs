@@ -3,7 +3,7 @@
 use super::super::ReportInput;
 use super::super::html::Html;
 use super::super::payload::Payload;
-use super::blocks::{badge, file_name};
+use super::blocks::{badge, file_name, role_key};
 
 /// The heading: the title given, else the part's name, else the first file's.
 pub fn title(input: &ReportInput) -> String {
@@ -20,7 +20,7 @@ pub fn header(h: &mut Html, input: &ReportInput) {
     badge(h, headline);
     h.raw("</h1><p class=\"title\">").name(&title(input)).raw("</p><p class=\"who\">");
     for (n, file) in subject.head().inputs.iter().enumerate() {
-        let role = subject.role(file);
+        let role = role_key(file.role);
         if n > 0 {
             h.raw("<span class=\"to\" aria-hidden=\"true\">↔</span>");
         }

@@ -28,7 +28,7 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<Str
     header::header(&mut h, input);
     h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
     subject.list(&mut h);
-    blocks::files(&mut h, subject.head().inputs, |input| subject.role(input));
+    blocks::files(&mut h, subject.head().inputs);
     blocks::section(&mut h, "method", |h| {
         subject.method(h);
         h.raw("<p class=\"note\">trueness ").text(subject.head().version).raw(" · ");

@@ -7,7 +7,7 @@ use super::super::page::blocks::{Headline, Tone, key_number};
 use super::super::{number::Style, text::word};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::check::found;
-use crate::results::compare::{CompareDocument, Comparison, Worst};
+use crate::results::compare::{CompareDocument, Comparison, WarningKind, Worst};
 use crate::scale::Scale;
 use serde_json::Value;
 
@@ -65,7 +65,7 @@ impl Subject for CompareDocument {
     fn maps(&self) -> Vec<Map<'_>> {
         fn of(c: &Comparison) -> Map<'_> {
             let all = &c.deviation.all;
-            let (tolerance, histogram) = (c.tolerance, c.histogram.as_ref());
+            let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
             Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
         }
         self.comparisons.iter().map(of).collect()
@@ -106,7 +106,7 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     match &c.tolerance {
         Some(t) => {
             key_number(h, "within", "lead", |h| {
-                h.percent(t.inside, 2);
+                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
             });
             key_number(h, "tolerance", "", |h| {
                 h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
@@ -150,21 +150,35 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     key_number(h, "soundness", class, |h| {
         h.raw(sign).word(state);
     });
+    for warning in &c.warnings {
+        key_number(h, warning_key(warning.kind), "warn", |h| {
+            h.raw("⚠\u{a0}").number(warning.value, 3, false);
+        });
+    }
     h.raw("</dl>");
+}
+
+/// Key of a warning in a few words.
+fn warning_key(kind: WarningKind) -> &'static str {
+    match kind {
+        WarningKind::SizeRatio => "warning.size_ratio",
+        WarningKind::HardlyOverlapping => "warning.hardly_overlapping",
+    }
 }
 
 /// The map in one sentence, for those who cannot see it.
 fn in_words(c: &Comparison, style: Style) -> Option<String> {
-    let t = c.tolerance?;
+    let t = c.tolerance.as_ref()?;
+    let (inside, above, below) = (t.inside?, t.above?, t.below?);
     let language = style.language;
     let share = |s: f64| format!("{} %", style.fixed(percent(s, 2), 2));
     Some(format!(
         "{} {} · {} {} · {} {}",
         word("within", language),
-        share(t.inside),
+        share(inside),
         word("above", language),
-        share(t.above),
+        share(above),
         word("below", language),
-        share(t.below)
+        share(below)
     ))
 }
