@@ -88,9 +88,10 @@ async function openStage(): Promise<void> {
     await stage.load()
     restoreView(stage, state)
     keepView(stage, state)
+    // Drawn before it is seen: flags laid out without the part would show what it hides.
+    stage.settle()
     section.classList.add('live')
     say(null)
-    stage.applyState()
   } catch {
     canvas.remove()
     overlay.remove()

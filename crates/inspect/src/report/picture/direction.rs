@@ -44,6 +44,8 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let diagonal = if bounds.is_empty() { 0.0 } else { norm(bounds.sides()) };
     let off: Vec<bool> = picks.iter().map(|p| distance(p) > OFF * diagonal).collect();
     let mut important = subject.important(picks);
+    // What lies off the part is seen from nearly everywhere: the worst on the part decides.
+    important.sort_by_key(|n| off[*n]);
     important.truncate(PLACES);
     let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
     let places: Vec<Place> =

@@ -337,6 +337,9 @@ export class Stage {
 
   /** Draws and reads anew what another size has left behind. */
   settle(): void {
+    cancelAnimationFrame(this.frame)
+    this.frame = 0
+    this.wanted = false
     this.values.clear()
     this.drawNow()
     this.rest()
