@@ -11,10 +11,14 @@ const broken = (page, css) =>
       const walker = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT)
       for (let node = walker.nextNode(); node; node = walker.nextNode())
         for (const match of node.data.matchAll(/[^\s\u00ad]+/g)) {
-          const range = document.createRange()
-          range.setStart(node, match.index)
-          range.setEnd(node, match.index + match[0].length)
-          if (new Set([...range.getClientRects()].filter((r) => r.width > 0.5).map((r) => Math.round(r.top))).size > 1) found.push(match[0])
+          const tops = [...match[0]].map((_, i) => {
+            const range = document.createRange()
+            range.setStart(node, match.index + i)
+            range.setEnd(node, match.index + i + 1)
+            // After a hyphen that the line was parted at, the letter is the last of two.
+            return Math.round([...range.getClientRects()].at(-1)?.top ?? 0)
+          })
+          if (new Set(tops).size > 1) found.push(match[0])
         }
     }
     return found
