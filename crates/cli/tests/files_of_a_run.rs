@@ -250,7 +250,7 @@ fn signals_end_a_run_that_waits_and_leave_nothing() {
         let (cube, out) = (f.write("c.off", CUBE), f.file("out.csv"));
         let pipe = f.file("pipe");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_trueness"))
+        let child = std::process::Command::new(env!("CARGO_BIN_EXE_trueness"))
             .args(["compare".as_ref(), pipe.as_os_str(), cube.as_os_str(), "--out".as_ref(), out.as_os_str()])
             .stderr(std::process::Stdio::piped())
             .spawn()

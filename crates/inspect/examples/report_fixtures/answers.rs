@@ -22,7 +22,7 @@ use trueness_inspect::results::{InputRecord, Role};
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
     let options = ReportOptions { serial: Some("4711".into()), ..ReportOptions::default() };
-    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30))] {
+    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30)), ("torn", torn())] {
         written(folder, name, check_page(&mesh, &options));
     }
     written(folder, "mended", repair_page(&defects(), &options));
@@ -51,6 +51,19 @@ pub fn defects() -> Mesh {
     let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]];
     mesh.positions.extend(corners.map(|[x, y, z]| [x - 6.0, y - 13.0, z - 6.0]));
     mesh.faces.extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].map(|f: [u32; 3]| f.map(|v| first + v)));
+    mesh
+}
+
+/// A sphere with small holes all over, and one large one where the usual view does not look: at the back, below.
+fn torn() -> Mesh {
+    let mut mesh = uv_sphere(40);
+    let mut n = 0;
+    let places = mesh.positions.clone();
+    mesh.faces.retain(|f| {
+        n += 1;
+        let [x, y, z] = places[f[0] as usize];
+        n % 29 != 0 && y - x - z <= 16.0
+    });
     mesh
 }
 

@@ -36,6 +36,9 @@ fn main() {
     write(folder, "hostile", &sphere(40), tolerance, &hostile, "\u{2067}שלום\" onload=\"x.stl");
     write(folder, "cloud", &cloud(), Some([-0.1, 0.1]), "points.xyz", "nominal.stl");
     write(folder, "two", &two(), tolerance, "points.xyz", "fine.stl");
+    write(folder, "box", &plain_box(), Some([-0.1, 0.1]), "box.stl", "nominal.stl");
+    write(folder, "behind", &behind(), Some([-0.1, 0.1]), "part.stl", "nominal.stl");
+    write(folder, "four", &four(), tolerance, "points.xyz", "fine.stl");
     answers::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
@@ -47,13 +50,15 @@ pub struct Body {
     references: Vec<Mesh>,
     /// Whether the measured object is a cloud and the maps are on the references.
     cloud: bool,
+    /// A measured place far off the part, the place nearest to it, and the deviation there.
+    off: Option<(Point, Point, f64)>,
 }
 
 /// Radius 10, 2n² triangles; the deviation is 0.1·z/r.
 pub fn sphere(n: u32) -> Body {
     let measured = uv_sphere(n);
     let values = measured.positions.iter().map(|p| 0.01 * p[2]).collect();
-    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false, off: None }
 }
 
 /// A sphere of radius 10, twice `n` squared triangles.
@@ -109,7 +114,7 @@ fn cube() -> Body {
         let quad = if side > 0.0 { [[0, 1, 2], [0, 2, 3]] } else { [[0, 2, 1], [0, 3, 2]] };
         measured.faces.extend(quad.map(|t| t.map(|k| first + k)));
     }
-    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false, off: None }
 }
 
 /// The sphere without values where y is above 0.
@@ -136,7 +141,68 @@ fn two() -> Body {
         points.positions.iter().map(|p| 0.01 * p[2]).collect(),
         points.positions.iter().map(|p| 0.02 * p[0] + 0.02).collect(),
     ];
-    Body { fields, references: vec![uv_sphere(150), uv_sphere(150)], measured: points, cloud: true }
+    Body {
+        fields,
+        references: vec![uv_sphere(150), uv_sphere(150)],
+        measured: points,
+        cloud: true,
+        off: None,
+    }
+}
+
+/// A cube of 20 mm and 12 facets, whose corners coincide, against the same of 5 × 5 squares a face. Nothing deviates.
+fn plain_box() -> Body {
+    let [measured, reference] = [1, 5].map(|n| {
+        let mut mesh = Mesh::default();
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, 10.0), (axis, -10.0)]) {
+            let first = mesh.positions.len() as u32;
+            for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j))) {
+                let mut p = [side; 3];
+                p[(axis + 1) % 3] = 20.0 * f64::from(i) / f64::from(n) - 10.0;
+                p[(axis + 2) % 3] = 20.0 * f64::from(j) / f64::from(n) - 10.0;
+                mesh.positions.push(p);
+            }
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let a = first + i * (n + 1) + j;
+                let [b, c, d] = [a + n + 1, a + n + 2, a + 1];
+                let quad = if side > 0.0 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] };
+                mesh.faces.extend(quad);
+            }
+        }
+        mesh
+    });
+    let values = vec![0.0; measured.positions.len()];
+    Body { fields: vec![values], references: vec![reference], measured, cloud: false, off: None }
+}
+
+/// A sphere whose worst place looks to the back, the left and the foot, another one to the other side; and a measured place
+/// 30 mm above it, where the reference has no surface.
+fn behind() -> Body {
+    let measured = uv_sphere(120);
+    let bumps = [([-0.5, 0.6, -0.62], 0.4), ([0.5, -0.6, 0.62], -0.3)];
+    let bump = |p: &Point| {
+        let at = |(n, height): &([f64; 3], f64)| {
+            let cosine = (0..3).map(|k| n[k] * p[k]).sum::<f64>() / 10.0;
+            height * (-((1.0 - cosine) / 0.02)).exp()
+        };
+        bumps.iter().map(at).sum()
+    };
+    let values = measured.positions.iter().map(bump).collect();
+    let off = Some(([0.0, 0.0, 40.0], [0.0, 0.0, 10.0], 30.0));
+    Body { fields: vec![values], references: vec![measured.clone()], measured, cloud: false, off }
+}
+
+/// The same points against four spheres.
+fn four() -> Body {
+    let points = uv_sphere(40);
+    let field = |n: u32| points.positions.iter().map(|p| 0.01 * f64::from(n) * p[2]).collect();
+    Body {
+        fields: (1..=4).map(field).collect(),
+        references: vec![uv_sphere(40); 4],
+        measured: points,
+        cloud: true,
+        off: None,
+    }
 }
 
 fn write(
@@ -147,7 +213,11 @@ fn write(
     measured: &str,
     reference: &str,
 ) {
-    let options = ReportOptions { serial: Some(format!("{name} 4711")), ..ReportOptions::default() };
+    let options = ReportOptions {
+        title: Some(format!("Inspection of {measured}")).filter(|_| name == "behind"),
+        serial: Some(format!("{name} 4711")),
+        ..ReportOptions::default()
+    };
     written(folder, name, page(body, tolerance, [measured, reference], &options).0);
 }
 
@@ -331,7 +401,9 @@ fn soundness() -> Soundness {
 
 /// The three highest and three lowest vertices, at least 1 mm apart.
 fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
-    let mut all = vec![];
+    let off =
+        |(point, nearest, deviation)| Worst { sign: 1, index: 0, point, nearest, normal: None, deviation };
+    let mut all: Vec<Worst> = body.off.map(off).into_iter().collect();
     for sign in [1i8, -1] {
         let mut order: Vec<usize> = (0..field.len()).filter(|i| field[*i] * f64::from(sign) > 0.0).collect();
         order.sort_by(|a, b| field[*b].abs().total_cmp(&field[*a].abs()));

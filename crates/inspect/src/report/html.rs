@@ -59,6 +59,12 @@ impl Html {
         self.raw(&format!("<span class=\"n\" data-n=\"{value}\" data-d=\"{decimals}\"{sign}>{text}</span>"))
     }
 
+    /// A number above zero that is too small for digits after the point.
+    pub fn scientific(&mut self, value: f64, decimals: usize) -> &mut Html {
+        let text = self.style.scientific(value, decimals);
+        self.raw(&format!("<span class=\"n\" data-e=\"{value}\" data-d=\"{decimals}\">{text}</span>"))
+    }
+
     /// A count.
     pub fn count(&mut self, count: u64) -> &mut Html {
         self.number(count as f64, 0, false)

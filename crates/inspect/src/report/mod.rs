@@ -126,6 +126,12 @@ impl From<Role> for ViewRole {
 }
 
 impl ViewRole {
+    /// Marks that are seen through the part: what is wrong or was changed must never be missed. Edges of the part itself
+    /// are hidden by it.
+    pub fn shows_through(self) -> bool {
+        self != ViewRole::Edges
+    }
+
     /// Colour of what has no map: warm grey for what was measured, blue-grey for what it is compared with.
     pub fn color(self) -> Rgb {
         match self {
@@ -263,7 +269,8 @@ pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary,
     }
     let scale = input.result.subject().scale();
     let range = scale.map_or(1.0, |s| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l));
-    let picture = payload::base64(&picture::png(input));
+    let view = picture::FirstView::of(input, &input.result.subject().picks());
+    let picture = page::Picture { png: payload::base64(&picture::png(input, &view)), view };
     // What the page takes without its 3D part is left of the budget first.
     let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
     let payload =

@@ -1,10 +1,12 @@
 //! The page of a repair: what was changed and where, the mesh before and after, and what it cost.
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
+use super::super::page::blocks::{
+    Headline, Tone, fact, key_number, not_printed, pick_row, place_cells, section, swatch,
+};
 use super::{Head, Pick, Subject};
 use crate::repair::by_step;
-use crate::results::repair::{Distances, RepairDocument, State};
+use crate::results::repair::{Change, Distances, RepairDocument, State};
 use crate::scale::palette::category;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -92,6 +94,17 @@ impl Subject for RepairDocument {
         picks
     }
 
+    /// Those of the most facets.
+    fn important(&self, picks: &[Pick]) -> Vec<usize> {
+        let listed = |(_, changes): (_, Vec<&Change>)| {
+            changes.into_iter().take(LISTED).map(|c| c.facets).collect::<Vec<_>>()
+        };
+        let facets: Vec<u64> = by_step(self).into_iter().flat_map(listed).collect();
+        let mut order: Vec<usize> = (0..picks.len().min(facets.len())).collect();
+        order.sort_by_key(|n| std::cmp::Reverse(facets[*n]));
+        order
+    }
+
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
     }
@@ -125,7 +138,8 @@ fn changes(h: &mut Html, d: &RepairDocument) {
         );
         let rows = changes.len().min(LISTED);
         for (k, change) in changes.iter().take(rows).enumerate() {
-            h.raw(&format!("<tr data-pick=\"{}\"><td>", first + k));
+            pick_row(h, k, first + k);
+            h.raw("<td>");
             let name = if same { (k + 1).to_string() } else { change.what.clone() };
             h.text(&name).raw("</td><td class=\"r\">");
             h.count(change.facets).raw("</td>");
@@ -133,6 +147,7 @@ fn changes(h: &mut Html, d: &RepairDocument) {
             h.raw("</tr>");
         }
         h.raw("</tbody></table>");
+        not_printed(h, rows);
         if rows < changes.len() {
             h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(rows as u64).raw(" / ");
             h.count(changes.len() as u64).raw("</p>");
@@ -207,7 +222,7 @@ fn deviation(h: &mut Html, d: &RepairDocument) {
     }
     if d.output.rounded_vertices > 0 {
         fact(h, "file.rounding", |h| {
-            h.raw("≤\u{a0}").text(&format!("{:.1e}", d.output.rounding)).raw("\u{a0}mm");
+            h.raw("≤\u{a0}").scientific(d.output.rounding, 1).raw("\u{a0}mm");
         });
     }
     h.raw("</dl>");

@@ -119,6 +119,26 @@ pub fn place_cells(h: &mut Html, place: [f64; 3]) {
     }
 }
 
+/// Rows of a list of places that are printed; the screen has all that are listed.
+const PRINTED: usize = 12;
+
+/// Begins row `n` of a list of places, which leads to a pick.
+pub fn pick_row(h: &mut Html, n: usize, pick: usize) {
+    let class = if n < PRINTED { "" } else { " class=\"more\"" };
+    h.raw(&format!("<tr data-pick=\"{pick}\"{class}>"));
+}
+
+/// Says on paper how many of `rows` are not printed.
+pub fn not_printed(h: &mut Html, rows: usize) {
+    if rows > PRINTED {
+        h.raw("<p class=\"note paper\">+\u{a0}")
+            .count((rows - PRINTED) as u64)
+            .raw(" ")
+            .word("more.not_printed");
+        h.raw("</p>");
+    }
+}
+
 /// What a file is called on the page.
 pub fn role_key(role: Role) -> &'static str {
     match role {

@@ -2,6 +2,7 @@
 
 use super::super::html::{Html, json};
 use super::super::payload::Payload;
+use super::super::picture::FirstView;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale};
@@ -11,19 +12,27 @@ use serde_json::{Map, Value, json};
 const QUANTILES: usize = 2000;
 
 /// Writes the data elements.
-pub fn data(h: &mut Html, input: &ReportInput, payload: &Payload) -> Result<(), ReportError> {
+pub fn data(
+    h: &mut Html,
+    input: &ReportInput,
+    payload: &Payload,
+    first: &FirstView,
+) -> Result<(), ReportError> {
     let subject = input.result.subject();
     let manifest = json!({
         "schema": "trueness/view/1",
         "language": input.options.language.code(),
         "decimal": input.options.decimal,
         "up": if input.options.up == Up::Y { "y" } else { "z" },
-        "facing": subject.facing(),
+        "first": {
+            "toward": first.toward,
+            "places": first.places.iter().map(|(n, _)| n).collect::<Vec<_>>(),
+        },
         "scale": subject.scale(),
         "quantity": subject.quantity(),
         "palettes": subject.scale().map(palettes),
         "maps": maps(input),
-        "picks": picks(input),
+        "picks": picks(input, first),
         "objects": payload.objects,
         "simplified": payload.simplified,
         "display_error": payload.display_error,
@@ -49,11 +58,11 @@ fn maps(input: &ReportInput) -> Value {
 }
 
 /// The places of the list, in the order of its rows.
-fn picks(input: &ReportInput) -> Value {
+fn picks(input: &ReportInput, first: &FirstView) -> Value {
     let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
-    let all = input.result.subject().picks().into_iter().map(|p| {
+    let all = input.result.subject().picks().into_iter().zip(&first.off).map(|(p, off)| {
         json!({
-            "position": p.position, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
+            "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
             "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
         })
     });

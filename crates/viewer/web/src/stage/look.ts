@@ -60,23 +60,23 @@ export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back' | 'sink', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
   const [base] = parse(object.color)
   const opacity = OPACITIES[object.role] ?? 1
-  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false } }
+  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false }, sink: { value: 0 } }
   const uniforms = {
     ...shared,
     ...own,
     base: { value: new Vector3(...base.map((x) => x / 255)) },
-    isPoints: { value: object.kind === 'points' },
     objectId: { value: object.id + 1 },
   }
   const make = (fragmentShader: string) =>
     new RawShaderMaterial({
       glslVersion: GLSL3,
+      defines: object.kind === 'points' ? { POINTS: '' } : {},
       vertexShader: VERTEX,
       fragmentShader,
       uniforms,

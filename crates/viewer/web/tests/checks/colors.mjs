@@ -82,6 +82,42 @@ export const colors = [
     },
   ],
   [
+    'a flat face has one shade: no dents where a coarse mesh has none',
+    async (session) => {
+      const page = await session.report('box')
+      for (const turns of [0, 1, 2]) {
+        if (turns > 0) await key(page, 'ArrowRight')
+        const box = await stageBox(page)
+        const picture = await screen(page)
+        // Along lines over the part: three faces, so few shades; each change from one to the next is an edge.
+        const shades = new Map()
+        for (let i = -24; i <= 24; i++)
+          for (let j = -24; j <= 24; j++) {
+            const c = hex(picture.at(box.cx + 4 * i, box.cy + 4 * j))
+            shades.set(c, (shades.get(c) ?? 0) + 1)
+          }
+        const often = [...shades.values()].sort((a, b) => b - a)
+        const three = often.slice(0, 3).reduce((a, b) => a + b, 0) / (49 * 49)
+        assert.ok(three > 0.95, `turned ${turns}: three shades are ${three} of the part, of ${shades.size}`)
+      }
+    },
+  ],
+  [
+    'measured and reference shown together: the measured is seen where both are the same',
+    async (session) => {
+      const page = await session.report('box')
+      const before = await screen(page)
+      await key(page, 'n')
+      const after = await screen(page)
+      const box = await stageBox(page)
+      for (let i = -24; i <= 24; i++)
+        for (let j = -24; j <= 24; j++) {
+          const [x, y] = [box.cx + 5 * i, box.cy + 5 * j]
+          assert.ok(near(before.at(x, y), after.at(x, y), 3), `${x}, ${y}: ${hex(before.at(x, y))} became ${hex(after.at(x, y))}`)
+        }
+    },
+  ],
+  [
     'band edges are iso-lines: sphere, along the meridian',
     async (session) => {
       const page = await session.report('sphere')

@@ -135,9 +135,7 @@ const ROWS: [Row; 14] = [
 fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
     let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
     section(h, "statistics", |h| {
-        if let Some(words) = in_words(c, h.style) {
-            h.raw("<p class=\"words\">").text(&words).raw("</p>");
-        }
+        in_words(h, c);
         h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
         h.raw("</th><th class=\"r\">")
             .word("plus")

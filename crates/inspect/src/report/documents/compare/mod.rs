@@ -2,9 +2,8 @@
 
 mod list;
 
-use super::super::html::{Html, percent};
+use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, key_number};
-use super::super::{number::Style, text::word};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison, WarningKind, Worst};
@@ -78,7 +77,8 @@ impl Subject for CompareDocument {
             let map = Some(n);
             let worst = |w: &Worst| {
                 let value = Some(w.deviation);
-                Pick { position: w.point, normal: w.normal, map, value, ..Pick::default() }
+                let surface = Some(w.nearest);
+                Pick { position: w.point, surface, normal: w.normal, map, value, ..Pick::default() }
             };
             picks.extend(c.worst.iter().map(worst));
             let found = found(&c.soundness.findings);
@@ -167,18 +167,13 @@ fn warning_key(kind: WarningKind) -> &'static str {
 }
 
 /// The map in one sentence, for those who cannot see it.
-fn in_words(c: &Comparison, style: Style) -> Option<String> {
-    let t = c.tolerance.as_ref()?;
-    let (inside, above, below) = (t.inside?, t.above?, t.below?);
-    let language = style.language;
-    let share = |s: f64| format!("{} %", style.fixed(percent(s, 2), 2));
-    Some(format!(
-        "{} {} · {} {} · {} {}",
-        word("within", language),
-        share(inside),
-        word("above", language),
-        share(above),
-        word("below", language),
-        share(below)
-    ))
+fn in_words(h: &mut Html, c: &Comparison) {
+    let Some(t) = &c.tolerance else { return };
+    let (Some(inside), Some(above), Some(below)) = (t.inside, t.above, t.below) else { return };
+    h.raw("<p class=\"words\">");
+    for (n, (key, share)) in [("within", inside), ("above", above), ("below", below)].into_iter().enumerate()
+    {
+        h.raw(if n > 0 { " · " } else { "" }).word(key).raw(" ").percent(share, 2);
+    }
+    h.raw("</p>");
 }
