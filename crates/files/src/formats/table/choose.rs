@@ -73,10 +73,11 @@ fn named(tried: &Tried, header: &Header, named: Vec<usize>, guessed: Vec<usize>)
     if !even {
         // A comment may be prose: "# the points x y z" over three columns, or "# x y z of the housing". It counts where
         // it may be names, and must not contradict the rows.
-        if header.comment && named.iter().any(|i| *i >= cells) {
+        let prose = header.comment && tried.dialect.0 == Separator::Blanks;
+        if prose && named.iter().any(|i| *i >= cells) {
             return unnamed(tried, guessed);
         }
-        let agrees = header.comment && named[..] == guessed[..named.len().min(guessed.len())];
+        let agrees = prose && named[..] == guessed[..named.len().min(guessed.len())];
         if !agrees || named.len() < guessed.len().min(3) {
             let what = format!("are {names}, but the rows have {cells} cells");
             return Err(unclear(tried, header, &what));
@@ -107,6 +108,11 @@ fn unnamed(tried: &Tried, mut guessed: Vec<usize>) -> Result<Chosen> {
         let what = "its commas may separate columns or be decimal signs: no number has a decimal point";
         return Err(fail(what, by_number));
     }
+    if tried.dialect.0 == Separator::Byte(b',') && guessed.windows(2).any(|w| grouped(tried, w[0], w[1])) {
+        let what =
+            "its commas may separate columns or thousands: three digits stand behind some in every row";
+        return Err(fail(what, by_number));
+    }
     if numbered_columns(tried, &guessed) {
         let what = "the first row counts the columns: it may be a header or a point";
         return Err(fail(what, "delete that row, or write its numbers with decimals as the others are"));
@@ -133,6 +139,18 @@ fn all_plain(tried: &Tried, columns: &[usize]) -> bool {
         cell.iter().all(u8::is_ascii_digit)
     };
     columns.iter().all(|&i| tried.texts(i).all(digits))
+}
+
+/// Whether the cells of two columns beside each other could be the halves of numbers with thousands separators: up to three
+/// digits, then three digits and perhaps decimals, in every row.
+fn grouped(tried: &Tried, first: usize, second: usize) -> bool {
+    let digits = |cell: &[u8]| cell.iter().take_while(|b| b.is_ascii_digit()).count();
+    let high = |cell: &[u8]| {
+        let cell = cell.strip_prefix(b"-").or_else(|| cell.strip_prefix(b"+")).unwrap_or(cell);
+        digits(cell) == cell.len() && (1..=3).contains(&cell.len())
+    };
+    let low = |cell: &[u8]| digits(cell) == 3;
+    second == first + 1 && tried.texts(first).all(high) && tried.texts(second).all(low)
 }
 
 /// Whether a column goes up by one from row to row, in digits alone.
