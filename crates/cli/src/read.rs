@@ -3,9 +3,7 @@
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_files::{
-    Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning,
-};
+use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
 use trueness_geom::space::{Aabb, Point};
 use trueness_inspect::compare::plausibility;
 use trueness_inspect::results::{ColumnRecord, InputRecord, Role, TableRecord};
