@@ -3,10 +3,10 @@
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_files::{Body, Input, PointSource, ReadOptions, SourceMesh, Warning};
+use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
 use trueness_geom::space::{Aabb, Point};
 use trueness_inspect::compare::plausibility;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_inspect::results::{ColumnRecord, InputRecord, Role, TableRecord};
 
 /// A file of this run: what the document says of it, and what is in it.
 pub struct Opened {
@@ -93,11 +93,35 @@ fn record(
         sha256: None,
         sha256_reason: None,
         unit_assumed: provenance.unit_assumed.name().into(),
+        unit_from: provenance.unit_from.name().into(),
+        table: provenance.table.as_ref().map(table),
         points: 0,
         facets: None,
         bounds: None,
         warnings,
     }
+}
+
+fn table(reading: &TableReading) -> TableRecord {
+    let column = |c: &ColumnTaken| ColumnRecord { axis: c.axis, number: c.number, name: c.name.clone() };
+    TableRecord {
+        separator: reading.separator.into(),
+        decimal_sign: reading.decimal_sign,
+        columns: reading.columns.iter().map(column).collect(),
+        of: reading.of,
+        header_line: reading.header_line,
+        lines_skipped: reading.lines_skipped,
+    }
+}
+
+/// What there is to say about how the inputs were taken, a line each: tables of text, and what was odd.
+pub fn notes(inputs: &[InputRecord]) -> String {
+    let of = |input: &InputRecord| {
+        let reading = input.reading().map(|r| format!("{}: {r}\n", input.path));
+        let warnings = input.warnings.iter().map(|w| format!("! {w}\n"));
+        reading.into_iter().chain(warnings).collect::<String>()
+    };
+    inputs.iter().map(of).collect()
 }
 
 /// Fills in the hash of a file as it lies on disk.

@@ -126,6 +126,65 @@ pub enum Fault {
         /// Diagonal of the box of the vertices, millimetres.
         size: f64,
     },
+    /// A cell of a table is not what the table needs there.
+    #[error("column {column}{}: expected {expected}, found {found}", named(.name))]
+    Cell {
+        /// Number of the column, counted from 1.
+        column: usize,
+        /// What it is: its name in the header, else the coordinate; empty where neither is known.
+        name: String,
+        /// What the table needs.
+        expected: Cow<'static, str>,
+        /// What is there, shortened.
+        found: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The file can be taken in more than one way, and nothing says which is meant.
+    #[error("{what}")]
+    Unclear {
+        /// What is unclear.
+        what: String,
+        /// How to say it.
+        remedy: &'static str,
+    },
+    /// More content than announced.
+    #[error("{declared} {what} announced, {present} there")]
+    Surplus {
+        /// What is counted.
+        what: &'static str,
+        /// As many as the file says.
+        declared: u64,
+        /// As many as there are.
+        present: u64,
+    },
+    /// Bytes behind all that the header declares.
+    #[error("{count} bytes follow the {declared} {what} that the header declares")]
+    Trailing {
+        /// How many.
+        count: u64,
+        /// What is counted.
+        what: &'static str,
+        /// As many as the header says.
+        declared: u64,
+    },
+    /// Zero bytes in a text.
+    #[error("zero bytes within text: the file was not written to its end, or it is no text")]
+    Zeros,
+    /// The file became shorter while it was read.
+    #[error("the file became shorter while it was read: {length} bytes at first, then {now}")]
+    Shrunk {
+        /// Its length when it was opened.
+        length: u64,
+        /// Its length now.
+        now: u64,
+    },
+    /// The file is needed as a whole, and there is no memory for that.
+    #[error("{} MB of memory are needed to read it", bytes.div_ceil(1_000_000))]
+    Memory {
+        /// Bytes asked for.
+        bytes: u64,
+    },
     /// The columns asked for are not in the file.
     #[error("no column {wanted}; there are {there}")]
     NoColumn {
@@ -168,6 +227,12 @@ impl Fault {
             Fault::NoTable(_) => "leave --columns out",
             Fault::WeldTooFar { .. } => "give --weld a smaller distance, or the right unit to --units",
             Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
+            Fault::Cell { remedy, .. } | Fault::Unclear { remedy, .. } => remedy,
+            Fault::Surplus { .. } => "correct the number or export the file again",
+            Fault::Trailing { .. } => "save the data again, one array or model in a file",
+            Fault::Zeros => "export or copy the file again",
+            Fault::Shrunk { .. } => "wait until the other program has written it, and try again",
+            Fault::Memory { .. } => "divide the file into parts, or use a machine with more memory",
         }
     }
     pub(crate) fn at(self, place: Place) -> Located {
@@ -185,8 +250,13 @@ impl Fault {
     }
 }
 
+/// A name in brackets, unless it is empty.
+fn named(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(" ({name})") }
+}
+
 /// The first bytes of something, as it can be shown in a message.
-fn quoted(found: &[u8]) -> String {
+pub(crate) fn quoted(found: &[u8]) -> String {
     const SHOWN: usize = 40;
     let found = found.trim_ascii();
     if found.is_empty() {

@@ -3,7 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
-//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`Warning`] |
+//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
@@ -40,7 +40,7 @@ pub mod write;
 
 pub use atomic_file::AtomicFile;
 pub use columns::{Column, Columns, ColumnsError};
-pub use content::{Body, Input, PointSource, Provenance, SourceMesh};
+pub use content::{Body, ColumnTaken, Input, PointSource, Provenance, SourceMesh, TableReading, UnitFrom};
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{FORMATS, Format};
 pub use hash::sha256;

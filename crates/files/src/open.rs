@@ -1,7 +1,7 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, assemble, detect,
+    Body, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
     error::Located,
     format::{Format, Once, Parts},
     source::Source,
@@ -15,7 +15,7 @@ use trueness_geom::{
 /// What a file does not say itself.
 #[derive(Clone, Debug)]
 pub struct ReadOptions {
-    /// The unit of its numbers; millimetres are assumed otherwise.
+    /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
     pub units: Option<Unit>,
     /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
     pub columns: Option<Columns>,
@@ -71,9 +71,13 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     if options.columns.is_some() && !format.has_columns() {
         return Err(Fault::NoTable(format.name).into());
     }
-    let unit = options.units.unwrap_or_default();
     let (bytes, gzip) = (source.bytes, source.gzip);
     let mut parsed = reader(source, options)?;
+    let (unit, unit_from) = match (options.units, parsed.unit) {
+        (Some(asked), _) => (asked, UnitFrom::Option),
+        (None, Some(said)) => (said, UnitFrom::Header),
+        (None, None) => (Unit::default(), UnitFrom::Assumed),
+    };
     let body = match parsed.content {
         Parts::Mesh(mut mesh) => {
             unit.apply(&mut mesh.mesh.positions);
@@ -95,7 +99,9 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
         bytes,
         gzip,
         unit_assumed: unit,
+        unit_from,
         planar: parsed.planar,
+        table: parsed.table,
     };
     Ok(Input { provenance, body, warnings: parsed.warnings })
 }

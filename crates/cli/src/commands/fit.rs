@@ -157,7 +157,8 @@ fn table(document: &FitDocument) -> String {
         let uncertainty = document.uncertainty.as_ref().and_then(|u| u.get(name));
         rows.push(vec![name.replace('_', " "), shown(value), uncertainty.map_or_else(String::new, small)]);
     }
-    let mut out = format!("{} by {}, mm and radians\n", document.shape, document.method);
+    let mut out = read::notes(&document.inputs);
+    let _ = writeln!(out, "{} by {}, mm and radians", document.shape, document.method);
     out.push_str(&console::columns(&rows));
     let _ = writeln!(
         out,

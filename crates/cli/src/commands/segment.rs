@@ -200,7 +200,8 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
             scientific(region.max, 2),
         ]);
     }
-    let mut out = console::columns(&rows);
+    let mut out = read::notes(&document.inputs);
+    out.push_str(&console::columns(&rows));
     if document.regions.len() > ROWS {
         let _ = writeln!(out, "… and {} more", document.regions.len() - ROWS);
     }

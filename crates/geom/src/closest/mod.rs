@@ -44,7 +44,7 @@ mod wave;
 mod winding;
 
 pub use edges::FreeEdges;
-pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
+pub use limits::{MAX_COORDINATE, MAX_FACES, MIN_COORDINATE, MeshError, QueryError, sane};
 pub(crate) use limits::{check_mesh, check_points};
 pub use query::{Hit, Level, Query};
 pub use sign::Signs;

@@ -187,6 +187,8 @@ fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
         sha256: Some("3f".repeat(32)),
         sha256_reason: None,
         unit_assumed: "mm".into(),
+        unit_from: "assumed".into(),
+        table: None,
         points: mesh.positions.len() as u64,
         facets: (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64),
         bounds: None,

@@ -283,6 +283,8 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         sha256: Some("3f".repeat(32)),
         sha256_reason: None,
         unit_assumed: "mm".into(),
+        unit_from: "assumed".into(),
+        table: None,
         points: body.measured.positions.len() as u64,
         facets,
         bounds: None,

@@ -144,6 +144,8 @@ mod tests {
             sha256: None,
             sha256_reason: None,
             unit_assumed: "mm".into(),
+            unit_from: "assumed".into(),
+            table: None,
             points: 0,
             facets: None,
             bounds: None,

@@ -26,6 +26,7 @@ fn head(d: &CompareDocument) -> String {
             let [l, w, h] = [0, 1, 2].map(|k| number(b.max[k] - b.min[k]));
             rows.push((String::new(), format!("{l} × {w} × {h} mm")));
         }
+        rows.extend(input.reading().map(|r| (String::new(), r)));
         rows.extend(input.warnings.iter().map(|w| (String::new(), format!("! {w}"))));
     }
     rows.push(("method".into(), d.method.clone()));

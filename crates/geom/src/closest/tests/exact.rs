@@ -205,6 +205,9 @@ fn refuses_what_cannot_be_measured() {
     let far = f64::INFINITY;
     assert_eq!(ask(&[[0.0; 3], [far, 0.0, 0.0]], far), Err(QueryError::BadPoint(1)));
     assert_eq!(ask(&[[0.0, 1.1e60, 0.0]], far), Err(QueryError::BadPoint(0)));
+    assert_eq!(ask(&[[0.0, 1.0, 1e-50], [0.0, 1.0, -0.9e-50]], far), Err(QueryError::BadPoint(1)));
+    let tiny = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1e-51]], faces: vec![[0, 1, 2]] };
+    assert_eq!(Tree::build(&tiny).err(), Some(MeshError::BadVertex(2)));
     assert_eq!(ask(&[], far), Ok(vec![]));
     assert!(matches!(ask(&[], f64::NAN), Err(QueryError::BadMaxDistance(_))));
     assert_eq!(ask(&[], -1.0), Err(QueryError::BadMaxDistance(-1.0)));
