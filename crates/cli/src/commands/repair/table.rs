@@ -1,7 +1,7 @@
 //! The repair as a table for people.
 
 use crate::console::columns;
-use crate::number::{FACETS, SHELLS, VERTICES, counted, fixed, grouped, scientific};
+use crate::number::{FACETS, SHELLS, VERTICES, counted, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
 use trueness_inspect::results::repair::{RepairDocument, State};
 
@@ -49,10 +49,8 @@ pub fn text(d: &RepairDocument) -> String {
         }
     }
     if let Some(surface) = d.effect.surface {
-        let text = format!(
-            "off by {surface:.6} mm at most where it bounds (limit {:.6} mm)",
-            d.effect.surface_limit
-        );
+        let (surface, limit) = (fixed(surface, 6), fixed(d.effect.surface_limit, 6));
+        let text = format!("off by {surface} mm at most where it bounds (limit {limit} mm)");
         line(&mut out, "surface", &text);
     }
     changes(&mut out, d);
@@ -77,11 +75,14 @@ fn volume(d: &RepairDocument) -> Option<String> {
     let e = &d.effect;
     let (change, error, limit) = (e.volume_change?, e.volume_error?, e.volume_limit?);
     let share = match d.before.volume {
-        Some(before) if before > 0.0 => format!(" = {:+.4} %", 100.0 * change / before),
+        Some(before) if before > 0.0 => format!(" = {} %", signed(100.0 * change / before)),
         _ => String::new(),
     };
     Some(format!(
-        "changed by {change:+.6} mm³{share} (volume before: ± {error:.1e} mm³; limit {limit:.6} mm³)"
+        "changed by {} mm³{share} (volume before: ± {} mm³; limit {} mm³)",
+        signed(change),
+        scientific(error, 1),
+        fixed(limit, 6)
     ))
 }
 
