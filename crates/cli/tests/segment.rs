@@ -82,3 +82,28 @@ fn a_report_draws_every_region() {
     assert_eq!(text.matches("\"role\":\"part\"").count(), 6);
     assert!(text.contains("\"segments\":24"));
 }
+
+/// Of every mesh of the corpus and real scans (the two largest files take half a minute): no region reaches beyond the tolerance, found or given.
+#[test]
+fn no_member_lies_beyond_the_tolerance() {
+    let mut tried = 0;
+    for folder in ["broken", "shapes", "bunny"] {
+        let mut files: Vec<_> =
+            std::fs::read_dir(corpus(folder)).unwrap().map(|e| e.unwrap().path()).collect();
+        files.sort();
+        for file in files {
+            let file = file.to_str().unwrap();
+            if file.ends_with("scans.ply") || file.ends_with("zipper_res1.ply") {
+                continue;
+            }
+            let found = trueness(["segment", file, "--json", "-"]);
+            // Files that hold no surface are refused.
+            let Ok(answer) = serde_json::from_slice::<serde_json::Value>(&found.stdout) else { continue };
+            let regions = answer["regions"].as_array().unwrap();
+            let tolerance = answer["tolerance"].as_f64().unwrap();
+            assert!(regions.iter().all(|r| r["max"].as_f64().unwrap() <= tolerance), "{file}: {tolerance}");
+            tried += 1;
+        }
+    }
+    assert!(tried > 60, "{tried}");
+}

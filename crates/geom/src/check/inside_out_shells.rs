@@ -116,7 +116,7 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facet
     }
     // One after the other: all lists together might have as many entries as there are pairs of shells.
     for s in outer {
-        let container = Container::new(m.mesh, &facets[s]);
+        let container = Container::new(m.mesh, &facets[s], 0);
         let held = inside(s).into_par_iter().filter(|&s| lies_in(m, &facets[s as usize], &container));
         held.collect::<Vec<u32>>().into_iter().for_each(|s| depth[s as usize] += 1);
     }

@@ -18,7 +18,7 @@ mod inside_out_shells;
 pub mod intersect;
 mod islands;
 pub(crate) mod near;
-mod nesting;
+pub(crate) mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;

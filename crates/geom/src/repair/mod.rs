@@ -7,6 +7,8 @@
 mod degenerate;
 mod duplicates;
 mod edges;
+mod effect;
+mod enclosed;
 mod fins;
 mod holes;
 mod islands;
@@ -23,6 +25,8 @@ mod t_junctions;
 mod tests;
 mod work;
 
+pub use effect::Effect;
+pub use enclosed::{Enclosed, NotEnclosed};
 pub use measure::{Counts, Deviation, DeviationError, Way, deviation};
 
 use crate::check::{self, CheckError, Report};
@@ -129,6 +133,10 @@ pub struct Repaired {
     pub after: Report,
     /// Vertices and facets that stayed, came and went.
     pub counts: Counts,
+    /// What became of the places that the mesh encloses.
+    pub effect: Effect,
+    /// Steps that were not done, because with them some defect would have become more frequent.
+    pub taken_back: Vec<&'static str>,
 }
 
 /// Why a mesh was not repaired.
@@ -164,8 +172,10 @@ const ROUNDS: usize = 8;
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken; what cannot be mended stays, and
-/// [`Repaired::after`] lists it. The result is the same for any number of threads. Cost: for each step that changes something
-/// about as much as a check; filling holes up to the cube of 100 for each ring.
+/// [`Repaired::after`] lists it. No defect that makes a mesh unsound is there more often than before, and what was closed
+/// stays closed: where the steps together would end worse, it is done without one of them, or not at all. The result is the
+/// same for any number of threads. Cost: for each step that changes something about as much as a check; filling holes up to
+/// the cube of 100 for each ring; what ends worse once more for each step that changed something.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -173,6 +183,67 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let welded = as_it_is(mesh)?;
     let before = check::check(&welded, None, &check_options, progress)?;
+    let attempt = |without: Option<&str>| {
+        let steps = options.steps.iter().copied().filter(|s| without != Some(s)).collect();
+        attempt(&welded, &Options { steps, ..options.clone() }, (&before, &check_options), progress)
+    };
+    let mut done = attempt(None)?;
+    let mut taken_back = vec![];
+    if worse(&before, &done.after) {
+        // Tearing opens what is closed: it is the first to be done without.
+        let others = STEPS.iter().map(|s| s.name).filter(|name| *name != self_intersections::STEP.name);
+        let mut suspects: Vec<&str> = [self_intersections::STEP.name].into_iter().chain(others).collect();
+        suspects.retain(|name| done.changes.iter().any(|c| c.step == *name));
+        taken_back = options.steps.clone();
+        let mut found = None;
+        for name in suspects {
+            let next = attempt(Some(name))?;
+            if !worse(&before, &next.after) {
+                (found, taken_back) = (Some(next), vec![name]);
+                break;
+            }
+        }
+        done = match found {
+            Some(next) => next,
+            None => Attempt::none(&welded, &before),
+        };
+    }
+    let Attempt { mesh, changes, rounds, after, counts } = done;
+    let effect = Effect::of((&welded, &before), &mesh, options, progress)?;
+    Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back })
+}
+
+/// Whether a defect that makes a mesh unsound is there more often.
+fn worse(before: &Report, after: &Report) -> bool {
+    let count = |report: &Report, name: &str| report.found(name).map_or(0, |found| found.count);
+    let errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
+    errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))
+}
+
+/// What some steps came to.
+struct Attempt {
+    mesh: Mesh,
+    changes: Vec<Change>,
+    rounds: usize,
+    after: Report,
+    counts: Counts,
+}
+
+impl Attempt {
+    /// Nothing done.
+    fn none(mesh: &Mesh, before: &Report) -> Attempt {
+        let counts = Counts::of(mesh, mesh);
+        Attempt { mesh: mesh.clone(), changes: vec![], rounds: 0, after: before.clone(), counts }
+    }
+}
+
+/// Goes through the steps of `options`.
+fn attempt(
+    welded: &Mesh,
+    options: &Options,
+    (before, check_options): (&Report, &check::Options),
+    progress: &dyn Progress,
+) -> Result<Attempt, RepairError> {
     let mut work = Work::new(welded.clone(), options, progress)?;
     work.may_widen = WIDEN * before.properties.area;
     let mut rounds = go_through(&mut work)?;
@@ -186,10 +257,10 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         true => work.into_mesh(),
         false => rejoined(work.into_mesh())?,
     };
-    let counts = Counts::of(&welded, &repaired);
+    let counts = Counts::of(welded, &repaired);
     let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
-    let after = check::check(&mesh, None, &check_options, progress)?;
-    Ok(Repaired { mesh, changes, rounds, before, after, counts })
+    let after = check::check(&mesh, None, check_options, progress)?;
+    Ok(Attempt { mesh, changes, rounds, after, counts })
 }
 
 /// Goes through the steps until nothing is left to do; how often.

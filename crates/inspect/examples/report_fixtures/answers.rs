@@ -105,6 +105,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
         },
         deviation: repair::deviation(mesh, &repaired.mesh, &Silent),
         limit: 1000,
+        max_change: 1e-4,
     };
     let document = trueness_inspect::repair::document(&repaired, &wish, around);
     let view = trueness_inspect::repair::View::new(&document, "part.stl", mesh, &repaired.mesh);

@@ -25,7 +25,7 @@ use trueness_inspect::results::repair::OutputRecord;
 ///
 /// Mends what `trueness check` finds and tells every change, the deviation introduced, and what is left. No vertex moves:
 /// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place. The
-/// exit status is 0 if the result is sound, 1 if not (it is written all the same).
+/// exit status is 0 if the result is sound and the same part, 1 if not (it is written all the same).
 #[derive(Args, Debug)]
 #[command(after_help = help())]
 pub struct RepairArgs {
@@ -58,6 +58,10 @@ pub struct RepairArgs {
     /// Remove shells with a smaller diagonal than this share of the whole, percent [without a number: 1]
     #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1")]
     remove_islands: Option<f64>,
+    /// Share of the diagonal, and of the volume, by which the part may change, percent: beyond it the result is closed, but
+    /// changed, and the exit status 1
+    #[arg(long, value_name = "PERCENT", default_value = "0.01")]
+    max_change: f64,
     /// Changes to list in the document; all are counted
     #[arg(long, value_name = "N", default_value = "1000")]
     items: usize,
@@ -132,6 +136,7 @@ impl Run for RepairArgs {
 
 fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
+    let max_change = not_negative("max-change", args.max_change)? / 100.0;
     let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &args.input.reading())?;
     let stage = Stage::new(common.progress, "repairing", "facets", None);
     let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
@@ -148,7 +153,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);
     let left_out = source.nonfinite_facets;
-    let around = Around { file: record, left_out, output, deviation, limit: args.items };
+    let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
     let document = document(&repaired, &options, around);
     file.finish()?;
     args.document.write(&document)?;

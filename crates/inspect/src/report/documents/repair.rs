@@ -25,6 +25,9 @@ impl Subject for RepairDocument {
         match (self.sound, self.change_count) {
             (true, 0) => Headline { key: "nothing_to_repair", tone: Tone::Pass },
             (true, _) => Headline { key: "repaired", tone: Tone::Pass },
+            (false, _) if self.after.sound && self.effect.changed => {
+                Headline { key: "closed_but_changed", tone: Tone::Fail }
+            }
             (false, _) => Headline { key: "not_repaired", tone: Tone::Fail },
         }
     }
@@ -49,6 +52,12 @@ impl Subject for RepairDocument {
         if let Some(d) = &self.deviation {
             key_number(h, "deviation.introduced", "", |h| {
                 length(h, d.added.max.max(d.removed.max));
+            });
+        }
+        if let Some(change) = self.effect.volume_change {
+            let class = if self.effect.changed { "warn" } else { "" };
+            key_number(h, "volume.change", class, |h| {
+                h.number(change, 3, true).raw("\u{a0}mm³");
             });
         }
         let class = if self.output.sound == Some(false) { "warn" } else { "" };
@@ -188,6 +197,9 @@ fn states(h: &mut Html, d: &RepairDocument) {
     row("shells", &|h, s| {
         h.count(s.shells);
     });
+    row("bodies", &|h, s| {
+        h.count(if std::ptr::eq(s, &d.before) { d.effect.bodies_before } else { d.effect.bodies_after });
+    });
     row("area.mm2", &|h, s| {
         h.number(s.area, 2, false);
     });
@@ -220,6 +232,18 @@ fn deviation(h: &mut Html, d: &RepairDocument) {
             h.raw("</small>");
         });
     }
+    if let Some(surface) = d.effect.surface {
+        fact(h, "surface.bounding", |h| {
+            h.raw("≤\u{a0}");
+            length(h, surface);
+        });
+    }
+    fact(h, "change.limit", |h| {
+        length(h, d.effect.surface_limit);
+        if let Some(limit) = d.effect.volume_limit {
+            h.raw(", ").number(limit, 3, false).raw("\u{a0}mm³");
+        }
+    });
     if d.output.rounded_vertices > 0 {
         fact(h, "file.rounding", |h| {
             h.raw("≤\u{a0}").scientific(d.output.rounding, 1).raw("\u{a0}mm");
