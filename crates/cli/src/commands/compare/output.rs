@@ -1,5 +1,6 @@
 //! Where the answer of a comparison goes: document, points with deviations, report.
 
+use crate::command::ProgressStyle;
 use crate::options::DocumentArgs;
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
@@ -62,8 +63,13 @@ impl OutputArgs {
     }
 
     /// The report in its file.
-    pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
-        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document))
+    pub fn write_html(
+        &self,
+        document: &CompareDocument,
+        view: &compare::View,
+        progress: ProgressStyle,
+    ) -> anyhow::Result<()> {
+        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document), progress)
     }
 }
 

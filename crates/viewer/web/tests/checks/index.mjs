@@ -1,4 +1,5 @@
 // Every check of the page: a name and what it does in a browser session.
+import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { defects } from './defects.mjs'
 import { fit } from './fit.mjs'
@@ -10,4 +11,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...segment, ...views, ...words]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...segment, ...views, ...words]
