@@ -1,6 +1,6 @@
 //! Reports of measured points against references far coarser than the points are apart, compared by the program itself.
 
-use super::{uv_sphere, written};
+use super::{record, uv_sphere, written};
 use std::convert::Infallible;
 use std::path::Path;
 use trueness_geom::cloud::PointStream;
@@ -11,7 +11,7 @@ use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
 use trueness_inspect::compare::{self, Inputs, Options, Reference, View};
 use trueness_inspect::report::{self, Answer, ReportInput, ReportOptions};
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_inspect::results::Role;
 use trueness_inspect::tolerance::Tolerance;
 
 /// Writes them all.
@@ -52,19 +52,10 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
     let references = [Reference { name: "nominal.stl".into(), mesh: reference }];
     let sink = |_: &compare::Block| Ok::<(), Infallible>(());
     let found = compare::run(&mut Once(Some(points.to_vec())), &references, &options, &Silent, sink).unwrap();
-    let record = |role, path: &str| InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        points: points.len() as u64,
-        facets: None,
-        warnings: vec![],
-    };
-    let files = vec![record(Role::Measured, "points.xyz"), record(Role::Reference, "nominal.stl")];
+    let files = vec![
+        record(Role::Measured, "points.xyz", points.len(), None),
+        record(Role::Reference, "nominal.stl", reference.positions.len(), Some(reference.faces.len() as u64)),
+    ];
     let inputs = Inputs { files, kind: "points", scale: None, reverse: vec![] };
     let document = compare::document(&found, inputs, &options);
     let view = View::new("points.xyz", None, &references, &found);

@@ -224,22 +224,12 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
     let comparisons: Vec<Comparison> =
         body.fields.iter().enumerate().map(|(n, f)| comparison(body, n, f, tolerance, reference)).collect();
     let sizes: Vec<f64> = sorted(body.fields[0].iter().map(|v| v.abs()).filter(|v| v.is_finite()));
-    let record = |role, path: &str, facets| InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        points: body.measured.positions.len() as u64,
-        facets,
-        bounds: None,
-        warnings: vec![],
-    };
-    let mut inputs = vec![record(Role::Measured, measured, None)];
+    let points = body.measured.positions.len();
+    let mut inputs = vec![record(Role::Measured, measured, points, None)];
     inputs.extend(
-        body.references.iter().map(|r| record(Role::Reference, reference, Some(r.faces.len() as u64))),
+        body.references
+            .iter()
+            .map(|r| record(Role::Reference, reference, points, Some(r.faces.len() as u64))),
     );
     CompareDocument {
         schema: SCHEMA.into(),
@@ -261,6 +251,23 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         scale: Scale::for_deviations(quantile(&sizes, 0.95), tolerance),
         sampling: None,
         seed: 1,
+    }
+}
+
+/// A file as a document names it.
+fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRecord {
+    InputRecord {
+        role,
+        path: path.into(),
+        format: "STL, binary".into(),
+        bytes: 84,
+        sha256: Some("3f".repeat(32)),
+        sha256_reason: None,
+        unit_assumed: "mm".into(),
+        points: points as u64,
+        facets,
+        bounds: None,
+        warnings: vec![],
     }
 }
 
