@@ -136,7 +136,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
-        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.table(|| table(&document))?;
     Ok(Outcome::Conforming)

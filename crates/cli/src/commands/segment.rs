@@ -161,7 +161,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
-        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
     args.document.table(|| table(&document, &found))?;

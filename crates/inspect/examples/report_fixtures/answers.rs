@@ -180,19 +180,6 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
 }
 
 fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
-    InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        unit_from: "assumed".into(),
-        table: None,
-        points: mesh.positions.len() as u64,
-        facets: (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64),
-        bounds: None,
-        warnings: vec![],
-    }
+    let facets = (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64);
+    super::record(role, path, mesh.positions.len(), facets)
 }

@@ -7,17 +7,20 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, reason = "a tool of the tests")]
 
 mod answers;
+mod clouds;
 
 pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
+pub use clouds::page as cloud_page;
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{
-    self, Answer, Geometry, NoValue, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
-    ViewRole,
+    self, Answer, Geometry, NoValue, ReportError, ReportInput, ReportOptions, ReportSummary, ViewField,
+    ViewObject, ViewRole,
 };
 use trueness_inspect::results::compare::*;
 use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
@@ -40,6 +43,7 @@ fn main() {
     write(folder, "behind", &behind(), Some([-0.1, 0.1]), "part.stl", "nominal.stl");
     write(folder, "four", &four(), tolerance, "points.xyz", "fine.stl");
     answers::write_all(folder);
+    clouds::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 
@@ -229,7 +233,7 @@ fn written(folder: &Path, name: &str, page: Vec<u8>) {
 
 fn bytes(input: &ReportInput) -> Vec<u8> {
     let mut page = vec![];
-    report::write(input, &mut page).unwrap();
+    report::write(input, &Silent, &mut page).unwrap();
     page
 }
 
@@ -237,9 +241,20 @@ fn bytes(input: &ReportInput) -> Vec<u8> {
 pub fn page(
     body: &Body,
     tolerance: Option<[f64; 2]>,
-    [measured, reference]: [&str; 2],
+    names: [&str; 2],
     options: &ReportOptions,
 ) -> (Vec<u8>, ReportSummary) {
+    heard(body, tolerance, names, options, &Silent).unwrap()
+}
+
+/// The same, with somebody who hears how far it is and may stop it.
+pub fn heard(
+    body: &Body,
+    tolerance: Option<[f64; 2]>,
+    [measured, reference]: [&str; 2],
+    options: &ReportOptions,
+    progress: &dyn Progress,
+) -> Result<(Vec<u8>, ReportSummary), ReportError> {
     let result = document(body, tolerance, measured, reference);
     let reasons = vec![NoValue::MaxDistance; body.measured.positions.len()];
     let view =
@@ -253,6 +268,8 @@ pub fn page(
         comparison: None,
         geometry,
         fields: (0..body.fields.len()).map(view).collect(),
+        keep: &[],
+        gathered: None,
     }];
     for (n, mesh) in body.references.iter().enumerate() {
         objects.push(ViewObject {
@@ -262,37 +279,27 @@ pub fn page(
             comparison: Some(n),
             geometry: Geometry::Mesh(mesh),
             fields: if body.cloud { vec![view(n)] } else { vec![] },
+            keep: &[],
+            gathered: None,
         });
     }
     let mut page = vec![];
     let result = Answer::Compare(&result);
     let input = ReportInput { result, objects: &objects, marks: &[], options };
-    let summary = report::write(&input, &mut page).unwrap();
-    (page, summary)
+    let summary = report::write(&input, progress, &mut page)?;
+    Ok((page, summary))
 }
 
 fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference: &str) -> CompareDocument {
     let comparisons: Vec<Comparison> =
         body.fields.iter().enumerate().map(|(n, f)| comparison(body, n, f, tolerance, reference)).collect();
     let sizes: Vec<f64> = sorted(body.fields[0].iter().map(|v| v.abs()).filter(|v| v.is_finite()));
-    let record = |role, path: &str, facets| InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        unit_from: "assumed".into(),
-        table: None,
-        points: body.measured.positions.len() as u64,
-        facets,
-        bounds: None,
-        warnings: vec![],
-    };
-    let mut inputs = vec![record(Role::Measured, measured, None)];
+    let points = body.measured.positions.len();
+    let mut inputs = vec![record(Role::Measured, measured, points, None)];
     inputs.extend(
-        body.references.iter().map(|r| record(Role::Reference, reference, Some(r.faces.len() as u64))),
+        body.references
+            .iter()
+            .map(|r| record(Role::Reference, reference, points, Some(r.faces.len() as u64))),
     );
     CompareDocument {
         schema: SCHEMA.into(),
@@ -314,6 +321,25 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         scale: Scale::for_deviations(quantile(&sizes, 0.95), tolerance),
         sampling: None,
         seed: 1,
+    }
+}
+
+/// A file as a document names it.
+fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRecord {
+    InputRecord {
+        role,
+        path: path.into(),
+        format: "STL, binary".into(),
+        bytes: 84,
+        sha256: Some("3f".repeat(32)),
+        sha256_reason: None,
+        unit_assumed: "mm".into(),
+        unit_from: "assumed".into(),
+        table: None,
+        points: points as u64,
+        facets,
+        bounds: None,
+        warnings: vec![],
     }
 }
 

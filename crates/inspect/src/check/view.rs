@@ -57,6 +57,8 @@ impl<'a> View<'a> {
             comparison: None,
             geometry,
             fields: vec![],
+            keep: &[],
+            gathered: None,
         }]
     }
 }

@@ -36,6 +36,8 @@ export interface ViewObject extends Entry {
   color: string
   comparison: number | null
   source_vertices: number
+  /** Set where a place shows the worst measured point near it: how far that can be, millimetres. */
+  reach?: number | null
   triangles?: number
   corners?: { blob: number }
   levels: { triangles?: number; points?: number; blob?: number; error?: number }[]

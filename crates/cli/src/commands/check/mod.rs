@@ -99,7 +99,7 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh);
-        args.report.write(Answer::Check(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Check(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.table(|| table::text(&document, &check::KINDS))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })

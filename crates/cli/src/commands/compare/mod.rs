@@ -159,7 +159,8 @@ impl Run for CompareArgs {
 
 fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common)?;
-    let scale = args.output.read_scale()?;
+    let tolerance = options.tolerance.map(|t| [t.lower, t.upper]);
+    let scale = args.output.read_scale()?.map(|s| s.for_tolerance(tolerance));
     let mut measured = Measured::open(&args.measured, &args.input.reading(), args.sample, common.seed)?;
     if args.both && measured.mesh.is_none() {
         return Err(
@@ -180,9 +181,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     let references: Vec<Reference> =
         files[1..].iter().zip(&meshes).map(|(f, mesh)| Reference { name: f.path.clone(), mesh }).collect();
-    let early_scale = scale
-        .clone()
-        .or_else(|| options.tolerance.map(|t| Scale::for_deviations(0.0, Some([t.lower, t.upper]))));
+    let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
         Some(path) => Some(PointFiles::create(path, references.len(), early_scale)?),
         None => None,
@@ -222,7 +221,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.output.document.write(&document)?;
     let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());
     let view = View::new(&document.inputs[0].path, drawn, &references, &found);
-    args.output.write_html(&document, &view)?;
+    args.output.write_html(&document, &view, common.progress)?;
     args.output.document.table(|| table::text(&document))?;
     Ok(match document.verdict {
         None | Some(Verdict::Pass) => Outcome::Conforming,

@@ -1,6 +1,7 @@
 //! Where the answer of a comparison goes: document, points with deviations, report.
 
 use crate::options::DocumentArgs;
+use crate::options::ProgressStyle;
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use anyhow::Context;
@@ -62,8 +63,13 @@ impl OutputArgs {
     }
 
     /// The report in its file.
-    pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
-        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document))
+    pub fn write_html(
+        &self,
+        document: &CompareDocument,
+        view: &compare::View,
+        progress: ProgressStyle,
+    ) -> anyhow::Result<()> {
+        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document), progress)
     }
 }
 

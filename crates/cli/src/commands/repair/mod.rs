@@ -159,7 +159,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
-        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.table(|| table::text(&document))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })

@@ -6,6 +6,7 @@ use super::super::picture::FirstView;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// Values of the distribution that the script interpolates shares of a range from.
@@ -95,7 +96,7 @@ fn quantiles(input: &ReportInput, map: usize) -> Vec<f64> {
         .filter_map(|o| o.field(map))
         .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
         .collect();
-    sorted.sort_unstable_by(f64::total_cmp);
+    sorted.par_sort_unstable_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
     let steps = QUANTILES.min(last.max(1));
     (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()

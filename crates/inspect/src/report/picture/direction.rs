@@ -279,6 +279,8 @@ mod tests {
             comparison: None,
             geometry: Geometry::Mesh(&mesh),
             fields: vec![],
+            keep: &[],
+            gathered: None,
         };
         let axes =
             (0..3).flat_map(|k| [1.0, -1.0].map(|s| std::array::from_fn(|i| if i == k { s } else { 0.0 })));

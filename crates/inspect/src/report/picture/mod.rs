@@ -13,6 +13,7 @@ use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use camera::Camera;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, unit};
 
 const WIDTH: u32 = 1200;
@@ -27,17 +28,28 @@ const FLAGS: u32 = 170;
 /// a crease: the facet then keeps its own normal throughout.
 const CREASE: f64 = 0.965_925_826_289_068_3;
 
-/// Numbers of the objects that the first view shows: the measured mesh with its map, else the reference that carries the
-/// map of the first comparison, else the measured points over the plain reference. Of other things, all but what was there
-/// before a repair.
+/// So many times more points than vertices make a reference far coarser than the points.
+const FAR_COARSER: usize = 4;
+/// Fewer points than these hardly look like the part.
+const FEW: usize = 2000;
+
+/// Numbers of the objects that the first view shows: the measured mesh with its map; of a cloud the points, if there are enough
+/// of them and the reference is far coarser, else the reference that carries the map of the first comparison, else the points
+/// over the plain reference. Of other things, all but what was there before a repair.
 pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let mapped = |role| {
         let fits = |o: &&ViewObject| o.role == role && o.mesh().is_some() && o.field(0).is_some();
-        objects.iter().any(|o| fits(&o))
+        objects.iter().find(fits)
     };
-    let (measured, reference) = (mapped(ViewRole::Measured), mapped(ViewRole::Reference));
+    let points = objects.iter().filter(|o| o.role == ViewRole::Measured).filter_map(|o| o.points());
+    let points = points.map(<[Point]>::len).sum::<usize>();
+    let reference = mapped(ViewRole::Reference);
+    let coarse = reference.is_some_and(|r| {
+        points >= FEW.max(FAR_COARSER * r.gathered.map_or(r.places().len(), |g| g.vertices))
+    });
+    let measured = mapped(ViewRole::Measured).is_some() || coarse;
     let shown = |o: &ViewObject| match o.role {
-        ViewRole::Measured => measured || !reference,
+        ViewRole::Measured => measured || reference.is_none(),
         ViewRole::Reference => !measured && (o.comparison.unwrap_or(0) == 0),
         ViewRole::Before => false,
         _ => true,
@@ -86,8 +98,11 @@ impl FirstView {
     }
 }
 
-/// The first view of a report as a PNG on a transparent ground.
-pub fn png(input: &ReportInput, view: &FirstView) -> Vec<u8> {
+/// Places drawn between two questions whether to go on.
+const TASK: usize = 1 << 13;
+
+/// The first view of a report as a PNG on a transparent ground. `progress` hears of the places of all objects.
+pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Result<Vec<u8>, Cancelled> {
     let (objects, camera) = (input.objects, &view.camera);
     let scale = input.result.subject().scale();
     let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
@@ -99,10 +114,11 @@ pub fn png(input: &ReportInput, view: &FirstView) -> Vec<u8> {
         match object.geometry {
             // Translucent things are there as their outlines, which are marks.
             Geometry::Mesh(_) if object.role == ViewRole::Element => {}
-            Geometry::Mesh(mesh) => canvas.mesh(mesh, &paint, camera),
-            Geometry::Points(points) => canvas.points(points, &paint, camera),
+            Geometry::Mesh(mesh) => canvas.mesh(mesh, &paint, camera, progress)?,
+            Geometry::Points(points) => canvas.points(points, &paint, camera, progress)?,
         }
     }
+    progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
     // The first marks lie over the others.
     for marks in input.marks.iter().filter(|m| m.comparison.is_none()).rev() {
         let all: Vec<_> = marks.colored().collect();
@@ -110,7 +126,7 @@ pub fn png(input: &ReportInput, view: &FirstView) -> Vec<u8> {
             overlay::draw(&mut canvas, mark, color, camera, marks.role.shows_through());
         }
     }
-    png::encode(WIDTH, HEIGHT, &canvas.reduced())
+    Ok(png::encode(WIDTH, HEIGHT, &canvas.reduced()))
 }
 
 /// What an object is coloured by: its values where it has some, else its own colour.
@@ -149,9 +165,18 @@ impl Canvas {
     }
 
     /// Triangles with a missing or non-finite corner are passed over; one without all three values is drawn as no value.
-    fn mesh(&mut self, mesh: &Mesh, paint: &Paint, camera: &Camera) {
+    fn mesh(
+        &mut self,
+        mesh: &Mesh,
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let normals = smooth_normals(mesh);
-        for face in &mesh.faces {
+        for (n, face) in mesh.faces.iter().enumerate() {
+            if n % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
             let corner =
                 |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
             let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
@@ -171,6 +196,7 @@ impl Canvas {
                 });
             });
         }
+        Ok(())
     }
 
     /// Calls `put` with place, depth and barycentric coordinates for every sample that a triangle covers.
@@ -215,10 +241,19 @@ impl Canvas {
     }
 
     /// Round dots.
-    fn points(&mut self, points: &[Point], paint: &Paint, camera: &Camera) {
+    fn points(
+        &mut self,
+        points: &[Point],
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         // Few points are drawn large enough to be seen.
         let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 16.0);
         for (i, p) in points.iter().enumerate() {
+            if i % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
             let [x, y, z] = camera.project(p);
             if !(x.is_finite() && y.is_finite()) {
                 continue;
@@ -226,6 +261,7 @@ impl Canvas {
             let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
             self.disc([x, y], radius, |canvas, x, y| canvas.put(x, y, z as f32, || color));
         }
+        Ok(())
     }
 
     /// One pixel from `FINE`² samples; opacity is the share covered.

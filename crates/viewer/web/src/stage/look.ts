@@ -21,6 +21,7 @@ const shared: Record<string, IUniform> = {
   limits: { value: new Float32Array(MOST_LIMITS) },
   limitCount: { value: 0 },
   range: { value: new Vector2() },
+  zone: { value: new Vector2() },
   only: { value: new Vector2() },
   slots: { value: slots },
   ramp: { value: ramp },
@@ -46,6 +47,8 @@ export function applyLook(state: State): void {
   shared.limits.value.set(limits)
   shared.limitCount.value = limits.length
   shared.range.value.set(scale.lower, scale.upper)
+  // Without a tolerance: empty.
+  shared.zone.value.set(...(scale.tolerance ?? [1, -1]))
   shared.only.value.set(only ? only[0] : -3e38, only ? only[1] : 3e38)
   shared.continuous.value = scale.mode === 'continuous'
   shared.hatch.value = scale.palette === 'mono'

@@ -106,19 +106,23 @@ export class Part {
     return this.object.fields[this.field]?.step ?? 0
   }
 
-  /** Number of the vertex nearest to a place, among those with a value; −1 for none. Looks at all vertices. */
-  nearestVertex(place: Vector3): number {
+  /**
+   * Where places show gathered points: the value of the vertex nearest to a place, which is a measured point's and no mixture.
+   * Elsewhere nothing. Looks at all vertices.
+   */
+  pointNear(place: Vector3): number | null {
+    const values = this.data.fields[this.field]
+    if (!this.object.reach || !values) return null
     const { origin, step } = this.object
-    const q = [0, 1, 2].map((k) => (place.getComponent(k) - origin[k]) / step)
-    const { packed, fields } = this.data
-    const values = fields[this.field]
-    let best = -1
+    const [x, y, z] = [0, 1, 2].map((k) => (place.getComponent(k) - origin[k]) / step)
+    const { packed } = this.data
+    let best: number | null = null
     let least = Infinity
     for (let v = 0, p = 0; p < packed.length; v++, p += 4) {
-      const d = (packed[p] - q[0]) ** 2 + (packed[p + 1] - q[1]) ** 2 + (packed[p + 2] - q[2]) ** 2
-      if (d < least && values && values[v] < NO_VALUE / 2) {
+      const d = (packed[p] - x) ** 2 + (packed[p + 1] - y) ** 2 + (packed[p + 2] - z) ** 2
+      if (d < least && values[v] < NO_VALUE / 2) {
         least = d
-        best = v
+        best = values[v]
       }
     }
     return best

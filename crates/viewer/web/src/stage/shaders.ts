@@ -49,7 +49,7 @@ uniform vec3 base;
 uniform float limits[34];
 uniform int limitCount;
 uniform float slack;
-uniform vec2 range, only;
+uniform vec2 range, zone, only;
 uniform sampler2D slots, ramp;
 out vec4 color;
 
@@ -72,7 +72,13 @@ int slotOf(float v) {
 }
 
 vec3 colorOf(float v, int slot) {
-  if (continuous && slot > 0 && slot < limitCount) return texture(ramp, vec2((v - range.x) / (range.y - range.x), 0.5)).rgb;
+  bool zoned = zone.x <= zone.y;
+  if (continuous && slot > 0 && slot < limitCount && !(zoned && slot == limitCount / 2)) {
+    float t = (v - range.x) / (range.y - range.x);
+    /* Half of the ramp lies below the zone and half above. */
+    if (zoned) t = v > zone.y ? 0.5 + 0.5 * (v - zone.y) / (range.y - zone.y) : 0.5 * (v - range.x) / (zone.x - range.x);
+    return texture(ramp, vec2(t, 0.5)).rgb;
+  }
   return texelFetch(slots, ivec2(slot, 0), 0).rgb;
 }
 

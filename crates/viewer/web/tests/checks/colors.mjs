@@ -69,6 +69,24 @@ export const colors = [
     },
   ],
   [
+    'within tolerance is green, however narrow the range and however smooth the colours',
+    async (session) => {
+      const page = await session.report('cube')
+      await tool(page, 'Flat')
+      const range = page.locator('.controls input[type=text]')
+      await range.fill('0,01')
+      await range.press('Enter')
+      for (const mode of ['bands', 'continuous']) {
+        await page.locator('.controls select').first().selectOption(mode)
+        await page.locator('canvas').focus()
+        for (const view of ['5', '2', '3']) assert.ok(near(await middle(page, view), GREEN, 2), `${mode}, view ${view}`)
+        assert.ok(!near(await middle(page, '4'), GREEN, 20) && !near(await middle(page, '6'), GREEN, 20), mode)
+        const bars = await page.evaluate(() => [...document.querySelectorAll('.chart .bar')].map((b) => [Number(b.dataset.from), Number(b.dataset.to), b.getAttribute('fill')]))
+        for (const [from, to, fill] of bars) assert.equal(fill === '#2fa84a', Math.abs((from + to) / 2) <= 0.1, `${mode}: bar from ${from}`)
+      }
+    },
+  ],
+  [
     'no value is grey and hatched',
     async (session) => {
       const page = await session.report('missing')

@@ -1,4 +1,5 @@
 // Every check of the page: a name and what it does in a browser session.
+import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { defects } from './defects.mjs'
 import { first } from './first.mjs'
@@ -13,4 +14,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...views, ...pace, ...words, ...layout]

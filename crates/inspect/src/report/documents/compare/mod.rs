@@ -39,7 +39,9 @@ impl Subject for CompareDocument {
 
     fn method(&self, h: &mut Html) {
         let text = if self.method == "paper" { "method.paper.text" } else { "method.exact.text" };
-        for key in [text, "method.sign.text", "method.map.text"] {
+        // The map is one of points, if they were not a mesh's own vertices.
+        let points = (self.measured.kind != "vertices").then_some("method.points.text");
+        for key in [text, "method.sign.text", "method.map.text"].into_iter().chain(points) {
             h.raw("<p>").word(key).raw("</p>");
         }
     }
