@@ -37,6 +37,15 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
+/// For each shell of a mesh that is closed and consistently oriented: the way it looks (outwards 1, inwards −1, 0 where it
+/// encloses nothing), and how many others it lies in.
+pub(super) fn orientations(m: &Inspected) -> Vec<(i32, u32)> {
+    let closed = closed_shells(m);
+    let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
+    let depth = depths(m, &closed, &shell_bounds(m), &facets);
+    (0..closed.len()).into_par_iter().map(|s| (looks(m, s, &facets), depth[s])).collect()
+}
+
 /// Which shells are closed surfaces, all facets running the same way round.
 fn closed_shells(m: &Inspected) -> Vec<bool> {
     let mut closed = vec![true; m.topology.shells];

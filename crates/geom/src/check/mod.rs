@@ -22,6 +22,7 @@ pub(crate) mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;
+mod overlap;
 mod precision;
 mod precondition;
 mod reversed_normals;
@@ -39,7 +40,7 @@ pub use precondition::Precondition;
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::weld::WeldError;
-use crate::topology::{Properties, Soundness, Topology};
+use crate::topology::{Properties, Soundness, Topology, TopologyError};
 use free_edges::FreeEdges;
 
 /// All kinds of defect, in the order in which they are told.
@@ -140,6 +141,15 @@ pub enum CheckError {
     Cancelled(#[from] Cancelled),
 }
 
+impl From<TopologyError> for CheckError {
+    fn from(e: TopologyError) -> CheckError {
+        match e {
+            TopologyError::Weld(e) => e.into(),
+            TopologyError::Cancelled(e) => e.into(),
+        }
+    }
+}
+
 /// Boundary edges whose ends can be numbered by a `u32`.
 const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 
@@ -159,7 +169,7 @@ pub fn check(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Report, CheckError> {
-    let topology = Topology::of(mesh)?;
+    let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
     if open > MOST_BOUNDARY_EDGES {
         return Err(CheckError::TooManyBoundaryEdges { edges: open });
@@ -181,13 +191,14 @@ pub fn check(
         crossings: crossings.as_ref(),
         options,
         gap,
+        progress,
     };
     let mut defects = vec![];
     for kind in KINDS {
+        defects.push((kind, (kind.find)(&inspected)));
         if progress.cancelled() {
             return Err(Cancelled.into());
         }
-        defects.push((kind, (kind.find)(&inspected)));
     }
     let broken = |(kind, found): &(&Kind, Option<Found>)| {
         kind.severity == Severity::Error && found.as_ref().is_some_and(|f| f.count > 0)

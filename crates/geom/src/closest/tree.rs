@@ -18,7 +18,8 @@ use crate::closest::limits::{self, MeshError};
 use crate::closest::triangle::{self, Feature};
 use crate::closest::{Hit, build};
 use crate::mesh::Mesh;
-use crate::space::Point;
+use crate::progress::{Progress, Silent};
+use crate::space::{Point, minus, norm};
 
 /// Inner node: boxes of up to eight children, structure of arrays.
 #[repr(C, align(64))]
@@ -116,10 +117,25 @@ impl Tree {
     ///
     /// # Errors
     /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
-    /// finite or beyond [`MAX_COORDINATE`](crate::closest::MAX_COORDINATE).
+    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX); or faces that extend over less than
+    /// [`MIN_EXTENT`](crate::closest::MIN_EXTENT), for which the powers in distances would lose their digits.
     pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
+        Tree::build_watched(mesh, &Silent)
+    }
+
+    /// As [`Tree::build`], asking `progress` whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`Tree::build`], and [`MeshError::Cancelled`].
+    pub fn build_watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, MeshError> {
         limits::check_mesh(mesh)?;
-        Ok(build::build(mesh))
+        Ok(build::build(mesh, progress)?)
+    }
+
+    /// Length of the longest edge of the face that was hit.
+    pub(crate) fn longest_edge(&self, hit: &Hit) -> f64 {
+        let [a, b, c] = self.triangle(hit.slot);
+        [minus(b, a), minus(c, b), minus(a, c)].map(norm).into_iter().fold(0.0, f64::max)
     }
 
     /// Number of faces.

@@ -33,6 +33,7 @@ use crate::check::{self, CheckError, Report};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
+use crate::topology::TopologyError;
 use crate::topology::weld::{self, WeldError};
 use work::Work;
 
@@ -151,6 +152,12 @@ pub enum RepairError {
     /// The repair was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<TopologyError> for RepairError {
+    fn from(e: TopologyError) -> RepairError {
+        CheckError::from(e).into()
+    }
 }
 
 impl From<CheckError> for RepairError {

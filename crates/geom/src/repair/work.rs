@@ -99,15 +99,18 @@ impl<'a> Work<'a> {
         times(1.0 / 3.0, plus(a, plus(b, c)))
     }
 
+    /// An error where the repair shall stop: asked in loops that may last.
+    pub(super) fn go_on(&self) -> Result<(), Cancelled> {
+        if self.progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+    }
+
     /// What follows from the mesh as it is; computed again after a change only.
     pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
-        if self.progress.cancelled() {
-            return Err(Cancelled.into());
-        }
+        self.go_on()?;
         if let Some(known) = &self.known {
             return Ok(known.clone());
         }
-        let topology = Topology::of(&self.mesh)?;
+        let topology = Topology::watched(&self.mesh, self.progress)?;
         let properties = Properties::of(&self.mesh, &topology);
         let free_edges = FreeEdges::of(&topology);
         let known = Arc::new(Known { topology, properties, free_edges });
@@ -143,8 +146,11 @@ impl<'a> Work<'a> {
             crossings: None,
             options: &options,
             gap: self.gap,
+            progress: self.progress,
         };
-        Ok((kind.find)(&inspected).map_or(vec![], |found| found.items))
+        let found = (kind.find)(&inspected).map_or(vec![], |found| found.items);
+        self.go_on()?;
+        Ok(found)
     }
 
     /// Removes facets (numbers in any order, repeated or not) and adds others behind the rest.

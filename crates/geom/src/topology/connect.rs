@@ -16,6 +16,7 @@ use crate::closest::lanes::Plain;
 use crate::closest::lanes_x86::{A16, Z16};
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::progress::Progress;
 use rayon::prelude::*;
 
 /// Where a mesh is not a surface, in the order of the lower vertex of the edge, and the parts it falls into.
@@ -46,10 +47,17 @@ struct Part<'a> {
 }
 
 /// Looks at all vertices; facets connected through an edge become one set of `shells`.
-pub(super) fn connect(mesh: &Mesh, fans: &Fans, shells: &Sets, level: Level) -> Connection {
+pub(super) fn connect(
+    mesh: &Mesh,
+    fans: &Fans,
+    shells: &Sets,
+    level: Level,
+    progress: &dyn Progress,
+) -> Connection {
     let vertices = fans.len();
     let parts: Vec<Connection> = (0..vertices.div_ceil(CHUNK))
         .into_par_iter()
+        .filter(|_| !progress.cancelled())
         .map(|i| {
             let range = (i * CHUNK) as u32..vertices.min((i + 1) * CHUNK) as u32;
             let mut part = Part { mesh, shells, spokes: vec![], found: Connection::default() };

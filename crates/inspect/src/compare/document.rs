@@ -130,7 +130,10 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
         method: choice.method.name().into(),
         reason: choice.to_string(),
         disagreement: share,
-        disagreement_reason: share.is_none().then(|| "distances are unsigned".into()),
+        disagreement_reason: share.is_none().then(|| match disagreement {
+            None => "distances are unsigned".into(),
+            Some(_) => "all points looked at lie on the surface".into(),
+        }),
         sample: disagreement.map_or(0, |d| d.sample),
     }
 }

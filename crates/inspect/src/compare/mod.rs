@@ -21,7 +21,7 @@ pub use worst::Place;
 
 use crate::tolerance::Tolerance;
 use reference::Running;
-use trueness_geom::closest::{QueryError, Tree};
+use trueness_geom::closest::{MeshError, QueryError, Tree};
 use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::paired::Paired;
 use trueness_geom::deviation::paper::PaperError;
@@ -29,6 +29,7 @@ use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
+use trueness_geom::topology::TopologyError;
 
 /// How distances are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -163,12 +164,12 @@ pub fn run<S: PointStream + ?Sized, K>(
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
-        trees.push(Tree::build(r.mesh).map_err(|e| refused(r, e.into()))?);
+        trees.push(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?);
     }
     let keep = options.kept_values / references.len().max(1);
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {
-        running.push(Running::new(r.mesh, tree, options, keep).map_err(|e| refused(r, e))?);
+        running.push(Running::new(r.mesh, tree, options, keep, progress).map_err(|e| refused(r, e))?);
     }
     let mut paired = vec![];
     for second in 1..references.len() {
@@ -211,7 +212,8 @@ pub fn run<S: PointStream + ?Sized, K>(
         return Err(CompareError::NoPoints);
     }
     flag(&mut out, &running).map_err(|e| in_block(e, &references[0], 0))?;
-    out.references = running.into_iter().map(|r| r.finish(&sample.points)).collect::<Result<_, _>>()?;
+    out.references =
+        running.into_iter().map(|r| r.finish(&sample.points, progress)).collect::<Result<_, _>>()?;
     Ok(out)
 }
 
@@ -231,7 +233,11 @@ fn flag(out: &mut Comparisons, running: &[Running]) -> Result<(), PaperError> {
 }
 
 fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S, K> {
-    CompareError::Reference { reference: reference.name.clone(), error }
+    match error {
+        ReferenceError::Mesh(MeshError::Cancelled(e))
+        | ReferenceError::Topology(TopologyError::Cancelled(e)) => CompareError::Query(e.into()),
+        error => CompareError::Reference { reference: reference.name.clone(), error },
+    }
 }
 
 /// Points, at most, on which both sign methods are asked.

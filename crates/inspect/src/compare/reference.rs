@@ -13,7 +13,7 @@ use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, cross, minus, unit};
-use trueness_geom::topology::weld::WeldError;
+use trueness_geom::topology::TopologyError;
 
 /// What was found about one reference.
 pub struct Compared {
@@ -74,7 +74,7 @@ pub enum ReferenceError {
     Mesh(#[from] MeshError),
     /// Its topology cannot be told.
     #[error(transparent)]
-    Topology(#[from] WeldError),
+    Topology(#[from] TopologyError),
     /// The paper's method refuses it.
     #[error(transparent)]
     Paper(#[from] PaperError),
@@ -103,13 +103,14 @@ impl<'a> Running<'a> {
         tree: &'a Tree,
         options: &Options,
         keep: usize,
+        progress: &dyn Progress,
     ) -> Result<Running<'a>, ReferenceError> {
         let paper = match options.method {
             Method::Exact => None,
             Method::Paper => Some((Paper::new(mesh)?, Differences::default())),
         };
         Ok(Running {
-            surface: Surface::new(tree, mesh, &options.surface)?,
+            surface: Surface::new(tree, mesh, &options.surface, progress)?,
             values: Values::All(vec![]),
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
@@ -188,7 +189,7 @@ impl<'a> Running<'a> {
     }
 
     /// The end of the points; `sample` is an even sample of them.
-    pub fn finish(self, sample: &[Point]) -> Result<Compared, QueryError> {
+    pub fn finish(self, sample: &[Point], progress: &dyn Progress) -> Result<Compared, QueryError> {
         let choice = *self.surface.sign();
         let signed = choice.method != SignMethod::None;
         let summary = self.values.summary();
@@ -201,7 +202,7 @@ impl<'a> Running<'a> {
             histogram: self.values.histogram(&summary.all),
             limits: self.limits,
             sign: choice,
-            disagreement: if signed { Some(self.surface.disagreement(sample)?) } else { None },
+            disagreement: if signed { Some(self.surface.disagreement(sample, progress)?) } else { None },
             precondition: self.surface.precondition().clone(),
             summary,
             worst,

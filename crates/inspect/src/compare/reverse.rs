@@ -36,7 +36,11 @@ pub fn reverse(
     }
     let points: Vec<_> =
         reference.positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p).collect();
-    let distances = Tree::build(measured)?.distances(&points, &Query::default(), progress)?;
+    let tree = Tree::build_watched(measured, progress).map_err(|e| match e {
+        MeshError::Cancelled(e) => ReverseError::Query(e.into()),
+        e => ReverseError::Measured(e),
+    })?;
+    let distances = tree.distances(&points, &Query::default(), progress)?;
     let back = Summary::of(&distances);
     let both = TwoSided::of(&forth.summary.all, &back.all);
     Ok(Reverse {

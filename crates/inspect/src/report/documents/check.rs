@@ -172,6 +172,7 @@ pub fn kinds(h: &mut Html, found: &[(&str, &Defects)], first_pick: usize) {
         h.raw("<span class=\"kind-name\">").word(&format!("defect.{kind}")).raw("</span>");
         let severity = if defects.severity == "error" { "severity.error" } else { "severity.warning" };
         h.raw("<span class=\"severity\">").word(severity).raw("</span><strong>");
+        h.raw(if defects.at_least { "≥ " } else { "" });
         h.count(defects.count.unwrap_or(0)).raw("</strong></summary>\n");
         h.raw("<p class=\"note\">").word(&format!("about.{kind}")).raw("</p>");
         let rows = listed(kind, defects);
