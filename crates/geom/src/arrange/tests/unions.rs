@@ -1,0 +1,2 @@
+//! Unions with a known volume.
+use super::super::*;
