@@ -36,7 +36,7 @@ use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::topology::Topology;
-use crate::topology::weld::{self, WeldError};
+use crate::topology::weld::{WeldError, as_it_is};
 use cutting::cutting;
 
 /// A mesh cut where its facets meet.
@@ -135,10 +135,4 @@ pub fn arrange(mesh: &Mesh, progress: &dyn Progress) -> Result<Arranged, Arrange
         out.source.push(facet);
     }
     Ok(out)
-}
-
-/// The mesh itself if its vertices are distinct places; else welded.
-fn as_it_is(mesh: &Mesh) -> Result<Mesh, WeldError> {
-    let welded = weld::mesh(mesh)?.mesh;
-    Ok(if welded.positions.len() == mesh.positions.len() { mesh.clone() } else { welded })
 }

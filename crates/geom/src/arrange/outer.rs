@@ -3,11 +3,13 @@
 use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::points::Points;
-use super::{ArrangeError, as_it_is, pairs};
+use super::{ArrangeError, pairs};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
-use crate::topology::{Topology, weld};
+use crate::topology::Topology;
+use crate::topology::weld::{as_it_is, compact, rejoined};
+use rayon::prelude::*;
 
 /// How the boundary is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,34 +169,15 @@ fn rounded(
     };
     let (old, count) = (mesh.positions.len(), kept.points.len());
     let mut positions = mesh.positions.clone();
-    positions.extend((old..count).map(|p| kept.points.at(p as u32).nearest().map(round)));
+    let new = (old..count).into_par_iter().map(|p| kept.points.at(p as u32).nearest().map(round));
+    positions.extend(new.collect::<Vec<Point>>());
     let mut out = Mesh { positions, faces: kept.faces };
     let mut source = kept.source;
     if count > old {
-        let vertex_of = weld::mesh(&out)?.vertex_of;
-        let mut first = vec![u32::MAX; count];
-        for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
-            let first = &mut first[*number as usize];
-            *first = v.min(*first);
-        }
-        let joined = |f: &[u32; 3]| f.map(|v| first[vertex_of[v as usize] as usize]);
+        out = rejoined(out)?;
         let is_whole = |f: &[u32; 3]| f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
-        let all = out.faces.iter().map(joined).zip(source).filter(|(f, _)| is_whole(f));
+        let all = out.faces.into_iter().zip(source).filter(|(f, _)| is_whole(f));
         (out.faces, source) = all.unzip();
     }
     Ok((out, source))
-}
-
-/// Without those vertices beyond the first `keep` that no facet uses.
-fn compact(mesh: Mesh, keep: usize) -> Mesh {
-    let mut number: Vec<u32> = vec![u32::MAX; mesh.positions.len()];
-    mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
-    let mut positions: Vec<Point> = vec![];
-    for (v, p) in mesh.positions.into_iter().enumerate() {
-        if v < keep || number[v] == 0 {
-            number[v] = positions.len() as u32;
-            positions.push(p);
-        }
-    }
-    Mesh { positions, faces: mesh.faces.iter().map(|f| f.map(|v| number[v as usize])).collect() }
 }

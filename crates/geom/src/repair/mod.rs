@@ -36,7 +36,7 @@ use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::topology::TopologyError;
-use crate::topology::weld::{self, WeldError};
+use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use work::Work;
 
 /// A step of the repair: an entry of [`STEPS`].
@@ -299,7 +299,7 @@ fn attempt(
         false => rejoined(work.into_mesh())?,
     };
     let counts = Counts::of(welded, &repaired);
-    let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
+    let mesh = if changes.is_empty() { repaired } else { compact(repaired, 0) };
     let after = check::check(&mesh, None, check_options, progress)?;
     Ok(Attempt { mesh, changes, rounds, after, counts, not_united })
 }
@@ -345,35 +345,4 @@ fn go_through(work: &mut Work) -> Result<usize, RepairError> {
         }
     }
     Ok(ROUNDS)
-}
-
-/// The mesh itself if its vertices are distinct places that facets use; else welded.
-fn as_it_is(mesh: &Mesh) -> Result<Mesh, WeldError> {
-    let welded = weld::mesh(mesh)?.mesh;
-    Ok(if welded.positions.len() == mesh.positions.len() { mesh.clone() } else { welded })
-}
-
-/// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
-/// may have come to lie upon it.
-fn rejoined(mut mesh: Mesh) -> Result<Mesh, WeldError> {
-    let vertex_of = weld::mesh(&mesh)?.vertex_of;
-    let mut first = vec![u32::MAX; mesh.positions.len()];
-    for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
-        let first = &mut first[*number as usize];
-        *first = v.min(*first);
-    }
-    mesh.faces.iter_mut().for_each(|f| *f = f.map(|v| first[vertex_of[v as usize] as usize]));
-    Ok(mesh)
-}
-
-/// Without the vertices that no facet uses; the others keep their order.
-fn compact(mesh: Mesh) -> Mesh {
-    let mut number = vec![u32::MAX; mesh.positions.len()];
-    mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
-    for (next, n) in (0..).zip(number.iter_mut().filter(|n| **n == 0)) {
-        *n = next;
-    }
-    let used = mesh.positions.iter().zip(&number).filter(|(_, n)| **n != u32::MAX);
-    let positions = used.map(|(p, _)| *p).collect();
-    Mesh { positions, faces: mesh.faces.iter().map(|f| f.map(|v| number[v as usize])).collect() }
 }
