@@ -101,7 +101,7 @@ fn pairs(
 /// have no pieces. Facets that nothing cuts keep their vertices and come first, in their order. Which pieces there
 /// are, and which vertices they share, is decided exactly; their places are rounded afterwards, each once, so pieces of
 /// different facets share the vertices of a cut bit for bit, but thin pieces may cross or become flat by rounding.
-/// Vertices at the same place become one first. Cost: that of the search for crossings, and for each facet with `k` cuts
+/// Where vertices are at the same place or unused, the mesh is welded first. Cost: that of the search for crossings, and for each facet with `k` cuts
 /// about `k` log `k`, some microseconds for each place where cuts meet. The same result for any number of threads.
 ///
 /// ```

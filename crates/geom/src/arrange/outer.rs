@@ -29,7 +29,8 @@ impl Default for Options {
 /// The boundary of the material that closed shells enclose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// The vertices of the mesh first, all of them; then those at the ends of cuts.
+    /// The vertices of the mesh first, all of them; then those at the ends of cuts. Where vertices are at the same place or
+    /// unused, the mesh is welded first.
     pub mesh: Mesh,
     /// For each face the facet that it is, or is a piece of. Facets that nothing cuts come first, in their order.
     pub source: Vec<u32>,

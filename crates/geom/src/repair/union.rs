@@ -13,6 +13,7 @@ use crate::mesh::Mesh;
 use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::union::Sets;
+use crate::topology::weld::{self, Welded};
 use std::collections::BTreeMap;
 
 pub(super) const STEP: Step = Step {
@@ -31,10 +32,16 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         return Ok(());
     }
     let faces = facets.iter().map(|f| work.mesh().faces[*f as usize]).collect();
-    let mesh = Mesh { positions: work.mesh().positions.clone(), faces };
+    let Welded { mesh, vertex_of } = weld::mesh(&Mesh { positions: work.mesh().positions.clone(), faces })?;
+    // The first vertex at each place.
+    let mut first = vec![u32::MAX; mesh.positions.len()];
+    for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
+        let first = &mut first[*number as usize];
+        *first = v.min(*first);
+    }
     let options = Options { single: work.options.single, turn: true };
     match outer_boundary(&mesh, &options, work.progress) {
-        Ok(boundary) => replace(work, &facets, &mesh, boundary),
+        Ok(boundary) => replace(work, (&facets, &first), &mesh, boundary),
         Err(ArrangeError::Weld(e)) => return Err(e.into()),
         Err(ArrangeError::Cancelled(e)) => return Err(e.into()),
         Err(e) => work.not_united = Some(e),
@@ -62,7 +69,7 @@ fn solid_shells(mesh: &Mesh, topology: &Topology) -> Vec<bool> {
     solid
 }
 
-/// Whether solid shells cross, coincide, or one lies in the material of another.
+/// Whether solid shells cross, coincide, or one lies in the material of another, or in a shell that is inside out.
 fn has_work(
     work: &mut Work,
     topology: &Topology,
@@ -73,7 +80,7 @@ fn has_work(
     }
     let kind = check::KINDS.iter().find(|k| k.name == "inside_out_shells");
     let wrong = kind.map_or(Ok(vec![]), |kind| work.find(kind))?;
-    if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x > 0.0)) {
+    if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x != 0.0)) {
         return Ok(true);
     }
     // Of a tangle nothing is known; the union says so.
@@ -82,8 +89,10 @@ fn has_work(
         .is_none_or(|pairs| pairs.iter().any(|[a, b]| is_solid(*a) && is_solid(*b))))
 }
 
-/// Puts the boundary in the place of the facets that `mesh` is made of.
-fn replace(work: &mut Work, facets: &[u32], mesh: &Mesh, boundary: Boundary) {
+/// Puts the boundary in the place of the facets that `mesh` is made of, given with the names of its vertices.
+fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boundary: Boundary) {
+    let old = work.mesh().positions.len() as u32;
+    let name = |v: u32| first.get(v as usize).copied().unwrap_or_else(|| old + v - first.len() as u32);
     let mut pieces: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     let (mut kept, mut turned) = (vec![false; facets.len()], vec![]);
     for (face, source) in boundary.mesh.faces.iter().zip(&boundary.source) {
@@ -94,7 +103,7 @@ fn replace(work: &mut Work, facets: &[u32], mesh: &Mesh, boundary: Boundary) {
             kept[*source as usize] = true;
             turned.push(facets[*source as usize]);
         } else {
-            pieces.entry(*source).or_default().push(*face);
+            pieces.entry(*source).or_default().push(face.map(name));
         }
     }
     let gone: Vec<u32> = (0..).zip(&kept).filter(|(_, kept)| !**kept).map(|(f, _)| f).collect();
@@ -108,8 +117,7 @@ fn replace(work: &mut Work, facets: &[u32], mesh: &Mesh, boundary: Boundary) {
     if gone.is_empty() {
         return;
     }
-    let old = work.mesh().positions.len();
-    work.append(&boundary.mesh.positions[old..]);
+    work.append(&boundary.mesh.positions[first.len()..]);
     let removed: Vec<u32> = gone.iter().map(|f| facets[*f as usize]).collect();
     work.replace(&removed, &pieces.into_values().flatten().collect::<Vec<_>>());
 }

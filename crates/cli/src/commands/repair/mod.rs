@@ -98,7 +98,7 @@ impl RepairArgs {
             stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
             islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
                 .map(|x| x / 100.0),
-            single: self.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
+            single: self.target().extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
             holes: match self.all_holes {
                 true => Holes::All,
                 false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
