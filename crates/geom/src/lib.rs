@@ -11,10 +11,12 @@
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
+//! | meshes cut where facets meet, unions of shells | [`arrange`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod arrange;
 pub mod check;
 pub mod closest;
 pub mod cloud;

@@ -72,6 +72,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
             .map(|d| Deviation { removed: way(d.there), added: way(d.back) }),
         deviation_reason: around.deviation.err().map(|e| e.to_string()),
         steps: steps.collect(),
+        not_united: repaired.not_united.map(|e| e.to_string()),
         taken_back: repaired.taken_back.iter().map(|s| s.to_string()).collect(),
         hole_limit: match options.holes {
             Holes::UpTo(share) => Some(share),

@@ -73,8 +73,7 @@ impl<'a> Container<'a> {
     /// passes from their outer side. Facets that hold `p` are not passed.
     pub(crate) fn beyond(&self, p: &Point, counts: impl Fn(u32) -> bool) -> i32 {
         let passed = |f: u32| {
-            let [a, b, c] = self.corners(f);
-            let around: i32 = [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum();
+            let ([a, b, c], around) = (self.corners(f), self.around(f, p));
             if around != 0 && counts(f) && side_of_plane(&a, &b, &c, p) == around { around } else { 0 }
         };
         self.row(p).iter().map(|&f| passed(f)).sum()
@@ -84,8 +83,15 @@ impl<'a> Container<'a> {
         self.mesh.faces[f as usize].map(|v| self.mesh.positions[v as usize])
     }
 
+    /// How often a facet winds around `p`, both seen along the axis: +1 where it looks along it, −1 where it looks back, 0
+    /// where it lies beside. Its edges are half open: of facets that hang together one winds around each point.
+    pub(crate) fn around(&self, f: u32, p: &Point) -> i32 {
+        let [a, b, c] = self.corners(f);
+        [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum()
+    }
+
     /// The facets that a ray from `p` may pass.
-    fn row(&self, p: &Point) -> &[u32] {
+    pub(crate) fn row(&self, p: &Point) -> &[u32] {
         let rows = self.start.len() - 1;
         let place = (p[(self.axis + 2) % 3] - self.low) * self.density;
         if place < 0.0 {

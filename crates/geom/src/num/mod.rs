@@ -1,7 +1,9 @@
 //! Numerical tools: sums, random numbers, special functions.
 
+pub mod big;
 pub(crate) mod double;
 pub mod exact;
+pub mod interval;
 pub mod predicates;
 pub mod random;
 pub mod special;

@@ -4,6 +4,7 @@
 //! vertex can move, whatever a step does.
 
 use super::{Change, Options, RepairError};
+use crate::arrange::ArrangeError;
 use crate::check::free_edges::FreeEdges;
 use crate::check::intersect;
 use crate::check::{self, Finding, Inspected, Kind};
@@ -35,6 +36,10 @@ pub(super) struct Work<'a> {
     /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
+    /// Nothing else has helped: crossing facets may be torn out.
+    pub may_tear: bool,
+    /// Why shells that meet were not united.
+    pub not_united: Option<ArrangeError>,
     known: Option<Arc<Known>>,
 }
 
@@ -65,6 +70,8 @@ impl<'a> Work<'a> {
             parted: BTreeSet::new(),
             widened: false,
             may_widen: 0.0,
+            may_tear: false,
+            not_united: None,
             known: None,
         };
         let spacing = check::spacing(&work.known()?.properties.bounds);
@@ -184,6 +191,12 @@ impl<'a> Work<'a> {
         self.mesh.positions.push(self.rounded(place));
         self.known = None;
         self.mesh.positions.len() as u32 - 1
+    }
+
+    /// New vertices, as they are.
+    pub(super) fn append(&mut self, places: &[Point]) {
+        self.mesh.positions.extend_from_slice(places);
+        self.known = None;
     }
 
     /// `place` in the precision of the mesh.

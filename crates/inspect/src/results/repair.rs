@@ -42,6 +42,9 @@ pub struct RepairDocument {
     pub steps: Vec<String>,
     /// Steps that were not done, because with them some defect would have become more frequent.
     pub taken_back: Vec<String>,
+    /// Why closed shells that meet were not united, where they were not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub not_united: Option<String>,
     /// Holes were filled up to this share of the area of their shell; `null`: all.
     pub hole_limit: Option<f64>,
     /// How often the steps were gone through.

@@ -98,6 +98,7 @@ impl RepairArgs {
             stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
             islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
                 .map(|x| x / 100.0),
+            single: self.target().extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
             holes: match self.all_holes {
                 true => Holes::All,
                 false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
@@ -182,8 +183,8 @@ fn again(
     };
     Ok(OutputRecord {
         path: args.target().display().to_string(),
-        rounded_vertices: file.loss.moved,
-        rounding: file.loss.farthest,
+        rounded_vertices: file.loss.moved + repaired.rounded.vertices,
+        rounding: file.loss.farthest.max(repaired.rounded.farthest),
         sound: report.as_ref().map(|r| r.sound),
         sound_reason: report.is_none().then(|| "it cannot be read again".into()),
         defects: report.as_ref().map(defects).unwrap_or_default(),

@@ -142,6 +142,10 @@ fn verdict(d: &RepairDocument) -> String {
             format!(" Done without {}: with that, some defect would be there more often.", steps.join(", "))
         }
     };
+    let again = match &d.not_united {
+        Some(reason) => format!("{again} Shells that meet were not united: {reason}."),
+        None => again,
+    };
     match (d.after.sound, o.sound) {
         (true, Some(false)) => format!(
             "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
