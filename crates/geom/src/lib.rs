@@ -11,6 +11,7 @@
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
+//! | B-splines and NURBS | [`spline`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | progress and cancellation | [`progress`] |
@@ -27,4 +28,5 @@ pub mod progress;
 pub mod repair;
 pub mod segment;
 pub mod space;
+pub mod spline;
 pub mod topology;

@@ -1,5 +1,6 @@
 //! Numerical tools: sums, random numbers, special functions.
 
+pub mod cholesky;
 pub(crate) mod double;
 pub mod exact;
 pub mod predicates;
