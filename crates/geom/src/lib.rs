@@ -11,6 +11,7 @@
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
+//! | lines, arcs and curves of a section, and their joins | [`section`] |
 //! | B-splines and NURBS | [`spline`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
@@ -26,6 +27,7 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
+pub mod section;
 pub mod segment;
 pub mod space;
 pub mod spline;
