@@ -41,8 +41,8 @@ impl Cholesky {
         for i in (0..n).rev() {
             b[i] *= self.lower[i * n + i];
             let x = b[i];
-            for j in 0..i {
-                b[j] -= self.lower[i * n + j] * x;
+            for (b, l) in b[..i].iter_mut().zip(&self.lower[i * n..i * n + i]) {
+                *b -= l * x;
             }
         }
     }

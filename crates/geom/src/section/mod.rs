@@ -8,6 +8,7 @@
 //! | `least` | their least-squares fit |
 //! | `search` | number and kinds of pieces |
 //! | `profile` | intervals of the joins |
+//! | `cut` | where a plane cuts a mesh |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -15,6 +16,7 @@
 mod chain;
 mod contour;
 mod convert;
+mod cut;
 mod free;
 mod least;
 mod profile;
@@ -28,4 +30,5 @@ mod tests;
 
 pub use chain::Kind;
 pub use contour::contour;
+pub use cut::{Chain, Plane, PlaneFrame, area, cut};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment};

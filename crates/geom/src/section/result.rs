@@ -60,6 +60,13 @@ pub struct Segment {
     pub curvature: [f64; 2],
 }
 
+impl Segment {
+    /// Angle of the direction from start to end with the first axis, radians.
+    pub fn angle(&self) -> f64 {
+        libm::atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+    }
+}
+
 /// How smoothly two segments join.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Continuity {
