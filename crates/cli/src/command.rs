@@ -4,6 +4,7 @@ use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use crate::commands::fit::FitArgs;
 use crate::commands::repair::RepairArgs;
+use crate::commands::section::SectionArgs;
 use crate::commands::segment::SegmentArgs;
 use crate::exit::Outcome;
 use crate::options::Common;
@@ -31,6 +32,7 @@ pub enum Command {
     Compare(Box<CompareArgs>),
     Fit(FitArgs),
     Repair(RepairArgs),
+    Section(Box<SectionArgs>),
     Segment(SegmentArgs),
 }
 
@@ -50,6 +52,7 @@ impl Command {
             Command::Compare(args) => args.as_ref(),
             Command::Fit(args) => args,
             Command::Repair(args) => args,
+            Command::Section(args) => args.as_ref(),
             Command::Segment(args) => args,
         }
     }

@@ -50,6 +50,11 @@ impl RunFiles {
         self.output("--out", path, Some(holds), false)
     }
 
+    /// Another file, of the option of this name.
+    pub fn also(self, option: &'static str, path: Option<&PathBuf>) -> RunFiles {
+        self.output(option, path, None, false)
+    }
+
     /// Allows `--out` to replace the input.
     pub fn in_place(self, in_place: bool) -> RunFiles {
         RunFiles { in_place, ..self }

@@ -19,6 +19,7 @@ mod atomic_file;
 mod columns;
 mod content;
 mod detect;
+pub mod drawing;
 mod error;
 mod feed;
 mod format;

@@ -12,6 +12,8 @@
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
 //! | meshes cut where facets meet, unions of shells | [`arrange`] |
+//! | lines, arcs and curves of a section, and their joins | [`section`] |
+//! | B-splines and NURBS | [`spline`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | progress and cancellation | [`progress`] |
@@ -27,6 +29,8 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
+pub mod section;
 pub mod segment;
 pub mod space;
+pub mod spline;
 pub mod topology;

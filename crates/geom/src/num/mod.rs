@@ -1,6 +1,7 @@
 //! Numerical tools: sums, random numbers, special functions.
 
 pub mod big;
+pub mod cholesky;
 pub(crate) mod double;
 pub mod exact;
 pub mod interval;

@@ -8,6 +8,7 @@ pub mod compare;
 pub mod fit;
 pub mod repair;
 pub mod research;
+pub mod section;
 pub mod segment;
 
 use compare::Bounds;
@@ -161,6 +162,7 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
+        ("section", text(schemars::schema_for!(section::SectionDocument))),
         ("segment", text(schemars::schema_for!(segment::SegmentDocument))),
     ]
 }
