@@ -38,8 +38,8 @@ pub(super) const KIND: Kind = Kind {
 };
 
 /// For each shell of a mesh that is closed and consistently oriented: the way it looks (outwards 1, inwards −1, 0 where it
-/// encloses nothing), and how many others it lies in.
-pub(super) fn orientations(m: &Inspected) -> Vec<(i32, u32)> {
+/// encloses nothing), and how often the others wind around it.
+pub(super) fn orientations(m: &Inspected) -> Vec<(i32, i32)> {
     let closed = closed_shells(m);
     let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
     let depth = depths(m, &closed, &shell_bounds(m), &facets);

@@ -2,8 +2,8 @@
 //!
 //! Only then does the surface wind around every place once or not at all, which pseudonormals need: where two solids
 //! overlap, the nearest facet may be one that lies inside the other solid, and looks the wrong way. It is so if no two
-//! facets meet outside of what they share, and if each shell looks outwards in an even number of others and inwards in
-//! an odd number: both are decided exactly. A mesh of one shell is not looked at.
+//! facets meet outside of what they share, and if the winding number on either side of each shell is 0 or 1 (or 0 or −1, where
+//! the whole is inside out): both are decided exactly. A mesh of one shell is not looked at.
 
 use super::Inspected;
 use super::inside_out_shells::orientations;
@@ -23,8 +23,9 @@ pub(super) fn shells_overlap(m: &Inspected) -> Result<bool, Cancelled> {
         return Ok(true);
     }
     let outwards = if m.properties.signed_volume > 0.0 { 1 } else { -1 };
-    let alternate = |(looks, depth): (i32, u32)| looks == if depth % 2 == 0 { outwards } else { -outwards };
-    Ok(!orientations(m).into_iter().all(alternate))
+    let once = |winding: i32| winding == 0 || winding == outwards;
+    let parts_once = |(looks, outside): (i32, i32)| looks != 0 && once(outside) && once(outside + looks);
+    Ok(!orientations(m).into_iter().all(parts_once))
 }
 
 /// True where planes across the axes, one cut after the other, part each box from all others; false where boxes overlap,
