@@ -1,15 +1,41 @@
 //! Tasks of the project. `cargo xtask test` runs every check there is, in the order in which failures are cheapest.
 
+mod readback;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 const HELP: &str = "\
 cargo xtask test      every check: format, lints, tests, documentation, viewer (needs Node; a browser if there is one)
+cargo xtask tidy      lists circles between modules, long files and long functions (not yet part of `test`)
+cargo xtask readback  what the program writes, read by other programs (needs Python 3)
 cargo xtask schema    writes the JSON schemas of the result documents to docs/schema/";
 
-/// A check: its name and the command that decides it.
-struct Step {
+/// A check: its name and what decides it.
+enum Step {
+    Command(Call),
+    /// Its name and a function of the project's folder.
+    Own(&'static str, fn(&Path) -> bool),
+}
+
+impl Step {
+    fn name(&self) -> &'static str {
+        match self {
+            Step::Command(call) => call.name,
+            Step::Own(name, _) => name,
+        }
+    }
+    fn run(&self) -> bool {
+        match self {
+            Step::Command(call) => run(call),
+            Step::Own(_, check) => check(&root()),
+        }
+    }
+}
+
+/// A command with the name of its check.
+struct Call {
     name: &'static str,
     folder: &'static str,
     program: &'static str,
@@ -17,23 +43,27 @@ struct Step {
     variables: &'static [(&'static str, &'static str)],
 }
 
-const fn cargo(name: &'static str, arguments: &'static [&'static str]) -> Step {
-    Step { name, folder: ".", program: env!("CARGO"), arguments, variables: &[] }
+const fn cargo(name: &'static str, arguments: &'static [&'static str]) -> Call {
+    Call { name, folder: ".", program: env!("CARGO"), arguments, variables: &[] }
 }
 
 const STEPS: &[Step] = &[
-    cargo("format", &["fmt", "--all", "--check"]),
-    cargo("lints", &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"]),
-    cargo("tests", &["test", "--workspace", "--locked"]),
-    Step {
+    Step::Command(cargo("format", &["fmt", "--all", "--check"])),
+    Step::Command(cargo(
+        "lints",
+        &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
+    )),
+    Step::Command(cargo("tests", &["test", "--workspace", "--locked"])),
+    Step::Own("read back", readback::run),
+    Step::Command(Call {
         variables: &[("RUSTDOCFLAGS", "-D warnings")],
         ..cargo("documentation", &["doc", "--workspace", "--no-deps", "--locked"])
-    },
-    cargo(
+    }),
+    Step::Command(cargo(
         "benchmarks compile",
         &["check", "--manifest-path", "bench/Cargo.toml", "--all-targets", "--locked"],
-    ),
-    cargo(
+    )),
+    Step::Command(cargo(
         "fuzzing lints",
         &[
             "clippy",
@@ -45,15 +75,21 @@ const STEPS: &[Step] = &[
             "-D",
             "warnings",
         ],
-    ),
-    Step {
+    )),
+    Step::Command(Call {
         name: "viewer packages",
         folder: "crates/viewer/web",
         program: NPM,
         arguments: &["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--prefer-offline"],
         variables: &[],
-    },
-    Step { name: "viewer", folder: "crates/viewer/web", program: NPM, arguments: &["test"], variables: &[] },
+    }),
+    Step::Command(Call {
+        name: "viewer",
+        folder: "crates/viewer/web",
+        program: NPM,
+        arguments: &["test"],
+        variables: &[],
+    }),
 ];
 
 const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
@@ -61,6 +97,8 @@ const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 fn main() -> ExitCode {
     let ok = match std::env::args().nth(1).as_deref() {
         Some("test") => test(),
+        Some("tidy") => run(&cargo("tidy", &["run", "--quiet", "--manifest-path", "tidy/Cargo.toml"])),
+        Some("readback") => readback::run(&root()),
         Some("schema") => {
             run(&cargo("schema", &["run", "--quiet", "--package", "trueness-inspect", "--example", "schema"]))
         }
@@ -81,13 +119,13 @@ fn root() -> PathBuf {
 fn test() -> bool {
     let mut times = vec![];
     for step in STEPS {
-        println!("\n── {} ──", step.name);
+        println!("\n── {} ──", step.name());
         let start = Instant::now();
-        if !run(step) {
-            eprintln!("\n✕ {} failed", step.name);
+        if !step.run() {
+            eprintln!("\n✕ {} failed", step.name());
             return false;
         }
-        times.push((step.name, start.elapsed().as_secs_f64()));
+        times.push((step.name(), start.elapsed().as_secs_f64()));
     }
     println!();
     for (name, seconds) in times {
@@ -96,13 +134,13 @@ fn test() -> bool {
     true
 }
 
-fn run(step: &Step) -> bool {
-    let mut command = Command::new(step.program);
-    command.current_dir(root().join(step.folder)).args(step.arguments).envs(step.variables.iter().copied());
+fn run(call: &Call) -> bool {
+    let mut command = Command::new(call.program);
+    command.current_dir(root().join(call.folder)).args(call.arguments).envs(call.variables.iter().copied());
     match command.status() {
         Ok(status) => status.success(),
         Err(e) => {
-            eprintln!("{} cannot be started: {e}", step.program);
+            eprintln!("{} cannot be started: {e}", call.program);
             false
         }
     }

@@ -49,17 +49,6 @@ fn a_profile_has_its_segments_and_joins() {
 }
 
 #[test]
-fn a_cube_is_cut_into_a_square() {
-    let folder = Folder::new();
-    // Four of the facets' diagonals give more points than corners.
-    let file = folder.write("cube.off", common::CUBE);
-    let answer = document(["section", file.to_str().unwrap(), "--plane", "0,0,1,0.5", "--continuity", "g0"]);
-    let contour = &answer["contours"][0];
-    assert_eq!(contour["closed"], true);
-    assert!((contour["length"].as_f64().unwrap() - 4.0).abs() < 1e-9, "{contour}");
-}
-
-#[test]
 fn wrong_input_is_refused_with_a_remedy() {
     let folder = Folder::new();
     let few = folder.write("few.txt", "0 0\n1 0\n2 1\n");
@@ -71,10 +60,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![few], 3, "few.txt: a section needs at least 4 different points, there are 3"),
         (vec![good, "--noise", "0"], 2, "noise 0: it must be a length above 0"),
         (vec![good, "--level", "100"], 2, "level 1: it must be between 0 and 1"),
-        (vec![good, "--plane", "0,0,1,0"], 2, "--plane cuts meshes"),
-        (vec![cube], 2, "say where to cut it with --plane"),
-        (vec![cube, "--plane", "0,0,1"], 2, "give four numbers"),
-        (vec![cube, "--plane", "0,0,1,9"], 3, "the plane does not cut it"),
+        (vec![cube], 2, "it is a mesh; give the points of its section in their order"),
         (vec![good, "--dxf", &twice, "--svg", &twice], 2, "are the same file; give each its own"),
     ] {
         let answer = trueness([&["section"][..], &words].concat());

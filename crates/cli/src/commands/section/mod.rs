@@ -12,29 +12,23 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_files::Body;
-use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Progress;
-use trueness_geom::section::{self, Continuity, Contour, Options, Plane, PlaneFrame, SectionError};
+use trueness_geom::section::{self, Continuity, Contour, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{FrameRecord, SectionDocument};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
-/// Of points in the order in which they follow each other along a contour, or of a mesh cut by a plane. Finds number and
-/// kinds of the segments, refines all together and tells every join with its uncertainty.
+/// Of points in the order in which they follow each other along a contour. Finds number and kinds of the segments, refines
+/// all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   trueness section profile.txt
-  trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
-  trueness section part.stl --plane 0,0,1,12.5 --svg section.svg")]
+  trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json")]
 pub struct SectionArgs {
-    /// Points in order, of two or three columns, or a mesh; `-` reads stdin
+    /// Points in order, of two or three columns; `-` reads stdin
     input: PathBuf,
-    /// Cut the mesh by the plane of all points with nx·x + ny·y + nz·z = d
-    #[arg(long, value_name = "NX,NY,NZ,D", value_parser = plane, allow_hyphen_values = true)]
-    plane: Option<Plane>,
     /// Standard deviation of the points across the contour, mm [default: found from the data]
     #[arg(long, value_name = "MM")]
     noise: Option<f64>,
@@ -66,17 +60,6 @@ enum ContinuityArg {
     G1,
     /// Common tangents, and common curvatures at the ends of splines.
     G2,
-}
-
-fn plane(text: &str) -> Result<Plane, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse::<f64>()).collect();
-    match numbers.as_deref() {
-        Ok([x, y, z, offset]) if [x, y, z, offset].iter().all(|n| n.is_finite()) => {
-            let plane = Plane { normal: [*x, *y, *z], offset: *offset };
-            plane.frame().map(|_| plane).ok_or_else(|| "the normal has no direction".into())
-        }
-        _ => Err("give four numbers: the normal and the offset, e.g. 0,0,1,12.5".into()),
-    }
 }
 
 impl SectionArgs {
@@ -116,18 +99,15 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let shown = args.input.display();
     let stage = Stage::new(common.progress, "finding segments", "points", None);
     let rows = match body {
-        Body::Mesh(source) => {
-            let Some(plane) = args.plane else {
-                return Err(Usage(format!("{shown}: it is a mesh; say where to cut it with --plane")).into());
-            };
-            cut(&source.mesh, &plane, &stage).map_err(|e| e.unless_cancelled(&shown))?
+        Body::Mesh(_) => {
+            return Err(Usage(format!(
+                "{shown}: it is a mesh; give the points of its section in their order, two or three columns of numbers"
+            ))
+            .into());
         }
         Body::Points(source) => {
             let points = read::all_points(source)?;
             read::describe(&mut record, &points);
-            if args.plane.is_some() {
-                return Err(Usage(format!("{shown}: it holds points in order; --plane cuts meshes")).into());
-            }
             flattened(&points, planar)
         }
     };
@@ -151,29 +131,6 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     Ok(Outcome::Conforming)
-}
-
-/// Why a mesh has no section.
-enum CutError {
-    Cancelled(trueness_geom::progress::Cancelled),
-    Nothing,
-}
-
-impl CutError {
-    fn unless_cancelled(self, shown: &std::path::Display) -> anyhow::Error {
-        match self {
-            CutError::Cancelled(e) => e.into(),
-            CutError::Nothing => anyhow::anyhow!("{shown}: the plane does not cut it; choose another offset"),
-        }
-    }
-}
-
-fn cut(mesh: &Mesh, plane: &Plane, progress: &dyn Progress) -> Result<Rows, CutError> {
-    let chains = section::cut(mesh, plane, progress).map_err(CutError::Cancelled)?;
-    let frame = plane.frame().filter(|_| !chains.is_empty()).ok_or(CutError::Nothing)?;
-    let flat =
-        |chain: &section::Chain| (chain.points.iter().map(|p| frame.flat(*p)).collect(), Some(chain.closed));
-    Ok(Rows { rows: chains.iter().map(flat).collect(), frame: described(&frame, 0.0) })
 }
 
 /// A row in space in the plane nearest to it; a row of two columns as it is.

@@ -1,0 +1,173 @@
+"""Reads what `trueness` writes with other programs and compares it.
+
+readback.py PROGRAM CORPUS
+
+Every comparison is of 64-bit numbers bit for bit, but for files of single precision (STL), where the input is rounded first,
+and for distances, where NumPy sums in another order.
+"""
+
+import csv
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pyarrow.parquet
+import trimesh
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+PROGRAM, CORPUS = sys.argv[1], Path(sys.argv[2])
+MEASURED = CORPUS / "bunny" / "zipper_res4.ply"
+REFERENCE = CORPUS / "bunny" / "zipper_res3.ply"
+
+
+def run(*words):
+    """Runs the program; its answer may be "out of tolerance", but not an error."""
+    done = subprocess.run([PROGRAM, *map(str, words), "--quiet"], capture_output=True, text=True)
+    assert done.returncode in (0, 1), (words, done.returncode, done.stderr)
+
+
+def same(name, ours, theirs):
+    """Equal in shape and, bit for bit, in every value; NaN equals NaN."""
+    ours, theirs = np.asarray(ours), np.asarray(theirs)
+    assert ours.shape == theirs.shape, (name, ours.shape, theirs.shape)
+    assert np.array_equal(ours, theirs, equal_nan=ours.dtype.kind == "f"), name
+
+
+def vtk_read(reader, path):
+    """The data that a reader of VTK finds."""
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def vtk_triangles(data):
+    return vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+
+
+def ply_columns(path):
+    """The columns of the vertices of a binary PLY file, read as its header says."""
+    data = path.read_bytes()
+    head, end = data.split(b"end_header\n", 1)[0].decode(), data.index(b"end_header\n") + 11
+    kinds = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
+    count = int(re.search(r"element vertex (\d+)", head)[1])
+    vertex = head.split("element vertex", 1)[1].split("element", 1)[0]
+    row = [(name, kinds[kind]) for kind, name in re.findall(r"property (\w+) (\w+)\n", vertex)]
+    return np.frombuffer(data, np.dtype(row), count, end)
+
+
+def brute_force(points, corners):
+    """Distance of each point to the nearest of all triangles (3 corners each); Ericson, Real-Time Collision Detection, 5.1.5."""
+    a, b, c = (corners[:, i] for i in range(3))
+    nearest = np.full(len(points), np.inf)
+
+    def to_edge(p, start, end):
+        along = end - start
+        t = np.clip(np.einsum("ij,ij->i", p - start, along) / np.einsum("ij,ij->i", along, along), 0, 1)
+        return np.linalg.norm(p - (start + t[:, None] * along), axis=1)
+
+    normal = np.cross(b - a, c - a)
+    for i, p in enumerate(points):
+        distance = np.minimum.reduce([to_edge(p, a, b), to_edge(p, b, c), to_edge(p, c, a)])
+        sides = [np.einsum("ij,ij->i", np.cross(v - u, p - u), normal) for u, v in ((a, b), (b, c), (c, a))]
+        above = np.all(np.array(sides) >= 0, axis=0)
+        height = np.abs(np.einsum("ij,ij->i", p - a, normal)) / np.linalg.norm(normal, axis=1)
+        nearest[i] = np.min(np.where(above, np.minimum(distance, height), distance))
+    return nearest
+
+
+def deviations(folder):
+    """The files of `compare --out` agree with one another, with the input, and with brute force."""
+    for ending in ("csv", "ply", "parquet", "npz", "vtp"):
+        options = ("--tolerance", "0.1", "--max-distance", "0.3")
+        run("compare", MEASURED, REFERENCE, *options, "--out", folder / f"d.{ending}")
+
+    held = np.load(folder / "d.npz")
+    points, deviation, colors = held["points"], held["deviation"], held["colour"]
+    same("excluded of NPZ", held["excluded"], np.isnan(deviation))
+    assert 0 < np.isnan(deviation).sum() < len(deviation), "some points are excluded, not all"
+    measured = meshio.read(MEASURED).points.astype(np.float64)
+    scale = points[0, 0] / measured[0, 0]
+    assert scale == 1.0, "millimetres in, millimetres out"
+    same("points of NPZ", points, measured)
+
+    table = pyarrow.parquet.read_table(folder / "d.parquet")
+    same("points of Parquet", points, np.stack([table[k].to_numpy() for k in "xyz"], axis=1))
+    assert table["deviation"].null_count == np.isnan(deviation).sum(), "excluded points are null"
+    same("deviation of Parquet", deviation, table["deviation"].to_numpy())
+    same("colors of Parquet", colors, np.stack([table[k].to_numpy() for k in ("red", "green", "blue")], axis=1))
+
+    with open(folder / "d.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    same("points of CSV", points, [[float(r[k]) for k in "xyz"] for r in rows])
+    same("deviation of CSV", deviation, [float(r["deviation"] or "nan") for r in rows])
+
+    columns = ply_columns(folder / "d.ply")
+    same("points of PLY", points, np.stack([columns[k] for k in "xyz"], axis=1))
+    same("deviation of PLY", deviation, columns["deviation"])
+    same("excluded of PLY", np.isnan(deviation), columns["excluded"] == 1)
+    same("points of PLY in meshio", points, meshio.read(folder / "d.ply").points)
+    seen = vtk_read(vtk.vtkPLYReader(), folder / "d.ply")
+    same("points of PLY in VTK", points.astype(np.float32), vtk_to_numpy(seen.GetPoints().GetData()))
+    same("colors of PLY in VTK", colors, vtk_to_numpy(seen.GetPointData().GetArray("RGB")))
+
+    seen = vtk_read(vtk.vtkXMLPolyDataReader(), folder / "d.vtp")
+    same("points of VTP", points, vtk_to_numpy(seen.GetPoints().GetData()))
+    same("deviation of VTP", deviation, vtk_to_numpy(seen.GetPointData().GetArray("deviation")))
+    same("colors of VTP", colors, vtk_to_numpy(seen.GetPointData().GetArray("colour")))
+    assert seen.GetNumberOfVerts() >= 1, "points are drawn"
+
+    reference = meshio.read(REFERENCE)
+    corners = reference.points.astype(np.float64)[reference.cells_dict["triangle"]]
+    distance = brute_force(points, corners)
+    kept = ~np.isnan(deviation)
+    same("excluded points", kept, distance <= 0.3)
+    largest = np.abs(np.abs(deviation[kept]) - distance[kept]).max()
+    assert largest < 1e-12, f"distance off by {largest}"
+
+
+def meshes(folder):
+    """Files of `repair --out` hold the triangles of the input, in its order; their places to the last bit."""
+    given = meshio.read(REFERENCE)
+    corners = given.points.astype(np.float64)[given.cells_dict["triangle"]]
+    for ending in ("stl", "ply", "obj", "off"):
+        path = folder / f"m.{ending}"
+        run("repair", REFERENCE, "--only", "degenerate", "--out", path)
+        expected = corners.astype(np.float32) if ending == "stl" else corners
+        read = trimesh.load(path, process=False, maintain_order=True)
+        same(f"{ending} in trimesh", expected, read.vertices[read.faces].astype(expected.dtype))
+        if ending != "off":  # its reader of OFF wants the counts on a line of their own
+            read = meshio.read(path)
+            theirs = read.points.astype(np.float64)[read.cells_dict["triangle"]]
+            same(f"{ending} in meshio", expected.astype(np.float64), theirs)
+        readers = {"stl": vtk.vtkSTLReader, "ply": vtk.vtkPLYReader, "obj": vtk.vtkOBJReader}
+        if ending in readers:
+            read = vtk_read(readers[ending](), path)
+            places = vtk_to_numpy(read.GetPoints().GetData())
+            same(f"{ending} in VTK", corners.astype(np.float32), places[vtk_triangles(read)].astype(np.float32))
+
+
+def regions(folder):
+    """Files of `segment --out`: the number of its region for each facet and for each point."""
+    cylinder = CORPUS / "broken" / "ok_cylinder.stl"
+    run("segment", cylinder, "--out", folder / "s.ply", "--json", folder / "s.json")
+    # meshio reads lists of facets alone, so trimesh reads this one.
+    read = trimesh.load(folder / "s.ply", process=False, maintain_order=True)
+    numbers = read.metadata["_ply_raw"]["face"]["data"]["region"].ravel()
+    given = trimesh.load(cylinder, process=False)
+    same("facets of a segmented mesh", given.triangles, read.triangles)
+    # The axis of the cylinder is z: the ends are the facets whose corners have one height.
+    heights = np.ptp(given.triangles[:, :, 2], axis=1)
+    ends = {int(n) for n in numbers[heights == 0]}
+    sides = {int(n) for n in numbers[heights > 0]}
+    assert len(ends) == 2 and len(sides) == 1 and not ends & sides, (ends, sides)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    for check in (deviations, meshes, regions):
+        check(Path(scratch))
+        print(f"ok    {check.__name__}: {check.__doc__}")
