@@ -79,7 +79,7 @@ fn a_report_says_what_the_document_says() {
     );
     assert_eq!(status(&o), 0, "{}", stderr(&o));
     let text = std::fs::read_to_string(html).unwrap();
-    assert!(text.contains("<title>Cylinder · cylinder_01_lobed.xyz</title>"));
+    assert!(text.contains(">Cylinder · cylinder_01_lobed.xyz</title>"));
     assert_eq!(
         text.matches("data-t=\"touching.outer\"").count() + text.matches("data-t=\"touching.inner\"").count(),
         6

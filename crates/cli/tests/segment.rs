@@ -76,7 +76,7 @@ fn a_report_draws_every_region() {
     let answer = trueness(["segment", file.to_str().unwrap(), "--html", html.to_str().unwrap()]);
     assert_eq!(status(&answer), 0, "{}", stderr(&answer));
     let text = std::fs::read_to_string(html).unwrap();
-    assert!(text.contains("<title>Elements found · cube.off</title>"));
+    assert!(text.contains(">Elements found · cube.off</title>"));
     assert_eq!(text.matches("<tr data-pick=").count(), 6);
     // Nothing is in none; four lines around each plane.
     assert_eq!(text.matches("\"role\":\"part\"").count(), 6);

@@ -115,7 +115,7 @@ fn directory_missing_and_unreadable() {
 #[cfg(target_os = "linux")]
 fn disk_full_while_writing() {
     let f = Folder::new();
-    let points: String = (0..20_000).map(|i| format!("{i} 0.25 0.125\n")).collect();
+    let points: String = (0..20_000).map(|i| format!("{}.5 0.25 0.125\n", i)).collect();
     let (points, cube) = (f.write("p.xyz", points), f.write("c.off", CUBE));
     let before = f.names();
     for (option, name) in [

@@ -8,10 +8,13 @@ use super::around::{self, Side};
 use super::cut::Piece;
 use super::meetings::edge;
 use super::points::Points;
-use super::ray::Rays;
+use super::ray::{Around, Rays};
 use crate::mesh::Mesh;
 use crate::topology::union::Sets;
 use rayon::prelude::*;
+
+/// The number of a part, what is added to the winding numbers relative to its first cell, and the shells around it.
+type Anchored = (usize, i32, Around);
 
 /// Winding numbers on the two sides of each piece.
 pub(super) struct Windings {
@@ -47,7 +50,7 @@ pub(super) fn windings(
     let rays = Rays::new(mesh, shell_of, points);
     let mut of_part: Vec<Vec<u32>> = vec![vec![]; count];
     (0..pieces.len()).for_each(|p| of_part[part(p)].push(p as u32));
-    let absolute: Vec<(usize, i32, Vec<(u32, i32)>)> = of_part
+    let absolute: Vec<Anchored> = of_part
         .par_iter()
         .enumerate()
         .map(|(number, of_part)| {
@@ -128,7 +131,7 @@ fn signs(
     pieces: &[Piece],
     shell_of: &[u32],
     of_part: &[Vec<u32>],
-    absolute: &[(usize, i32, Vec<(u32, i32)>)],
+    absolute: &[Anchored],
     relative: impl Fn(usize) -> [i32; 2],
 ) -> Vec<i32> {
     let shells = shell_of.iter().filter(|s| **s != u32::MAX).max().map_or(0, |s| *s as usize + 1);

@@ -20,6 +20,9 @@ pub(super) struct Rays<'a> {
     all: Container<'a>,
 }
 
+/// Shells with their winding numbers beside a place, those of 0 left out.
+pub type Around = Vec<(u32, i32)>;
+
 impl<'a> Rays<'a> {
     pub fn new(mesh: &'a Mesh, shell_of: &'a [u32], points: &'a Points<'a>) -> Rays<'a> {
         let facets = (0..).zip(shell_of).filter(|(_, s)| **s != u32::MAX).map(|(f, _)| f);
@@ -28,7 +31,7 @@ impl<'a> Rays<'a> {
 
     /// Winding numbers of all shells, as far as they are not 0, beside one of these pieces: which one, whether where it looks
     /// to (0) or where it comes from (1), shells and numbers. `None` if no piece holds a point that numbers can name.
-    pub fn count(&self, pieces: &[Piece], of_part: &[u32]) -> Option<(usize, usize, Vec<(u32, i32)>)> {
+    pub fn count(&self, pieces: &[Piece], of_part: &[u32]) -> Option<(usize, usize, Around)> {
         let size = |p: &u32| {
             let [a, b, c] = pieces[*p as usize].corners.map(|q| self.points.rough(q));
             ((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])).abs()

@@ -43,7 +43,7 @@ pub(super) fn next(e: u32) -> u32 {
 }
 
 fn previous(e: u32) -> u32 {
-    if e % 3 == 0 { e + 2 } else { e - 1 }
+    if e.is_multiple_of(3) { e + 2 } else { e - 1 }
 }
 
 /// Triangulates the hull of points `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty

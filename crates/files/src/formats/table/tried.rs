@@ -145,8 +145,8 @@ impl<'a> Tried<'a> {
     /// Equally many cells in every row, and none of them numbers parted by blanks: what stands between is no alignment.
     pub fn clearly_parted(&self) -> bool {
         let even = |l: &Line| l.cells.len() == self.rows[0].cells.len();
-        let blanks = |c: &&[u8]| c.iter().any(|b| *b == b' ') && c.iter().any(u8::is_ascii_digit);
-        self.rows.iter().all(even) && !self.rows.iter().any(|l| l.cells.iter().any(|c| blanks(&c)))
+        let blanks = |c: &&[u8]| c.contains(&b' ') && c.iter().any(u8::is_ascii_digit);
+        self.rows.iter().all(even) && !self.rows.iter().any(|l| l.cells.iter().any(|c| blanks(c)))
     }
 }
 
