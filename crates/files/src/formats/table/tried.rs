@@ -146,7 +146,7 @@ impl<'a> Tried<'a> {
     pub fn clearly_parted(&self) -> bool {
         let even = |l: &Line| l.cells.len() == self.rows[0].cells.len();
         let blanks = |c: &&[u8]| c.contains(&b' ') && c.iter().any(u8::is_ascii_digit);
-        self.rows.iter().all(even) && !self.rows.iter().any(|l| l.cells.iter().any(|c| blanks(c)))
+        self.rows.iter().all(even) && !self.rows.iter().any(|l| l.cells.iter().any(&blanks))
     }
 }
 
