@@ -273,7 +273,7 @@ pub enum ReportError {
 /// Bytes that an object's entry in the manifest may take, names apart.
 const MANIFEST_ENTRY: usize = 4000;
 
-/// What [`write`] tells its progress in all: each object's places twice, once drawn and once packed.
+/// What [`write()`] tells its progress in all: each object's places twice, once drawn and once packed.
 pub fn work(objects: &[ViewObject]) -> u64 {
     2 * objects.iter().map(|o| o.places().len() as u64).sum::<u64>()
 }
