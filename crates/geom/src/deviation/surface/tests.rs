@@ -3,30 +3,10 @@
 use super::super::sign_choice::SignReason;
 use super::*;
 use crate::check::tests::{add, inverted};
-use crate::closest::tests::{Dice, sphere};
+use crate::closest::tests::{Dice, cube, sphere};
 use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::tests::block;
-
-/// The unit cube, outward.
-fn cube() -> Mesh {
-    let positions = (0..8).map(|i| [(i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64]).collect();
-    let faces = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Mesh { positions, faces }
-}
 
 fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, Vec<f64>, Disagreement) {
     let tree = Tree::build(mesh).unwrap();
@@ -40,7 +20,7 @@ const DEVIATIONS: [f64; 3] = [-0.25, 2.0, std::f64::consts::SQRT_2];
 
 #[test]
 fn closed_mesh_is_signed_by_pseudonormals_inside_out_or_not() {
-    let mut mesh = cube();
+    let mut mesh = cube(1.0);
     for inside_out in [false, true] {
         let (choice, deviations, disagreement) = ask(&mesh, SurfaceOptions::default(), &POINTS);
         assert_eq!((choice.method, choice.reason), (SignMethod::Pseudonormal, SignReason::Closed));
@@ -53,7 +33,7 @@ fn closed_mesh_is_signed_by_pseudonormals_inside_out_or_not() {
 
 #[test]
 fn mesh_with_a_gap_or_a_turned_facet_is_signed_by_winding_number() {
-    let mut gap = cube();
+    let mut gap = cube(1.0);
     gap.faces.pop();
     let (choice, deviations, _) = ask(&gap, SurfaceOptions::default(), &POINTS);
     assert_eq!(
@@ -61,7 +41,7 @@ fn mesh_with_a_gap_or_a_turned_facet_is_signed_by_winding_number() {
         (SignMethod::Winding, SignReason::NearlyClosed { boundary_edges: 3 })
     );
     assert_eq!(deviations, DEVIATIONS);
-    let mut turned = cube();
+    let mut turned = cube(1.0);
     turned.faces[11].swap(0, 1);
     let (choice, _, _) = ask(&turned, SurfaceOptions::default(), &POINTS);
     assert_eq!((choice.method, choice.reason), (SignMethod::Winding, SignReason::Inconsistent));
@@ -70,7 +50,7 @@ fn mesh_with_a_gap_or_a_turned_facet_is_signed_by_winding_number() {
 /// A winding number never exceeds one half beside a sheet: every point would be outside.
 #[test]
 fn sheet_has_two_sides() {
-    let mut sheet = cube();
+    let mut sheet = cube(1.0);
     sheet.faces.truncate(2); // the bottom, facing down
     let points = [[0.5, 0.5, 0.125], [0.5, 0.5, -0.25]];
     let (choice, deviations, disagreement) = ask(&sheet, SurfaceOptions::default(), &points);
@@ -84,7 +64,7 @@ fn sheet_has_two_sides() {
 
 #[test]
 fn far_points_and_points_beyond_the_rim_are_excluded() {
-    let mut sheet = cube();
+    let mut sheet = cube(1.0);
     sheet.faces.truncate(2);
     let options = SurfaceOptions { max_distance: 1.0, skip_boundary: true, ..SurfaceOptions::default() };
     let points = [[0.5, 0.5, -1.0], [0.5, 0.5, -1.5], [1.5, 0.5, 0.0]];
