@@ -1,7 +1,6 @@
 //! Tasks of the project. `cargo xtask test` runs every check there is, in the order in which failures are cheapest.
 
 mod readback;
-mod tidy;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -9,7 +8,7 @@ use std::time::Instant;
 
 const HELP: &str = "\
 cargo xtask test      every check: format, lints, tests, documentation, viewer (needs Node; a browser if there is one)
-cargo xtask tidy      the rules of the house that the compiler does not check: no circles, short files and functions
+cargo xtask tidy      lists circles between modules, long files and long functions (not yet part of `test`)
 cargo xtask readback  what the program writes, read by other programs (needs Python 3)
 cargo xtask schema    writes the JSON schemas of the result documents to docs/schema/";
 
@@ -50,7 +49,6 @@ const fn cargo(name: &'static str, arguments: &'static [&'static str]) -> Call {
 
 const STEPS: &[Step] = &[
     Step::Command(cargo("format", &["fmt", "--all", "--check"])),
-    Step::Own("tidy", tidy),
     Step::Command(cargo(
         "lints",
         &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
@@ -99,7 +97,7 @@ const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 fn main() -> ExitCode {
     let ok = match std::env::args().nth(1).as_deref() {
         Some("test") => test(),
-        Some("tidy") => tidy(&root()),
+        Some("tidy") => run(&cargo("tidy", &["run", "--quiet", "--manifest-path", "tidy/Cargo.toml"])),
         Some("readback") => readback::run(&root()),
         Some("schema") => {
             run(&cargo("schema", &["run", "--quiet", "--package", "trueness-inspect", "--example", "schema"]))
@@ -110,16 +108,6 @@ fn main() -> ExitCode {
         }
     };
     if ok { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Says what breaks a rule of the house.
-fn tidy(root: &Path) -> bool {
-    let found = tidy::findings(root);
-    match &found {
-        Ok(found) => found.iter().for_each(|f| println!("{f}")),
-        Err(e) => eprintln!("{e}"),
-    }
-    found.is_ok_and(|f| f.is_empty())
 }
 
 fn root() -> PathBuf {

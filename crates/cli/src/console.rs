@@ -1,7 +1,6 @@
 //! Everything that is printed goes through here: tables on stdout, notes and errors on stderr.
-#![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -11,50 +10,49 @@ pub fn quiet(on: bool) {
     QUIET.store(on, Ordering::Relaxed);
 }
 
-/// Prints text for people on stdout. A reader that has gone away (`| head`) is no error.
-pub fn table(text: &str) {
-    if !QUIET.load(Ordering::Relaxed) {
-        let _ = std::io::stdout().write_all(text.as_bytes());
-    }
+/// The standard output cannot be written to.
+#[derive(Debug, thiserror::Error)]
+#[error("standard output: {0}; the result was not shown")]
+pub struct StdoutError(std::io::Error);
+
+/// Prints text for people on stdout.
+pub fn table(text: &str) -> Result<(), StdoutError> {
+    if QUIET.load(Ordering::Relaxed) { Ok(()) } else { document(text) }
 }
 
-/// Writes a document that was asked for on stdout.
-pub fn document(text: &str) -> std::io::Result<()> {
+/// Writes a document that was asked for on stdout. A reader that has gone away (`| head`) is no error: it has what it
+/// wanted.
+pub fn document(text: &str) -> Result<(), StdoutError> {
     let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()
+    fitting(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// Prints a line on stderr.
+/// Prints the help, the version, or what is wrong with the words of the command line, as the parser has it.
+pub fn parser(message: &clap::Error) -> Result<(), StdoutError> {
+    fitting(message.print().and_then(|()| std::io::stdout().flush()))
+}
+
+fn fitting(written: std::io::Result<()>) -> Result<(), StdoutError> {
+    written.or_else(|e| if e.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(StdoutError(e)) })
+}
+
+/// Prints a line on stderr. Where that cannot be done, there is nobody to tell.
 pub fn note(text: &str) {
-    eprintln!("{text}");
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Prints an error and what led to it on stderr, as one line for each cause.
 pub fn error(error: &anyhow::Error) {
-    eprintln!("trueness: {error}");
+    note(&format!("trueness: {error}"));
     let mut last = error.to_string();
     for cause in error.chain().skip(1) {
         let text = cause.to_string();
         // Transparent wrappers repeat their cause.
         if !last.contains(&text) {
-            eprintln!("  because: {text}");
+            note(&format!("  because: {text}"));
         }
         last = text;
     }
-}
-
-/// `1234567` as `1,234,567`.
-pub fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut out = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(c);
-    }
-    out
 }
 
 /// Lays rows out in columns: the first column flush left, the others flush right, two spaces between.
@@ -78,13 +76,6 @@ pub fn columns(rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn groups_by_three() {
-        for (n, text) in [(0, "0"), (999, "999"), (1000, "1,000"), (1234567, "1,234,567")] {
-            assert_eq!(grouped(n), text);
-        }
-    }
 
     #[test]
     fn aligns_columns() {

@@ -1,8 +1,9 @@
 //! Exit status: what a script learns from a run.
 
-use crate::console;
+use crate::{console, signals};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
+use trueness_files::{ReadError, WriteError};
 use trueness_geom::progress::Cancelled;
 
 /// What a command that ran to its end found.
@@ -45,6 +46,13 @@ pub fn catch(work: impl FnOnce() -> anyhow::Result<Outcome>) -> anyhow::Result<O
     })
 }
 
+/// Whether the words of the command line are what is wrong: an option that does not fit the file, an unknown ending.
+fn is_usage(e: &(dyn std::error::Error + 'static)) -> bool {
+    e.is::<Usage>()
+        || e.downcast_ref::<ReadError>().is_some_and(|e| e.fault.is_wrong_usage())
+        || e.downcast_ref::<WriteError>().is_some_and(|e| e.fault.is_wrong_usage())
+}
+
 /// Prints the error, if any, and chooses the exit status.
 pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
     let error = match outcome {
@@ -54,10 +62,10 @@ pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
     };
     console::error(&error);
     let is = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    ExitCode::from(if is(|e| e.is::<Usage>()) {
+    ExitCode::from(if is(is_usage) {
         2
     } else if is(|e| e.is::<Cancelled>()) {
-        130
+        signals::status()
     } else if is(|e| e.is::<Internal>()) {
         4
     } else {

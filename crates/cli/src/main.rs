@@ -4,30 +4,49 @@ mod command;
 mod commands;
 mod console;
 mod exit;
+mod memory;
+mod number;
+mod options;
+mod output;
 mod progress;
 mod read;
 mod report;
+mod run_files;
+mod signals;
+mod time_left;
 mod tolerance;
 
 use clap::Parser;
-use command::{Arguments, Command};
+use command::Arguments;
+use exit::Outcome;
 use std::process::ExitCode;
 
+#[global_allocator]
+static MEMORY: memory::Allocator = memory::Allocator;
+
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => return before_any_work(&message),
+    };
     console::quiet(arguments.common.quiet);
-    progress::stop_on_interrupt();
-    let outcome = exit::catch(|| {
-        if let Some(n) = arguments.common.threads {
-            rayon::ThreadPoolBuilder::new().num_threads(n.into()).build_global()?;
-        }
-        match &arguments.command {
-            Command::Check(args) => commands::check::run(args, &arguments.common),
-            Command::Compare(args) => commands::compare::run(args, &arguments.common),
-            Command::Fit(args) => commands::fit::run(args, &arguments.common),
-            Command::Repair(args) => commands::repair::run(args, &arguments.common),
-            Command::Segment(args) => commands::segment::run(args, &arguments.common),
-        }
-    });
-    exit::code(outcome)
+    signals::listen();
+    exit::code(exit::catch(|| run(&arguments)))
+}
+
+/// Help, version, or wrong words.
+fn before_any_work(message: &clap::Error) -> ExitCode {
+    match console::parser(message) {
+        Ok(()) => ExitCode::from(u8::try_from(message.exit_code()).unwrap_or(2)),
+        Err(e) => exit::code(Err(e.into())),
+    }
+}
+
+fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if let Some(n) = arguments.common.threads {
+        rayon::ThreadPoolBuilder::new().num_threads(n.into()).build_global()?;
+    }
+    let command = arguments.command.get();
+    command.files()?.check()?;
+    command.run(&arguments.common)
 }

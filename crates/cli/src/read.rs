@@ -1,32 +1,60 @@
 //! Files of the command line, read and described for the result document.
 
-use crate::exit::{Usage, not_negative};
+use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_files::{Body, Input, PointSource, ReadOptions, SourceMesh, Weld};
-use trueness_geom::space::Point;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
+use trueness_geom::space::{Aabb, Point};
+use trueness_inspect::compare::plausibility;
+use trueness_inspect::results::{ColumnRecord, InputRecord, Role, TableRecord};
+
+/// A file of this run: what the document says of it, and what is in it.
+pub struct Opened {
+    /// What the document says; its hash is filled in by [`hash`].
+    pub record: InputRecord,
+    /// What is in it.
+    pub body: Body,
+    /// Whether its points have two coordinates only.
+    pub planar: bool,
+    /// What its format is called, in all detail.
+    pub format: &'static str,
+    /// Whether it holds nothing at all.
+    pub empty: bool,
+}
+
+/// Opens a file that is taken for `role`. Counts and box of a mesh stand in the record; those of points, which have not
+/// been read yet, do not.
+pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Opened> {
+    let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
+    let mut record = record(role, &provenance, &warnings);
+    if let Body::Mesh(mesh) = &body {
+        describe(&mut record, &mesh.mesh.positions);
+        record.facets = Some(mesh.mesh.faces.len() as u64);
+    }
+    let empty = warnings.contains(&Warning::Nothing);
+    Ok(Opened { record, body, planar: provenance.planar, format: provenance.format, empty })
+}
 
 /// Reads a mesh; points are refused with a remedy.
-pub fn mesh(path: &Path, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
-    let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
-    let record = record(Role::Reference, &provenance, &warnings);
-    match body {
-        Body::Mesh(mesh) => {
-            let counts = (mesh.mesh.positions.len() as u64, Some(mesh.mesh.faces.len() as u64));
-            Ok((mesh, InputRecord { points: counts.0, facets: counts.1, ..record }))
-        }
-        Body::Points(_) => bail!(
+pub fn mesh(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
+    let opened = open(path, role, options)?;
+    match opened.body {
+        Body::Mesh(mesh) => Ok((mesh, opened.record)),
+        Body::Points(_) if role == Role::Reference => bail!(
             "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF); \
              give the points first and the mesh after them",
             path.display()
         ),
+        // Without vertices, too, it is as empty as an STL file of no facets.
+        Body::Points(_) if opened.empty => {
+            let record = InputRecord { facets: Some(0), ..opened.record };
+            Ok((SourceMesh::default(), record))
+        }
+        Body::Points(_) => bail!(
+            "{}: it holds points without facets; this command needs a mesh (STL, PLY, OBJ, OFF)",
+            path.display()
+        ),
     }
-}
-
-/// What `--weld` asks for.
-pub fn weld(distance: Option<f64>) -> Result<Weld, Usage> {
-    distance.map_or(Ok(Weld::Same), |d| Ok(Weld::Within(not_negative("weld", d)?)))
 }
 
 /// All points of a source.
@@ -41,12 +69,22 @@ pub fn all_points(mut source: PointSource) -> anyhow::Result<Vec<Point>> {
     }
 }
 
+/// Fills in number and box of the points of a file.
+pub fn describe(record: &mut InputRecord, points: &[Point]) {
+    record.points = points.len() as u64;
+    record.bounds = plausibility::bounds(&Aabb::of(points));
+}
+
 /// What the document says about a file; its counts and hash are filled in later.
-pub fn record(
+fn record(
     role: Role,
     provenance: &trueness_files::Provenance,
     warnings: &[trueness_files::Warning],
 ) -> InputRecord {
+    let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    if provenance.planar {
+        warnings.push("two columns: the points were taken to lie in the plane z = 0".into());
+    }
     InputRecord {
         role,
         path: provenance.path.clone(),
@@ -55,20 +93,48 @@ pub fn record(
         sha256: None,
         sha256_reason: None,
         unit_assumed: provenance.unit_assumed.name().into(),
+        unit_from: provenance.unit_from.name().into(),
+        table: provenance.table.as_ref().map(table),
         points: 0,
         facets: None,
-        warnings: warnings.iter().map(ToString::to_string).collect(),
+        bounds: None,
+        warnings,
     }
 }
 
+fn table(reading: &TableReading) -> TableRecord {
+    let column = |c: &ColumnTaken| ColumnRecord { axis: c.axis, number: c.number, name: c.name.clone() };
+    TableRecord {
+        separator: reading.separator.into(),
+        decimal_sign: reading.decimal_sign,
+        columns: reading.columns.iter().map(column).collect(),
+        of: reading.of,
+        header_line: reading.header_line,
+        lines_skipped: reading.lines_skipped,
+    }
+}
+
+/// What there is to say about how the inputs were taken, a line each: tables of text, and what was odd.
+pub fn notes(inputs: &[InputRecord]) -> String {
+    let of = |input: &InputRecord| {
+        let reading = input.reading().map(|r| format!("{}: {r}\n", input.path));
+        let warnings = input.warnings.iter().map(|w| format!("! {w}\n"));
+        reading.into_iter().chain(warnings).collect::<String>()
+    };
+    inputs.iter().map(of).collect()
+}
+
 /// Fills in the hash of a file as it lies on disk.
-pub fn hash(record: &mut InputRecord) -> anyhow::Result<()> {
-    if record.path == "-" {
-        record.sha256_reason = Some("read from standard input".into());
+///
+/// The name in the record is for people: bytes in it that are no text are replaced, so the file is found by `path`.
+pub fn hash(record: &mut InputRecord, path: &Path) -> anyhow::Result<()> {
+    if is_stream(path) {
+        let what = if path == Path::new("-") { "standard input" } else { "a pipe or a device" };
+        record.sha256_reason = Some(format!("read from {what}"));
         return Ok(());
     }
-    let digest = trueness_files::sha256(Path::new(&record.path))
-        .with_context(|| format!("{}: it changed or vanished while it was read", record.path))?;
+    let digest = trueness_files::sha256(path)
+        .with_context(|| format!("{}: it changed or vanished while it was read", path.display()))?;
     record.sha256 = Some(digest.iter().map(|b| format!("{b:02x}")).collect());
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! The report that every command can write: its options, and the writing.
 
-use crate::commands::compare::output::whole_file;
+use crate::options::ProgressStyle;
+use crate::output::whole_file;
+use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_inspect::report::{
@@ -72,7 +74,13 @@ fn decimal_sign(sign: &str) -> Result<char, String> {
 
 impl ReportArgs {
     /// Writes the report, if one was asked for.
-    pub fn write(&self, result: Answer, objects: &[ViewObject], marks: &[Marks]) -> anyhow::Result<()> {
+    pub fn write(
+        &self,
+        result: Answer,
+        objects: &[ViewObject],
+        marks: &[Marks],
+        progress: ProgressStyle,
+    ) -> anyhow::Result<()> {
         let Some(path) = &self.html else { return Ok(()) };
         let options = ReportOptions {
             title: self.title.clone(),
@@ -85,10 +93,13 @@ impl ReportArgs {
             up: self.up.into(),
         };
         let input = ReportInput { result, objects, marks, options: &options };
-        whole_file(path, |mut file| match report::write(&input, &mut file) {
-            Ok(_) => Ok(()),
-            Err(ReportError::Write(e)) => Err(e),
-            Err(e) => Err(std::io::Error::other(e)),
-        })
+        let stage = Stage::new(progress, "writing the report", "places", Some(report::work(objects)));
+        let mut page = vec![];
+        report::write(&input, &stage, &mut page).map_err(|e| match e {
+            ReportError::Cancelled(e) => e.into(),
+            e => anyhow::Error::from(e).context(format!("{}: cannot be made", path.display())),
+        })?;
+        drop(stage);
+        Ok(whole_file(path, |file| file.write_all(&page))?)
     }
 }

@@ -16,7 +16,13 @@ impl FromStr for ToleranceArg {
             _ => Err(format!("‘{t}’ is not a number; write 0.1 for ±0.1, or -0.1,+0.2")),
         };
         let (lower, upper) = match text.split_once(',') {
-            Some((lower, upper)) => (number(lower)?, number(upper)?),
+            Some((lower, upper)) => {
+                let limits = (number(lower)?, number(upper)?);
+                if !is_clear(lower, upper) {
+                    return Err(both_readings(text, limits));
+                }
+                limits
+            }
             None => {
                 let t = number(text)?;
                 if t <= 0.0 {
@@ -34,14 +40,66 @@ impl FromStr for ToleranceArg {
     }
 }
 
+/// Whether two limits can be meant in one way only: both have signs, or one has (the other being 0, or the whole no
+/// number with a decimal comma).
+fn is_clear(lower: &str, upper: &str) -> bool {
+    let signed = |t: &str| t.trim().starts_with(['+', '-']);
+    let zero = |t: &str| t.trim() == "0";
+    let decimal_comma = || format!("{lower}.{upper}").trim().parse::<f64>().is_ok();
+    match (signed(lower), signed(upper)) {
+        (true, true) => true,
+        (true, false) => zero(upper) || !decimal_comma(),
+        (false, true) => zero(lower),
+        (false, false) => false,
+    }
+}
+
+/// What a text without signs can mean, each as it should be written.
+fn both_readings(text: &str, (lower, upper): (f64, f64)) -> String {
+    let zone = format!("{lower:+},{upper:+}");
+    let number = text.replacen(',', ".", 1);
+    match number.trim().parse::<f64>() {
+        Ok(t) if t.is_finite() && t != 0.0 => format!(
+            "‘{text}’ can mean two things: write {} for ±{} mm, or {zone} for the zone from {lower} to {upper} mm",
+            t.abs(),
+            t.abs()
+        ),
+        _ => {
+            format!("‘{text}’ is a zone without signs: write {zone} for the zone from {lower} to {upper} mm")
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn reads_both_forms() {
-        for (text, lower, upper) in [("0.1", -0.1, 0.1), ("-0.1,+0.2", -0.1, 0.2), ("0,0.5", 0.0, 0.5)] {
+        for (text, lower, upper) in [
+            ("0.1", -0.1, 0.1),
+            ("-0.1,+0.2", -0.1, 0.2),
+            ("0,+0.5", 0.0, 0.5),
+            ("-0.5,0", -0.5, 0.0),
+            ("-0.2,0.6", -0.2, 0.6),
+            ("+0.1,+0.2", 0.1, 0.2),
+            ("-0.2,-0.1", -0.2, -0.1),
+        ] {
             assert_eq!(text.parse(), Ok(ToleranceArg(Tolerance { lower, upper })), "{text}");
+        }
+    }
+
+    #[test]
+    fn limits_without_signs_are_refused_with_both_readings() {
+        for (text, number, zone) in [
+            ("0,1", "0.1", "+0,+1"),
+            ("0,05", "0.05", "+0,+5"),
+            ("-1,5", "1.5", "-1,+5"),
+            ("0.1,0.2", "", "+0.1,+0.2"),
+        ] {
+            let said = text.parse::<ToleranceArg>().unwrap_err();
+            assert!(said.contains(number) && said.contains(zone), "{text}: {said}");
+            assert!(zone.parse::<ToleranceArg>().is_ok(), "{zone}");
         }
     }
 

@@ -1,10 +1,13 @@
 //! A file that appears whole or not at all.
 
+use crate::{
+    error::{WriteError, WriteFault},
+    temporary::Temporary,
+};
 use std::{
     fs::{self, File, OpenOptions},
     io::{self, BufWriter, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
-    sync::atomic::{AtomicU64, Ordering::Relaxed},
 };
 
 /// Written beside its place under another name, and moved there by [`AtomicFile::commit`]. Dropped before that, it is
@@ -14,10 +17,9 @@ use std::{
 /// replaced. Guards against failure of the program, not of the power supply: nothing is forced onto the disk.
 #[derive(Debug)]
 pub struct AtomicFile {
-    /// Always there but while closing.
-    file: Option<BufWriter<File>>,
+    file: BufWriter<File>,
     /// Where it is written, and where it shall be; `None` for what is written directly.
-    places: Option<(PathBuf, PathBuf)>,
+    places: Option<(Temporary, PathBuf)>,
 }
 
 impl AtomicFile {
@@ -28,30 +30,42 @@ impl AtomicFile {
             Ok(there) if there.is_file() => fs::canonicalize(path)?,
             Ok(_) => {
                 let file = OpenOptions::new().write(true).open(path)?;
-                return Ok(AtomicFile { file: Some(buffered(file)), places: None });
+                return Ok(AtomicFile { file: buffered(file), places: None });
             }
             Err(_) => path.to_path_buf(),
         };
-        let beside = beside(&target)?;
-        let file = OpenOptions::new().read(true).write(true).create_new(true).open(&beside)?;
+        let (file, temporary) = Temporary::beside(&target)?;
         if let Ok(there) = fs::metadata(&target) {
             // Who could read the old file can read the new one.
-            let _ = fs::set_permissions(&beside, there.permissions());
+            let _ = fs::set_permissions(temporary.path(), there.permissions());
         }
-        Ok(AtomicFile { file: Some(buffered(file)), places: Some((beside, target)) })
+        Ok(AtomicFile { file: buffered(file), places: Some((temporary, target)) })
+    }
+
+    /// Finds out whether a file can be made at `path`, before there is anything to write. Nothing stays, and what stands
+    /// there is not touched. Devices and pipes are not opened: that could block, and could end what reads them.
+    ///
+    /// # Errors
+    /// A folder that does not exist or in which nothing can be made; a folder of this name; a file that is protected
+    /// against writing.
+    pub fn try_out(path: &Path) -> Result<(), WriteError> {
+        let there = fs::metadata(path).ok();
+        let refused = |e: io::Error| Err(WriteError::new(path, e));
+        match there {
+            Some(there) if there.is_file() && there.permissions().readonly() => {
+                Err(WriteFault::Protected.in_file(path))
+            }
+            Some(there) if !there.is_file() && !there.is_dir() => Ok(()),
+            _ => AtomicFile::create(path).map(drop).or_else(refused),
+        }
     }
 
     /// Moves the file to its place, replacing what is there.
     pub fn commit(mut self) -> io::Result<()> {
-        if let Some(mut file) = self.file.take() {
-            file.flush()?;
-        }
-        match &self.places {
-            Some((beside, target)) => {
-                fs::rename(beside, target)?;
-                self.places = None;
-                Ok(())
-            }
+        self.file.flush()?;
+        match self.places.take() {
+            // The file stays open, and so locked, until it has its name.
+            Some((temporary, target)) => temporary.rename(&target),
             None => Ok(()),
         }
     }
@@ -59,19 +73,15 @@ impl AtomicFile {
     /// Where everything written so far can be read before the file is in its place; `None` for a device or a pipe.
     pub fn so_far(&mut self) -> io::Result<Option<&Path>> {
         self.flush()?;
-        Ok(self.places.as_ref().map(|(beside, _)| beside.as_path()))
+        Ok(self.places.as_ref().map(|(temporary, _)| temporary.path()))
     }
 
-    /// A free name in the same folder, for what helps to write this file.
-    pub(crate) fn beside(&self) -> io::Result<PathBuf> {
+    /// The file beside which helping files may be made.
+    pub(crate) fn target(&self) -> PathBuf {
         match &self.places {
-            Some((_, target)) => beside(target),
-            None => beside(&std::env::temp_dir().join("trueness")),
+            Some((_, target)) => target.clone(),
+            None => std::env::temp_dir().join("trueness"),
         }
-    }
-
-    fn inner(&mut self) -> io::Result<&mut BufWriter<File>> {
-        self.file.as_mut().ok_or_else(|| io::ErrorKind::BrokenPipe.into())
     }
 }
 
@@ -79,38 +89,18 @@ fn buffered(file: File) -> BufWriter<File> {
     BufWriter::with_capacity(1 << 18, file)
 }
 
-/// A new name in the same folder, so that moving is renaming.
-fn beside(target: &Path) -> io::Result<PathBuf> {
-    static NEXT: AtomicU64 = AtomicU64::new(0);
-    let Some(name) = target.file_name() else { return Err(io::ErrorKind::InvalidInput.into()) };
-    let mut new = std::ffi::OsString::from(".");
-    new.push(name);
-    new.push(format!(".{}-{}.part", std::process::id(), NEXT.fetch_add(1, Relaxed)));
-    Ok(target.with_file_name(new))
-}
-
-impl Drop for AtomicFile {
-    fn drop(&mut self) {
-        if let Some((beside, _)) = &self.places {
-            self.file = None;
-            // Nothing better can be done about a failure here.
-            let _ = fs::remove_file(beside);
-        }
-    }
-}
-
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.inner()?.write(bytes)
+        self.file.write(bytes)
     }
     fn flush(&mut self) -> io::Result<()> {
-        self.inner()?.flush()
+        self.file.flush()
     }
 }
 
 impl Seek for AtomicFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.inner()?.seek(to)
+        self.file.seek(to)
     }
 }
 
@@ -143,6 +133,25 @@ mod tests {
         assert_eq!(AtomicFile::create(folder.path()).unwrap_err().kind(), io::ErrorKind::IsADirectory);
         let missing = folder.path().join("no/such");
         assert_eq!(AtomicFile::create(&missing).unwrap_err().kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn trying_out_changes_nothing() {
+        let folder = Folder::new();
+        let (path, new) = (folder.path().join("old"), folder.path().join("new"));
+        fs::write(&path, "old").unwrap();
+        AtomicFile::try_out(&path).unwrap();
+        AtomicFile::try_out(&new).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        let refused = |path: &Path| AtomicFile::try_out(path).unwrap_err().to_string();
+        assert!(refused(folder.path()).contains("this is a folder"));
+        assert!(refused(&folder.path().join("no/such")).contains("the folder does not exist"));
+        assert!(refused(&path.join("below")).contains("is not a folder"));
+        let mut locked = fs::metadata(&path).unwrap().permissions();
+        locked.set_readonly(true);
+        fs::set_permissions(&path, locked).unwrap();
+        assert!(refused(&path).contains("protected against writing"));
     }
 
     #[cfg(target_os = "linux")]

@@ -26,8 +26,62 @@ pub struct Provenance {
     pub gzip: bool,
     /// The unit in which its numbers were taken.
     pub unit_assumed: Unit,
+    /// Where the unit comes from.
+    pub unit_from: UnitFrom,
     /// True if the points have two coordinates only; their z is 0.
     pub planar: bool,
+    /// What was taken for what in a table of text; `None` for other files.
+    pub table: Option<TableReading>,
+}
+
+/// Where the unit of a file's numbers comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitFrom {
+    /// [`ReadOptions::units`](crate::ReadOptions::units).
+    Option,
+    /// The names of the columns.
+    Header,
+    /// Nowhere: millimetres are assumed.
+    Assumed,
+}
+
+impl UnitFrom {
+    /// `option`, `header` or `assumed`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            UnitFrom::Option => "option",
+            UnitFrom::Header => "header",
+            UnitFrom::Assumed => "assumed",
+        }
+    }
+}
+
+/// What was taken for what in a table of text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableReading {
+    /// What parts the columns: `semicolons`, `tabs`, `commas` or `blanks`.
+    pub separator: &'static str,
+    /// `.` or `,`.
+    pub decimal_sign: char,
+    /// The columns of x, y and, except for points in the plane, z.
+    pub columns: Vec<ColumnTaken>,
+    /// How many columns there are.
+    pub of: usize,
+    /// The line whose names were used, counted from 1.
+    pub header_line: Option<u64>,
+    /// Lines before the first row, the header among them.
+    pub lines_skipped: u64,
+}
+
+/// A column that was taken for a coordinate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColumnTaken {
+    /// `x`, `y` or `z`.
+    pub axis: char,
+    /// Its number, counted from 1.
+    pub number: usize,
+    /// Its name in the header.
+    pub name: Option<String>,
 }
 
 /// The points of a file, block by block, in the file's order, millimetres.

@@ -48,6 +48,9 @@ pub enum Fault {
     /// Recognised, but of a kind that is not read here.
     #[error("this is {0}, which is not read here")]
     Foreign(&'static str),
+    /// The format named is only written.
+    #[error("files of the format {0} are written, but not read")]
+    NotRead(&'static str),
     /// No reader knows it.
     #[error("neither a mesh nor points in any known format")]
     Unknown,
@@ -112,6 +115,76 @@ pub enum Fault {
         /// What to do instead.
         remedy: &'static str,
     },
+    /// Columns were asked for in a file that has none.
+    #[error("columns were named, but this is {0}, which is no table")]
+    NoTable(&'static str),
+    /// Vertices are to be joined over a distance that no two of them exceed.
+    #[error("all its vertices lie within {distance} mm of one another: it is only {size} mm long")]
+    WeldTooFar {
+        /// The distance asked for, millimetres.
+        distance: f64,
+        /// Diagonal of the box of the vertices, millimetres.
+        size: f64,
+    },
+    /// A cell of a table is not what the table needs there.
+    #[error("column {column}{}: expected {expected}, found {found}", named(.name))]
+    Cell {
+        /// Number of the column, counted from 1.
+        column: usize,
+        /// What it is: its name in the header, else the coordinate; empty where neither is known.
+        name: String,
+        /// What the table needs.
+        expected: Cow<'static, str>,
+        /// What is there, shortened.
+        found: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The file can be taken in more than one way, and nothing says which is meant.
+    #[error("{what}")]
+    Unclear {
+        /// What is unclear.
+        what: String,
+        /// How to say it.
+        remedy: &'static str,
+    },
+    /// More content than announced.
+    #[error("{declared} {what} announced, {present} there")]
+    Surplus {
+        /// What is counted.
+        what: &'static str,
+        /// As many as the file says.
+        declared: u64,
+        /// As many as there are.
+        present: u64,
+    },
+    /// Bytes behind all that the header declares.
+    #[error("{count} bytes follow the {declared} {what} that the header declares")]
+    Trailing {
+        /// How many.
+        count: u64,
+        /// What is counted.
+        what: &'static str,
+        /// As many as the header says.
+        declared: u64,
+    },
+    /// Zero bytes in a text.
+    #[error("zero bytes within text: the file was not written to its end, or it is no text")]
+    Zeros,
+    /// The file became shorter while it was read.
+    #[error("the file became shorter while it was read: {length} bytes at first, then {now}")]
+    Shrunk {
+        /// Its length when it was opened.
+        length: u64,
+        /// Its length now.
+        now: u64,
+    },
+    /// The file is needed as a whole, and there is no memory for that.
+    #[error("{} MB of memory are needed to read it", bytes.div_ceil(1_000_000))]
+    Memory {
+        /// Bytes asked for.
+        bytes: u64,
+    },
     /// The columns asked for are not in the file.
     #[error("no column {wanted}; there are {there}")]
     NoColumn {
@@ -123,6 +196,10 @@ pub enum Fault {
 }
 
 impl Fault {
+    /// Whether the question was wrong, not the file: an option does not fit it.
+    pub fn is_wrong_usage(&self) -> bool {
+        matches!(self, Fault::NoTable(_) | Fault::WeldTooFar { .. } | Fault::NotRead(_))
+    }
     /// What the user can do about it.
     pub fn remedy(&self) -> &'static str {
         match self {
@@ -133,8 +210,9 @@ impl Fault {
             Fault::Foreign(_) => {
                 "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
             }
+            Fault::NotRead(_) => "name another format",
             Fault::Unknown => {
-                "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format"
+                "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format by --format"
             }
             Fault::Unexpected { .. } => "mend this place or export the file again",
             Fault::Short { .. } => "copy or export the file again",
@@ -146,7 +224,15 @@ impl Fault {
             Fault::Bomb { .. } => "if it is trustworthy, unpack it first",
             Fault::Gzip(_) => "copy the file again or unpack it first",
             Fault::Unsupported { .. } => "export it in another way",
+            Fault::NoTable(_) => "leave --columns out",
+            Fault::WeldTooFar { .. } => "give --weld a smaller distance, or the right unit to --units",
             Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
+            Fault::Cell { remedy, .. } | Fault::Unclear { remedy, .. } => remedy,
+            Fault::Surplus { .. } => "correct the number or export the file again",
+            Fault::Trailing { .. } => "save the data again, one array or model in a file",
+            Fault::Zeros => "export or copy the file again",
+            Fault::Shrunk { .. } => "wait until the other program has written it, and try again",
+            Fault::Memory { .. } => "divide the file into parts, or use a machine with more memory",
         }
     }
     pub(crate) fn at(self, place: Place) -> Located {
@@ -164,8 +250,13 @@ impl Fault {
     }
 }
 
+/// A name in brackets, unless it is empty.
+fn named(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!(" ({name})") }
+}
+
 /// The first bytes of something, as it can be shown in a message.
-fn quoted(found: &[u8]) -> String {
+pub(crate) fn quoted(found: &[u8]) -> String {
     const SHOWN: usize = 40;
     let found = found.trim_ascii();
     if found.is_empty() {
@@ -223,6 +314,9 @@ pub enum WriteFault {
     /// The system refused; on a full disk, [`io::ErrorKind::StorageFull`].
     #[error("{}", advice(.0))]
     Io(#[from] io::Error),
+    /// Someone meant it to stay as it is.
+    #[error("it is protected against writing: choose another name, or lift the protection")]
+    Protected,
     /// No writer goes by this file's extension.
     #[error("{what} cannot be written under this name; end it in one of {known}")]
     UnknownFormat {
@@ -262,7 +356,18 @@ pub enum WriteFault {
     },
 }
 
+impl WriteError {
+    /// What the system said about writing to `path`.
+    pub fn new(path: &Path, error: io::Error) -> WriteError {
+        WriteFault::from(error).in_file(path)
+    }
+}
+
 impl WriteFault {
+    /// Whether the question was wrong, not the answer: another name must be given.
+    pub fn is_wrong_usage(&self) -> bool {
+        matches!(self, WriteFault::UnknownFormat { .. })
+    }
     pub(crate) fn in_file(self, path: &Path) -> WriteError {
         WriteError { file: path.display().to_string(), fault: self }
     }
@@ -277,6 +382,11 @@ fn advice(e: &io::Error) -> String {
         io::ErrorKind::NotFound => "the folder does not exist: make it first".into(),
         io::ErrorKind::PermissionDenied => "not permitted: choose another place".into(),
         io::ErrorKind::IsADirectory => "this is a folder: name a file in it".into(),
+        io::ErrorKind::NotADirectory => {
+            "what should be its folder is not a folder: choose another place".into()
+        }
+        io::ErrorKind::ReadOnlyFilesystem => "nothing can be written there: choose another place".into(),
+        io::ErrorKind::InvalidFilename => "no file can have this name: choose a shorter one".into(),
         _ => e.to_string(),
     }
 }

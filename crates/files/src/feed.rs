@@ -1,37 +1,53 @@
-//! Bytes of a file as a window that moves over it: the same for a mapped file and for a stream.
+//! Bytes of a file as a window that moves over it: the same for a file, a pipe and bytes in memory.
 //!
-//! Readers of points ask for so many bytes ahead, use them and step over them. A mapped file gives its own pages
-//! and drops those stepped over, a stream keeps one buffer: either way memory stays bounded by the window.
+//! Readers of points ask for so many bytes ahead, use them and step over them: memory stays bounded by the window.
+//! Files are read, not mapped: should another process shorten a mapped file while it is read, the system would end the
+//! program without a word. A read that meets the end too early is an error like any other. What mapping saves, a copy
+//! within memory, is a small part of the time that parsing takes.
 
 use crate::error::{Fault, Result};
-use memmap2::Mmap;
-use std::io::{ErrorKind, Read};
+use std::{
+    fs::File,
+    io::{ErrorKind, Read, Seek, SeekFrom},
+};
 
 /// Bytes not yet stepped over.
 pub(crate) struct Feed {
     kind: Kind,
+    /// Bytes read and not yet stepped over are `buffer[at..]`.
+    buffer: Vec<u8>,
+    at: usize,
     /// Bytes stepped over.
     position: u64,
 }
 
 enum Kind {
-    Mapped { map: Mmap, at: usize },
-    Owned { bytes: Vec<u8>, at: usize },
-    Stream { reader: Box<dyn Read + Send>, buffer: Vec<u8>, at: usize, ended: bool },
+    /// A file of this length when it was opened.
+    File { file: File, length: u64 },
+    /// Nothing but what lies in the buffer.
+    Memory,
+    /// Anything whose length shows only at its end.
+    Stream { reader: Box<dyn Read + Send>, ended: bool },
 }
 
-/// Least number of bytes asked of a stream at a time.
+/// Least number of bytes read at a time.
 const READ: usize = 1 << 18;
+/// Bytes read at a time of a file that is wanted whole: memory grows with what is there.
+const SLICE: u64 = 64 << 20;
 
 impl Feed {
-    pub fn mapped(map: Mmap) -> Feed {
-        Feed { kind: Kind::Mapped { map, at: 0 }, position: 0 }
+    /// A regular file, from its start.
+    pub fn file(file: File, length: u64) -> Feed {
+        Feed::of(Kind::File { file, length }, vec![])
     }
-    pub fn owned(bytes: Vec<u8>) -> Feed {
-        Feed { kind: Kind::Owned { bytes, at: 0 }, position: 0 }
+    pub fn memory(bytes: Vec<u8>) -> Feed {
+        Feed::of(Kind::Memory, bytes)
     }
     pub fn stream(reader: Box<dyn Read + Send>) -> Feed {
-        Feed { kind: Kind::Stream { reader, buffer: vec![], at: 0, ended: false }, position: 0 }
+        Feed::of(Kind::Stream { reader, ended: false }, vec![])
+    }
+    fn of(kind: Kind, buffer: Vec<u8>) -> Feed {
+        Feed { kind, buffer, at: 0, position: 0 }
     }
 
     /// Bytes stepped over so far.
@@ -41,27 +57,29 @@ impl Feed {
 
     /// How many bytes are left, where that is known without reading them.
     pub fn left(&self) -> Option<u64> {
+        let buffered = (self.buffer.len() - self.at) as u64;
         match &self.kind {
-            Kind::Mapped { map, at } => Some((map.len() - at) as u64),
-            Kind::Owned { bytes, at } => Some((bytes.len() - at) as u64),
-            Kind::Stream { buffer, at, ended, .. } => ended.then(|| (buffer.len() - at) as u64),
+            Kind::File { length, .. } => Some(length - self.position),
+            Kind::Stream { ended: false, .. } => None,
+            _ => Some(buffered),
         }
     }
 
     /// The next bytes: at least `want` of them, fewer only if the file ends before; possibly many more.
     pub fn ahead(&mut self, want: usize) -> Result<&[u8]> {
-        match &mut self.kind {
-            Kind::Mapped { map, at } => Ok(&map[*at..]),
-            Kind::Owned { bytes, at } => Ok(&bytes[*at..]),
-            Kind::Stream { reader, buffer, at, ended } => {
-                if buffer.len() - *at < want && !*ended {
-                    buffer.drain(..*at);
-                    *at = 0;
-                    *ended = fill(reader.as_mut(), buffer, want)?;
-                }
-                Ok(&buffer[*at..])
+        if self.buffer.len() - self.at < want {
+            let more = match &self.kind {
+                Kind::File { length, .. } => *length > self.position + (self.buffer.len() - self.at) as u64,
+                Kind::Memory => false,
+                Kind::Stream { ended, .. } => !ended,
+            };
+            if more {
+                self.buffer.drain(..self.at);
+                self.at = 0;
+                self.fill(want)?;
             }
         }
+        Ok(&self.buffer[self.at..])
     }
 
     /// All bytes that are left.
@@ -71,65 +89,155 @@ impl Feed {
 
     /// Steps over `count` bytes, which must have been seen by [`Feed::ahead`].
     pub fn step(&mut self, count: usize) {
-        match &mut self.kind {
-            Kind::Mapped { map, at } => {
-                let from = *at;
-                *at = (*at + count).min(map.len());
-                forget(map, from, *at);
-            }
-            Kind::Owned { bytes, at } => *at = (*at + count).min(bytes.len()),
-            Kind::Stream { buffer, at, .. } => *at = (*at + count).min(buffer.len()),
-        }
+        let count = count.min(self.buffer.len() - self.at);
+        self.at += count;
         self.position += count as u64;
     }
-}
 
-/// Reads until `buffer` holds `want` bytes. True if the end was met.
-fn fill(reader: &mut dyn Read, buffer: &mut Vec<u8>, want: usize) -> Result<bool> {
-    while buffer.len() < want {
-        let old = buffer.len();
-        // The buffer grows with what was really read, never to what some header promises.
-        let more = READ.max(old / 2).min(want - old).max(READ);
-        buffer.resize(old + more, 0);
-        let got = match reader.read(&mut buffer[old..]) {
-            Ok(n) => n,
-            Err(e) if e.kind() == ErrorKind::Interrupted => {
-                buffer.truncate(old);
-                continue;
+    /// Fills `out` with the bytes from `from` on, counted from where the feed stands. A file is asked for no others.
+    pub fn copy(&mut self, from: u64, out: &mut [u8]) -> Result<()> {
+        let start = self.position + from;
+        if let Kind::File { file, length } = &mut self.kind {
+            file.seek(SeekFrom::Start(start))?;
+            return file.read_exact(out).map_err(|e| match e.kind() {
+                ErrorKind::UnexpectedEof => shrunk(file, *length).into(),
+                _ => e.into(),
+            });
+        }
+        let all = self.all()?;
+        let part = usize::try_from(from).ok().and_then(|from| all.get(from..)?.get(..out.len()));
+        out.copy_from_slice(part.ok_or_else(|| Fault::Io(ErrorKind::UnexpectedEof.into()))?);
+        Ok(())
+    }
+
+    /// Reads until the buffer, of which nothing is stepped over, holds `want` bytes or the end is met.
+    fn fill(&mut self, want: usize) -> Result<()> {
+        let (buffer, position) = (&mut self.buffer, self.position);
+        match &mut self.kind {
+            Kind::Memory => Ok(()),
+            Kind::File { file, length } => {
+                let want = (want.max(READ) as u64).min(*length - position);
+                file.seek(SeekFrom::Start(position + buffer.len() as u64))?;
+                reserve(buffer, want)?;
+                while (buffer.len() as u64) < want {
+                    let most = (want - buffer.len() as u64).min(SLICE);
+                    let got = file.by_ref().take(most).read_to_end(buffer)?;
+                    if (got as u64) < most {
+                        return Err(shrunk(file, *length).into());
+                    }
+                }
+                Ok(())
             }
-            Err(e) => {
-                buffer.truncate(old);
-                return Err(crate::gzip::fault(e).into());
+            Kind::Stream { reader, ended } => {
+                while buffer.len() < want {
+                    // The buffer grows with what was really read, never to what some header promises.
+                    let more = READ.max(buffer.len() / 2).min(want - buffer.len()).max(READ) as u64;
+                    let got = reader.by_ref().take(more).read_to_end(buffer).map_err(crate::gzip::fault)?;
+                    if (got as u64) < more {
+                        *ended = true;
+                        break;
+                    }
+                }
+                Ok(())
             }
-        };
-        buffer.truncate(old + got);
-        if got == 0 {
-            return Ok(true);
         }
     }
-    Ok(false)
 }
 
-/// Takes the pages of a range out of memory, so that what has been read does not count as ours any longer.
-#[cfg(unix)]
-#[expect(
-    unsafe_code,
-    reason = "dropping pages of a map is unsafe in general, and harmless for an unchanged file"
-)]
-fn forget(map: &Mmap, from: usize, to: usize) {
-    const LARGE: usize = 1 << 21;
-    let (from, to) = (from / LARGE * LARGE, to / LARGE * LARGE);
-    if to > from {
-        // SAFETY: the map is shared, of a file, and never written to: a page dropped is read again from the file.
-        // An error only means that the pages stay.
-        let _ = unsafe { map.unchecked_advise_range(memmap2::UncheckedAdvice::DontNeed, from, to - from) };
-    }
+/// Makes room for `want` bytes in all, or says how much memory is missing instead of ending the program.
+fn reserve(buffer: &mut Vec<u8>, want: u64) -> Result<()> {
+    let room = usize::try_from(want).map(|want| want.saturating_sub(buffer.len()));
+    let reserved = room.ok().and_then(|room| buffer.try_reserve_exact(room).ok());
+    reserved.ok_or_else(|| Fault::Memory { bytes: want }.into())
 }
 
-#[cfg(not(unix))]
-fn forget(_: &Mmap, _: usize, _: usize) {}
+/// The file ended before the length it had when it was opened.
+fn shrunk(file: &File, length: u64) -> Fault {
+    Fault::Shrunk { length, now: file.metadata().map_or(0, |about| about.len()) }
+}
 
 /// What is left of a feed, for readers that need a file as a whole.
 pub(crate) fn not_empty(bytes: &[u8]) -> Result<()> {
     if bytes.is_empty() { Err(Fault::Empty.into()) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of `length` bytes, each its place modulo 251, and a feed of it.
+    fn file(name: &str, length: usize) -> (crate::write::scratch::Folder, std::path::PathBuf, Feed) {
+        let folder = crate::write::scratch::Folder::new();
+        let path = folder.path().join(name);
+        let bytes: Vec<u8> = (0..length).map(|i| (i % 251) as u8).collect();
+        std::fs::write(&path, bytes).unwrap();
+        let feed = Feed::file(File::open(&path).unwrap(), length as u64);
+        (folder, path, feed)
+    }
+
+    #[test]
+    fn windows_of_every_size_give_the_same_bytes() {
+        let length = 600_000;
+        let (_folder, path, mut of_file) = file("a", length);
+        let bytes = std::fs::read(&path).unwrap();
+        let mut of_memory = Feed::memory(bytes.clone());
+        let mut of_stream = Feed::stream(Box::new(std::io::Cursor::new(bytes.clone())));
+        assert_eq!(
+            (of_file.left(), of_memory.left(), of_stream.left()),
+            (Some(600_000), Some(600_000), None)
+        );
+        for feed in [&mut of_file, &mut of_memory, &mut of_stream] {
+            let (mut at, mut want) = (0, 1);
+            while at < length {
+                let there = feed.ahead(want).unwrap();
+                assert!(there.len() >= want.min(length - at));
+                assert_eq!(there, &bytes[at..at + there.len()]);
+                let step = (want / 2 + 1).min(length - at);
+                feed.step(step);
+                at += step;
+                assert_eq!(feed.position(), at as u64);
+                want = want % 300_000 + 7919;
+            }
+            assert!(feed.all().unwrap().is_empty());
+            assert_eq!(feed.left(), Some(0));
+        }
+    }
+
+    #[test]
+    fn any_place_of_a_file_can_be_copied() {
+        let (_folder, path, mut of_file) = file("a", 1000);
+        let mut of_memory = Feed::memory(std::fs::read(&path).unwrap());
+        for feed in [&mut of_file, &mut of_memory] {
+            feed.ahead(20).unwrap();
+            feed.step(10);
+            let mut out = [0; 4];
+            feed.copy(300, &mut out).unwrap();
+            assert_eq!(out, [59, 60, 61, 62]);
+            assert_eq!(feed.ahead(3).unwrap()[..3], [10, 11, 12]);
+            assert!(feed.copy(987, &mut out).is_err());
+        }
+    }
+
+    #[test]
+    fn a_file_that_shrinks_is_an_error_that_says_so() {
+        let (_folder, path, mut feed) = file("a", 1 << 20);
+        feed.ahead(1000).unwrap();
+        let writer = std::fs::OpenOptions::new().write(true).open(&path).unwrap();
+        writer.set_len(1 << 19).unwrap();
+        assert!(feed.ahead(1 << 18).is_ok());
+        let said = feed.all().unwrap_err().fault.to_string();
+        assert!(said.contains("1048576") && said.contains("524288"), "{said}");
+        let said = feed.copy(1 << 19, &mut [0; 8]).unwrap_err().fault.to_string();
+        assert!(said.contains("524288"), "{said}");
+    }
+
+    #[test]
+    fn more_memory_than_there_can_be_is_an_error() {
+        // A hole takes no room on the disk.
+        let (_folder, path, _) = file("a", 10);
+        let length = 1 << 62;
+        let mut feed = Feed::file(File::open(&path).unwrap(), length);
+        let said = feed.all().unwrap_err().fault;
+        assert!(matches!(said, Fault::Memory { bytes } if bytes == length), "{said}");
+    }
 }

@@ -3,8 +3,8 @@
 //! A new format is one file in `formats/` and one line in [`FORMATS`]. Its manual is its page in the handbook.
 
 use crate::{
-    Warning,
-    content::SourceMesh,
+    Unit, Warning,
+    content::{SourceMesh, TableReading},
     error::{Located, Result},
     formats,
     open::ReadOptions,
@@ -60,6 +60,10 @@ impl Format {
     pub fn reads(&self) -> bool {
         self.read.is_some()
     }
+    /// Whether it is a table, whose columns can be chosen.
+    pub fn has_columns(&self) -> bool {
+        *self == formats::table::TABLE || *self == formats::npy::NPY
+    }
     /// Whether points, with deviations or without, can be written.
     pub fn writes_points(&self) -> bool {
         self.points.is_some()
@@ -96,6 +100,10 @@ pub(crate) struct Parsed {
     pub content: Parts,
     /// Points in the plane.
     pub planar: bool,
+    /// What was taken for what, in a table of text.
+    pub table: Option<TableReading>,
+    /// The unit that the file gives itself.
+    pub unit: Option<Unit>,
     pub warnings: Vec<Warning>,
 }
 
@@ -106,17 +114,20 @@ pub(crate) enum Parts {
 }
 
 impl Parsed {
+    fn of(variant: &'static str, content: Parts, warnings: Vec<Warning>) -> Parsed {
+        Parsed { variant, content, planar: false, table: None, unit: None, warnings }
+    }
     pub fn mesh(variant: &'static str, mesh: SourceMesh, mut warnings: Vec<Warning>) -> Parsed {
         if mesh.mesh.faces.is_empty() && mesh.nonfinite_facets == 0 {
             warnings.push(Warning::Nothing);
         }
-        Parsed { variant, content: Parts::Mesh(mesh), planar: false, warnings }
+        Parsed::of(variant, Parts::Mesh(mesh), warnings)
     }
     pub fn points(
         variant: &'static str,
         points: impl PointStream<Error = Located> + Send + 'static,
     ) -> Parsed {
-        Parsed { variant, content: Parts::Points(Box::new(points)), planar: false, warnings: vec![] }
+        Parsed::of(variant, Parts::Points(Box::new(points)), vec![])
     }
     /// Points that have been read already.
     pub fn cloud(variant: &'static str, points: Vec<Point>) -> Parsed {

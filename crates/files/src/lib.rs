@@ -3,11 +3,12 @@
 //! | task | where |
 //! |---|---|
 //! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
-//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`Warning`] |
+//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
+//! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
 //! | the hash of a file | [`sha256`] |
 //!
 //! Readers take their input for hostile: a count in a header is compared with the bytes that are there before
@@ -18,6 +19,7 @@ mod atomic_file;
 mod columns;
 mod content;
 mod detect;
+pub mod drawing;
 mod error;
 mod feed;
 mod format;
@@ -31,6 +33,7 @@ mod polygon;
 
 mod scalar;
 mod source;
+mod temporary;
 mod unicode;
 mod unit;
 mod warning;
@@ -38,10 +41,11 @@ pub mod write;
 
 pub use atomic_file::AtomicFile;
 pub use columns::{Column, Columns, ColumnsError};
-pub use content::{Body, Input, PointSource, Provenance, SourceMesh};
+pub use content::{Body, ColumnTaken, Input, PointSource, Provenance, SourceMesh, TableReading, UnitFrom};
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{FORMATS, Format};
 pub use hash::sha256;
 pub use open::{ReadOptions, Weld, open};
+pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
 pub use warning::Warning;

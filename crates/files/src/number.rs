@@ -49,9 +49,13 @@ fn digit(text: &[u8], at: usize) -> Option<u64> {
     (d < 10).then_some(u64::from(d))
 }
 
-/// Any number, with an exponent behind `e` or, as Fortran writes it, `d`.
+/// Any number, with an exponent behind `e` or, as Fortran writes it, `d`; its sign may be U+2212, the minus of typesetting.
 #[cold]
 fn general(text: &[u8], point: u8) -> Option<(f64, usize)> {
+    if let Some(rest) = text.strip_prefix("\u{2212}".as_bytes()) {
+        let starts = rest.first().is_some_and(|b| b.is_ascii_digit() || *b == point);
+        return number(rest, point).filter(|_| starts).map(|(x, n)| (-x, n + text.len() - rest.len()));
+    }
     let word = text
         .iter()
         .position(|b| !matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b',' | b'a'..=b'z' | b'A'..=b'Z'));
@@ -137,8 +141,9 @@ mod tests {
         assert_eq!(number(b"1.5,2.5", b'.'), Some((1.5, 3)));
         assert_eq!(number(b"1,5;2,5", b','), Some((1.5, 3)));
         assert_eq!(number(b"1.25D+02 ", b'.'), Some((125.0, 8)));
+        assert_eq!(number("\u{2212}1,25E1;".as_bytes(), b','), Some((-12.5, 9)));
         assert_eq!(number(b"-0 ", b'.').map(|n| n.0.to_bits()), Some((-0.0f64).to_bits()));
-        for bad in ["", "-", ".", "x", "+-1", "-,5"] {
+        for bad in ["", "-", ".", "x", "+-1", "-,5", "\u{2212}", "\u{2212}-1", "\u{2212}nan", "\u{2013}1"] {
             assert_eq!(number(bad.as_bytes(), b'.'), None, "{bad}");
         }
         assert!(number(b"nan", b'.').is_some_and(|n| n.0.is_nan()));

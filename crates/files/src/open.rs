@@ -1,20 +1,23 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Columns, Input, Provenance, ReadError, SourceMesh, Unit, assemble, detect,
+    Body, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
     error::Located,
     format::{Format, Once, Parts},
     source::Source,
 };
 use std::path::Path;
-use trueness_geom::{cloud::PointStream, space::Point};
+use trueness_geom::{
+    cloud::PointStream,
+    space::{Aabb, Point},
+};
 
 /// What a file does not say itself.
 #[derive(Clone, Debug)]
 pub struct ReadOptions {
-    /// The unit of its numbers; millimetres are assumed otherwise.
+    /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
     pub units: Option<Unit>,
-    /// Columns of x, y, z in a table; found out otherwise. Other formats pay no heed to it.
+    /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
     pub columns: Option<Columns>,
     /// Its format; found out otherwise.
     pub format: Option<&'static Format>,
@@ -64,14 +67,26 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
         Some(format) => format,
         None => detect::format(&mut source, path)?,
     };
-    let Some(reader) = format.read else { return Err(crate::Fault::Foreign(format.name).into()) };
-    let unit = options.units.unwrap_or_default();
+    let Some(reader) = format.read else { return Err(Fault::NotRead(format.name).into()) };
+    if options.columns.is_some() && !format.has_columns() {
+        return Err(Fault::NoTable(format.name).into());
+    }
     let (bytes, gzip) = (source.bytes, source.gzip);
     let mut parsed = reader(source, options)?;
+    let (unit, unit_from) = match (options.units, parsed.unit) {
+        (Some(asked), _) => (asked, UnitFrom::Option),
+        (None, Some(said)) => (said, UnitFrom::Header),
+        (None, None) => (Unit::default(), UnitFrom::Assumed),
+    };
     let body = match parsed.content {
         Parts::Mesh(mut mesh) => {
             unit.apply(&mut mesh.mesh.positions);
             if let Weld::Within(distance) = options.weld {
+                let size = Aabb::of(&mesh.mesh.positions).diagonal();
+                // A mesh of one place has nothing that could be lost.
+                if size > 0.0 && distance >= size {
+                    return Err(Fault::WeldTooFar { distance, size }.into());
+                }
                 mesh.mesh = assemble::within(&mesh.mesh, distance, &mut parsed.warnings)?;
             }
             Body::Mesh(mesh)
@@ -84,7 +99,9 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
         bytes,
         gzip,
         unit_assumed: unit,
+        unit_from,
         planar: parsed.planar,
+        table: parsed.table,
     };
     Ok(Input { provenance, body, warnings: parsed.warnings })
 }

@@ -1,4 +1,4 @@
-//! Where bytes come from: a file, mapped where possible, or standard input; unpacked if need be.
+//! Where bytes come from: a file or standard input; unpacked and turned into UTF-8 if need be.
 
 use crate::{
     error::{Fault, Result},
@@ -33,7 +33,7 @@ impl Source {
         if about.is_dir() {
             return Err(Fault::Foreign("a folder").into());
         }
-        // Pipes and devices have no size and cannot be mapped.
+        // Pipes and devices do not say how long they are.
         if !about.is_file() {
             return Source { feed: Feed::stream(Box::new(file)), bytes: 0, gzip: false }.unpacked();
         }
@@ -48,11 +48,7 @@ impl Source {
         if bytes == 0 {
             return Err(Fault::Empty.into());
         }
-        let feed = match map(&file) {
-            Ok(map) => Feed::mapped(map),
-            // Some file systems cannot map.
-            Err(_) => Feed::stream(Box::new(File::open(path)?)),
-        };
+        let feed = Feed::file(file, bytes);
         Source { feed, bytes, gzip: false }.recoded()
     }
 
@@ -70,19 +66,12 @@ impl Source {
     fn recoded(mut self) -> Result<Source> {
         let head = self.feed.ahead(HEAD)?;
         crate::feed::not_empty(head)?;
-        if let Some(order) = unicode::utf16(head) {
-            let text = unicode::to_utf8(self.feed.all()?, order);
-            self.feed = Feed::owned(text);
+        if let Some(code) = unicode::utf16(head) {
+            let text = unicode::to_utf8(self.feed.all()?, code)?;
+            self.feed = Feed::memory(text);
         }
         Ok(self)
     }
-}
-
-#[expect(unsafe_code, reason = "mapping a file is unsafe: another process might shorten it meanwhile")]
-fn map(file: &File) -> io::Result<memmap2::Mmap> {
-    // SAFETY: the map is only read, as bytes, of which any pattern is valid. Should another process shorten the file
-    // while it is read, the system ends the program: as for every mapped file.
-    unsafe { memmap2::Mmap::map(file) }
 }
 
 /// A feed read as a stream, below the unpacking.

@@ -1,5 +1,6 @@
 //! What was odd about a file that could still be read.
 
+use crate::Unit;
 use std::fmt;
 
 /// An oddity that did not keep a file from being read. Its text says what was done about it.
@@ -55,14 +56,31 @@ pub enum Warning {
     },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
-    /// The numbers of a row may have been meant with decimal commas.
-    PerhapsDecimalCommas,
-    /// The columns were chosen by guess: no header names them and there are more than three.
-    ColumnsGuessed {
-        /// The three columns, counted from 1.
-        taken: [usize; 3],
-        /// How many there are.
-        of: usize,
+    /// The header names neither x nor y nor z; the columns of numbers were taken in their order.
+    NamesUnknown {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// What stands in brackets behind a name is no unit.
+    NoUnit {
+        /// The name.
+        name: String,
+    },
+    /// The header gives a unit, and the user another one, which was taken.
+    UnitOverruled {
+        /// That of the header.
+        header: Unit,
+        /// That which was taken.
+        asked: Unit,
+    },
+    /// Lines of a header that say nothing known were passed over.
+    HeaderLines {
+        /// How many.
+        count: u64,
+        /// The number of the first, counted from 1.
+        line: u64,
+        /// What it says, shortened.
+        text: String,
     },
 }
 
@@ -94,12 +112,22 @@ impl fmt::Display for Warning {
             Warning::RunningNumber => {
                 write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
             }
-            Warning::PerhapsDecimalCommas => write!(
-                f,
-                "the commas were taken as separators; if they are decimal commas, separate the columns by semicolons or blanks"
-            ),
-            Warning::ColumnsGuessed { taken: [x, y, z], of } => {
-                write!(f, "columns {x}, {y}, {z} of {of} were taken as x, y, z")
+            Warning::NamesUnknown { names } => {
+                write!(
+                    f,
+                    "the header names no coordinate; {} were taken as x, y, z in this order",
+                    names.join(", ")
+                )
+            }
+            Warning::NoUnit { name } => {
+                write!(f, "the name \"{name}\" gives no unit that is known")
+            }
+            Warning::UnitOverruled { header, asked } => {
+                write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
+            }
+            Warning::HeaderLines { count, line, text } => {
+                let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+                write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")
             }
         }
     }

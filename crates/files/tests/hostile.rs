@@ -21,6 +21,10 @@ fn sound_files() -> Vec<(String, Vec<u8>)> {
         ("integers.npy".into(), npy(3, "<i2", false)),
         ("named.csv".into(), b"z;y;x\r\n1,5;2;3\r\n4;5,25;-6\r\n".to_vec()),
         ("scan.pts".into(), b"3\n0 0 0 12 255 0 0\n1 0 0 13 255 0 0\n0 1e-1 0 14 255 0 0\n".to_vec()),
+        (
+            "thick.csv".into(),
+            b"Nr;\"X [in]\";Y [in];Z [in];note\n1;\"1,5\";2;3;\"a;b\"\n2;4;5,25;-6;\n;;;;\n".to_vec(),
+        ),
         ("plane.xyz".into(), b"# x y\n1.5 2.5\n3.5\t4.5\n\n5 6 \n".to_vec()),
     ]);
     let packed: Vec<(String, Vec<u8>)> =
@@ -96,7 +100,7 @@ fn changed_bytes() {
 #[test]
 fn what_is_broken_here_is_sound_before() {
     let folder = Folder::new();
-    let made = sound_files().into_iter().filter(|(name, _)| !name.ends_with(".gz")).rev().take(6);
+    let made = sound_files().into_iter().filter(|(name, _)| !name.ends_with(".gz")).rev().take(7);
     for (name, bytes) in made {
         let whole = read(&folder.file(&name, &bytes)).unwrap_or_else(|e| panic!("{e}"));
         assert!(whole.points.len() >= 2, "{name}");

@@ -14,11 +14,15 @@
 //! | lines, planes, cylinders …: parameters, distances | [`shape`] |
 //! | elements fitted to points | [`fit`] |
 //! | all defects of a mesh | [`check`] |
+//! | meshes cut where facets meet, unions of shells | [`arrange`] |
+//! | lines, arcs and curves of a section, and their joins | [`section`] |
+//! | B-splines and NURBS | [`spline`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod arrange;
 pub mod check;
 pub mod closest;
 pub mod cloud;
@@ -30,10 +34,12 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
+pub mod section;
 pub mod segment;
 pub mod shape;
 pub mod simd;
 pub mod space;
 pub mod spatial;
+pub mod spline;
 pub mod stats;
 pub mod topology;

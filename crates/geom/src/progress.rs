@@ -6,11 +6,15 @@ pub trait Progress: Sync {
     fn advance(&self, items: u64) {
         let _ = items;
     }
-    /// True if the result is no longer wanted. Asked often; the computation then returns its `Cancelled` error soon.
+    /// True if the result is no longer wanted. Asked often; the computation then returns its `Cancelled` error soon. Once
+    /// true it must stay so: loops inside end early on one answer, and the caller tells by the next that they did.
     fn cancelled(&self) -> bool {
         false
     }
 }
+
+#[cfg(test)]
+mod tests;
 
 /// Tells nobody and never stops.
 #[derive(Clone, Copy, Debug, Default)]

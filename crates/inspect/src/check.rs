@@ -80,6 +80,7 @@ pub(crate) fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
         }
         .into(),
         count: found.map(|f| f.count as u64),
+        at_least: found.is_some_and(|f| f.at_least),
         count_reason: found.is_none().then(|| reason.into()),
         size: kind.size.into(),
         items: found.map_or(vec![], |f| f.items.iter().map(item).collect()),

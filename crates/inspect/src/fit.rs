@@ -11,11 +11,11 @@ use crate::results::InputRecord;
 use crate::results::fit::FitDocument;
 use crate::scale::Scale;
 use rayon::prelude::*;
-use trueness_geom::stats::histogram::{Histogram, nice_edges};
-use trueness_geom::stats::statistics::Summary;
 use trueness_geom::fit::Fit;
 use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
+use trueness_geom::stats::histogram::{Histogram, nice_edges};
+use trueness_geom::stats::statistics::Summary;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,
 /// the histogram of their distances, and colours for them.

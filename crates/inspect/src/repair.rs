@@ -1,5 +1,6 @@
 //! From a repair to the result document.
 
+mod effect;
 mod view;
 
 pub use view::{View, by_step};
@@ -10,7 +11,7 @@ use crate::results::repair::{
 use crate::results::{InputRecord, UNITS, VERSION};
 use std::collections::BTreeMap;
 use trueness_geom::check::Report;
-use trueness_geom::repair::{self, DeviationError, Options, Repaired, STEPS};
+use trueness_geom::repair::{self, DeviationError, Holes, Options, Repaired, STEPS};
 
 /// What is known about a repair besides its result.
 pub struct Around {
@@ -24,6 +25,8 @@ pub struct Around {
     pub deviation: Result<repair::Deviation, DeviationError>,
     /// Changes listed at most.
     pub limit: usize,
+    /// Share of the diagonal, and of the volume, beyond which the part is another one.
+    pub max_change: f64,
 }
 
 /// Makes the document.
@@ -32,9 +35,16 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
     let facets = repaired.mesh.faces.len() as u64;
     let mut before = state(&repaired.before, counts.facets_kept + counts.facets_removed + around.left_out);
     before.sound &= around.left_out == 0;
+    if let Ok(enclosed) = &repaired.effect.enclosed {
+        (before.volume, before.volume_reason) = (Some(enclosed.volume), None);
+    } else if let Err(reason) = repaired.effect.enclosed {
+        (before.volume, before.volume_reason) = (None, Some(reason.to_string()));
+    }
     if around.left_out > 0 {
         *before.defects.entry("not_finite_facets".into()).or_default() += around.left_out;
     }
+    let after = state(&repaired.after, facets);
+    let effect = effect::record(repaired, after.volume, around.deviation.as_ref().ok(), around.max_change);
     let way = |w: repair::Way| Distances { max: w.max, mean: w.mean };
     let steps = STEPS.iter().filter(|s| options.steps.contains(&s.name)).map(|s| s.name.to_string());
     RepairDocument {
@@ -42,10 +52,10 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: vec![around.file],
-        sound: repaired.after.sound && around.output.sound != Some(false),
+        sound: repaired.after.sound && around.output.sound != Some(false) && !effect.changed,
         output: around.output,
         before,
-        after: state(&repaired.after, facets),
+        after,
         vertices: VertexCounts {
             kept: counts.vertices_kept,
             moved: 0,
@@ -57,10 +67,17 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
             added: counts.facets_added,
             removed: counts.facets_removed + around.left_out,
         },
+        effect,
         deviation: (around.deviation.as_ref().ok())
             .map(|d| Deviation { removed: way(d.there), added: way(d.back) }),
         deviation_reason: around.deviation.err().map(|e| e.to_string()),
         steps: steps.collect(),
+        not_united: repaired.not_united.map(|e| e.to_string()),
+        taken_back: repaired.taken_back.iter().map(|s| s.to_string()).collect(),
+        hole_limit: match options.holes {
+            Holes::UpTo(share) => Some(share),
+            Holes::All => None,
+        },
         rounds: repaired.rounds as u64,
         change_count: repaired.changes.len() as u64,
         changes: repaired.changes.iter().take(around.limit).map(change).collect(),

@@ -72,19 +72,37 @@ impl Scale {
     /// Where the colour changes, rising; one more than there are bands, the caps lie beyond.
     ///
     /// With a tolerance the middle band is the zone, and the bands beyond it divide `[upper limit, upper]` and
-    /// `[lower, lower limit]` evenly; without, all bands are equal.
+    /// `[lower, lower limit]` evenly; without, all bands are equal. A zone that reaches beyond the range widens it: what is
+    /// within tolerance has the middle colour whatever the range, and the bands for which there is no room have no width.
     pub fn limits(&self) -> Vec<f64> {
-        let zone = self.tolerance.filter(|[l, u]| l <= u);
+        let zone = self.zone();
         if self.mode == Mode::GoNoGo {
             return zone.map_or(vec![self.lower, self.upper], |z| z.to_vec());
         }
-        let Some([l, u]) = zone.filter(|[l, u]| self.lower < *l && *u < self.upper) else {
+        let Some([l, u]) = zone else {
             let n = self.bands.max(1);
             return (0..=n).map(|i| between(self.lower, self.upper, i, n)).collect();
         };
         let side = (self.bands / 2).max(1);
-        let below = (0..=side).map(|i| between(self.lower, l, i, side));
-        below.chain((0..=side).map(|i| between(u, self.upper, i, side))).collect()
+        let [lower, upper] = self.ends();
+        let below = (0..=side).map(|i| between(lower, l, i, side));
+        below.chain((0..=side).map(|i| between(u, upper, i, side))).collect()
+    }
+
+    /// The tolerance zone, if it is one.
+    fn zone(&self) -> Option<[f64; 2]> {
+        self.tolerance.filter(|[l, u]| l <= u)
+    }
+
+    /// The range with the tolerance zone in it: what a legend must reach over.
+    pub fn ends(&self) -> [f64; 2] {
+        let [l, u] = self.zone().unwrap_or([self.lower, self.upper]);
+        [self.lower.min(l), self.upper.max(u)]
+    }
+
+    /// The same scale for another tolerance, if there is one.
+    pub fn for_tolerance(self, tolerance: Option<[f64; 2]>) -> Scale {
+        Scale { tolerance: tolerance.or(self.tolerance), ..self }
     }
 
     /// Number of the colour for a deviation: 0 the low cap, then the bands from low to high, last the high cap. `None` for NaN.
@@ -104,18 +122,26 @@ impl Scale {
     pub fn color(&self, deviation: f64) -> Rgb {
         let Some(slot) = self.slot(deviation) else { return NO_VALUE };
         let colors = self.colors();
-        if self.mode == Mode::Continuous && self.lower <= deviation && deviation <= self.upper {
-            blend(&self.limits(), &colors, deviation)
+        if self.mode == Mode::Continuous && 0 < slot && slot + 1 < colors.len() {
+            blend(&self.limits(), &colors, self.zone().is_some(), deviation)
         } else {
             colors[slot]
         }
     }
 
-    /// The continuous colours as `n` equal steps from `lower` to `upper`, each taken in its middle.
+    /// The continuous colours as `n` equal steps from end to end, each taken in its middle. With a tolerance, half of them for
+    /// what lies below the zone and half for what lies above: the zone has one colour.
     pub fn ramp(&self, n: usize) -> Vec<Rgb> {
         let (limits, colors) = (self.limits(), self.colors());
-        let at = |i: usize| self.lower + (i as f64 + 0.5) / n as f64 * (self.upper - self.lower);
-        (0..n).map(|i| blend(&limits, &colors, at(i))).collect()
+        let [lower, upper] = self.ends();
+        let zone = self.zone();
+        let parts = match zone {
+            Some([l, u]) => vec![([lower, l], n / 2), ([u, upper], n - n / 2)],
+            None => vec![([lower, upper], n)],
+        };
+        let at = |[from, to]: [f64; 2], i: usize, n: usize| from + (i as f64 + 0.5) / n as f64 * (to - from);
+        let steps = parts.into_iter().flat_map(|(part, n)| (0..n).map(move |i| at(part, i, n)));
+        steps.map(|d| blend(&limits, &colors, zone.is_some(), d)).collect()
     }
 }
 
@@ -128,8 +154,8 @@ pub enum ScaleError {
     /// No bands, or more than anyone can tell apart.
     #[error("`bands` is {0}; it must be from 1 to 99")]
     Bands(u32),
-    /// The zone is empty or sticks out.
-    #[error("`tolerance` [{0}, {1}] must rise and lie within `lower` and `upper`")]
+    /// The zone is empty.
+    #[error("`tolerance` [{0}, {1}] must be two numbers that rise")]
     Tolerance(f64, f64),
     /// There is no such palette.
     #[error("`palette` is ‘{0}’; there are {list}", list = palette::NAMES.join(", "))]
@@ -150,7 +176,7 @@ impl Scale {
             return Err(ScaleError::Bands(self.bands));
         }
         if let Some([l, u]) = self.tolerance
-            && !(lower <= l && l < u && u <= upper)
+            && !(l.is_finite() && l < u && u.is_finite())
         {
             return Err(ScaleError::Tolerance(l, u));
         }
@@ -170,15 +196,23 @@ pub(crate) fn slot(limits: &[f64], deviation: f64) -> usize {
     middle + above - below
 }
 
-/// Each band has its colour in its middle; between two middles colours are mixed, beyond the last ones they stay.
-fn blend(limits: &[f64], colors: &[Rgb], deviation: f64) -> Rgb {
-    let centers: Vec<f64> = limits.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
+/// Each band has its colour in its middle; between two middles colours are mixed, beyond the last ones they stay. A tolerance zone
+/// is no part of that: it has its one colour, and on either side the mixing begins anew.
+fn blend(limits: &[f64], colors: &[Rgb], zoned: bool, deviation: f64) -> Rgb {
+    let middle = limits.len() / 2;
+    let (from, to) = match (zoned, slot(limits, deviation)) {
+        (true, s) if s == middle => return colors[middle],
+        (true, s) if s < middle => (0, middle - 1),
+        (true, _) => (middle, limits.len() - 1),
+        (false, _) => (0, limits.len() - 1),
+    };
+    let centers: Vec<f64> = limits[from..=to].windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
     let next = centers.iter().filter(|c| **c < deviation).count();
     if next == 0 || next == centers.len() {
-        return colors[next.clamp(1, centers.len())];
+        return colors[from + next.clamp(1, centers.len())];
     }
     let (low, high) = (centers[next - 1], centers[next]);
-    palette::mix(colors[next], colors[next + 1], (deviation - low) / (high - low))
+    palette::mix(colors[from + next], colors[from + next + 1], (deviation - low) / (high - low))
 }
 
 /// The `i`-th of `n` equal steps from `a` to `b`, exact at both ends.
@@ -275,6 +309,28 @@ mod tests {
         assert_eq!((ramp[0], ramp[255]), (colors[1], colors[9]));
         assert_eq!(s.color(0.0), colors[5]);
         assert_eq!(s.color(0.25), colors[10]);
+    }
+
+    #[test]
+    fn what_is_within_tolerance_is_green_whatever_range_and_mode() {
+        let green = [0x2f, 0xa8, 0x4a];
+        for mode in [Mode::Bands, Mode::Continuous, Mode::GoNoGo] {
+            for (lower, upper) in
+                [(-0.1, 0.1), (-0.5, 0.5), (-1.0, 1.0), (-0.1, 2.0), (0.6, 0.9), (-9.0, -2.0)]
+            {
+                let s = Scale { mode, lower, upper, ..Scale::for_deviations(0.0, Some([-0.5, 0.5])) };
+                assert!(s.check().is_ok());
+                for i in 0..=1000 {
+                    let d = -2.0 + 0.004 * f64::from(i);
+                    let within = (-0.5..=0.5).contains(&d);
+                    assert_eq!(s.color(d) == green, within, "{d} in {lower} … {upper}, {mode:?}");
+                }
+                assert!(s.limits().is_sorted() && s.limits().len() + 1 == s.colors().len());
+            }
+        }
+        let ramp =
+            Scale { mode: Mode::Continuous, ..Scale::for_deviations(0.0, Some([-0.5, 0.5])) }.ramp(256);
+        assert!(!ramp.contains(&green));
     }
 
     #[test]

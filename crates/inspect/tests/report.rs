@@ -7,9 +7,12 @@
 mod fixtures;
 
 use fixtures::{check_document, check_page, defects, fit_page, lobed_cylinder, page, repair_page, sphere};
+use fixtures::{cloud_page, heard};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use trueness_geom::fit::Method;
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::report::{Language, ReportOptions};
+use trueness_geom::progress::Progress;
+use trueness_inspect::report::{Language, ReportError, ReportOptions};
 
 const NAMES: [&str; 2] = ["scan.stl", "nominal.stl"];
 const TOLERANCE: Option<[f64; 2]> = Some([-0.05, 0.05]);
@@ -22,6 +25,58 @@ fn the_same_bytes_for_any_number_of_threads() {
         pool.install(|| page(&body, TOLERANCE, NAMES, &ReportOptions::default()).0)
     };
     assert!(with(1) == with(4));
+}
+
+#[test]
+fn points_on_a_coarse_reference_give_the_same_bytes_too() {
+    let (points, reference) = (fixtures::uv_sphere(90), fixtures::uv_sphere(8));
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| cloud_page(&points.positions, &reference, 0.05))
+    };
+    let page = with(1);
+    assert!(page == with(3));
+    let manifest = manifest(&page);
+    let objects = manifest["objects"].as_array().unwrap();
+    assert_eq!((&objects[0]["shown"], &objects[1]["shown"]), (&true.into(), &false.into()));
+    assert!(objects[1]["reach"].as_f64().unwrap() > 0.0 && objects[0].get("reach").is_none());
+    let [drawn, source] = ["vertices", "source_vertices"].map(|key| objects[1][key].as_u64().unwrap());
+    assert_eq!(source, reference.positions.len() as u64);
+    assert!(drawn > 20 * source, "{drawn}");
+}
+
+/// Says stop after so many questions, and counts what it hears.
+struct Stop {
+    after: u64,
+    asked: AtomicU64,
+    heard: AtomicU64,
+}
+
+impl Progress for Stop {
+    fn advance(&self, items: u64) {
+        self.heard.fetch_add(items, Relaxed);
+    }
+    fn cancelled(&self) -> bool {
+        self.asked.fetch_add(1, Relaxed) >= self.after
+    }
+}
+
+#[test]
+fn writing_can_be_stopped_and_says_how_far_it_is() {
+    let body = sphere(400);
+    let options = ReportOptions { budget: 2_000_000, ..ReportOptions::default() };
+    let run = |after| {
+        let stop = Stop { after, asked: AtomicU64::new(0), heard: AtomicU64::new(0) };
+        let result = heard(&body, TOLERANCE, NAMES, &options, &stop);
+        (result.map(|(page, _)| page), stop.asked.into_inner(), stop.heard.into_inner())
+    };
+    let (whole, asked, heard) = run(u64::MAX);
+    assert!(whole.is_ok() && asked > 30, "{asked}");
+    // Each place of both spheres is told of twice.
+    assert_eq!(heard, 2 * 2 * (2 + 399 * 400));
+    for after in [0, 1, asked / 3, asked - 1] {
+        assert!(matches!(run(after).0, Err(ReportError::Cancelled(_))), "after {after} of {asked}");
+    }
 }
 
 #[test]
@@ -43,7 +98,8 @@ fn names_are_never_markup() {
         ReportOptions { title: Some(nasty.into()), operator: Some(nasty.into()), ..ReportOptions::default() };
     let text = String::from_utf8(page(&sphere(10), None, [nasty, nasty], &options).0).unwrap();
     assert!(!text.contains("<img src=x") && !text.contains(" style="));
-    assert_eq!(text.matches("<style>").count(), 1);
+    // The page's own and that of the running head.
+    assert_eq!(text.matches("<style>").count(), 2);
     assert_eq!(text.matches("</script>").count(), text.matches("<script").count());
     assert!(text.contains("No tolerance given"));
 }

@@ -1,15 +1,18 @@
 //! `trueness fit`: the best line, plane, circle, … through points.
 
-use crate::command::Common;
-use crate::commands::compare::output::json_file;
-use crate::exit::Outcome;
+use crate::command::Run;
+use crate::console;
+use crate::exit::{Outcome, Usage};
+use crate::number::{POINTS, counted, fixed, scientific};
+use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
+use crate::read::{self, Opened};
 use crate::report::ReportArgs;
-use crate::{console, read};
+use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness_files::{Body, Columns, ReadOptions, Unit};
+use trueness_files::Body;
 use trueness_geom::fit::{self, FitError, Method, Options};
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::Kind;
@@ -37,15 +40,10 @@ pub struct FitArgs {
     /// What makes an element the best
     #[arg(long, value_enum, default_value = "gaussian")]
     method: MethodArg,
-    /// Unit of a file that does not say its own [default: mm]
-    #[arg(long, value_name = "UNIT")]
-    units: Option<Unit>,
-    /// Columns of a text file, e.g. x,y,z or -,x,y,z
-    #[arg(long, value_name = "LIST")]
-    columns: Option<Columns>,
-    /// Write the result document; `-` for stdout, then without a table
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    input: PointInputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -106,38 +104,42 @@ impl From<MethodArg> for Method {
     }
 }
 
-/// Runs the command.
-pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let reading = ReadOptions { units: args.units, columns: args.columns.clone(), ..ReadOptions::default() };
-    let input = trueness_files::open(&args.points, &reading)?;
-    let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
-    let planar = input.provenance.planar;
-    let points = match input.body {
-        Body::Mesh(mesh) => {
-            record.facets = Some(mesh.mesh.faces.len() as u64);
-            mesh.mesh.positions
-        }
+impl Run for FitArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.points])
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let Opened { mut record, body, planar, .. } =
+        read::open(&args.points, Role::Measured, &args.input.reading())?;
+    let points = match body {
+        Body::Mesh(mesh) => mesh.mesh.positions,
         Body::Points(source) => read::all_points(source)?,
     };
-    record.points = points.len() as u64;
-    read::hash(&mut record)?;
+    read::describe(&mut record, &points);
+    read::hash(&mut record, &args.points)?;
     let options = Options { method: args.method.into(), start: None, seed: common.seed };
     let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
     let fit = fit::fit(&points, args.shape.kind(planar), &options, &stage);
     drop(stage);
     let fit = fit.map_err(|e| match e {
         FitError::Cancelled => anyhow::Error::from(Cancelled),
+        e @ FitError::NoSuchMethod { .. } => Usage(e.to_string()).into(),
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
     let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
-    let on_stdout = json_file(args.json.as_deref(), &document)?;
+    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
-        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks, common.progress)?;
     }
-    if !on_stdout {
-        console::table(&table(&document));
-    }
+    args.document.table(|| table(&document))?;
     Ok(Outcome::Conforming)
 }
 
@@ -145,28 +147,29 @@ pub fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
 fn table(document: &FitDocument) -> String {
     let mut rows = vec![vec![String::new(), "value".into(), "± standard uncertainty".into()]];
     let shown = |n: &Number| match n {
-        Number::One(x) => format!("{x:.9}"),
-        Number::Three(v) => v.map(|x| format!("{x:.9}")).join("  "),
+        Number::One(x) => fixed(*x, 9),
+        Number::Three(v) => v.map(|x| fixed(x, 9)).join("  "),
     };
     let small = |n: &Number| match n {
-        Number::One(x) => format!("{x:.2e}"),
-        Number::Three(v) => v.map(|x| format!("{x:.2e}")).join("  "),
+        Number::One(x) => scientific(*x, 2),
+        Number::Three(v) => v.map(|x| scientific(x, 2)).join("  "),
     };
     for (name, value) in &document.parameters {
         let uncertainty = document.uncertainty.as_ref().and_then(|u| u.get(name));
         rows.push(vec![name.replace('_', " "), shown(value), uncertainty.map_or_else(String::new, small)]);
     }
-    let mut out = format!("{} by {}, mm and radians\n", document.shape, document.method);
+    let mut out = read::notes(&document.inputs);
+    let _ = writeln!(out, "{} by {}, mm and radians", document.shape, document.method);
     out.push_str(&console::columns(&rows));
     let _ = writeln!(
         out,
-        "form error {:.9}   rms {:.9}   {} points",
-        document.form_error,
-        document.rms,
-        console::grouped(document.count)
+        "form error {}   rms {}   {}",
+        fixed(document.form_error, 9),
+        fixed(document.rms, 9),
+        counted(document.count, POINTS)
     );
     if document.outliers > 0 {
-        let _ = writeln!(out, "{} outliers left out", console::grouped(document.outliers));
+        let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
     }
     if !document.touching.is_empty() {
         let points: Vec<String> = document.touching.iter().map(|t| t.point.to_string()).collect();

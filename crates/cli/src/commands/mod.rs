@@ -4,4 +4,5 @@ pub mod check;
 pub mod compare;
 pub mod fit;
 pub mod repair;
+pub mod section;
 pub mod segment;

@@ -1,16 +1,19 @@
 //! `trueness segment`: planes, cylinders, cones, spheres and tori in a mesh or cloud.
 
-use crate::command::Common;
-use crate::commands::compare::output::json_file;
+use crate::command::Run;
+use crate::console;
 use crate::exit::{Outcome, Usage};
+use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
+use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
+use crate::read::{self, Opened};
 use crate::report::ReportArgs;
-use crate::{console, read};
+use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness_files::write::{Pieces, regions};
-use trueness_files::{Body, Columns, ReadOptions, Unit};
+use trueness_files::Body;
+use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
 use trueness_geom::shape::Kind;
@@ -54,20 +57,15 @@ pub struct SegmentArgs {
     /// Fewest measured points of a region
     #[arg(long, value_name = "N", default_value = "0")]
     min_points: usize,
-    /// Unit of a file that does not say its own [default: mm]
-    #[arg(long, value_name = "UNIT")]
-    units: Option<Unit>,
-    /// Columns of a text file, e.g. x,y,z or -,x,y,z
-    #[arg(long, value_name = "LIST")]
-    columns: Option<Columns>,
-    /// Write the result document; `-` for stdout, then without a table
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    reading: PointInputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
     /// List the facets or points of every region in the document
     #[arg(long, requires = "json")]
     members: bool,
-    /// Write the facets or points with the number of their region (.ply .csv)
-    #[arg(long, value_name = "FILE")]
+    /// Write the facets or points with the number of their region
+    #[arg(long, value_name = "FILE", help = out_help())]
     out: Option<PathBuf>,
     #[command(flatten)]
     report: ReportArgs,
@@ -107,31 +105,43 @@ impl SegmentArgs {
     }
 }
 
-/// Runs the command.
-pub fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
+fn out_help() -> String {
+    format!("Write the facets or points with the number of their region ({})", Writable::Regions.shown())
+}
+
+impl Run for SegmentArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.input])
+            .out(self.out.as_ref(), Writable::Regions)
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common.seed);
-    let reading = ReadOptions { units: args.units, columns: args.columns.clone(), ..ReadOptions::default() };
-    let input = trueness_files::open(&args.input, &reading)?;
-    let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
-    let (mesh, kind) = match input.body {
+    let Opened { mut record, body, .. } = read::open(&args.input, Role::Measured, &args.reading.reading())?;
+    let (mesh, kind) = match body {
         Body::Mesh(source) => (source.mesh, PieceKind::Facets),
         Body::Points(source) => {
             (Mesh { positions: read::all_points(source)?, faces: Vec::new() }, PieceKind::Points)
         }
     };
-    record.points = mesh.positions.len() as u64;
+    read::describe(&mut record, &mesh.positions);
     let pieces = match kind {
         PieceKind::Facets => Pieces::Facets(&mesh.faces),
         PieceKind::Points => Pieces::Points,
     };
-    record.facets = (kind == PieceKind::Facets).then_some(mesh.faces.len() as u64);
     let (word, total) = match kind {
         PieceKind::Facets => ("facets", mesh.faces.len()),
         PieceKind::Points => ("points", mesh.positions.len()),
     };
     let stage = Stage::new(common.progress, "segmenting", word, Some(total as u64));
     let (hash, found) = rayon::join(
-        || read::hash(&mut record),
+        || read::hash(&mut record, &args.input),
         || match kind {
             PieceKind::Facets => segment::mesh(&mesh, &options, &stage),
             PieceKind::Points => segment::cloud(&mesh.positions, &options, &stage),
@@ -151,11 +161,10 @@ pub fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
-        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks, common.progress)?;
     }
-    if !json_file(args.json.as_deref(), &document)? {
-        console::table(&table(&document, &found));
-    }
+    args.document.write(&document)?;
+    args.document.table(|| table(&document, &found))?;
     Ok(Outcome::Conforming)
 }
 
@@ -186,27 +195,28 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
             region.shape.clone(),
             size(region),
             format!("{:.2} %", 100.0 * region.share),
-            console::grouped(region.points),
-            format!("{:.2e}", region.rms),
-            format!("{:.2e}", region.max),
+            grouped(region.points),
+            scientific(region.rms, 2),
+            scientific(region.max, 2),
         ]);
     }
-    let mut out = console::columns(&rows);
+    let mut out = read::notes(&document.inputs);
+    out.push_str(&console::columns(&rows));
     if document.regions.len() > ROWS {
         let _ = writeln!(out, "… and {} more", document.regions.len() - ROWS);
     }
-    let word = match document.pieces {
-        PieceKind::Facets => "facets",
-        PieceKind::Points => "points",
+    let what = match document.pieces {
+        PieceKind::Facets => FACETS,
+        PieceKind::Points => POINTS,
     };
     let _ = writeln!(
         out,
-        "{} regions; {} of {} {word} in none   noise {:.2e}   tolerance {:.2e}   mm and degrees",
-        found.regions.len(),
-        console::grouped(document.unassigned),
-        console::grouped(document.count),
-        document.noise,
-        document.tolerance
+        "{}; {} of {} in none   noise {}   tolerance {}   mm and degrees",
+        counted(found.regions.len() as u64, ["region", "regions"]),
+        grouped(document.unassigned),
+        counted(document.count, what),
+        scientific(document.noise, 2),
+        scientific(document.tolerance, 2)
     );
     out
 }
@@ -220,9 +230,9 @@ fn size(region: &RegionRecord) -> String {
         let told = name != "radius" || region.shape != "cone";
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
         let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
-        let mut word = format!("{short} {:.4}", value * scale);
+        let mut word = format!("{short} {}", fixed(value * scale, 4));
         if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {
-            let _ = write!(word, " ± {:.1e}", u * scale);
+            let _ = write!(word, " ± {}", scientific(u * scale, 1));
         }
         words.push(word);
     }

@@ -1,5 +1,6 @@
 //! One file or folder per format; the list of them is in `format.rs`.
 
+pub(crate) mod dxf;
 pub(crate) mod npy;
 pub(crate) mod npz;
 pub(crate) mod obj;
@@ -9,5 +10,6 @@ pub(crate) mod parquet;
 pub(crate) mod ply;
 pub(crate) mod stl;
 pub(crate) mod strided;
+pub(crate) mod svg;
 pub(crate) mod table;
 pub(crate) mod vtp;

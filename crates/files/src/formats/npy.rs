@@ -53,7 +53,11 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
             count: array.rows,
             what: ("point", "points"),
         };
-        Parsed::points("npy", StridedPoints::new(source.feed, rows, options.block)?)
+        let points = StridedPoints::new(source.feed, rows, options.block)?;
+        if let Some(left) = points.left_behind() {
+            no_more(left, array.rows, start as u64 + array.rows * rows.stride as u64)?;
+        }
+        Parsed::points("npy", Rowwise(points))
     };
     Ok(Parsed { planar, ..points })
 }
@@ -166,8 +170,8 @@ fn dtype(descr: &str) -> Result<(Order, Scalar)> {
     }
 }
 
-/// Points whose coordinates lie column after column, as Fortran has them. The bytes stay ahead until the end: those of
-/// a mapped file cost nothing.
+/// Points whose coordinates lie column after column, as Fortran has them. Of a file only the part of each column is
+/// read that a block needs; of a stream all of it stays in memory.
 struct Columnwise {
     feed: Feed,
     array: Array,
@@ -175,25 +179,26 @@ struct Columnwise {
     found: usize,
     rows: usize,
     block: usize,
+    /// Bytes of a column's part.
+    part: Vec<u8>,
 }
 
 impl Columnwise {
     fn new(mut feed: Feed, array: Array, columns: Vec<usize>, block: usize) -> Result<Columnwise> {
         let size = array.scalar.size();
         let at = feed.position();
-        let there = feed.all()?.len();
-        let rows = usize::try_from(array.rows).ok();
-        let need = rows.and_then(|r| r.checked_mul(array.width * size));
-        match (rows, need) {
-            (Some(rows), Some(need)) if need <= there => {
-                Ok(Columnwise { feed, array, columns, found: 0, rows, block: block.max(1) })
-            }
-            _ => {
-                let present = (there / (array.width * size)) as u64;
-                let short = Fault::Short { what: "points", declared: array.rows, present };
-                Err(short.at_byte(at + there as u64))
-            }
-        }
+        let there = match feed.left() {
+            Some(left) => left,
+            None => feed.all()?.len() as u64,
+        };
+        let row = (array.width * size) as u64;
+        let need = array.rows.checked_mul(row).filter(|need| *need <= there);
+        let (Some(need), Ok(rows)) = (need, usize::try_from(array.rows)) else {
+            let short = Fault::Short { what: "points", declared: array.rows, present: there / row };
+            return Err(short.at_byte(at + there));
+        };
+        no_more(there - need, array.rows, at + need)?;
+        Ok(Columnwise { feed, array, columns, found: 0, rows, block: block.max(1), part: vec![] })
     }
 }
 
@@ -207,17 +212,45 @@ impl PointStream for Columnwise {
         let (start, rows) = (self.found, self.rows);
         let end = rows.min(start.saturating_add(self.block));
         let at = self.feed.position();
-        let bytes = self.feed.all()?;
+        block.clear();
         block.resize(end - start, [0.0; 3]);
-        let (array, columns) = (&self.array, &self.columns);
-        block.par_iter_mut().with_min_len(1 << 12).enumerate().for_each(|(i, point)| {
-            for (x, column) in point.iter_mut().zip(columns) {
-                *x = array.scalar.get(&bytes[(column * rows + start + i) * size..], array.order);
-            }
-        });
+        self.part.resize((end - start) * size, 0);
+        let array = &self.array;
+        for (axis, column) in self.columns.iter().enumerate() {
+            self.feed.copy(((column * rows + start) * size) as u64, &mut self.part)?;
+            let cells = self.part.par_chunks_exact(size).with_min_len(1 << 12);
+            block.par_iter_mut().with_min_len(1 << 12).zip(cells).for_each(|(point, bytes)| {
+                point[axis] = array.scalar.get(bytes, array.order);
+            });
+        }
         finite(block, "point", start as u64)
             .map_err(|(i, fault)| fault.at_byte(at + ((start + i) * size) as u64))?;
         self.found = end;
         Ok(())
     }
+}
+
+/// Points whose rows must end with the file: what follows is another array, or the header is wrong.
+struct Rowwise(StridedPoints);
+
+impl PointStream for Rowwise {
+    type Error = Located;
+    fn expected(&self) -> Option<u64> {
+        self.0.expected()
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        self.0.next_block(block)?;
+        if block.is_empty() {
+            let declared = self.0.expected().unwrap_or_default();
+            let feed = self.0.feed();
+            let (at, rest) = (feed.position(), feed.all()?.len() as u64);
+            no_more(rest, declared, at)?;
+        }
+        Ok(())
+    }
+}
+
+/// Refuses bytes behind the array.
+fn no_more(count: u64, declared: u64, at: u64) -> Result<()> {
+    if count > 0 { Err(Fault::Trailing { count, what: "points", declared }.at_byte(at)) } else { Ok(()) }
 }

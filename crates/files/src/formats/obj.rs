@@ -11,8 +11,8 @@ use crate::{
     lines::{count_lines, line_end, parts},
     number::{integer, number},
     open::{ReadOptions, Weld},
-    source::Source,
-    unicode::without_mark,
+    source::{HEAD, Source},
+    unicode::{no_zeros, without_mark},
     write::{Loss, corner_positions, push_number},
 };
 use rayon::prelude::*;
@@ -56,7 +56,9 @@ fn vertex(line: &[u8]) -> Option<&[u8]> {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    no_zeros(source.feed.ahead(HEAD)?)?;
     let text = without_mark(source.feed.all()?);
+    no_zeros(text)?;
     let end = line_end(text);
     let text = joined(text);
     let parts = parts(&text, PART, end);

@@ -1,15 +1,15 @@
 //! OFF: vertices and polygons as text, counted beforehand.
 
 use crate::{
-    AtomicFile, SourceMesh,
+    AtomicFile, SourceMesh, Warning,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
     format::{Format, Head, Parsed},
     lines::{Lines, words},
     number::{count, whole_number},
     open::{ReadOptions, Weld},
-    source::Source,
-    unicode::without_mark,
+    source::{HEAD, Source},
+    unicode::{no_zeros, without_mark},
     write::{Loss, corner_positions, push_number},
 };
 use std::io::Write;
@@ -58,7 +58,9 @@ impl Said<'_> {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    no_zeros(source.feed.ahead(HEAD)?)?;
     let text = source.feed.all()?;
+    no_zeros(text)?;
     let mut lines = Said(Lines::new(text));
     let (vertices, count) = counts(&mut lines)?;
     // A vertex takes six bytes at least, a face four.
@@ -77,10 +79,16 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         face(line, vertices, &mut corners).map_err(|f| f.at_line(lines.line()))?;
         faces.push(&positions, &corners);
     }
-    if faces.is_empty() {
-        return Ok(Parsed::cloud("off", positions));
-    }
     let mut warnings = vec![];
+    let rest = lines.0.rest().len() as u64;
+    if lines.next().is_some() {
+        warnings.push(Warning::TrailingBytes { count: rest });
+    }
+    if faces.is_empty() {
+        let mut parsed = Parsed::cloud("off", positions);
+        parsed.warnings.extend(warnings);
+        return Ok(parsed);
+    }
     let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh("off", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
 }

@@ -60,6 +60,15 @@ impl StridedPoints {
         }
         Ok(StridedPoints { feed, rows, found: 0, block: block.max(1) })
     }
+    /// Bytes of the file that no row takes up, where its length is known.
+    pub fn left_behind(&self) -> Option<u64> {
+        let need = (self.rows.count - self.found).checked_mul(self.rows.stride as u64)?;
+        self.feed.left()?.checked_sub(need)
+    }
+    /// The file, as far as it has been read.
+    pub fn feed(&mut self) -> &mut Feed {
+        &mut self.feed
+    }
     /// The file behind the points.
     pub fn into_rest(self) -> Feed {
         self.feed

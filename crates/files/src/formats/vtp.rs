@@ -67,7 +67,7 @@ fn end(file: &mut AtomicFile) -> io::Result<()> {
 
 fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
     let spool = || Spool::beside(&file);
-    let (deviation, excluded, colour) = (spool()?, spool()?, spool()?);
+    let (deviation, excluded, colour) = (spool(), spool(), spool());
     // Header and length of the positions are written again when the points are counted.
     file.write_all(&[b' '; HEADER + 8])?;
     Ok(Box::new(Points { file, layout, count: 0, deviation, excluded, colour }))

@@ -6,6 +6,7 @@ mod regions;
 #[cfg(test)]
 pub(crate) mod scratch;
 pub(crate) mod spool;
+mod writable;
 
 use crate::{
     AtomicFile, Body, FORMATS, Format, Input, ReadOptions,
@@ -18,6 +19,7 @@ pub use regions::{Pieces, regions};
 use spool::Spool;
 use std::path::{Path, PathBuf};
 use trueness_geom::{mesh::Mesh, space::Point};
+pub use writable::Writable;
 
 /// Which values go with the points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,9 +51,9 @@ pub fn points(path: &Path, layout: Layout) -> Result<PointsFile, WriteError> {
 /// As [`points`], with a spool beside the file.
 fn begin(path: &Path, layout: Layout) -> Result<(PointsFile, Spool), WriteError> {
     let begin = || {
-        let (writer, extension) = by_extension(path, "points", |f| f.points)?;
+        let (writer, extension) = by_extension(path, Writable::Points, |f| f.points)?;
         let file = AtomicFile::create(path)?;
-        let spool = Spool::beside(&file)?;
+        let spool = Spool::beside(&file);
         Ok((writer(file, layout, extension)?, spool))
     };
     let (writing, spool) = begin().map_err(|e: WriteFault| e.in_file(path))?;
@@ -115,7 +117,7 @@ impl MeshFile {
     /// Errors: those of [`mesh`].
     pub fn write(path: &Path, mesh: &Mesh) -> Result<MeshFile, WriteError> {
         let write = || {
-            let (writer, _) = by_extension(path, "a mesh", |f| f.mesh)?;
+            let (writer, _) = by_extension(path, Writable::Mesh, |f| f.mesh)?;
             let mut file = AtomicFile::create(path)?;
             let loss = writer(&mut file, mesh)?;
             Ok(MeshFile { file, path: path.into(), loss })
@@ -164,19 +166,12 @@ pub(crate) trait PointsSink: Send {
 /// The writer of a path's extension, and that extension.
 fn by_extension<W>(
     path: &Path,
-    what: &'static str,
+    what: Writable,
     writer: impl Fn(&Format) -> Option<W>,
 ) -> Result<(W, &'static str), WriteFault> {
-    let given = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    let known = || {
-        FORMATS
-            .iter()
-            .flat_map(|f| f.written_as.iter().filter_map(|e| Some((writer(f)?, *e))).collect::<Vec<_>>())
-    };
-    known().find(|(_, e)| e.eq_ignore_ascii_case(given)).ok_or_else(|| {
-        let known: Vec<String> = known().map(|(_, e)| format!(".{e}")).collect();
-        WriteFault::UnknownFormat { what, known: known.join(" ") }
-    })
+    let ending = what.ending_of(path)?;
+    let format = FORMATS.iter().find(|f| f.written_as.contains(&ending) && writer(f).is_some());
+    format.and_then(|f| Some((writer(f)?, ending))).ok_or_else(|| what.unknown())
 }
 
 /// Positions of the corners of a face, if it has them.

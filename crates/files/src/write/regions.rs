@@ -1,5 +1,6 @@
 //! Facets or points with the number of the region they belong to.
 
+use super::Writable;
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
@@ -32,17 +33,12 @@ pub fn regions(
     colour: impl Fn(i32) -> [u8; 3],
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+        let ending = Writable::Regions.ending_of(path)?;
         let count = check(points, pieces)?;
         if labels.len() != count {
             return Err(WriteFault::Uneven { what: "labels", points: count, values: labels.len() });
         }
-        let unknown = || WriteFault::UnknownFormat { what: "regions", known: ".csv .ply".into() };
-        let writer = match extension.as_str() {
-            "ply" => ply,
-            "csv" => csv,
-            _ => return Err(unknown()),
-        };
+        let writer = if ending == "ply" { ply } else { csv };
         let mut file = BufWriter::new(AtomicFile::create(path)?);
         writer(&mut file, points, pieces, labels, &colour)?;
         file.into_inner().map_err(|e| e.into_error())?.commit()?;
@@ -177,7 +173,7 @@ mod tests {
                 .unwrap_err()
                 .to_string()
         };
-        assert!(write("r.stl", &FACES, &[1, 2]).contains(".csv .ply"));
+        assert!(write("r.stl", &FACES, &[1, 2]).contains(".ply .csv"));
         assert!(write("r.ply", &FACES, &[1]).contains("1 labels"));
         assert!(write("r.ply", &[[0, 1, 9]], &[1]).contains("face 0"));
     }

@@ -1,6 +1,6 @@
 //! Values that must stand behind others in a file, kept until their turn comes.
 
-use crate::AtomicFile;
+use crate::{AtomicFile, temporary::Temporary};
 use std::{
     fs::File,
     io::{self, Read, Seek, SeekFrom, Write},
@@ -13,16 +13,16 @@ const MEMORY: usize = 32 << 20;
 /// Bytes to be read again from the start, in memory or, when they grow, in a file beside the one being written.
 pub(crate) struct Spool {
     memory: Vec<u8>,
-    disk: Option<(File, PathBuf)>,
-    /// Where a file may be made.
-    place: PathBuf,
+    disk: Option<(File, Temporary)>,
+    /// The file beside which one may be made.
+    target: PathBuf,
     length: u64,
 }
 
 impl Spool {
     /// An empty spool for values of `file`.
-    pub fn beside(file: &AtomicFile) -> io::Result<Spool> {
-        Ok(Spool { memory: vec![], disk: None, place: file.beside()?, length: 0 })
+    pub fn beside(file: &AtomicFile) -> Spool {
+        Spool { memory: vec![], disk: None, target: file.target(), length: 0 }
     }
 
     /// Bytes held.
@@ -38,11 +38,7 @@ impl Spool {
         if self.memory.len() >= MEMORY {
             let (file, _) = match &mut self.disk {
                 Some(disk) => disk,
-                none => {
-                    let mut options = File::options();
-                    let file = options.read(true).write(true).create_new(true).open(&self.place)?;
-                    none.insert((file, self.place.clone()))
-                }
+                none => none.insert(Temporary::beside(&self.target)?),
             };
             file.write_all(&self.memory)?;
             self.memory.clear();
@@ -66,15 +62,6 @@ impl Spool {
     }
 }
 
-impl Drop for Spool {
-    fn drop(&mut self) {
-        if let Some((_, path)) = self.disk.take() {
-            // Nothing better can be done about a failure here.
-            let _ = std::fs::remove_file(path);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,7 +71,7 @@ mod tests {
     fn what_outgrows_memory_comes_back_in_order_and_leaves_nothing() {
         let folder = Folder::new();
         let file = AtomicFile::create(&folder.path().join("out")).unwrap();
-        let mut spool = Spool::beside(&file).unwrap();
+        let mut spool = Spool::beside(&file);
         let part: Vec<u8> = (0..1_000_003u32).map(|i| (i % 251) as u8).collect();
         for _ in 0..40 {
             spool.write(part.iter().copied()).unwrap();

@@ -2,6 +2,7 @@
 
 use super::{Options, free_edges::FreeEdges, intersect::Crossings};
 use crate::mesh::Mesh;
+use crate::progress::Progress;
 use crate::space::{Aabb, Point};
 use crate::topology::{Properties, Topology};
 
@@ -57,6 +58,8 @@ pub struct Finding {
 pub struct Found {
     /// Their number.
     pub count: usize,
+    /// There are more than `count`: they were not counted to the end.
+    pub at_least: bool,
     /// The first ones, as many as [`Options::limit`] allows.
     pub items: Vec<Finding>,
 }
@@ -79,6 +82,8 @@ pub struct Inspected<'a> {
     pub options: &'a Options,
     /// Distance, mm, up to which two places may have been meant as one.
     pub gap: f64,
+    /// Asked by kinds that may take long; whoever calls them throws away what they found by then.
+    pub(crate) progress: &'a dyn Progress,
 }
 
 impl Inspected<'_> {
@@ -98,7 +103,7 @@ impl Inspected<'_> {
     /// A finding for each of `places`, as far as the limit allows; all are counted.
     pub(super) fn each<T>(&self, places: &[T], finding: impl Fn(&T) -> Finding) -> Option<Found> {
         let items = places.iter().take(self.options.limit).map(finding).collect();
-        Some(Found { count: places.len(), items })
+        Some(Found { count: places.len(), at_least: false, items })
     }
 
     /// The corners of a facet.

@@ -6,16 +6,16 @@ use super::nesting::Container;
 use super::{Finding, Inspected, Kind, Severity};
 use crate::mesh::Mesh;
 use crate::num::exact::Exact;
-use crate::space::{Aabb, times};
+use crate::space::{Aabb, Point, times};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
 pub(super) const KIND: Kind = Kind {
     name: "inside_out_shells",
     severity: Severity::Error,
-    about: "Closed, consistently oriented shells that look inwards, or outwards where they bound a cavity: inside an odd \
-            number of others a shell must look inwards. One that encloses nothing looks neither way. Facets: the first of \
-            the shell.",
+    about: "Closed, consistently oriented shells that bound no material: material is where shells wind around a place at least \
+            once, and a shell must have it on its inner side only, or (a cavity, looking inwards) on its outer side only. One \
+            that encloses nothing looks neither way. Facets: the first of the shell.",
     size: "volume enclosed, mm³",
     find: |m| {
         let closed = closed_shells(m);
@@ -23,8 +23,8 @@ pub(super) const KIND: Kind = Kind {
         let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
         let depth = depths(m, &closed, &bounds, &facets);
         let wrong = |s: &usize| {
-            let inward = if depth[*s].is_multiple_of(2) { -1 } else { 1 };
-            closed[*s] && looks(m, *s, &facets) == inward
+            let (outside, looks) = (depth[*s], if closed[*s] { looks(m, *s, &facets) } else { 0 });
+            looks != 0 && (outside > 0) == (outside + looks > 0)
         };
         let shells: Vec<usize> = (0..closed.len()).into_par_iter().filter(wrong).collect();
         m.each(&shells, |&s| {
@@ -36,6 +36,15 @@ pub(super) const KIND: Kind = Kind {
         })
     },
 };
+
+/// For each shell of a mesh that is closed and consistently oriented: the way it looks (outwards 1, inwards −1, 0 where it
+/// encloses nothing), and how often the others wind around it.
+pub(super) fn orientations(m: &Inspected) -> Vec<(i32, i32)> {
+    let closed = closed_shells(m);
+    let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
+    let depth = depths(m, &closed, &shell_bounds(m), &facets);
+    (0..closed.len()).into_par_iter().map(|s| (looks(m, s, &facets), depth[s])).collect()
+}
 
 /// Which shells are closed surfaces, all facets running the same way round.
 fn closed_shells(m: &Inspected) -> Vec<bool> {
@@ -88,8 +97,8 @@ fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
     facets.par_chunks(PART).map(of_part).reduce(Exact::default, both)
 }
 
-/// How many closed shells each closed shell lies in.
-fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facets) -> Vec<u32> {
+/// How often the other closed shells wind around each closed shell.
+fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facets) -> Vec<i32> {
     let mut depth = vec![0; closed.len()];
     let corner = |s: usize| (bounds[s].1.min, s as u32);
     let near = Near::new((0..closed.len()).filter(|&s| closed[s]).map(corner).collect());
@@ -116,19 +125,22 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facet
     }
     // One after the other: all lists together might have as many entries as there are pairs of shells.
     for s in outer {
-        let container = Container::new(m.mesh, &facets[s]);
-        let held = inside(s).into_par_iter().filter(|&s| lies_in(m, &facets[s as usize], &container));
-        held.collect::<Vec<u32>>().into_iter().for_each(|s| depth[s as usize] += 1);
+        let container = Container::new(m.mesh, &facets[s], 0);
+        let held = inside(s).into_par_iter().map(|s| (s, winding(m, &facets[s as usize], &container)));
+        held.collect::<Vec<(u32, i32)>>().into_iter().for_each(|(s, w)| depth[s as usize] += w);
     }
     depth
 }
 
-/// Asks about corners of the shell until one does not lie on the container.
-fn lies_in(m: &Inspected, shell: &[u32], container: &Container) -> bool {
-    /// Shells that touch in more corners than this are taken to lie side by side.
+/// How often the container winds around the shell. Asks about corners until one does not lie on the container; of shells that
+/// share their corners, about the middles of facets, which rounding moves by less than a step of the numbers.
+fn winding(m: &Inspected, shell: &[u32], container: &Container) -> i32 {
+    /// Shells that touch in more places than this are taken to lie side by side.
     const TRIES: usize = 64;
-    let corners = shell.iter().take(TRIES).map(|&f| m.corners(f)[0]);
-    corners.into_iter().find_map(|p| container.winding(&p)).is_some_and(|w| w != 0)
+    let middle = |[a, b, c]: [Point; 3]| std::array::from_fn(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0);
+    let corners = || shell.iter().take(TRIES).map(|&f| m.corners(f));
+    let places = corners().map(|[a, ..]| a).chain(corners().map(middle));
+    places.into_iter().find_map(|p| container.winding(&p)).unwrap_or(0)
 }
 
 /// The facets of each shell, ascending.

@@ -18,11 +18,12 @@ mod inside_out_shells;
 pub mod intersect;
 mod islands;
 pub(crate) mod near;
-mod nesting;
+pub(crate) mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;
 mod options;
+mod overlap;
 mod precision;
 mod precondition;
 mod reversed_normals;
@@ -41,7 +42,7 @@ pub use precondition::Precondition;
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::weld::WeldError;
-use crate::topology::{Properties, Soundness, Topology};
+use crate::topology::{Properties, Soundness, Topology, TopologyError};
 use free_edges::FreeEdges;
 
 /// All kinds of defect, in the order in which they are told.
@@ -114,6 +115,15 @@ pub enum CheckError {
     Cancelled(#[from] Cancelled),
 }
 
+impl From<TopologyError> for CheckError {
+    fn from(e: TopologyError) -> CheckError {
+        match e {
+            TopologyError::Weld(e) => e.into(),
+            TopologyError::Cancelled(e) => e.into(),
+        }
+    }
+}
+
 /// Boundary edges whose ends can be numbered by a `u32`.
 const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 
@@ -133,7 +143,7 @@ pub fn check(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Report, CheckError> {
-    let topology = Topology::of(mesh)?;
+    let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
     if open > MOST_BOUNDARY_EDGES {
         return Err(CheckError::TooManyBoundaryEdges { edges: open });
@@ -155,13 +165,14 @@ pub fn check(
         crossings: crossings.as_ref(),
         options,
         gap,
+        progress,
     };
     let mut defects = vec![];
     for kind in KINDS {
+        defects.push((kind, (kind.find)(&inspected)));
         if progress.cancelled() {
             return Err(Cancelled.into());
         }
-        defects.push((kind, (kind.find)(&inspected)));
     }
     let broken = |(kind, found): &(&Kind, Option<Found>)| {
         kind.severity == Severity::Error && found.as_ref().is_some_and(|f| f.count > 0)

@@ -1,6 +1,8 @@
 //! Places near something, without looking at all of them: a balanced tree of boxes over points.
 
 use crate::space::{Aabb, Point};
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
 
 /// Points of a leaf, at most.
 const LEAF: usize = 8;
@@ -41,6 +43,72 @@ impl Near {
             stack.push((2 * node + 2, middle..range.end));
             stack.push((2 * node + 1, range.start..middle));
         }
+    }
+}
+
+impl Near {
+    /// The numbers of the points nearest to `at`, `most` of them and no farther than `reach` in each coordinate, of those
+    /// that `counts`; the nearest first, of equally near ones the lowest number. Visits little more than it finds.
+    pub(crate) fn nearest(
+        &self,
+        at: Point,
+        reach: f64,
+        most: usize,
+        counts: impl Fn(u32) -> bool,
+    ) -> Vec<u32> {
+        // Those found, farthest first out; nodes still to be looked at, nearest first.
+        let mut found: BinaryHeap<(Far, u32)> = BinaryHeap::new();
+        let mut nodes = BinaryHeap::from([(Reverse(Far(0.0)), 0usize, 0, self.points.len())]);
+        let is_full = |found: &BinaryHeap<(Far, u32)>, far: Far| {
+            found.len() >= most && found.peek().is_none_or(|worst| worst.0 < far)
+        };
+        while let Some((Reverse(far), node, start, end)) = nodes.pop() {
+            let range = start..end;
+            if range.is_empty() || is_full(&found, far) {
+                continue;
+            }
+            if 2 * node + 1 < self.boxes.len() {
+                let middle = range.start + range.len() / 2;
+                for (child, part) in [(2 * node + 1, range.start..middle), (2 * node + 2, middle..range.end)]
+                {
+                    let b = &self.boxes[child];
+                    let outside = |k: usize| (b.min[k] - at[k]).max(at[k] - b.max[k]).max(0.0);
+                    if (0..3).all(|k| outside(k) <= reach) {
+                        let far = (0..3).map(|k| outside(k) * outside(k)).sum();
+                        nodes.push((Reverse(Far(far)), child, part.start, part.end));
+                    }
+                }
+                continue;
+            }
+            for (p, number) in self.points[range].iter().filter(|(_, number)| counts(*number)) {
+                let away: Point = std::array::from_fn(|k| (p[k] - at[k]).abs());
+                if away.iter().all(|x| *x <= reach) {
+                    found.push((Far(away.iter().map(|x| x * x).sum()), *number));
+                }
+                if found.len() > most {
+                    found.pop();
+                }
+            }
+        }
+        found.into_sorted_vec().into_iter().map(|(_, number)| number).collect()
+    }
+}
+
+/// A squared distance, in order.
+#[derive(Clone, Copy, PartialEq)]
+struct Far(f64);
+
+impl Eq for Far {}
+
+impl Ord for Far {
+    fn cmp(&self, other: &Far) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Far {
+    fn partial_cmp(&self, other: &Far) -> Option<Ordering> {
+        Some(self.cmp(other))
     }
 }
 
@@ -101,6 +169,30 @@ mod tests {
                 got.sort_unstable();
                 let want: Vec<u32> = points.iter().filter(|(p, _)| point(p)).map(|(_, i)| *i).collect();
                 assert_eq!(got, want);
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_are_those_of_a_sorted_list() {
+        let random = &mut Random::new(6);
+        for n in [0, 1, 9, 400] {
+            let points: Vec<(Point, u32)> =
+                (0..n).map(|i| (std::array::from_fn(|_| (random.unit() * 6.0).floor()), i)).collect();
+            let near = Near::new(points.clone());
+            for most in [1, 5, 40] {
+                let at: Point = std::array::from_fn(|_| random.unit() * 6.0);
+                let (reach, counts) = (3.0 * random.unit(), |i: u32| !i.is_multiple_of(3));
+                let away = |p: &Point| -> Point { std::array::from_fn(|k| (p[k] - at[k]).abs()) };
+                let square = |p: &Point| away(p).iter().map(|x| x * x).sum::<f64>();
+                let mut want: Vec<(f64, u32)> = (points.iter())
+                    .filter(|(p, i)| counts(*i) && away(p).iter().all(|x| *x <= reach))
+                    .map(|(p, i)| (square(p), *i))
+                    .collect();
+                want.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+                want.truncate(most);
+                let want: Vec<u32> = want.into_iter().map(|w| w.1).collect();
+                assert_eq!(near.nearest(at, reach, most, counts), want);
             }
         }
     }

@@ -1,10 +1,11 @@
 //! What keeps statistics of deviations from a mesh from being beyond doubt, with its places.
 
 use super::free_edges::FreeEdges;
+use super::overlap::shells_overlap;
 use super::{Found, Inspected, KINDS, Kind, Options, spacing};
 use crate::mesh::Mesh;
-use crate::topology::weld::WeldError;
-use crate::topology::{Properties, Soundness, Topology};
+use crate::progress::{Cancelled, Progress};
+use crate::topology::{Properties, Soundness, Topology, TopologyError};
 
 /// The verdict on a mesh that is measured against, and what speaks against it.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,9 @@ pub struct Precondition {
     pub soundness: Soundness,
     /// Kinds that break the rule and have a finding, in the order of [`KINDS`]. None where the mesh is sound.
     pub findings: Vec<(&'static Kind, Found)>,
+    /// The mesh is closed and consistently oriented, but its shells cross or touch each other, or one lies in another and
+    /// looks the way that one does: the surface winds around some places more than once, or the wrong way.
+    pub shells_overlap: bool,
 }
 
 /// The kinds that are looked for: they follow from how the facets hang together.
@@ -30,52 +34,56 @@ const KINDS_OF_RULE: [&str; 8] = [
 impl Precondition {
     /// Of a welded mesh, listing at most `limit` findings of each kind.
     ///
-    /// A sound mesh costs what [`Soundness::of`] costs; findings are only looked for in others.
+    /// A sound mesh of one shell costs what [`Soundness::of`] costs; findings are only looked for in meshes that are not
+    /// sound, overlapping shells where boxes of shells overlap, which takes a search for self-intersections.
     ///
     /// # Errors
-    /// As [`Topology::of`].
-    pub fn of(mesh: &Mesh, limit: usize) -> Result<Precondition, WeldError> {
-        let topology = Topology::of(mesh)?;
+    /// As [`Topology::watched`].
+    pub fn of(mesh: &Mesh, limit: usize, progress: &dyn Progress) -> Result<Precondition, TopologyError> {
+        let topology = Topology::watched(mesh, progress)?;
         let properties = Properties::of(mesh, &topology);
         let soundness = Soundness::from_parts(&topology, &properties);
-        let findings = if soundness.sound { vec![] } else { findings(mesh, &topology, &properties, limit) };
-        Ok(Precondition { soundness, findings })
+        let inspected = Inspected {
+            mesh,
+            topology: &topology,
+            properties: &properties,
+            free_edges: &FreeEdges::of(&topology),
+            stored_normals: None,
+            crossings: None,
+            options: &Options { limit, self_intersections: false, ..Options::default() },
+            gap: 8.0 * spacing(&properties.bounds),
+            progress,
+        };
+        let findings = if soundness.sound { vec![] } else { findings(&inspected) };
+        let shells_overlap = soundness.oriented() && shells_overlap(&inspected)?;
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        Ok(Precondition { soundness, findings, shells_overlap })
     }
 }
 
-fn findings(
-    mesh: &Mesh,
-    topology: &Topology,
-    properties: &Properties,
-    limit: usize,
-) -> Vec<(&'static Kind, Found)> {
-    let inspected = Inspected {
-        mesh,
-        topology,
-        properties,
-        free_edges: &FreeEdges::of(topology),
-        stored_normals: None,
-        crossings: None,
-        options: &Options { limit, self_intersections: false, ..Options::default() },
-        gap: 8.0 * spacing(&properties.bounds),
-    };
+fn findings(inspected: &Inspected) -> Vec<(&'static Kind, Found)> {
     let of_rule = KINDS.into_iter().filter(|kind| KINDS_OF_RULE.contains(&kind.name));
-    let found = of_rule.filter_map(|kind| Some((kind, (kind.find)(&inspected)?)));
+    let found = of_rule.filter_map(|kind| Some((kind, (kind.find)(inspected)?)));
     found.filter(|(_, found)| found.count > 0).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Silent;
     use crate::topology::tests::block;
 
     #[test]
     fn a_sound_mesh_has_no_findings_and_a_broken_one_those_of_its_check() {
         let mut mesh = block(3, 3.0);
-        assert!(Precondition::of(&mesh, 9).is_ok_and(|p| p.soundness.sound && p.findings.is_empty()));
+        assert!(
+            Precondition::of(&mesh, 9, &Silent).is_ok_and(|p| p.soundness.sound && p.findings.is_empty())
+        );
         mesh.faces.remove(4);
         mesh.faces.push(mesh.faces[20]);
-        let p = Precondition::of(&mesh, 2).unwrap();
+        let p = Precondition::of(&mesh, 2, &Silent).unwrap();
         let counts: Vec<_> = p.findings.iter().map(|(k, f)| (k.name, f.count, f.items.len())).collect();
         let want = [
             ("boundary_edges", 3, 2),
@@ -84,12 +92,7 @@ mod tests {
             ("duplicate_facets", 1, 1),
         ];
         assert_eq!(counts, want);
-        let whole = super::super::check(
-            &mesh,
-            None,
-            &Options { limit: 2, ..Options::default() },
-            &crate::progress::Silent,
-        );
+        let whole = super::super::check(&mesh, None, &Options { limit: 2, ..Options::default() }, &Silent);
         let whole = whole.unwrap();
         assert!(p.findings.iter().all(|(kind, found)| whole.found(kind.name) == Some(found)));
         assert_eq!(p.soundness, whole.soundness);

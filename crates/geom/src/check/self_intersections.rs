@@ -10,8 +10,9 @@ pub(super) const KIND: Kind = Kind {
     about: "Pairs of facets that meet anywhere else than in the vertices or the edge they share, decided exactly.",
     size: "diagonal of the box that the two have in common, mm",
     find: |m| {
-        let Crossings { count, first } = m.crossings?;
-        Some(Found { count: *count, items: first.iter().map(|pair| crossing(m, *pair)).collect() })
+        let Crossings { count, at_least, first } = m.crossings?;
+        let items = first.iter().map(|pair| crossing(m, *pair)).collect();
+        Some(Found { count: *count, at_least: *at_least, items })
     },
 };
 

@@ -38,7 +38,7 @@ pub(super) const KIND: Kind = Kind {
         // Of each part no more is kept than can be listed: a wide gap may bring very many.
         let part = |edges: &[EdgeAt]| {
             let (mut count, mut first) = (0, vec![]);
-            for found in edges.iter().map(at_edge) {
+            for found in edges.iter().take_while(|_| !m.progress.cancelled()).map(at_edge) {
                 count += found.len();
                 first.extend(found.into_iter().take(m.options.limit - first.len()));
             }
@@ -48,7 +48,7 @@ pub(super) const KIND: Kind = Kind {
             m.topology.boundary_edges.par_chunks(PART).map(part).collect();
         let count = parts.iter().map(|p| p.0).sum();
         let first = parts.iter().flat_map(|p| &p.1).take(m.options.limit);
-        Some(Found { count, items: first.map(|j| junction(m, j)).collect() })
+        Some(Found { count, at_least: false, items: first.map(|j| junction(m, j)).collect() })
     },
 };
 

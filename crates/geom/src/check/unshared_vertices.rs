@@ -16,6 +16,9 @@ pub(super) const KIND: Kind = Kind {
         let vertices = m.free_edges.vertices();
         let sets = Sets::new(vertices.len());
         (0..vertices.len() as u32).into_par_iter().for_each(|i| {
+            if m.progress.cancelled() {
+                return;
+            }
             let v = vertices[i as usize];
             let at = m.mesh.positions[v as usize];
             let reaches = |b: &Aabb| (0..3).all(|k| at[k] >= b.min[k] - m.gap && at[k] <= b.max[k] + m.gap);

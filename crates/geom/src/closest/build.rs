@@ -15,6 +15,7 @@ use crate::closest::limits::{self, MeshError};
 use crate::closest::tree::Tree;
 use crate::memory::large_pages;
 use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Aabb;
 use rayon::prelude::*;
 
@@ -26,6 +27,8 @@ const BINS: usize = 16;
 const SHARE: usize = 1 << 16;
 /// Ranges larger than this are built by a task of their own.
 const TASK: usize = 1 << 15;
+/// Before ranges larger than this are divided it is asked whether to go on.
+const ASKING: usize = 1 << 12;
 /// Boxes are widened by this (scaled units), more than the rounding of a corner to single precision.
 const PAD: f32 = 1.2e-7;
 
@@ -251,15 +254,16 @@ fn partition(items: &mut [Item], left: impl Fn(&Item) -> bool) -> usize {
 }
 
 /// Nodes (parents before their children, indices local to this list) and leaf ranges `(first slot, count)`.
+#[derive(Default)]
 struct Subtree {
     nodes: Vec<Node>,
     leaves: Vec<(u32, u32)>,
 }
 
 impl Subtree {
-    /// Appends the tree of `range`; returns its child reference.
-    fn grow(&mut self, range: Range) -> i32 {
-        if range.items.len() <= LEAF {
+    /// Appends the tree of `range`; returns its child reference. Worth nothing where `progress` says that it is cancelled.
+    fn grow(&mut self, range: Range, progress: &dyn Progress) -> i32 {
+        if range.items.len() <= LEAF || range.items.len() > ASKING && progress.cancelled() {
             self.leaves.push((range.start as u32, range.items.len() as u32));
             return !(self.leaves.len() as i32 - 1);
         }
@@ -294,7 +298,7 @@ impl Subtree {
                         nodes: Vec::with_capacity(p.items.len() / 16),
                         leaves: Vec::with_capacity(p.items.len() / 4),
                     };
-                    let root = t.grow(p);
+                    let root = t.grow(p, progress);
                     (t, root)
                 })
                 .collect();
@@ -303,7 +307,7 @@ impl Subtree {
             }
         } else {
             for (j, p) in parts.into_iter().enumerate() {
-                let c = self.grow(p);
+                let c = self.grow(p, progress);
                 self.nodes[me].child[j] = c;
             }
         }
@@ -331,15 +335,24 @@ impl Tree {
     ///
     /// # Errors
     /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
-    /// finite or beyond [`MAX_COORDINATE`](crate::closest::MAX_COORDINATE).
+    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX); or faces that extend over less than
+    /// [`MIN_EXTENT`](crate::closest::MIN_EXTENT), for which the powers in distances would lose their digits.
     pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
+        Tree::build_watched(mesh, &Silent)
+    }
+
+    /// As [`Tree::build`], asking `progress` whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`Tree::build`], and [`MeshError::Cancelled`].
+    pub fn build_watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, MeshError> {
         limits::check_mesh(mesh)?;
-        Ok(build(mesh))
+        Ok(build(mesh, progress)?)
     }
 }
 
 /// Builds the tree of a mesh that [`check_mesh`](super::limits::check_mesh) has passed.
-fn build(mesh: &Mesh) -> Tree {
+fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     let limits = limits(mesh);
     let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * limits.min[k] + 0.5 * limits.max[k]);
     let extent = limits.sides().into_iter().fold(0.0, f64::max);
@@ -358,17 +371,26 @@ fn build(mesh: &Mesh) -> Tree {
     };
     let mut items: Vec<Item> = large_pages(Vec::with_capacity(mesh.faces.len()));
     mesh.faces.par_iter().enumerate().map(item).collect_into_vec(&mut items);
-    let mut t = Subtree { nodes: vec![], leaves: vec![] };
-    let root = t.grow(Range::new(&mut items, 0));
+    let mut t = Subtree::default();
+    let root = t.grow(Range::new(&mut items, 0), progress);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
     let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
     drop(items);
-    let leaf =
-        |&(first, n): &(u32, u32)| frame::leaf(mesh, &face[first as usize..][..n as usize], first, scale);
+    let leaf = |&(first, n): &(u32, u32)| {
+        // Where the work is stopped, leaves stay empty.
+        let n = if progress.cancelled() { 0 } else { n };
+        frame::leaf(mesh, &face[first as usize..][..n as usize], first, scale)
+    };
     let mut leaves = large_pages(Vec::with_capacity(t.leaves.len()));
     let fill = || t.leaves.par_iter().map(leaf).collect_into_vec(&mut leaves);
     // The numbers follow each other: one thread gives them while the others fill leaves.
-    let ((slots, corners), ()) = rayon::join(|| frame::renumber(mesh, &face), fill);
-    Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }
+    let ((slots, corners), ()) = rayon::join(|| frame::renumber(mesh, &face, progress), fill);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    Ok(Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face })
 }
 
 /// Box of all vertices that faces use.

@@ -2,7 +2,13 @@
 
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::triangle::Feature;
+use crate::progress::{Cancelled, Progress, Silent};
 use rayon::prelude::*;
+
+/// From so many triangles at both ends of an edge on, it is looked up in a sorted list.
+const MANY: usize = 64;
+/// Every so manieth item of a loop asks whether to go on.
+pub(super) const ASK: u32 = 1 << 12;
 
 /// What lies across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,23 +54,64 @@ impl<'a> Fans<'a> {
         self.corners[group].iter().map(|&i| (i / 3, i as usize % 3))
     }
 
-    /// What lies across each edge (corner `k` to `k + 1`) of each slot.
-    pub fn across(&self) -> Vec<[Across; 3]> {
+    /// Number of corners at vertex `v`.
+    fn size(&self, v: u32) -> usize {
+        (self.start[v as usize + 1] - self.start[v as usize]) as usize
+    }
+
+    /// What lies across each edge (corner `k` to `k + 1`) of each slot. Worth nothing where `progress` says that it is
+    /// cancelled.
+    ///
+    /// An edge is looked for among the triangles at that end which has fewer. Where both have very many, in a sorted
+    /// list: a fan of n triangles takes n steps, several that share their hubs n log n.
+    pub fn across(&self, progress: &dyn Progress) -> Vec<[Across; 3]> {
+        let crowded = self.crowded();
         let of_edge = |s: u32, a: u32, b: u32| {
-            let mut others = self.around(a).filter(|&(o, i)| {
-                let t = &self.slots[o as usize];
-                o != s && (t[(i + 1) % 3] == b || t[(i + 2) % 3] == b)
-            });
-            match (others.next(), others.next()) {
-                _ if a == b => Across::Unclear,
-                (None, _) => Across::Free,
-                (Some((o, _)), None) => Across::One(o),
-                _ => Across::Unclear,
+            if a == b {
+                return Across::Unclear;
             }
+            let (a, b) = if self.size(b) < self.size(a) { (b, a) } else { (a, b) };
+            if self.size(a) > MANY {
+                let from = crowded.partition_point(|e| (e.0, e.1) < (a.min(b), a.max(b)));
+                let at_edge = crowded[from..].iter().take_while(|e| (e.0, e.1) == (a.min(b), a.max(b)));
+                return only(at_edge.map(|e| e.2).filter(|o| *o != s));
+            }
+            only(self.around(a).filter_map(|(o, i)| {
+                let t = &self.slots[o as usize];
+                (o != s && (t[(i + 1) % 3] == b || t[(i + 2) % 3] == b)).then_some(o)
+            }))
         };
-        let of_slot =
-            |(s, t): (usize, &[u32; 3])| std::array::from_fn(|k| of_edge(s as u32, t[k], t[(k + 1) % 3]));
+        let of_slot = |(s, t): (usize, &[u32; 3])| {
+            if (s as u32).is_multiple_of(ASK) && progress.cancelled() {
+                return [Across::Unclear; 3];
+            }
+            std::array::from_fn(|k| of_edge(s as u32, t[k], t[(k + 1) % 3]))
+        };
         self.slots.par_iter().enumerate().map(of_slot).collect()
+    }
+
+    /// Edges between two vertices with very many triangles: the ends, the lower one first, and the triangle; sorted.
+    fn crowded(&self) -> Vec<(u32, u32, u32)> {
+        let edges = |(s, t): (usize, &[u32; 3])| {
+            let t = *t;
+            (0..3).map(move |k| (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]), s as u32))
+        };
+        let both = |e: &(u32, u32, u32)| self.size(e.0) > MANY && self.size(e.1) > MANY;
+        let mut all: Vec<(u32, u32, u32)> =
+            self.slots.par_iter().enumerate().flat_map_iter(edges).filter(both).collect();
+        all.par_sort_unstable();
+        // A triangle that names a vertex twice has one edge twice.
+        all.dedup();
+        all
+    }
+}
+
+/// What these triangles make of an edge.
+fn only(mut others: impl Iterator<Item = u32>) -> Across {
+    match (others.next(), others.next()) {
+        (None, _) => Across::Free,
+        (Some(o), None) => Across::One(o),
+        _ => Across::Unclear,
     }
 }
 
@@ -80,9 +127,22 @@ pub struct FreeEdges {
 }
 
 impl FreeEdges {
-    /// Linear time.
+    /// Linear time, as [`Signs::new`](super::Signs::new).
     pub fn new(tree: &Tree) -> Self {
-        let across = Fans::new(tree).across();
+        FreeEdges::found(tree, &Silent)
+    }
+
+    /// As [`FreeEdges::new`], asking `progress` whether to go on.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
+        let edges = FreeEdges::found(tree, progress);
+        if progress.cancelled() { Err(Cancelled) } else { Ok(edges) }
+    }
+
+    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
+        let across = Fans::new(tree).across(progress);
         let mut on_rim = vec![false; tree.corners.len()];
         let mut count = 0;
         for (t, edges) in tree.slots.iter().zip(&across) {

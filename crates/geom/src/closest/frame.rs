@@ -2,15 +2,18 @@
 
 use crate::closest::layout::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
 use crate::mesh::Mesh;
+use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, dot, minus, times, unit};
 
-/// Triangles in slot order, vertices in order of first use.
-pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
+/// Triangles in slot order, vertices in order of first use. Ends early where `progress` says that it is cancelled.
+pub fn renumber(mesh: &Mesh, face: &[u32], progress: &dyn Progress) -> (Vec<[u32; 3]>, Vec<Point>) {
+    /// Faces after which it is asked whether to go on.
+    const PART: usize = 1 << 16;
     let mut new = vec![u32::MAX; mesh.positions.len()];
     let mut used = Vec::with_capacity(mesh.positions.len());
-    let slots = face
-        .iter()
-        .map(|&f| {
+    let mut slots = Vec::with_capacity(face.len());
+    for part in face.chunks(PART).take_while(|_| !progress.cancelled()) {
+        slots.extend(part.iter().map(|&f| {
             mesh.faces[f as usize].map(|v| {
                 let n = &mut new[v as usize];
                 if *n == u32::MAX {
@@ -19,8 +22,8 @@ pub fn renumber(mesh: &Mesh, face: &[u32]) -> (Vec<[u32; 3]>, Vec<Point>) {
                 }
                 *n
             })
-        })
-        .collect();
+        }));
+    }
     (slots, used)
 }
 

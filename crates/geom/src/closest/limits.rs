@@ -5,9 +5,17 @@ use crate::progress::Cancelled;
 use crate::space::Point;
 use rayon::prelude::*;
 
-/// Largest coordinate accepted, millimetres: its fourth power, which the distance to a plane needs, is still far from
-/// overflow.
+/// Largest coordinate of a point accepted, millimetres.
 pub const MAX_COORDINATE: f64 = 1e60;
+/// Smallest coordinate accepted that is not zero, millimetres: the fourth power of what is smaller leaves the range of
+/// normal numbers, and distances would lose their digits without a word.
+pub const MIN_COORDINATE: f64 = 1e-50;
+/// Largest coordinate of a vertex accepted, millimetres: the fourth power of it and the square of that of a point, whose
+/// product the distance to a plane needs, are still in the range of numbers.
+pub const MAX_VERTEX: f64 = 1e45;
+/// Least extent accepted of a mesh that is more than one place, millimetres: with smaller ones those powers lose digits
+/// at the lower end of the numbers.
+pub const MIN_EXTENT: f64 = 1e-45;
 /// Most faces accepted: three corners of each must be countable in 32 bits.
 pub const MAX_FACES: usize = 1 << 28;
 
@@ -30,16 +38,27 @@ pub enum MeshError {
         /// Number of vertices there are.
         vertices: usize,
     },
-    /// A coordinate of a vertex that a face uses is NaN, infinite or beyond [`MAX_COORDINATE`].
-    #[error("vertex {0} is not finite or lies beyond {MAX_COORDINATE:e} mm: repair the mesh first")]
+    /// A coordinate of a vertex that a face uses is NaN, infinite, beyond [`MAX_VERTEX`], or below [`MIN_COORDINATE`] but
+    /// not zero.
+    #[error(
+        "vertex {0} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_VERTEX:e} mm: repair the mesh first"
+    )]
     BadVertex(usize),
+    /// The box of the faces is smaller than [`MIN_EXTENT`], but not a single place.
+    #[error("the faces extend over less than {MIN_EXTENT:e} mm: scale the mesh up")]
+    TooSmall,
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Why a question was not answered.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum QueryError {
-    /// A coordinate of this point is NaN, infinite or beyond [`MAX_COORDINATE`].
-    #[error("point {0} is not finite or lies beyond {MAX_COORDINATE:e} mm: leave it out")]
+    /// A coordinate of this point is NaN, infinite, beyond [`MAX_COORDINATE`], or below [`MIN_COORDINATE`] but not zero.
+    #[error(
+        "point {0} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_COORDINATE:e} mm: leave it out"
+    )]
     BadPoint(usize),
     /// The greatest distance asked for is NaN or negative.
     #[error("the greatest distance must be a number from 0 to infinity, not {0}")]
@@ -49,9 +68,21 @@ pub enum QueryError {
     Cancelled(#[from] Cancelled),
 }
 
-/// True if all coordinates are finite and of sane size. (A NaN fails every comparison.)
+/// True if every coordinate is 0 or from [`MIN_COORDINATE`] to [`MAX_COORDINATE`] in magnitude. (A NaN fails every
+/// comparison.)
+///
+/// ```
+/// use trueness_geom::closest::sane;
+/// assert!(sane(&[0.0, -1e-50, 1e60]));
+/// assert!(!sane(&[0.0, 1e-51, 1.0]) && !sane(&[1.1e60, 0.0, 0.0]) && !sane(&[f64::NAN, 0.0, 0.0]));
+/// ```
+#[inline]
 pub fn sane(p: &Point) -> bool {
-    p.iter().all(|x| x.abs() <= MAX_COORDINATE)
+    // Without branches, as clouds of many millions go through it.
+    p.iter().fold(true, |good, x| {
+        let size = x.abs();
+        good & (size <= MAX_COORDINATE) & ((size >= MIN_COORDINATE) | (size == 0.0))
+    })
 }
 
 /// The number of the first point that is not [`sane`], as an error.
@@ -74,12 +105,23 @@ pub fn check_mesh(mesh: &Mesh) -> Result<(), MeshError> {
     let fault = |face: usize, f: &[u32; 3]| {
         f.iter().find_map(|&vertex| match mesh.positions.get(vertex as usize) {
             None => Some(MeshError::BadIndex { face, vertex, vertices: mesh.positions.len() }),
-            Some(v) if !sane(v) => Some(MeshError::BadVertex(vertex as usize)),
+            Some(v) if !(sane(v) && v.iter().all(|x| x.abs() <= MAX_VERTEX)) => {
+                Some(MeshError::BadVertex(vertex as usize))
+            }
             Some(_) => None,
         })
     };
-    match mesh.faces.par_iter().enumerate().find_map_first(|(i, f)| fault(i, f)) {
-        Some(e) => Err(e),
-        None => Ok(()),
+    if let Some(e) = mesh.faces.par_iter().enumerate().find_map_first(|(i, f)| fault(i, f)) {
+        return Err(e);
     }
+    let first = mesh.positions[mesh.faces[0][0] as usize];
+    let far = |f: &[u32; 3]| {
+        f.iter().any(|v| (0..3).any(|k| (mesh.positions[*v as usize][k] - first[k]).abs() >= MIN_EXTENT))
+    };
+    // Of nearly every mesh the first face will do.
+    if mesh.faces.iter().any(far) {
+        return Ok(());
+    }
+    let one_place = mesh.faces.iter().flatten().all(|v| mesh.positions[*v as usize] == first);
+    if one_place { Ok(()) } else { Err(MeshError::TooSmall) }
 }

@@ -10,8 +10,9 @@
 //! | is the closest place on the rim? | [`FreeEdges`] |
 //! | the definition of the answer | [`brute::closest`] |
 //!
-//! "Exact" means: the least, over all faces, of the distance to a face evaluated in double precision; ties go to the
-//! lowest face. The answer is the same bit for bit as trying all faces, whatever the number of threads, the order of the
+//! "Exact" means: the least, over all faces, of the distance to a face evaluated in double precision (to thin faces in
+//! twice that, see `thin`); ties go to the lowest face. It is off by no more than 2^-40 of the distance from the face's
+//! first corner, mostly by 2^-52. The answer is the same bit for bit as trying all faces, whatever the number of threads, the order of the
 //! points, the instruction set and the shape of the triangles. A point farther than `max_distance` has no answer, decided
 //! on the rounded distance.
 //!
@@ -36,6 +37,7 @@ mod query;
 mod settle;
 mod sign;
 mod solid_angle;
+mod thin;
 mod tree;
 mod triangle;
 mod walk;
@@ -44,7 +46,9 @@ mod winding;
 
 pub use edges::FreeEdges;
 pub use hit::Hit;
-pub use limits::{MAX_COORDINATE, MAX_FACES, MeshError, QueryError};
+pub use limits::{
+    MAX_COORDINATE, MAX_FACES, MAX_VERTEX, MIN_COORDINATE, MIN_EXTENT, MeshError, QueryError, sane,
+};
 pub(crate) use limits::{check_mesh, check_points};
 pub use query::Query;
 pub use sign::Signs;

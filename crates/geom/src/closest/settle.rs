@@ -3,6 +3,7 @@
 
 use crate::closest::block::{Block, Scratch};
 use crate::closest::hit::Hit;
+use crate::closest::thin;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
 use crate::memory::prefetch;
@@ -35,10 +36,14 @@ pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [H
         let v = unsafe { load_all::<D>(&soa) };
         let corners = [[v[3], v[4], v[5]], [v[6], v[7], v[8]], [v[9], v[10], v[11]]];
         // SAFETY: the caller's promise.
-        let (d, height) = unsafe { triangle::squared([v[0], v[1], v[2]], corners) };
-        let (mut distances, mut heights) = ([0f64; 8], [0f64; 8]);
+        let (d, height, is_thin) = unsafe { triangle::squared([v[0], v[1], v[2]], corners) };
+        let (mut distances, mut heights, mut slow) = ([0f64; 8], [0f64; 8], [0f64; 8]);
         d.store(&mut distances);
         height.store(&mut heights);
+        is_thin.store(&mut slow);
+        for (j, &(i, slot)) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0) {
+            (distances[j & 7], heights[j & 7]) = thin::squared(&b.points[i as usize], &tree.triangle(slot));
+        }
         for ((&distance_squared, &height), &(i, slot)) in distances.iter().zip(&heights).zip(part) {
             let h = &mut hits[i as usize];
             if distance_squared <= h.distance_squared {

@@ -6,13 +6,13 @@
 //! does on a closed, consistently oriented mesh without self-intersections (Bærentzen & Aanæs, "Signed distance
 //! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
 
-use crate::closest::edges::{Across, Fans};
+use crate::closest::edges::{ASK, Across, Fans};
 use crate::closest::hit::Hit;
 use crate::closest::limits::QueryError;
 use crate::closest::query::Query;
 use crate::closest::tree::Tree;
 use crate::closest::triangle::{self, Feature};
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use rayon::prelude::*;
 
@@ -31,7 +31,7 @@ pub struct Signs<'a> {
 
 /// Unit normal of a triangle, or zero if it has none.
 fn normal(t: &[Point; 3]) -> Vector {
-    unit(cross(minus(t[1], t[0]), minus(t[2], t[0]))).map_or([0.0; 3], |n| n.0)
+    unit(triangle::normal(t)).map_or([0.0; 3], |n| n.0)
 }
 
 /// Angle of a triangle at corner `i`.
@@ -41,10 +41,27 @@ fn angle(t: &[Point; 3], i: usize) -> f64 {
 }
 
 impl<'a> Signs<'a> {
-    /// Finds neighbours and corner normals in linear time. The result does not depend on the number of threads.
+    /// Finds neighbours and corner normals, in linear time where no two vertices with more than 64 faces are neighbours. The result does not depend on the number of threads.
     pub fn new(tree: &'a Tree) -> Self {
+        Signs::found(tree, &Silent)
+    }
+
+    /// As [`Signs::new`], asking `progress` whether to go on.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn watched(tree: &'a Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
+        let signs = Signs::found(tree, progress);
+        if progress.cancelled() { Err(Cancelled) } else { Ok(signs) }
+    }
+
+    /// Worth nothing where `progress` says that it is cancelled.
+    fn found(tree: &'a Tree, progress: &dyn Progress) -> Self {
         let fans = Fans::new(tree);
         let of_vertex = |v: u32| {
+            if v.is_multiple_of(ASK) && progress.cancelled() {
+                return [0.0; 3];
+            }
             // Summed in slot order.
             fans.around(v).fold([0.0; 3], |n, (s, i)| {
                 let t = tree.triangle(s);
@@ -52,7 +69,7 @@ impl<'a> Signs<'a> {
             })
         };
         let corner = (0..tree.corners.len() as u32).into_par_iter().map(of_vertex).collect();
-        Signs { tree, across: fans.across(), corner }
+        Signs { tree, across: fans.across(progress), corner }
     }
 
     /// Number of edges with other than two faces, counted once for each of their faces. Above zero the sign is not to be

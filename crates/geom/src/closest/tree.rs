@@ -17,7 +17,7 @@
 use crate::closest::hit::Hit;
 use crate::closest::layout::{Leaf, Node};
 use crate::closest::triangle::{self, Feature};
-use crate::space::Point;
+use crate::space::{Point, minus, norm};
 
 /// A mesh prepared for closest-point queries: build once, ask often, from any number of threads.
 ///
@@ -53,6 +53,12 @@ pub struct Closest {
 }
 
 impl Tree {
+    /// Length of the longest edge of the face that was hit.
+    pub(crate) fn longest_edge(&self, hit: &Hit) -> f64 {
+        let [a, b, c] = self.triangle(hit.slot);
+        [minus(b, a), minus(c, b), minus(a, c)].map(norm).into_iter().fold(0.0, f64::max)
+    }
+
     /// Number of faces.
     pub fn faces(&self) -> usize {
         self.face.len()

@@ -6,15 +6,12 @@
 //! Method. The distance is the least of the distances to the three edges and, when the foot of the perpendicular falls
 //! inside, the distance to the plane. Testing the edges always (instead of sorting the point into one of seven regions,
 //! Ericson 2005 §5.1.5) costs a few operations and makes every degenerate triangle an ordinary case: a needle, a segment
-//! or a point is answered by its edges. The plane is used only where its normal is well determined ([`PLANE_MIN`]).
+//! or a point is answered by its edges. Where the normal is not well determined ([`THIN`]), [`thin`] goes on.
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
+use crate::closest::thin::{self, THIN};
 use crate::simd::lanes::Real;
 use crate::space::Point;
-
-/// The plane counts only if sin² of the angle at the first corner exceeds this; below, the triangle is so thin (width
-/// under 3e-8 of its length) that its edges are the triangle.
-const PLANE_MIN: f64 = 1e-15;
 
 #[inline(always)]
 fn sub<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
@@ -51,15 +48,16 @@ fn edge<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
     aside(w, v, along(w, v, vv, zero, one))
 }
 
-/// Squared distance from `p` to the triangle `a b c`, any of which may coincide; and, where the closest point lies
-/// inside the triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim).
+/// Squared distance from `p` to the triangle `a b c`, any of which may coincide; where the closest point lies inside the
+/// triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim); and 1 where
+/// the triangle is thin, so that [`thin::squared`] must be asked instead, else 0.
 ///
 /// # Safety
 /// The processor has the instructions of `T` (none for `f64`).
 #[inline(always)]
-pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T) {
+pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
     // SAFETY: the caller's promise.
-    let (zero, one, plane_min) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(PLANE_MIN)) };
+    let (zero, one, thin) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(THIN)) };
     let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
     let (ap, bp) = (sub(p, a), sub(p, b));
     let (aa, cc) = (dot(ab, ab), dot(ac, ac));
@@ -70,17 +68,40 @@ pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T) {
     let left_of_ab = dot(n, cross(ab, ap)).at_least(zero);
     let left_of_bc = dot(n, cross(bc, bp)).at_least(zero);
     let left_of_ca = dot(n, cross(ap, ac)).at_least(zero);
-    let flat = nn.above(plane_min * aa * cc);
+    let wide = nn.above(thin * aa * cc);
     let h = dot(ap, n);
     let plane = (h * h / nn).least(rim);
-    let inside = T::both(T::both(left_of_ab, left_of_bc), T::both(left_of_ca, flat));
-    (T::select(inside, plane, rim), T::select(inside, h, zero))
+    let inside = T::both(T::both(left_of_ab, left_of_bc), T::both(left_of_ca, wide));
+    (T::select(inside, plane, rim), T::select(inside, h, zero), T::select(wide, zero, one))
 }
 
 /// Squared distance, and height as in [`squared`], of plain points.
 pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
     // SAFETY: `f64` needs no special instructions.
-    unsafe { squared::<f64>(*p, *t) }
+    let (distance, height, thin) = unsafe { squared::<f64>(*p, *t) };
+    if thin == 0.0 { (distance, height) } else { thin::squared(p, t) }
+}
+
+/// Squared distance to the nearest edge.
+pub(super) fn rim(p: &Point, [a, b, c]: &[Point; 3]) -> f64 {
+    let to = |from: &Point, to: &Point| {
+        let (v, w) = (sub(*to, *from), sub(*p, *from));
+        edge(w, v, dot(v, v), 0.0, 1.0)
+    };
+    to(a, b).least(to(a, c)).least(to(b, c))
+}
+
+/// Whether the normal of a triangle is a matter for [`thin`].
+fn is_thin([a, b, c]: &[Point; 3]) -> bool {
+    let (ab, ac) = (sub(*b, *a), sub(*c, *a));
+    let n = cross(ab, ac);
+    dot(n, n) <= THIN * dot(ab, ab) * dot(ac, ac)
+}
+
+/// The normal of a triangle, its length twice the area.
+pub(super) fn normal(t: &[Point; 3]) -> Point {
+    let [a, b, c] = *t;
+    if is_thin(t) { thin::normal(t) } else { cross(sub(b, a), sub(c, a)) }
 }
 
 /// The part of a face that a closest point lies on.
@@ -131,16 +152,23 @@ pub fn closest_point(p: &Point, t: &[Point; 3]) -> Place {
             };
         }
     }
+    let inside = |point, [wa, wb, wc]: [f64; 3]| {
+        let sum = wa + wb + wc;
+        Place { point, barycentric: [wa / sum, wb / sum, wc / sum], feature: Feature::Face }
+    };
+    if is_thin(t) {
+        return match thin::foot(p, t).filter(|foot| foot.height_squared < least) {
+            Some(foot) => inside(std::array::from_fn(|k| p[k] - foot.normals * foot.normal[k]), foot.weights),
+            None => place,
+        };
+    }
     let n = cross(ab, ac);
     let nn = dot(n, n);
     let [wc, wa, wb] = [dot(n, cross(ab, ap)), dot(n, cross(bc, bp)), dot(n, cross(ap, ac))];
     let h = dot(ap, n);
-    let flat = nn > PLANE_MIN * dot(ab, ab) * dot(ac, ac);
-    if flat && wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && h * h / nn < least {
+    if wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && h * h / nn < least {
         let s = h / nn;
-        let point = std::array::from_fn(|k| p[k] - s * n[k]);
-        let sum = wa + wb + wc;
-        place = Place { point, barycentric: [wa / sum, wb / sum, wc / sum], feature: Feature::Face };
+        place = inside(std::array::from_fn(|k| p[k] - s * n[k]), [wa, wb, wc]);
     }
     place
 }

@@ -25,11 +25,11 @@ mod tests;
 pub use differences::Differences;
 pub use facet::Value;
 
-use crate::spatial::neighbours::PointTree;
 use crate::closest::{MeshError, QueryError, check_mesh, check_points};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point};
+use crate::spatial::neighbours::PointTree;
 use crate::topology::weld;
 use rayon::prelude::*;
 

@@ -1,11 +1,11 @@
 //! Points spread evenly over a mesh, and distances between two meshes from both sides.
 
-use crate::stats::statistics::{Number, Statistics};
 use crate::closest::{MeshError, check_mesh};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::num::sum::Sum;
 use crate::space::{Point, cross, minus, norm};
+use crate::stats::statistics::{Number, Statistics};
 use rayon::prelude::*;
 
 /// Why a mesh cannot be sampled.

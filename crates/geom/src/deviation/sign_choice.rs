@@ -1,13 +1,16 @@
 //! Which sign method is valid for a reference, and why.
 //!
-//! Pseudonormals (Bærentzen & Aanæs 2005) are exact wherever every edge has two facets that agree on the outside.
+//! Pseudonormals (Bærentzen & Aanæs 2005) are exact wherever every edge has two facets that agree on the outside, and the
+//! surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
+//! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is
+//! material in material, one that looks the other way a cavity.
 //! The generalised winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
 //! a volume; on an open sheet it never reaches one half. What tells the two apart is the *vector area*: the sum of
 //! the facets' area vectors is zero for a closed surface, and as long as the area itself for a flat sheet.
 
+use crate::check::Precondition;
 use crate::mesh::Mesh;
 use crate::space::{Vector, cross, minus, norm, plus};
-use crate::topology::Soundness;
 use rayon::prelude::*;
 use std::fmt;
 
@@ -54,10 +57,14 @@ pub struct SignChoice {
 pub enum SignReason {
     /// It was asked for.
     Requested,
-    /// It was asked for, and the reference is not closed and consistently oriented as the method needs it.
+    /// It was asked for, and the reference is not closed, consistently oriented and free of overlapping shells as the method
+    /// needs it.
     RequestedUnsound,
     /// The reference is closed and consistently oriented.
     Closed,
+    /// The reference is closed and consistently oriented, but its shells cross or touch, or one lies in another and looks
+    /// the way that one does.
+    Overlapping,
     /// The reference has gaps, but nearly encloses a volume.
     NearlyClosed {
         /// Edges with one facet.
@@ -77,26 +84,25 @@ pub enum SignReason {
 pub(crate) const SHEET: f64 = 0.25;
 
 impl SignChoice {
-    /// Chooses for a mesh of this soundness. Cost: linear in the facets.
+    /// Chooses for a mesh of which this is known. Cost: linear in the facets.
+    ///
+    /// One shell that crosses itself is not told from one that does not: where it overlaps itself, pseudonormals may
+    /// call the inside outside, and winding numbers must be asked for.
     ///
     /// # Panics
     /// If a facet names a vertex that does not exist.
-    pub fn new(requested: SignRequest, soundness: &Soundness, mesh: &Mesh) -> SignChoice {
+    pub fn new(requested: SignRequest, known: &Precondition, mesh: &Mesh) -> SignChoice {
+        let soundness = &known.soundness;
         let openness = openness(mesh);
-        let oriented = soundness.consistently_oriented
-            && soundness.non_manifold_edges == 0
-            && soundness.duplicate_facets == 0;
+        let valid = soundness.oriented() && !known.shells_overlap;
         let (method, reason) = match requested {
             SignRequest::None => (SignMethod::None, SignReason::Requested),
             SignRequest::Winding if openness > SHEET => (SignMethod::Winding, SignReason::RequestedUnsound),
             SignRequest::Winding => (SignMethod::Winding, SignReason::Requested),
-            SignRequest::Pseudonormal if soundness.closed && oriented => {
-                (SignMethod::Pseudonormal, SignReason::Requested)
-            }
+            SignRequest::Pseudonormal if valid => (SignMethod::Pseudonormal, SignReason::Requested),
             SignRequest::Pseudonormal => (SignMethod::Pseudonormal, SignReason::RequestedUnsound),
-            SignRequest::Auto if soundness.closed && oriented => {
-                (SignMethod::Pseudonormal, SignReason::Closed)
-            }
+            SignRequest::Auto if valid => (SignMethod::Pseudonormal, SignReason::Closed),
+            SignRequest::Auto if soundness.oriented() => (SignMethod::Winding, SignReason::Overlapping),
             SignRequest::Auto if soundness.closed => (SignMethod::Winding, SignReason::Inconsistent),
             SignRequest::Auto if openness > SHEET => {
                 (SignMethod::Pseudonormal, SignReason::OpenSheet { openness })
@@ -151,10 +157,14 @@ impl fmt::Display for SignChoice {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self.reason {
             SignReason::Requested => write!(f, "asked for")?,
-            SignReason::RequestedUnsound => {
-                write!(f, "asked for, although the reference is not closed and consistently oriented")?
-            }
+            SignReason::RequestedUnsound => write!(
+                f,
+                "asked for, although the reference is not closed and consistently oriented, or its shells overlap"
+            )?,
             SignReason::Closed => write!(f, "the reference is closed and consistently oriented")?,
+            SignReason::Overlapping => {
+                write!(f, "the reference's shells cross, touch, or contain each other the same way round")?
+            }
             SignReason::NearlyClosed { boundary_edges } => {
                 write!(f, "the reference is open at {boundary_edges} edges, but nearly encloses a volume")?
             }

@@ -4,10 +4,9 @@ use super::sign_choice::{SignChoice, SignMethod, SignRequest};
 use crate::check::Precondition;
 use crate::closest::{FreeEdges, Hit, Query, QueryError, Signs, Tree, Winding};
 use crate::mesh::Mesh;
-use crate::progress::{Progress, Silent};
+use crate::progress::Progress;
 use crate::space::Point;
-use crate::topology::Soundness;
-use crate::topology::weld::WeldError;
+use crate::topology::{Soundness, TopologyError};
 
 /// What is asked of a [`Surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,17 +91,24 @@ impl<'t> Surface<'t> {
     /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
     ///
     /// # Errors
-    /// Those of [`Soundness::of`].
-    pub fn new(tree: &'t Tree, mesh: &Mesh, options: &SurfaceOptions) -> Result<Surface<'t>, WeldError> {
-        let precondition = Precondition::of(mesh, FLAWS)?;
+    /// Those of [`Precondition::of`].
+    pub fn new(
+        tree: &'t Tree,
+        mesh: &Mesh,
+        options: &SurfaceOptions,
+        progress: &dyn Progress,
+    ) -> Result<Surface<'t>, TopologyError> {
+        let precondition = Precondition::of(mesh, FLAWS, progress)?;
         let soundness = &precondition.soundness;
-        let choice = SignChoice::new(options.sign, soundness, mesh);
+        let choice = SignChoice::new(options.sign, &precondition, mesh);
         let side = match choice.method {
-            SignMethod::Pseudonormal => Side::Pseudonormal(Signs::new(tree)),
+            SignMethod::Pseudonormal => Side::Pseudonormal(Signs::watched(tree, progress)?),
             SignMethod::Winding => Side::Winding(Winding::new(tree)),
             SignMethod::None => Side::None,
         };
-        let free_edges = (options.skip_boundary && !soundness.closed).then(|| FreeEdges::new(tree));
+        let free_edges = (options.skip_boundary && !soundness.closed)
+            .then(|| FreeEdges::watched(tree, progress))
+            .transpose()?;
         Ok(Surface { tree, choice, precondition, side, free_edges, max_distance: options.max_distance })
     }
 
@@ -143,7 +149,7 @@ impl<'t> Surface<'t> {
         f: impl Fn(usize, f64, Option<&Hit>) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
         let inside = match &self.side {
-            Side::Winding(w) => self.inside(w, points)?,
+            Side::Winding(w) => self.inside(w, points, progress)?,
             _ => vec![],
         };
         let outward = self.outward();
@@ -170,130 +176,77 @@ impl<'t> Surface<'t> {
     }
 
     /// Whether the mesh winds around each point: once in the positive sense, or in the negative one if it is inside out.
-    fn inside(&self, winding: &Winding, points: &[Point]) -> Result<Vec<bool>, QueryError> {
-        let above = winding.above(0.5 * self.outward(), points, &Silent)?;
+    fn inside(
+        &self,
+        winding: &Winding,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, QueryError> {
+        let above = winding.above(0.5 * self.outward(), points, &OnlyCancels(progress))?;
         Ok(above.into_iter().map(|above| above != self.choice.inside_out).collect())
     }
 }
 
-/// Share of points on which the two sign methods differ.
+/// Points on which the two sign methods differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disagreement {
-    /// Points compared.
+    /// Points compared: those that do not lie on the surface.
     pub sample: u64,
     /// Points with different signs.
     pub differing: u64,
 }
 
+/// Points nearer to a facet than this share of its longest edge have no side that winding numbers could tell.
+const ON_SURFACE: f64 = 1e-6;
+
 impl Surface<'_> {
-    /// Asks both sign methods about `points`, whichever is in use. Cost: that of preparing the other method, and of the
-    /// points.
+    /// Asks both sign methods about `points`, whichever is in use. Points on the surface are left out: they have no side.
+    /// Cost: that of preparing the other method, and of the points.
     ///
     /// # Errors
     /// Those of [`Surface::deviations`].
-    pub fn disagreement(&self, points: &[Point]) -> Result<Disagreement, QueryError> {
-        let outward = self.outward();
+    pub fn disagreement(
+        &self,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Disagreement, QueryError> {
+        let (outward, other) = (self.outward(), OnlyCancels(progress));
         let sides = match &self.side {
-            Side::Pseudonormal(s) => s.distances(points, &Query::default(), &Silent)?,
-            _ => Signs::new(self.tree).distances(points, &Query::default(), &Silent)?,
+            Side::Pseudonormal(s) => self.sides(s, points, &other)?,
+            _ => self.sides(&Signs::watched(self.tree, progress)?, points, &other)?,
         };
         let inside = match &self.side {
-            Side::Winding(w) => self.inside(w, points)?,
-            _ => self.inside(&Winding::new(self.tree), points)?,
+            Side::Winding(w) => self.inside(w, points, progress)?,
+            _ => self.inside(&Winding::new(self.tree), points, progress)?,
         };
-        let differing = sides.iter().zip(inside).filter(|&(d, inside)| (outward * d < 0.0) != inside).count();
-        Ok(Disagreement { sample: points.len() as u64, differing: differing as u64 })
+        let told = || sides.iter().zip(&inside).filter(|(side, _)| **side != 0.0);
+        let differing = told().filter(|(side, inside)| (outward * **side < 0.0) != **inside).count();
+        Ok(Disagreement { sample: told().count() as u64, differing: differing as u64 })
+    }
+
+    /// The side that each point is on, by pseudonormals; 0 for those on the surface.
+    fn sides(
+        &self,
+        signs: &Signs,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<f64>, QueryError> {
+        self.tree.map_closest(points, &Query::default(), progress, |i, hit| {
+            let Some(hit) = hit else { return 0.0 };
+            let away = hit.distance() > ON_SURFACE * self.tree.longest_edge(&hit);
+            if away { signs.sign(&points[i], &hit) } else { 0.0 }
+        })
+    }
+}
+
+/// Hands on whether to stop, but not what is done: points count once, by their distances.
+struct OnlyCancels<'a>(&'a dyn Progress);
+
+impl Progress for OnlyCancels<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::sign_choice::SignReason;
-    use super::*;
-
-    /// The unit cube, outward.
-    fn cube() -> Mesh {
-        let positions = (0..8).map(|i| [(i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64]).collect();
-        let faces = vec![
-            [0, 2, 1],
-            [1, 2, 3],
-            [4, 5, 6],
-            [5, 7, 6],
-            [0, 1, 4],
-            [1, 5, 4],
-            [2, 6, 3],
-            [3, 6, 7],
-            [0, 4, 2],
-            [2, 4, 6],
-            [1, 3, 5],
-            [3, 7, 5],
-        ];
-        Mesh { positions, faces }
-    }
-
-    fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, Vec<f64>, Disagreement) {
-        let tree = Tree::build(mesh).unwrap();
-        let surface = Surface::new(&tree, mesh, &options).unwrap();
-        let deviations = surface.deviations(points, &Silent).unwrap();
-        (*surface.sign(), deviations, surface.disagreement(points).unwrap())
-    }
-
-    const POINTS: [Point; 3] = [[0.5, 0.5, 0.25], [3.0, 0.5, 0.5], [-1.0, -1.0, 0.5]];
-    const DEVIATIONS: [f64; 3] = [-0.25, 2.0, std::f64::consts::SQRT_2];
-
-    #[test]
-    fn closed_mesh_is_signed_by_pseudonormals_inside_out_or_not() {
-        let mut mesh = cube();
-        for inside_out in [false, true] {
-            let (choice, deviations, disagreement) = ask(&mesh, SurfaceOptions::default(), &POINTS);
-            assert_eq!((choice.method, choice.reason), (SignMethod::Pseudonormal, SignReason::Closed));
-            assert_eq!(choice.inside_out, inside_out);
-            assert_eq!(deviations, DEVIATIONS);
-            assert_eq!(disagreement, Disagreement { sample: 3, differing: 0 });
-            mesh.faces.iter_mut().for_each(|f| f.swap(0, 1));
-        }
-    }
-
-    #[test]
-    fn mesh_with_a_gap_or_a_turned_facet_is_signed_by_winding_number() {
-        let mut gap = cube();
-        gap.faces.pop();
-        let (choice, deviations, _) = ask(&gap, SurfaceOptions::default(), &POINTS);
-        assert_eq!(
-            (choice.method, choice.reason),
-            (SignMethod::Winding, SignReason::NearlyClosed { boundary_edges: 3 })
-        );
-        assert_eq!(deviations, DEVIATIONS);
-        let mut turned = cube();
-        turned.faces[11].swap(0, 1);
-        let (choice, _, _) = ask(&turned, SurfaceOptions::default(), &POINTS);
-        assert_eq!((choice.method, choice.reason), (SignMethod::Winding, SignReason::Inconsistent));
-    }
-
-    /// A winding number never exceeds one half beside a sheet: every point would be outside.
-    #[test]
-    fn sheet_has_two_sides() {
-        let mut sheet = cube();
-        sheet.faces.truncate(2); // the bottom, facing down
-        let points = [[0.5, 0.5, 0.125], [0.5, 0.5, -0.25]];
-        let (choice, deviations, disagreement) = ask(&sheet, SurfaceOptions::default(), &points);
-        assert_eq!(
-            (choice.method, choice.reason),
-            (SignMethod::Pseudonormal, SignReason::OpenSheet { openness: 1.0 })
-        );
-        assert_eq!(deviations, [-0.125, 0.25]);
-        assert_eq!(disagreement.differing, 1);
-    }
-
-    #[test]
-    fn far_points_and_points_beyond_the_rim_are_excluded() {
-        let mut sheet = cube();
-        sheet.faces.truncate(2);
-        let options = SurfaceOptions { max_distance: 1.0, skip_boundary: true, ..SurfaceOptions::default() };
-        let points = [[0.5, 0.5, -1.0], [0.5, 0.5, -1.5], [1.5, 0.5, 0.0]];
-        let (_, deviations, _) = ask(&sheet, options, &points);
-        let excluded: Vec<Option<Exclusion>> = deviations.iter().map(|&d| Exclusion::of(d)).collect();
-        assert_eq!(excluded, [None, Some(Exclusion::MaxDistance), Some(Exclusion::FreeEdge)]);
-        assert_eq!(deviations[0], 1.0);
-    }
-}
+mod tests;

@@ -18,6 +18,7 @@ pub(super) struct Cone;
 impl Family<6> for Cone {
     const LOCAL: [Local; 6] =
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0), Local::Size(1)];
+    const FREE: &'static [usize] = &[2];
 
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
@@ -64,7 +65,11 @@ impl Family<6> for Cone {
         }
         element
     }
+    fn answer([_, half_angle]: [f64; 2]) -> [f64; 6] {
+        [0.0, 0.0, 0.0, 0.0, -half_angle.sin(), 0.0]
+    }
     fn shape(element: &Element, sample: &Sample) -> Shape {
+        let element = refooted(*element, sample.station);
         let [distance, half_angle] = element.size;
         let direction = element.pose.axes[2];
         let apex = plus(element.pose.origin, times(-distance / half_angle.sin(), direction));

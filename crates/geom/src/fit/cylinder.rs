@@ -16,6 +16,7 @@ pub(super) struct Cylinder;
 impl Family<5> for Cylinder {
     const LOCAL: [Local; 5] =
         [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1), Local::Size(0)];
+    const FREE: &'static [usize] = &[2];
 
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<5>) {
@@ -42,7 +43,7 @@ impl Family<5> for Cylinder {
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         Shape::Cylinder {
-            point: sample.place(element.pose.origin),
+            point: sample.place(element.foot(sample.station, Self::FREE)),
             direction: element.pose.axes[2],
             radius: element.size[0] / sample.scale,
         }

@@ -4,7 +4,7 @@ use super::sample::Sample;
 use super::unknown::Local;
 use crate::frame::Pose;
 use crate::shape::Shape;
-use crate::space::{Point, Vector, times};
+use crate::space::{Point, Vector, plus, times};
 
 /// A frame and at most two sizes: an element of whatever family, in the unit frame of its sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +27,18 @@ pub(super) trait Family<const P: usize>: Sync {
     const LOCAL: [Local; P];
     /// Whether the distance is signed. The distance to a curve in space is not.
     const SIGNED: bool = true;
+    /// Axes of its frame along which the element reaches on and on: along them nothing tells its origin, and its shape is
+    /// told at the foot of the points' mean.
+    const FREE: &'static [usize] = &[];
 
     /// Hands each row of the least-squares problem for the point `q` to `rows`: residual and its derivatives.
     fn rows(size: [f64; 2], q: Point, rows: &mut impl Rows<P>);
     /// Orthogonal distance of the point `q`, positive outside.
     fn distance(size: [f64; 2], q: Point) -> f64;
+    /// What the unknowns become when all points move by a unit along a free axis and the origin stays.
+    fn answer(_size: [f64; 2]) -> [f64; P] {
+        [0.0; P]
+    }
     /// Whether these sizes make an element.
     fn sound(size: [f64; 2]) -> bool {
         size.iter().all(|x| x.is_finite())
@@ -95,6 +102,11 @@ impl Element {
             self.pose.axes[axis] = times(-1.0, self.pose.axes[axis]);
         }
         self
+    }
+    /// The foot of `place`: the origin moved along these axes.
+    pub(super) fn foot(&self, place: Point, free: &[usize]) -> Point {
+        let at = self.pose.local(place);
+        free.iter().fold(self.pose.origin, |p, &k| plus(p, times(at[k], self.pose.axes[k])))
     }
     /// The element with its origin moved along the third axis to the foot of `place`.
     pub(super) fn footed(mut self, place: Point) -> Element {

@@ -9,7 +9,7 @@ use super::solution::{Covariance, Fit, Residuals};
 use super::{FitError, Kind, Options, Shape, dense, survey};
 use crate::progress::Progress;
 use crate::shape::MOST_NUMBERS;
-use crate::space::Point;
+use crate::space::{Point, plus, times};
 
 /// Points that starts are looked for and compared on.
 const FEW: usize = 256;
@@ -177,6 +177,9 @@ pub(super) fn statistics<const P: usize, F: Family<P>>(
 
 /// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element` and the standard
 /// deviation of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
+///
+/// Along its free axes an element is told at the foot of the mean of all n points. The mean is uncertain by the standard
+/// deviation over √n, noise being the same in all directions; and the foot moves with the axis, if the mean lies beside it.
 pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
     inverse: &[[f64; P]; P],
@@ -208,6 +211,26 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
         for a in 0..P {
             for (n, value) in row.iter_mut().enumerate() {
                 *value += slopes[a][i] * told[a][n] * (std_dev * std_dev);
+            }
+        }
+    }
+    let h = std_dev.clamp(1e-9, 1e-4);
+    let answer = F::answer(element.size);
+    for &axis in F::FREE {
+        let at = |h: f64| {
+            let mut there = sample.with(std::borrow::Cow::Borrowed(&sample.points));
+            there.station = plus(there.station, times(h, element.pose.axes[axis]));
+            F::shape(element, &there).flattened().0
+        };
+        let (more, less) = (at(h), at(-h));
+        let slope: [f64; MOST_NUMBERS] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
+        // The unknowns follow the mean, where they do, so that the two are not independent.
+        let with: [f64; MOST_NUMBERS] =
+            std::array::from_fn(|n| (0..P).map(|a| answer[a] * slopes[a][n]).sum());
+        let variance = std_dev * std_dev / sample.len() as f64;
+        for (i, row) in values.chunks_mut(size).enumerate() {
+            for (n, value) in row.iter_mut().enumerate() {
+                *value += variance * (slope[i] * slope[n] + slope[i] * with[n] + with[i] * slope[n]);
             }
         }
     }

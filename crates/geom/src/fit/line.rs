@@ -13,6 +13,7 @@ pub(super) struct Line2;
 
 impl Family<2> for Line2 {
     const LOCAL: [Local; 2] = [Local::Shift(1), Local::Turn];
+    const FREE: &'static [usize] = &[0];
 
     #[inline(always)]
     fn rows(_: [f64; 2], [x, y, _]: Point, rows: &mut impl Rows<2>) {
@@ -31,7 +32,8 @@ impl Family<2> for Line2 {
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         let direction = element.pose.axes[0];
-        Shape::Line2 { point: flat(sample.place(element.pose.origin)), direction }
+        let point = flat(sample.place(element.foot(sample.station, Self::FREE)));
+        Shape::Line2 { point, direction }
     }
     fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
         let Shape::Line2 { point, direction } = *shape else { return None };
@@ -46,6 +48,7 @@ pub(super) struct Line;
 impl Family<4> for Line {
     const LOCAL: [Local; 4] = [Local::Shift(0), Local::Shift(1), Local::Tilt(0), Local::Tilt(1)];
     const SIGNED: bool = false;
+    const FREE: &'static [usize] = &[2];
 
     #[inline(always)]
     fn rows(_: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<4>) {
@@ -61,7 +64,10 @@ impl Family<4> for Line {
         vec![Element { pose: Pose::along(scatter.mean, scatter.axes[2]), size: [0.0; 2] }]
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
-        Shape::Line { point: sample.place(element.pose.origin), direction: element.pose.axes[2] }
+        Shape::Line {
+            point: sample.place(element.foot(sample.station, Self::FREE)),
+            direction: element.pose.axes[2],
+        }
     }
     fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
         let Shape::Line { point, direction } = *shape else { return None };

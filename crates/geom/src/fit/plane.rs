@@ -13,6 +13,7 @@ pub(super) struct Plane;
 
 impl Family<3> for Plane {
     const LOCAL: [Local; 3] = [Local::Shift(2), Local::Tilt(0), Local::Tilt(1)];
+    const FREE: &'static [usize] = &[0, 1];
 
     #[inline(always)]
     fn rows(_: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<3>) {
@@ -29,7 +30,8 @@ impl Family<3> for Plane {
         vec![Element { pose, size: [0.0; 2] }]
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
-        Shape::Plane { point: sample.place(element.pose.origin), normal: element.pose.axes[2] }
+        let point = sample.place(element.foot(sample.station, Self::FREE));
+        Shape::Plane { point, normal: element.pose.axes[2] }
     }
     fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
         let Shape::Plane { point, normal } = *shape else { return None };

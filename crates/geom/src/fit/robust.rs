@@ -125,7 +125,7 @@ fn trials<const P: usize, F: Family<P>>(
         }
         let points: Vec<Point> =
             random.choose(each, sample.len()).into_iter().map(|k| sample.points[k]).collect();
-        let few = Sample { points: points.into(), center: sample.center, scale: sample.scale };
+        let few = sample.with(points.into());
         let Some(found) = gaussian::quick::<P, F>(&few).map(judged) else { continue };
         if best.as_ref().is_none_or(|b| found.0 < b.0) {
             let near = 3.0 * NORMAL * found.0;

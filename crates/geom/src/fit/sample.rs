@@ -13,6 +13,9 @@ pub(super) struct Sample<'a> {
     pub points: Cow<'a, [Point]>,
     pub center: Point,
     pub scale: f64,
+    /// Mean of all points, in the unit frame: elements that reach on and on are told at its foot. Of some of the points, it
+    /// is that of all.
+    pub station: Point,
 }
 
 impl<'a> Sample<'a> {
@@ -31,7 +34,9 @@ impl<'a> Sample<'a> {
         let center = plus(times(0.5, bounds.min), times(0.5, bounds.max));
         // 2^1000 and more would overflow when squared on the way back; such sizes are no parts.
         let scale = (-reach.log2().ceil()).clamp(-1000.0, 1000.0).exp2();
-        Ok(Sample { points: Cow::Borrowed(points), center, scale })
+        let mut sample = Sample { points: Cow::Borrowed(points), center, scale, station: [0.0; 3] };
+        sample.station = sample.mean();
+        Ok(sample)
     }
     /// Number of points.
     pub(super) fn len(&self) -> usize {
@@ -55,10 +60,26 @@ impl<'a> Sample<'a> {
     /// a grid of points, or one generator of a cylinder measured ring by ring.
     pub(super) fn thinned(&self, count: usize) -> Sample<'_> {
         if self.len() <= count {
-            return Sample { points: Cow::Borrowed(&self.points), center: self.center, scale: self.scale };
+            return self.with(Cow::Borrowed(&self.points));
         }
-        let points = self.spread(count).map(|k| self.points[k]).collect();
-        Sample { points: Cow::Owned(points), center: self.center, scale: self.scale }
+        self.with(Cow::Owned(self.spread(count).map(|k| self.points[k]).collect()))
+    }
+    /// Other points in the same frame.
+    pub(super) fn with<'b>(&self, points: Cow<'b, [Point]>) -> Sample<'b> {
+        Sample { points, center: self.center, scale: self.scale, station: self.station }
+    }
+    /// The mean of the points, in the unit frame; the same for any number of threads.
+    fn mean(&self) -> Point {
+        use rayon::prelude::*;
+        let sum = |part: &[Point]| part.iter().fold([0.0; 3], |s, &p| plus(s, self.unit(p)));
+        let total = match self.len() <= BLOCK {
+            true => sum(&self.points),
+            false => {
+                let parts: Vec<Point> = self.points.par_chunks(BLOCK).map(sum).collect();
+                parts.into_iter().fold([0.0; 3], plus)
+            }
+        };
+        times(1.0 / self.len() as f64, total)
     }
     /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
     pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
@@ -69,9 +90,11 @@ impl<'a> Sample<'a> {
     }
 }
 
+/// Points of one task.
+const BLOCK: usize = 1 << 16;
+
 /// The box of the points, or `None` if a coordinate is not finite.
 fn bounds(points: &[Point]) -> Option<Aabb> {
-    const BLOCK: usize = 1 << 16;
     use rayon::prelude::*;
     if points.len() <= BLOCK {
         return block_bounds(points);

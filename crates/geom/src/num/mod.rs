@@ -1,6 +1,10 @@
 //! Numerical tools: sums, random numbers, special functions.
 
+pub mod big;
+pub mod cholesky;
+pub(crate) mod double;
 pub mod exact;
+pub mod interval;
 pub mod predicates;
 pub mod random;
 pub mod special;

@@ -24,6 +24,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let mut pairs = known.topology.duplicate_facets.clone();
     pairs.sort_unstable();
     for group in pairs.chunk_by(|a, b| a[0] == b[0]) {
+        work.go_on()?;
         let facets: Vec<u32> = [group[0][0]].into_iter().chain(group.iter().map(|d| d[1])).collect();
         let kept = wanted(work, &edges, &facets);
         let gone = facets.iter().copied().filter(|f| Some(*f) != kept);

@@ -113,7 +113,7 @@ pub enum DeviationError {
 }
 
 /// Places on a facet that are asked about, and their weights.
-fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
+pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     let half = |p, q| times(0.5, plus(p, q));
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
 }
@@ -122,18 +122,21 @@ fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
 const WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
 
+/// The three places of a facet, in whichever order it runs.
+pub(super) fn triangle_key(mesh: &Mesh, f: &[u32; 3]) -> [[u64; 3]; 3] {
+    let mut corners = f.map(|v| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits()));
+    corners.sort_unstable();
+    corners
+}
+
 fn way(from: &Mesh, to: &Mesh, progress: &dyn Progress) -> Result<Way, DeviationError> {
-    let place = |mesh: &Mesh, f: &[u32; 3]| {
-        let mut corners = f.map(|v| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits()));
-        corners.sort_unstable();
-        corners
-    };
-    let mut there: Vec<_> = to.faces.iter().map(|f| place(to, f)).collect();
+    let mut there: Vec<_> = to.faces.iter().map(|f| triangle_key(to, f)).collect();
     there.sort_unstable();
     let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
     let finite = |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite());
     let total: f64 = from.faces.iter().filter(finite).map(|f| area(corners(f))).sum();
-    let changed = from.faces.iter().filter(finite).filter(|f| there.binary_search(&place(from, f)).is_err());
+    let changed =
+        from.faces.iter().filter(finite).filter(|f| there.binary_search(&triangle_key(from, f)).is_err());
     let changed: Vec<[Point; 3]> = changed.map(corners).collect();
     if changed.is_empty() {
         return Ok(Way::default());

@@ -7,6 +7,8 @@
 mod degenerate;
 mod duplicates;
 mod edges;
+mod effect;
+mod enclosed;
 mod fins;
 mod holes;
 mod islands;
@@ -21,15 +23,20 @@ mod stitch;
 mod t_junctions;
 #[cfg(test)]
 mod tests;
+mod union;
 mod work;
 
+pub use effect::Effect;
+pub use enclosed::{Enclosed, NotEnclosed};
 pub use measure::{Counts, Deviation, DeviationError, Way, deviation};
 
+use crate::arrange::ArrangeError;
 use crate::check::{self, CheckError, Report};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
-use crate::topology::weld::{self, WeldError};
+use crate::topology::TopologyError;
+use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use work::Work;
 
 /// A step of the repair: an entry of [`STEPS`].
@@ -43,10 +50,11 @@ pub struct Step {
 }
 
 /// All steps, in the order in which they are done.
-pub const STEPS: [&Step; 14] = [
+pub const STEPS: [&Step; 15] = [
     &not_finite::STEP,
     &stitch::STEP,
     &degenerate::STEP,
+    &union::STEP,
     &duplicates::STEP,
     &t_junctions::STEP,
     &fins::STEP,
@@ -85,6 +93,9 @@ pub struct Options {
     pub holes: Holes,
     /// Shells with a smaller share of the diagonal of the whole are removed; `None`: none.
     pub islands: Option<f64>,
+    /// The result shall be exact in single precision, as a file may hold no more: vertices are rounded before anything is
+    /// decided.
+    pub single: bool,
 }
 
 impl Default for Options {
@@ -95,6 +106,7 @@ impl Default for Options {
             stitch: None,
             holes: Holes::UpTo(0.25),
             islands: None,
+            single: false,
         }
     }
 }
@@ -129,6 +141,23 @@ pub struct Repaired {
     pub after: Report,
     /// Vertices and facets that stayed, came and went.
     pub counts: Counts,
+    /// What became of the places that the mesh encloses.
+    pub effect: Effect,
+    /// Steps that were not done, because with them some defect would have become more frequent.
+    pub taken_back: Vec<&'static str>,
+    /// Vertices that were rounded to single precision before anything was decided.
+    pub rounded: Rounded,
+    /// Why closed shells that meet were not united, if they were not.
+    pub not_united: Option<ArrangeError>,
+}
+
+/// What rounding the input has changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rounded {
+    /// Vertices.
+    pub vertices: u64,
+    /// Greatest change of a coordinate, mm.
+    pub farthest: f64,
 }
 
 /// Why a mesh was not repaired.
@@ -143,6 +172,12 @@ pub enum RepairError {
     /// The repair was stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<TopologyError> for RepairError {
+    fn from(e: TopologyError) -> RepairError {
+        CheckError::from(e).into()
+    }
 }
 
 impl From<CheckError> for RepairError {
@@ -164,8 +199,10 @@ const ROUNDS: usize = 8;
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken; what cannot be mended stays, and
-/// [`Repaired::after`] lists it. The result is the same for any number of threads. Cost: for each step that changes something
-/// about as much as a check; filling holes up to the cube of 100 for each ring.
+/// [`Repaired::after`] lists it. No defect that makes a mesh unsound is there more often than before, and what was closed
+/// stays closed: where the steps together would end worse, it is done without one of them, or not at all. The result is the
+/// same for any number of threads. Cost: for each step that changes something about as much as a check; filling holes up to
+/// the cube of 100 for each ring; what ends worse once more for each step that changed something.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -173,6 +210,80 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let welded = as_it_is(mesh)?;
     let before = check::check(&welded, None, &check_options, progress)?;
+    let (start, mut rounded) =
+        if options.single { in_single(&welded)? } else { (welded.clone(), Rounded::default()) };
+    let attempt = |without: Option<&str>| {
+        let steps = options.steps.iter().copied().filter(|s| without != Some(s)).collect();
+        attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options), progress)
+    };
+    let mut done = attempt(None)?;
+    let mut taken_back = vec![];
+    if worse(&before, &done.after) {
+        // Tearing opens what is closed: it is the first to be done without.
+        let others = STEPS.iter().map(|s| s.name).filter(|name| *name != self_intersections::STEP.name);
+        let mut suspects: Vec<&str> = [self_intersections::STEP.name].into_iter().chain(others).collect();
+        suspects.retain(|name| done.changes.iter().any(|c| c.step == *name));
+        taken_back = options.steps.clone();
+        let mut found = None;
+        for name in suspects {
+            let next = attempt(Some(name))?;
+            if !worse(&before, &next.after) {
+                (found, taken_back) = (Some(next), vec![name]);
+                break;
+            }
+        }
+        done = match found {
+            Some(next) => next,
+            None => {
+                rounded = Rounded::default();
+                Attempt::none(&welded, &before)
+            }
+        };
+    }
+    let Attempt { mesh, changes, rounds, after, counts, not_united } = done;
+    let effect = Effect::of((&welded, &before), &mesh, options, progress)?;
+    Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
+}
+
+/// Whether a defect that makes a mesh unsound is there more often.
+fn worse(before: &Report, after: &Report) -> bool {
+    let count = |report: &Report, name: &str| report.found(name).map_or(0, |found| found.count);
+    let errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
+    errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))
+}
+
+/// What some steps came to.
+struct Attempt {
+    mesh: Mesh,
+    changes: Vec<Change>,
+    rounds: usize,
+    after: Report,
+    counts: Counts,
+    not_united: Option<ArrangeError>,
+}
+
+impl Attempt {
+    /// Nothing done.
+    fn none(mesh: &Mesh, before: &Report) -> Attempt {
+        let counts = Counts::of(mesh, mesh);
+        Attempt {
+            mesh: mesh.clone(),
+            changes: vec![],
+            rounds: 0,
+            after: before.clone(),
+            counts,
+            not_united: None,
+        }
+    }
+}
+
+/// Goes through the steps of `options`.
+fn attempt(
+    welded: &Mesh,
+    options: &Options,
+    (before, check_options): (&Report, &check::Options),
+    progress: &dyn Progress,
+) -> Result<Attempt, RepairError> {
     let mut work = Work::new(welded.clone(), options, progress)?;
     work.may_widen = WIDEN * before.properties.area;
     let mut rounds = go_through(&mut work)?;
@@ -182,14 +293,34 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         rounds = go_through(&mut work)?;
     }
     let changes = std::mem::take(&mut work.changes);
+    let not_united = work.not_united;
     let repaired = match changes.is_empty() {
         true => work.into_mesh(),
         false => rejoined(work.into_mesh())?,
     };
-    let counts = Counts::of(&welded, &repaired);
-    let mesh = if changes.is_empty() { repaired } else { compact(repaired) };
-    let after = check::check(&mesh, None, &check_options, progress)?;
-    Ok(Repaired { mesh, changes, rounds, before, after, counts })
+    let counts = Counts::of(welded, &repaired);
+    let mesh = if changes.is_empty() { repaired } else { compact(repaired, 0) };
+    let after = check::check(&mesh, None, check_options, progress)?;
+    Ok(Attempt { mesh, changes, rounds, after, counts, not_united })
+}
+
+/// The mesh in single precision; of vertices that fall upon each other facets name the first.
+fn in_single(mesh: &Mesh) -> Result<(Mesh, Rounded), WeldError> {
+    let mut single = mesh.clone();
+    let mut rounded = Rounded::default();
+    for p in single.positions.iter_mut() {
+        let near = p.map(|x| f64::from(x as f32));
+        // A coordinate beyond the range stays: the format has the last word.
+        let change =
+            (0..3).filter(|k| near[*k].is_finite()).map(|k| (near[k] - p[k]).abs()).fold(0.0, f64::max);
+        if change > 0.0 {
+            rounded.vertices += 1;
+            rounded.farthest = rounded.farthest.max(change);
+            *p = std::array::from_fn(|k| if near[k].is_finite() { near[k] } else { p[k] });
+        }
+    }
+    let single = if rounded.vertices > 0 { rejoined(single)? } else { single };
+    Ok((single, rounded))
 }
 
 /// Goes through the steps until nothing is left to do; how often.
@@ -201,40 +332,17 @@ fn go_through(work: &mut Work) -> Result<usize, RepairError> {
             (step.run)(work)?;
         }
         // A tangle that two rounds have not undone gets no better.
-        if work.changes.len() == done || round > 1 && work.crossings(|_, _| true)?.is_none() {
+        let idle = work.changes.len() == done;
+        if idle && !work.may_tear && wanted.iter().any(|s| s.name == self_intersections::STEP.name) {
+            // Nothing else helps: the last resort, if there is anything to tear out.
+            work.may_tear = true;
+            if work.crossings(|_, _| true)?.is_some_and(|pairs| !pairs.is_empty()) {
+                continue;
+            }
+        }
+        if idle || round > 1 && work.crossings(|_, _| true)?.is_none() {
             return Ok(round);
         }
     }
     Ok(ROUNDS)
-}
-
-/// The mesh itself if its vertices are distinct places that facets use; else welded.
-fn as_it_is(mesh: &Mesh) -> Result<Mesh, WeldError> {
-    let welded = weld::mesh(mesh)?.mesh;
-    Ok(if welded.positions.len() == mesh.positions.len() { mesh.clone() } else { welded })
-}
-
-/// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
-/// may have come to lie upon it.
-fn rejoined(mut mesh: Mesh) -> Result<Mesh, WeldError> {
-    let vertex_of = weld::mesh(&mesh)?.vertex_of;
-    let mut first = vec![u32::MAX; mesh.positions.len()];
-    for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
-        let first = &mut first[*number as usize];
-        *first = v.min(*first);
-    }
-    mesh.faces.iter_mut().for_each(|f| *f = f.map(|v| first[vertex_of[v as usize] as usize]));
-    Ok(mesh)
-}
-
-/// Without the vertices that no facet uses; the others keep their order.
-fn compact(mesh: Mesh) -> Mesh {
-    let mut number = vec![u32::MAX; mesh.positions.len()];
-    mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
-    for (next, n) in (0..).zip(number.iter_mut().filter(|n| **n == 0)) {
-        *n = next;
-    }
-    let used = mesh.positions.iter().zip(&number).filter(|(_, n)| **n != u32::MAX);
-    let positions = used.map(|(p, _)| *p).collect();
-    Mesh { positions, faces: mesh.faces.iter().map(|f| f.map(|v| number[v as usize])).collect() }
 }

@@ -32,6 +32,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let mut turns = vec![];
     for first in 0..facets as u32 {
         if turned[first as usize].is_none() {
+            work.go_on()?;
             let sheet = flood(first, &across, &mut turned);
             turns.push(smaller(work, &sheet, &turned));
         }

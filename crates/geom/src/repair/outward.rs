@@ -6,14 +6,16 @@ use crate::check;
 
 pub(super) const STEP: Step = Step {
     name: "outward",
-    about: "Turns closed shells over that look the wrong way: inside an odd number of others a shell bounds a cavity and looks \
-            inwards, else outwards. Decided exactly.",
+    about: "Turns closed shells over that are inside out, with those inside them: what they enclose is no material. A shell that \
+            looks inwards inside material bounds a cavity and stays. Decided exactly.",
     run,
 };
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
     let Some(kind) = check::KINDS.iter().find(|k| k.name == "inside_out_shells") else { return Ok(()) };
-    let wrong = work.find(kind)?;
+    let mut wrong = work.find(kind)?;
+    // In material that a shell lies in already, turning it would make a cavity of it.
+    wrong.retain(|finding| finding.measures.iter().all(|(name, x)| *name != "depth" || *x <= 0.0));
     if wrong.is_empty() {
         return Ok(());
     }

@@ -3,6 +3,7 @@
 use super::work::Work;
 use super::{RepairError, SHEET, Step};
 use crate::space::{Vector, cross, minus, norm, plus};
+use crate::topology::Topology;
 
 pub(super) const STEP: Step = Step {
     name: "scraps",
@@ -16,34 +17,51 @@ const SCRAP: f64 = 0.1;
 fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let (topology, areas) = (&known.topology, &known.properties.shell_areas);
-    let mut open = vec![false; topology.shells];
-    for e in &topology.boundary_edges {
-        open[topology.shell_of[e.facet as usize] as usize] = true;
-    }
+    let open = open_shells(topology);
     let closed = areas.iter().zip(&open).filter(|(_, open)| !**open).map(|(a, _)| *a);
     let limit = SCRAP * closed.fold(0.0, f64::max);
-    let small = |s: usize| open[s] && areas[s] < limit;
-    if !(0..topology.shells).any(small) {
+    if !(0..topology.shells).any(|s| open[s] && areas[s] < limit) {
         return Ok(());
     }
-    let mut shells = vec![([0.0; 3] as Vector, vec![]); topology.shells];
+    let sheet = sheets(work)?;
+    let mut shells = vec![vec![]; topology.shells];
     for (f, &s) in (0..).zip(&topology.shell_of) {
-        if s != u32::MAX && small(s as usize) {
-            let [a, b, c] = work.corners(f);
-            let shell = &mut shells[s as usize];
-            shell.0 = plus(shell.0, cross(minus(b, a), minus(c, a)));
-            shell.1.push(f);
+        if s != u32::MAX && sheet[s as usize] && areas[s as usize] < limit {
+            shells[s as usize].push(f);
         }
     }
     let mut removed = vec![];
-    for (s, (vector, facets)) in shells.into_iter().enumerate().filter(|(_, shell)| !shell.1.is_empty()) {
-        if 0.5 * norm(vector) > SHEET * areas[s] {
-            work.log(STEP.name, "loose sheet removed", work.middle(facets[0]), facets.len(), areas[s]);
-            removed.extend(facets);
-        }
+    for (s, facets) in shells.into_iter().enumerate().filter(|(_, shell)| !shell.is_empty()) {
+        work.log(STEP.name, "loose sheet removed", work.middle(facets[0]), facets.len(), areas[s]);
+        removed.extend(facets);
     }
     if !removed.is_empty() {
         work.replace(&removed, &[]);
     }
     Ok(())
+}
+
+/// Which shells have a rim.
+fn open_shells(topology: &Topology) -> Vec<bool> {
+    let mut open = vec![false; topology.shells];
+    for e in &topology.boundary_edges {
+        open[topology.shell_of[e.facet as usize] as usize] = true;
+    }
+    open
+}
+
+/// Which shells are open sheets that enclose nothing.
+pub(super) fn sheets(work: &mut Work) -> Result<Vec<bool>, RepairError> {
+    let known = work.known()?;
+    let (topology, areas) = (&known.topology, &known.properties.shell_areas);
+    let open = open_shells(topology);
+    let mut vector: Vec<Vector> = vec![[0.0; 3]; topology.shells];
+    for (f, &s) in (0..).zip(&topology.shell_of) {
+        if s != u32::MAX && open[s as usize] {
+            let [a, b, c] = work.corners(f);
+            let of = &mut vector[s as usize];
+            *of = plus(*of, cross(minus(b, a), minus(c, a)));
+        }
+    }
+    Ok((0..topology.shells).map(|s| open[s] && 0.5 * norm(vector[s]) > SHEET * areas[s]).collect())
 }

@@ -1,15 +1,17 @@
-//! Facets that cross.
+//! Facets that still cross when nothing else is left to do: the last resort.
 //!
 //! The facets of all crossing pairs are torn out, and what is left of a shell beside its largest piece goes too if it is
 //! small. The holes are filled by the step that fills holes, whatever their size; where nothing fits it widens them.
 
+use super::scraps::sheets;
 use super::work::Work;
 use super::{RepairError, Step};
 use crate::check::finding::area;
 
 pub(super) const STEP: Step = Step {
     name: "self_intersections",
-    about: "Tears out facets that cross others, and what they cut off; the holes are filled afterwards.",
+    about: "Tears out facets that still cross others when nothing else helps, and what they cut off; the holes are \
+            filled afterwards. Sheets keep their crossings.",
     run,
 };
 
@@ -19,11 +21,19 @@ const MOST: f64 = 0.75;
 const CRUMB: f64 = 0.25;
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
-    // Of a tangle nothing would be left.
-    let Some(crossings) = work.crossings(|_, _| true)?.filter(|pairs| !pairs.is_empty()) else {
+    if !work.may_tear {
         return Ok(());
-    };
+    }
+    // Of a tangle nothing would be left.
+    let Some(mut crossings) = work.crossings(|_, _| true)? else { return Ok(()) };
     let known = work.known()?;
+    // A sheet is no body: where it crosses something, nothing is wrong with its surface.
+    let sheet = sheets(work)?;
+    let in_sheet = |f: &u32| sheet[known.topology.shell_of[*f as usize] as usize];
+    crossings.retain(|pair| !pair.iter().any(in_sheet));
+    if crossings.is_empty() {
+        return Ok(());
+    }
     let shell_of = known.topology.shell_of.clone();
     let mut torn = vec![false; work.mesh().faces.len()];
     crossings.iter().flatten().for_each(|f| torn[*f as usize] = true);

@@ -58,6 +58,7 @@ fn part(
     // Fans that lose their vertex: the vertex and the facets.
     let mut lost: Vec<(u32, Vec<u32>)> = vec![];
     for v in vertices {
+        work.go_on()?;
         let mut fans = fans(work, &known.topology.facets_at_vertex(v), v, &edges, &pairs, open_together);
         let size = |fan: &Vec<u32>| fan.iter().map(|&f| area(work.corners(f))).sum::<f64>();
         fans.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a[0].cmp(&b[0])));

@@ -7,8 +7,9 @@
 use super::work::{Known, Work};
 use super::{RepairError, Step};
 use crate::check::{self, near::Near};
-use crate::space::{Aabb, Point, minus, norm, plus, times};
+use crate::space::{minus, norm, plus, times};
 use crate::topology::union::Sets;
+use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "stitch",
@@ -21,7 +22,9 @@ pub(super) const STEP: Step = Step {
 const REACH: f64 = 1e-4;
 /// By how much the distance grows from pass to pass.
 const GROWTH: f64 = 4.0;
-/// Of the edges near one only so many are considered in a pass: in a heap of edges each lies near all others.
+/// Of the edges near one only so many are looked at in a pass, those with the nearest middles, and the best of them are
+/// considered: in a heap of edges each lies near all others.
+const NEAR: usize = 64;
 const PARTNERS: usize = 8;
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
@@ -89,27 +92,29 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
     let apart = |a: u32, b: u32| norm(minus(work.at(a), work.at(b)));
     type Found = (f64, u32, u32, [[u32; 2]; 2]);
     let nearer = |x: &Found, y: &Found| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2)));
-    let mut found: Vec<Found> = vec![];
-    for e in 0..edges.len() as u32 {
+    let of_edge = |e: u32| {
+        let (at, [a, b]) = (middle(e), ends(e));
+        let counts = |f: u32| edges[f as usize].facet != edges[e as usize].facet;
         let mut own: Vec<Found> = vec![];
-        let (at, [a, b]): (Point, _) = (middle(e), ends(e));
-        let close = |x: &Aabb| (0..3).all(|k| at[k] >= x.min[k] - reach && at[k] <= x.max[k] + reach);
-        near.visit(close, |_, f| {
-            if f <= e || edges[f as usize].facet == edges[e as usize].facet {
-                return;
-            }
+        for f in near.nearest(at, reach, NEAR, counts) {
             let [c, d] = ends(f);
             let limit = reach.min(0.25 * length(e).min(length(f)));
             for pairs in [[[a, d], [b, c]], [[a, c], [b, d]]] {
                 let distance = apart(pairs[0][0], pairs[0][1]).max(apart(pairs[1][0], pairs[1][1]));
                 if distance <= limit && distance.is_finite() {
-                    own.push((distance, e, f, pairs));
+                    own.push((distance, e.min(f), e.max(f), pairs));
                 }
             }
-        });
+        }
         own.sort_unstable_by(nearer);
-        found.extend(own.into_iter().take(PARTNERS));
-    }
+        own.truncate(PARTNERS);
+        own
+    };
+    let mut found: Vec<Found> = (0..edges.len() as u32)
+        .into_par_iter()
+        .map(|e| if work.progress.cancelled() { vec![] } else { of_edge(e) })
+        .collect::<Vec<_>>()
+        .concat();
     found.sort_unstable_by(nearer);
     let parted = |v: &u32| work.parted.contains(v);
     let mut used = vec![false; edges.len()];

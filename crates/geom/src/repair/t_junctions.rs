@@ -36,6 +36,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     all.sort_unstable_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2)).then(x.3.cmp(&y.3)));
     let (mut removed, mut added) = (vec![], vec![]);
     for on in all.chunk_by(|x, y| x.0 == y.0) {
+        work.go_on()?;
         let facet = on[0].0;
         let parts = parts(work.mesh().faces[facet as usize], on);
         if parts.len() > 1 {

@@ -4,6 +4,7 @@
 //! vertex can move, whatever a step does.
 
 use super::{Change, Options, RepairError};
+use crate::arrange::ArrangeError;
 use crate::check::free_edges::FreeEdges;
 use crate::check::intersect;
 use crate::check::{self, Finding, Inspected, Kind};
@@ -35,6 +36,10 @@ pub(super) struct Work<'a> {
     /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
+    /// Nothing else has helped: crossing facets may be torn out.
+    pub may_tear: bool,
+    /// Why shells that meet were not united.
+    pub not_united: Option<ArrangeError>,
     known: Option<Arc<Known>>,
 }
 
@@ -65,6 +70,8 @@ impl<'a> Work<'a> {
             parted: BTreeSet::new(),
             widened: false,
             may_widen: 0.0,
+            may_tear: false,
+            not_united: None,
             known: None,
         };
         let spacing = check::spacing(&work.known()?.properties.bounds);
@@ -99,15 +106,18 @@ impl<'a> Work<'a> {
         times(1.0 / 3.0, plus(a, plus(b, c)))
     }
 
+    /// An error where the repair shall stop: asked in loops that may last.
+    pub(super) fn go_on(&self) -> Result<(), Cancelled> {
+        if self.progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+    }
+
     /// What follows from the mesh as it is; computed again after a change only.
     pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
-        if self.progress.cancelled() {
-            return Err(Cancelled.into());
-        }
+        self.go_on()?;
         if let Some(known) = &self.known {
             return Ok(known.clone());
         }
-        let topology = Topology::of(&self.mesh)?;
+        let topology = Topology::watched(&self.mesh, self.progress)?;
         let properties = Properties::of(&self.mesh, &topology);
         let free_edges = FreeEdges::of(&topology);
         let known = Arc::new(Known { topology, properties, free_edges });
@@ -143,8 +153,11 @@ impl<'a> Work<'a> {
             crossings: None,
             options: &options,
             gap: self.gap,
+            progress: self.progress,
         };
-        Ok((kind.find)(&inspected).map_or(vec![], |found| found.items))
+        let found = (kind.find)(&inspected).map_or(vec![], |found| found.items);
+        self.go_on()?;
+        Ok(found)
     }
 
     /// Removes facets (numbers in any order, repeated or not) and adds others behind the rest.
@@ -178,6 +191,12 @@ impl<'a> Work<'a> {
         self.mesh.positions.push(self.rounded(place));
         self.known = None;
         self.mesh.positions.len() as u32 - 1
+    }
+
+    /// New vertices, as they are.
+    pub(super) fn append(&mut self, places: &[Point]) {
+        self.mesh.positions.extend_from_slice(places);
+        self.known = None;
     }
 
     /// `place` in the precision of the mesh.

@@ -33,7 +33,7 @@ mod tests;
 use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress, Silent};
-use crate::shape::Kind;
+use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use grow::{Grown, Terms, fewest_points};
@@ -41,6 +41,7 @@ use noise::Noise;
 use rayon::prelude::*;
 use search::{Limits, search};
 use seeds::Seeds;
+use std::collections::BTreeSet;
 use surface::{Band, NONE, Pieces, Surface};
 
 /// The kinds that can be found, the order in which they are tried.
@@ -94,6 +95,8 @@ pub struct Region {
     pub share: f64,
     /// Box around the region.
     pub bounds: Aabb,
+    /// Greatest magnitude of the distances of all measured points of its pieces, millimetres: within the tolerance.
+    pub farthest: f64,
 }
 
 /// What was found.
@@ -105,7 +108,8 @@ pub struct Segmentation {
     pub labels: Vec<u32>,
     /// Standard deviation of the noise found in the data, millimetres.
     pub noise: f64,
-    /// Distance up to which points belonged to an element, millimetres.
+    /// Distance up to which points belong to an element, millimetres: no measured point of a region's pieces lies farther
+    /// off its element.
     pub tolerance: f64,
 }
 
@@ -263,44 +267,88 @@ fn finished(
         members[label as usize].push(piece as u32);
     }
     let depths = depths(terms, labels);
-    let mut named: Vec<(u32, Region)> = (grown.iter().zip(&members).zip(0u32..))
-        .filter(|((_, pieces), _)| !pieces.is_empty() && surface.weight(pieces) >= limits.weight)
-        .filter_map(|((grown, pieces), label)| Some((label, region(terms, grown, pieces, &depths, total)?)))
+    let enough = |pieces: &[u32]| !pieces.is_empty() && surface.weight(pieces) >= limits.weight;
+    let mut named: Vec<(usize, Region, Vec<u32>)> = (grown.iter().zip(members).enumerate())
+        .filter(|(_, (_, pieces))| enough(pieces))
+        .filter_map(|(label, (grown, pieces))| {
+            let (region, pieces) = region(terms, grown, pieces, &depths, total)?;
+            enough(&pieces).then_some((label, region, pieces))
+        })
         .collect();
     named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
-    let mut renamed = vec![NONE; grown.len()];
-    for (new, (old, _)) in named.iter().enumerate() {
-        renamed[*old as usize] = new as u32;
+    let mut told = vec![NONE; labels.len()];
+    for (new, (_, _, pieces)) in (0u32..).zip(&named) {
+        pieces.iter().for_each(|&piece| told[piece as usize] = new);
     }
-    let labels = labels.iter().map(|&l| renamed.get(l as usize).copied().unwrap_or(NONE)).collect();
-    (named.into_iter().map(|n| n.1).collect(), labels)
+    (named.into_iter().map(|n| n.1).collect(), told)
 }
 
-fn region(terms: &Terms, grown: &Grown, pieces: &[u32], depths: &[u8], total: f64) -> Option<Region> {
+/// Fits of a region until every piece of it lies within the tolerance; each takes pieces away.
+const FITS: usize = 20;
+
+/// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it: where it
+/// grew, elements were those of some of its points, and one corner of a facet might lie beyond an edge. `None` where no
+/// element keeps any.
+fn region(
+    terms: &Terms,
+    grown: &Grown,
+    mut pieces: Vec<u32>,
+    depths: &[u8],
+    total: f64,
+) -> Option<(Region, Vec<u32>)> {
     let surface = terms.surface;
-    let kind = grown.shape.kind();
+    let (mut shape, mut beside) = (grown.shape, BTreeSet::new());
+    for _ in 0..FITS {
+        let inside = |p: &u32| if beside.contains(p) { 0 } else { depths[*p as usize] };
+        let (fit, points) = fitted(surface, &shape, &pieces, inside)?;
+        let farthest = |piece: u32| {
+            let (corners, count) = surface.corners(piece);
+            let distance = |&c: &u32| fit.shape.distance(surface.points[c as usize]).abs();
+            corners[..count].iter().map(distance).fold(0.0, f64::max)
+        };
+        let (near, far): (Vec<u32>, Vec<u32>) =
+            pieces.iter().partition(|&&piece| farthest(piece) <= terms.band.distance);
+        shape = fit.shape;
+        if !far.is_empty() {
+            // Points of what lies off are at an edge.
+            beside.extend(surface.points_of(far));
+            pieces = near;
+            continue;
+        }
+        let weight = surface.weight(&pieces);
+        let is_mesh = matches!(surface.pieces, Pieces::Facets(_));
+        let region = Region {
+            farthest: pieces.iter().map(|&piece| farthest(piece)).fold(0.0, f64::max),
+            fit,
+            points,
+            pieces: pieces.len(),
+            area: if is_mesh { weight } else { 0.0 },
+            share: weight / total,
+            bounds: surface.bounds(&pieces),
+        };
+        return Some((region, pieces));
+    }
+    None
+}
+
+/// The least-squares element of the pieces near `start`, and the points it was fitted to: those farther inside, as `depth`
+/// says, if there are enough.
+fn fitted(
+    surface: &Surface,
+    start: &Shape,
+    pieces: &[u32],
+    depth: impl Fn(&u32) -> u8,
+) -> Option<(Fit, Vec<u32>)> {
+    let kind = start.kind();
     let all = surface.points_of(pieces.iter().copied());
     let fewest = fewest_points(kind).max(all.len() / 5);
-    let deeper =
-        |depth: u8| -> Vec<u32> { all.iter().copied().filter(|&p| depths[p as usize] >= depth).collect() };
+    let deeper = |least: u8| -> Vec<u32> { all.iter().copied().filter(|p| depth(p) >= least).collect() };
     let points =
         [2, 1].into_iter().map(deeper).find(|points| points.len() >= fewest).unwrap_or_else(|| all.clone());
-    let fitted = |points: &[u32]| {
-        let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
-        let options = fit::Options { start: Some(grown.shape), ..fit::Options::default() };
-        fit::fit(&places, kind, &options, &Silent).ok()
-    };
-    let fit = fitted(&points)?;
-    let weight = surface.weight(pieces);
-    let is_mesh = matches!(surface.pieces, Pieces::Facets(_));
-    Some(Region {
-        fit,
-        points,
-        pieces: pieces.len(),
-        area: if is_mesh { weight } else { 0.0 },
-        share: weight / total,
-        bounds: surface.bounds(pieces),
-    })
+    let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
+    let options = fit::Options { start: Some(*start), ..fit::Options::default() };
+    let fit = fit::fit(&places, kind, &options, &Silent).ok()?;
+    Some((fit, points))
 }
 
 /// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for

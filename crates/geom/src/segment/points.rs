@@ -2,9 +2,9 @@
 
 use super::facets::lists;
 use super::surface::{Pieces, Surface};
-use crate::spatial::neighbours::{Neighbour, PointTree};
 use crate::fit::eigen;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use crate::spatial::neighbours::{Neighbour, PointTree};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 

@@ -10,11 +10,11 @@ use crate::space::{Point, Vector, cross, dot, minus, norm};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // the fields are named as in every textbook
 pub enum Shape {
-    /// Line in the plane z = 0. `point` is the foot of the middle of the points' box.
+    /// Line in the plane z = 0. `point` is the foot of the points' mean.
     Line2 { point: Point, direction: Vector },
-    /// Line in space. `point` is the foot of the middle of the points' box.
+    /// Line in space. `point` is the foot of the points' mean.
     Line { point: Point, direction: Vector },
-    /// Plane. `point` is the foot of the middle of the points' box.
+    /// Plane. `point` is the foot of the points' mean.
     Plane { point: Point, normal: Vector },
     /// Circle in the plane z = 0.
     Circle2 { center: Point, radius: f64 },
@@ -24,9 +24,9 @@ pub enum Shape {
     Ellipse2 { center: Point, direction: Vector, major_radius: f64, minor_radius: f64 },
     /// Sphere.
     Sphere { center: Point, radius: f64 },
-    /// Cylinder. `point` is the foot of the middle of the points' box on the axis.
+    /// Cylinder. `point` is the foot of the points' mean on the axis.
     Cylinder { point: Point, direction: Vector, radius: f64 },
-    /// Cone. `radius` is that at `point`, the foot of the middle of the points' box on the axis.
+    /// Cone. `radius` is that at `point`, the foot of the points' mean on the axis.
     Cone { apex: Point, direction: Vector, half_angle: f64, point: Point, radius: f64 },
     /// Torus.
     Torus { center: Point, direction: Vector, major_radius: f64, minor_radius: f64 },

@@ -213,8 +213,8 @@ impl Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stats::statistics::{Accumulator, Summary};
     use crate::num::random::Random;
+    use crate::stats::statistics::{Accumulator, Summary};
 
     #[test]
     fn bins_hold_their_lower_edge() {

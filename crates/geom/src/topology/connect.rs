@@ -12,6 +12,7 @@ use super::same::{Row, Same, W};
 use super::union::Sets;
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::progress::Progress;
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
@@ -46,10 +47,17 @@ struct Part<'a> {
 }
 
 /// Looks at all vertices; facets connected through an edge become one set of `shells`.
-pub(super) fn connect(mesh: &Mesh, fans: &Fans, shells: &Sets, level: Level) -> Connection {
+pub(super) fn connect(
+    mesh: &Mesh,
+    fans: &Fans,
+    shells: &Sets,
+    level: Level,
+    progress: &dyn Progress,
+) -> Connection {
     let vertices = fans.len();
     let parts: Vec<Connection> = (0..vertices.div_ceil(CHUNK))
         .into_par_iter()
+        .filter(|_| !progress.cancelled())
         .map(|i| {
             let range = (i * CHUNK) as u32..vertices.min((i + 1) * CHUNK) as u32;
             let mut part = Part { mesh, shells, spokes: vec![], found: Connection::default() };

@@ -5,6 +5,7 @@
 
 use crate::memory::{atomics, large_pages};
 use crate::mesh::Mesh;
+use crate::progress::Progress;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -25,11 +26,18 @@ pub(super) struct Fans {
 
 impl Fans {
     /// Chains the corners of the faces for which `counts` says yes. All their vertices must exist.
-    pub(super) fn new(mesh: &Mesh, counts: impl Fn(&[u32; 3]) -> bool + Sync) -> Fans {
+    pub(super) fn new(
+        mesh: &Mesh,
+        counts: impl Fn(&[u32; 3]) -> bool + Sync,
+        progress: &dyn Progress,
+    ) -> Fans {
         let head = atomics(mesh.positions.len());
         let mut next = large_pages(vec![0u32; 3 * mesh.faces.len()]);
         next.par_chunks_mut(3 * CHUNK).zip(mesh.faces.par_chunks(CHUNK)).enumerate().for_each(
             |(i, (next, faces))| {
+                if progress.cancelled() {
+                    return;
+                }
                 for (j, face) in faces.iter().enumerate().filter(|(_, f)| counts(f)) {
                     for k in 0..3 {
                         let number = 3 * (i * CHUNK + j) + k;
@@ -72,6 +80,23 @@ impl Fans {
             facets.push((corner - 1) / 3);
             corner = self.next[corner as usize - 1];
         }
+        facets.sort_unstable();
+        facets
+    }
+
+    /// The facets at the edge between two different vertices, ascending. Costs as much as the shorter of their chains.
+    pub(super) fn at_edge(&self, faces: &[[u32; 3]], edge: [u32; 2]) -> Vec<u32> {
+        let mut corners = edge.map(|v| self.head.get(v as usize).map_or(0, |c| c.load(Relaxed)));
+        let mut found: [Vec<u32>; 2] = Default::default();
+        while corners[0] != 0 && corners[1] != 0 {
+            for end in 0..2 {
+                let facet = (corners[end] - 1) / 3;
+                found[end].extend(faces[facet as usize].contains(&edge[1 - end]).then_some(facet));
+                corners[end] = self.next[corners[end] as usize - 1];
+            }
+        }
+        let [of_first, of_second] = found;
+        let mut facets = if corners[0] == 0 { of_first } else { of_second };
         facets.sort_unstable();
         facets
     }

@@ -24,6 +24,7 @@ pub use soundness::{Flaw, Soundness};
 
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::progress::{Cancelled, Progress, Silent};
 use crate::simd::Level;
 use fans::Fans;
 use rayon::prelude::*;
@@ -65,6 +66,17 @@ pub struct Topology {
     fans: Fans,
 }
 
+/// Why there is no topology.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TopologyError {
+    /// The faces cannot be connected.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
 /// What makes a facet count or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
@@ -84,23 +96,29 @@ impl Topology {
     /// # Errors
     /// [`WeldError::NoSuchVertex`], [`WeldError::TooManyFacets`].
     pub fn of(mesh: &Mesh) -> Result<Topology, WeldError> {
-        Topology::with(mesh, Level::detect())
+        Topology::with(mesh, Level::detect(), &Silent)
     }
 
-    fn with(mesh: &Mesh, level: Level) -> Result<Topology, WeldError> {
+    /// Where `progress` says that it is cancelled, some facets may be missing.
+    fn with(mesh: &Mesh, level: Level, progress: &dyn Progress) -> Result<Topology, WeldError> {
         weld::check_corners(mesh)?;
         let finite = mesh.positions.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
         let shape = |f: &[u32; 3]| shape(mesh, f, finite);
-        let odd: Vec<(u32, Shape)> = (mesh.faces.par_iter().enumerate())
-            .filter_map(|(i, f)| Some((i as u32, shape(f))).filter(|(_, s)| *s != Shape::Fine))
+        let odd: Vec<(u32, Shape)> = (mesh.faces.par_chunks(fans::CHUNK).enumerate())
+            .filter(|_| !progress.cancelled())
+            .flat_map_iter(|(i, part)| {
+                let first = (i * fans::CHUNK) as u32;
+                let numbered = (first..).zip(part);
+                numbered.map(|(i, f)| (i, shape(f))).filter(|(_, s)| *s != Shape::Fine)
+            })
             .collect();
         let of_shape = |wanted: Shape| odd.iter().filter(|(_, s)| *s == wanted).map(|(i, _)| *i).collect();
         let counts = |f: &[u32; 3]| {
             f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && (finite || shape(f) != Shape::NotFinite)
         };
-        let fans = Fans::new(mesh, counts);
+        let fans = Fans::new(mesh, counts, progress);
         let sets = Sets::new(mesh.faces.len());
-        let found = connect::connect(mesh, &fans, &sets, level);
+        let found = connect::connect(mesh, &fans, &sets, level, progress);
         let (shells, shell_of) = sets.numbered(|i| counts(&mesh.faces[i as usize]));
         let (repeated_vertex, not_finite): (Vec<u32>, Vec<u32>) =
             (of_shape(Shape::Repeated), of_shape(Shape::NotFinite));
@@ -122,6 +140,15 @@ impl Topology {
         })
     }
 
+    /// As [`Topology::of`], asking `progress` whether to go on.
+    ///
+    /// # Errors
+    /// [`TopologyError`].
+    pub fn watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Topology, TopologyError> {
+        let topology = Topology::with(mesh, Level::detect(), progress)?;
+        if progress.cancelled() { Err(Cancelled.into()) } else { Ok(topology) }
+    }
+
     /// The facets at `vertex` that count, ascending; none where there is no such vertex.
     pub fn facets_at_vertex(&self, vertex: u32) -> Vec<u32> {
         self.fans.facets(vertex)
@@ -129,9 +156,7 @@ impl Topology {
 
     /// The facets of `mesh` at the edge between two vertices that count, ascending. `mesh` is the one this was made of.
     pub fn facets_at_edge(&self, mesh: &Mesh, [a, b]: [u32; 2]) -> Vec<u32> {
-        let mut facets = self.fans.facets(a);
-        facets.retain(|&f| a != b && mesh.faces[f as usize].contains(&b));
-        facets
+        if a == b { vec![] } else { self.fans.at_edge(&mesh.faces, [a, b]) }
     }
 
     /// Number of vertices that a counting facet uses.

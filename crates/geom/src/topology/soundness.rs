@@ -72,6 +72,15 @@ pub struct Soundness {
 }
 
 impl Soundness {
+    /// Closed, and every edge has two facets that agree about the outside: each shell bounds a solid of its own, though
+    /// shells may overlap.
+    pub fn oriented(&self) -> bool {
+        self.closed
+            && self.consistently_oriented
+            && self.non_manifold_edges == 0
+            && self.duplicate_facets == 0
+    }
+
     /// Of a welded mesh; see [`Topology::of`] for errors and cost.
     ///
     /// # Errors

@@ -106,7 +106,7 @@ fn compare_with_plain_twin(mesh: &Mesh, name: &str) {
     });
     let broken: Vec<u32> = broken.collect();
     for (level, threads) in levels().flat_map(|l| [(l, 1), (l, 3)]) {
-        let t = on_threads(threads, || Topology::with(mesh, level)).unwrap();
+        let t = on_threads(threads, || Topology::with(mesh, level, &crate::progress::Silent)).unwrap();
         let what = format!("{name} {level:?} {threads}");
         assert_eq!((t.edges, t.counting_facets), (edges.len(), counting.len()), "{what}");
         assert_eq!(t.boundary_edges, list(&|e| e.len() == 1), "{what}");

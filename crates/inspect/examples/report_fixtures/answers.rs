@@ -23,7 +23,7 @@ use trueness_inspect::results::{InputRecord, Role};
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
     let options = ReportOptions { serial: Some("4711".into()), ..ReportOptions::default() };
-    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30))] {
+    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30)), ("torn", torn())] {
         written(folder, name, check_page(&mesh, &options));
     }
     written(folder, "mended", repair_page(&defects(), &options));
@@ -52,6 +52,19 @@ pub fn defects() -> Mesh {
     let corners = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]];
     mesh.positions.extend(corners.map(|[x, y, z]| [x - 6.0, y - 13.0, z - 6.0]));
     mesh.faces.extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].map(|f: [u32; 3]| f.map(|v| first + v)));
+    mesh
+}
+
+/// A sphere with small holes all over, and one large one where the usual view does not look: at the back, below.
+fn torn() -> Mesh {
+    let mut mesh = uv_sphere(40);
+    let mut n = 0;
+    let places = mesh.positions.clone();
+    mesh.faces.retain(|f| {
+        n += 1;
+        let [x, y, z] = places[f[0] as usize];
+        n % 29 != 0 && y - x - z <= 16.0
+    });
     mesh
 }
 
@@ -93,6 +106,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
         },
         deviation: repair::deviation(mesh, &repaired.mesh, &Silent),
         limit: 1000,
+        max_change: 1e-4,
     };
     let document = trueness_inspect::repair::document(&repaired, &wish, around);
     let view = trueness_inspect::repair::View::new(&document, "part.stl", mesh, &repaired.mesh);
@@ -167,16 +181,6 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
 }
 
 fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
-    InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        points: mesh.positions.len() as u64,
-        facets: (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64),
-        warnings: vec![],
-    }
+    let facets = (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64);
+    super::record(role, path, mesh.positions.len(), facets)
 }

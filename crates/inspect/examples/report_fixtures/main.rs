@@ -7,17 +7,22 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, reason = "a tool of the tests")]
 
 mod answers;
+mod clouds;
+mod numbers;
 
 pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
+pub use clouds::page as cloud_page;
+use numbers::{histogram, quantile, sorted, statistics};
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{
-    self, Answer, Geometry, NoValue, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
-    ViewRole,
+    self, Answer, Geometry, NoValue, ReportError, ReportInput, ReportOptions, ReportSummary, ViewField,
+    ViewObject, ViewRole,
 };
 use trueness_inspect::results::compare::*;
 use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
@@ -36,7 +41,11 @@ fn main() {
     write(folder, "hostile", &sphere(40), tolerance, &hostile, "\u{2067}שלום\" onload=\"x.stl");
     write(folder, "cloud", &cloud(), Some([-0.1, 0.1]), "points.xyz", "nominal.stl");
     write(folder, "two", &two(), tolerance, "points.xyz", "fine.stl");
+    write(folder, "box", &plain_box(), Some([-0.1, 0.1]), "box.stl", "nominal.stl");
+    write(folder, "behind", &behind(), Some([-0.1, 0.1]), "part.stl", "nominal.stl");
+    write(folder, "four", &four(), tolerance, "points.xyz", "fine.stl");
     answers::write_all(folder);
+    clouds::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 
@@ -47,13 +56,15 @@ pub struct Body {
     references: Vec<Mesh>,
     /// Whether the measured object is a cloud and the maps are on the references.
     cloud: bool,
+    /// A measured place far off the part, the place nearest to it, and the deviation there.
+    off: Option<(Point, Point, f64)>,
 }
 
 /// Radius 10, 2n² triangles; the deviation is 0.1·z/r.
 pub fn sphere(n: u32) -> Body {
     let measured = uv_sphere(n);
     let values = measured.positions.iter().map(|p| 0.01 * p[2]).collect();
-    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false, off: None }
 }
 
 /// A sphere of radius 10, twice `n` squared triangles.
@@ -109,7 +120,7 @@ fn cube() -> Body {
         let quad = if side > 0.0 { [[0, 1, 2], [0, 2, 3]] } else { [[0, 2, 1], [0, 3, 2]] };
         measured.faces.extend(quad.map(|t| t.map(|k| first + k)));
     }
-    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false }
+    Body { references: vec![measured.clone()], measured, fields: vec![values], cloud: false, off: None }
 }
 
 /// The sphere without values where y is above 0.
@@ -136,7 +147,68 @@ fn two() -> Body {
         points.positions.iter().map(|p| 0.01 * p[2]).collect(),
         points.positions.iter().map(|p| 0.02 * p[0] + 0.02).collect(),
     ];
-    Body { fields, references: vec![uv_sphere(150), uv_sphere(150)], measured: points, cloud: true }
+    Body {
+        fields,
+        references: vec![uv_sphere(150), uv_sphere(150)],
+        measured: points,
+        cloud: true,
+        off: None,
+    }
+}
+
+/// A cube of 20 mm and 12 facets, whose corners coincide, against the same of 5 × 5 squares a face. Nothing deviates.
+fn plain_box() -> Body {
+    let [measured, reference] = [1, 5].map(|n| {
+        let mut mesh = Mesh::default();
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, 10.0), (axis, -10.0)]) {
+            let first = mesh.positions.len() as u32;
+            for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j))) {
+                let mut p = [side; 3];
+                p[(axis + 1) % 3] = 20.0 * f64::from(i) / f64::from(n) - 10.0;
+                p[(axis + 2) % 3] = 20.0 * f64::from(j) / f64::from(n) - 10.0;
+                mesh.positions.push(p);
+            }
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let a = first + i * (n + 1) + j;
+                let [b, c, d] = [a + n + 1, a + n + 2, a + 1];
+                let quad = if side > 0.0 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] };
+                mesh.faces.extend(quad);
+            }
+        }
+        mesh
+    });
+    let values = vec![0.0; measured.positions.len()];
+    Body { fields: vec![values], references: vec![reference], measured, cloud: false, off: None }
+}
+
+/// A sphere whose worst place looks to the back, the left and the foot, another one to the other side; and a measured place
+/// 30 mm above it, where the reference has no surface.
+fn behind() -> Body {
+    let measured = uv_sphere(120);
+    let bumps = [([-0.5, 0.6, -0.62], 0.4), ([0.5, -0.6, 0.62], -0.3)];
+    let bump = |p: &Point| {
+        let at = |(n, height): &([f64; 3], f64)| {
+            let cosine = (0..3).map(|k| n[k] * p[k]).sum::<f64>() / 10.0;
+            height * (-((1.0 - cosine) / 0.02)).exp()
+        };
+        bumps.iter().map(at).sum()
+    };
+    let values = measured.positions.iter().map(bump).collect();
+    let off = Some(([0.0, 0.0, 40.0], [0.0, 0.0, 10.0], 30.0));
+    Body { fields: vec![values], references: vec![measured.clone()], measured, cloud: false, off }
+}
+
+/// The same points against four spheres.
+fn four() -> Body {
+    let points = uv_sphere(40);
+    let field = |n: u32| points.positions.iter().map(|p| 0.01 * f64::from(n) * p[2]).collect();
+    Body {
+        fields: (1..=4).map(field).collect(),
+        references: vec![uv_sphere(40); 4],
+        measured: points,
+        cloud: true,
+        off: None,
+    }
 }
 
 fn write(
@@ -147,7 +219,11 @@ fn write(
     measured: &str,
     reference: &str,
 ) {
-    let options = ReportOptions { serial: Some(format!("{name} 4711")), ..ReportOptions::default() };
+    let options = ReportOptions {
+        title: Some(format!("Inspection of {measured}")).filter(|_| name == "behind"),
+        serial: Some(format!("{name} 4711")),
+        ..ReportOptions::default()
+    };
     written(folder, name, page(body, tolerance, [measured, reference], &options).0);
 }
 
@@ -159,7 +235,7 @@ fn written(folder: &Path, name: &str, page: Vec<u8>) {
 
 fn bytes(input: &ReportInput) -> Vec<u8> {
     let mut page = vec![];
-    report::write(input, &mut page).unwrap();
+    report::write(input, &Silent, &mut page).unwrap();
     page
 }
 
@@ -167,9 +243,20 @@ fn bytes(input: &ReportInput) -> Vec<u8> {
 pub fn page(
     body: &Body,
     tolerance: Option<[f64; 2]>,
-    [measured, reference]: [&str; 2],
+    names: [&str; 2],
     options: &ReportOptions,
 ) -> (Vec<u8>, ReportSummary) {
+    heard(body, tolerance, names, options, &Silent).unwrap()
+}
+
+/// The same, with somebody who hears how far it is and may stop it.
+pub fn heard(
+    body: &Body,
+    tolerance: Option<[f64; 2]>,
+    [measured, reference]: [&str; 2],
+    options: &ReportOptions,
+    progress: &dyn Progress,
+) -> Result<(Vec<u8>, ReportSummary), ReportError> {
     let result = document(body, tolerance, measured, reference);
     let reasons = vec![NoValue::MaxDistance; body.measured.positions.len()];
     let view =
@@ -183,6 +270,8 @@ pub fn page(
         comparison: None,
         geometry,
         fields: (0..body.fields.len()).map(view).collect(),
+        keep: &[],
+        gathered: None,
     }];
     for (n, mesh) in body.references.iter().enumerate() {
         objects.push(ViewObject {
@@ -192,34 +281,27 @@ pub fn page(
             comparison: Some(n),
             geometry: Geometry::Mesh(mesh),
             fields: if body.cloud { vec![view(n)] } else { vec![] },
+            keep: &[],
+            gathered: None,
         });
     }
     let mut page = vec![];
     let result = Answer::Compare(&result);
     let input = ReportInput { result, objects: &objects, marks: &[], options };
-    let summary = report::write(&input, &mut page).unwrap();
-    (page, summary)
+    let summary = report::write(&input, progress, &mut page)?;
+    Ok((page, summary))
 }
 
 fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference: &str) -> CompareDocument {
     let comparisons: Vec<Comparison> =
         body.fields.iter().enumerate().map(|(n, f)| comparison(body, n, f, tolerance, reference)).collect();
     let sizes: Vec<f64> = sorted(body.fields[0].iter().map(|v| v.abs()).filter(|v| v.is_finite()));
-    let record = |role, path: &str, facets| InputRecord {
-        role,
-        path: path.into(),
-        format: "STL, binary".into(),
-        bytes: 84,
-        sha256: Some("3f".repeat(32)),
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        points: body.measured.positions.len() as u64,
-        facets,
-        warnings: vec![],
-    };
-    let mut inputs = vec![record(Role::Measured, measured, None)];
+    let points = body.measured.positions.len();
+    let mut inputs = vec![record(Role::Measured, measured, points, None)];
     inputs.extend(
-        body.references.iter().map(|r| record(Role::Reference, reference, Some(r.faces.len() as u64))),
+        body.references
+            .iter()
+            .map(|r| record(Role::Reference, reference, points, Some(r.faces.len() as u64))),
     );
     CompareDocument {
         schema: SCHEMA.into(),
@@ -241,6 +323,25 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         scale: Scale::for_deviations(quantile(&sizes, 0.95), tolerance),
         sampling: None,
         seed: 1,
+    }
+}
+
+/// A file as a document names it.
+fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRecord {
+    InputRecord {
+        role,
+        path: path.into(),
+        format: "STL, binary".into(),
+        bytes: 84,
+        sha256: Some("3f".repeat(32)),
+        sha256_reason: None,
+        unit_assumed: "mm".into(),
+        unit_from: "assumed".into(),
+        table: None,
+        points: points as u64,
+        facets,
+        bounds: None,
+        warnings: vec![],
     }
 }
 
@@ -270,9 +371,12 @@ fn comparison(
         ToleranceShares {
             lower,
             upper,
-            inside: share(&|v| lower <= v && v <= upper),
-            above: share(&|v| v > upper),
-            below: share(&|v| v < lower),
+            inside: Some(share(&|v| lower <= v && v <= upper)),
+            inside_reason: None,
+            above: Some(share(&|v| v > upper)),
+            above_reason: None,
+            below: Some(share(&|v| v < lower)),
+            below_reason: None,
             required: 1.0,
         }
     });
@@ -281,6 +385,7 @@ fn comparison(
     Comparison {
         reference: reference.into(),
         rank: n as u32 + 1,
+        warnings: vec![],
         sign: sign(),
         soundness: soundness(),
         deviation: BySide {
@@ -293,8 +398,11 @@ fn comparison(
         } else {
             BTreeMap::new()
         },
+        verdict: shares.as_ref().map(|s| match s.inside {
+            Some(inside) if inside >= s.required => Verdict::Pass,
+            _ => Verdict::Fail,
+        }),
         tolerance: shares,
-        verdict: shares.map(|s| if s.inside >= s.required { Verdict::Pass } else { Verdict::Fail }),
         histogram: Some(histogram(&values)),
         worst: worst(body, field),
         reverse: None,
@@ -323,7 +431,9 @@ fn soundness() -> Soundness {
 
 /// The three highest and three lowest vertices, at least 1 mm apart.
 fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
-    let mut all = vec![];
+    let off =
+        |(point, nearest, deviation)| Worst { sign: 1, index: 0, point, nearest, normal: None, deviation };
+    let mut all: Vec<Worst> = body.off.map(off).into_iter().collect();
     for sign in [1i8, -1] {
         let mut order: Vec<usize> = (0..field.len()).filter(|i| field[*i] * f64::from(sign) > 0.0).collect();
         order.sort_by(|a, b| field[*b].abs().total_cmp(&field[*a].abs()));
@@ -346,60 +456,4 @@ fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
         }
     }
     all
-}
-
-fn histogram(values: &[f64]) -> Histogram {
-    const BINS: usize = 100;
-    let (low, high) = (quantile(values, 0.001), quantile(values, 0.999));
-    let edges: Vec<f64> = (0..=BINS).map(|i| low + (high - low) * i as f64 / BINS as f64).collect();
-    let mut counts = vec![0; BINS];
-    for v in values.iter().filter(|v| (low..=high).contains(*v)) {
-        let bin = edges.partition_point(|e| e <= v).saturating_sub(1).min(BINS - 1);
-        counts[bin] += 1;
-    }
-    let outside = |keep: &dyn Fn(f64) -> bool| values.iter().filter(|v| keep(**v)).count() as u64;
-    Histogram { edges, counts, below: outside(&|v| v < low), above: outside(&|v| v > high) }
-}
-
-fn statistics(values: &[f64]) -> Statistics {
-    let n = values.len() as f64;
-    if values.is_empty() {
-        return Statistics::default();
-    }
-    let mean = values.iter().sum::<f64>() / n;
-    let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
-    let p = |q: f64| Some(quantile(values, q));
-    Statistics {
-        count: values.len() as u64,
-        min: Some(values[0]),
-        max: values.last().copied(),
-        range: Some(values[values.len() - 1] - values[0]),
-        mean: Some(mean),
-        variance: Some(variance),
-        std_dev: Some(variance.sqrt()),
-        six_sigma: Some(6.0 * variance.sqrt()),
-        cv: None,
-        cv_reason: Some("the mean is zero to rounding".into()),
-        rms: Some((values.iter().map(|v| v * v).sum::<f64>() / n).sqrt()),
-        mean_abs: Some(values.iter().map(|v| v.abs()).sum::<f64>() / n),
-        median: p(0.5),
-        percentiles: Percentiles {
-            p2_5: p(0.025),
-            p5: p(0.05),
-            p95: p(0.95),
-            p97_5: p(0.975),
-            ..Percentiles::default()
-        },
-        ..Statistics::default()
-    }
-}
-
-fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut all: Vec<f64> = values.collect();
-    all.sort_by(f64::total_cmp);
-    all
-}
-
-fn quantile(sorted: &[f64], q: f64) -> f64 {
-    sorted.get((q * (sorted.len().max(1) - 1) as f64).round() as usize).copied().unwrap_or(0.0)
 }

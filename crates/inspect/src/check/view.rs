@@ -57,6 +57,8 @@ impl<'a> View<'a> {
             comparison: None,
             geometry,
             fields: vec![],
+            keep: &[],
+            gathered: None,
         }]
     }
 }
@@ -137,15 +139,18 @@ mod tests {
     fn drawn(mesh: &Mesh) -> Vec<(String, Vec<[usize; 3]>)> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();
         let file = InputRecord {
-            role: Role::Reference,
+            role: Role::Mesh,
             path: "x".into(),
             format: "STL".into(),
             bytes: 0,
             sha256: None,
             sha256_reason: None,
             unit_assumed: "mm".into(),
+            unit_from: "assumed".into(),
+            table: None,
             points: 0,
             facets: None,
+            bounds: None,
             warnings: vec![],
         };
         let document = document(&report, file, mesh.faces.len() as u64, 0, &Options::default());

@@ -2,16 +2,16 @@
 
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
-use super::{Comparisons, Options};
+use super::{Comparisons, Options, plausibility};
 use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{Found, Kind};
-use trueness_geom::stats::histogram::Limits;
 use trueness_geom::deviation::paper::Differences;
 use trueness_geom::deviation::sign_choice::SignChoice;
+use trueness_geom::stats::histogram::Limits;
 
 mod geom {
     pub use trueness_geom::stats::histogram::Histogram;
@@ -34,7 +34,12 @@ pub struct Inputs {
 
 /// Makes the document.
 pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> CompareDocument {
-    let names: Vec<String> = inputs.files.iter().skip(1).map(|f| f.path.clone()).collect();
+    let mut files = inputs.files;
+    if let Some(measured) = files.first_mut() {
+        measured.points = found.count;
+        measured.bounds = plausibility::bounds(&found.bounds);
+    }
+    let names: Vec<String> = files.iter().skip(1).map(|f| f.path.clone()).collect();
     let ranks = ranks(&found.references);
     let mut reverse = inputs.reverse.into_iter();
     let mut comparisons: Vec<Comparison> = found
@@ -49,16 +54,21 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
             c.research = Some(research(found_for, &found.shown, i, options.seed));
         }
     }
+    for (c, file) in comparisons.iter_mut().zip(files.iter().skip(1)) {
+        if let (Some(measured), Some(reference)) = (&files[0].bounds, &file.bounds) {
+            c.warnings = plausibility::warnings(measured, reference);
+        }
+    }
     let worst_verdict = |a: Verdict, b: Verdict| if a == Verdict::Pass { b } else { a };
     CompareDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
         units: UNITS.into(),
-        inputs: inputs.files,
+        inputs: files,
         measured: Measured {
             kind: inputs.kind.into(),
             count: found.count,
-            bounds: Some(Bounds { min: found.bounds.min, max: found.bounds.max }),
+            bounds: plausibility::bounds(&found.bounds),
         },
         method: options.method.name().into(),
         sign: overall_sign(&comparisons, options),
@@ -84,6 +94,7 @@ fn comparison(
     Comparison {
         reference,
         rank,
+        warnings: vec![],
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),
         deviation: BySide {
@@ -94,7 +105,7 @@ fn comparison(
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         verdict: tolerance.as_ref().map(|t| match c.summary.all.count {
             0 => Verdict::NotMeasured,
-            _ if t.inside >= t.required => Verdict::Pass,
+            _ if t.inside.is_some_and(|share| share >= t.required) => Verdict::Pass,
             _ => Verdict::Fail,
         }),
         tolerance,
@@ -119,7 +130,10 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
         method: choice.method.name().into(),
         reason: choice.to_string(),
         disagreement: share,
-        disagreement_reason: share.is_none().then(|| "distances are unsigned".into()),
+        disagreement_reason: share.is_none().then(|| match disagreement {
+            None => "distances are unsigned".into(),
+            Some(_) => "all points looked at lie on the surface".into(),
+        }),
         sample: disagreement.map_or(0, |d| d.sample),
     }
 }
@@ -194,10 +208,22 @@ fn percentiles(s: &geom::Statistics) -> Percentiles {
     Percentiles { p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9 }
 }
 
-/// Shares of the points against the tolerance; all zero where there is no point.
+/// Shares of the points against the tolerance; none where there is no point.
 fn shares(limits: &Limits, required: f64) -> ToleranceShares {
-    let [below, inside, above] = limits.shares().unwrap_or_default();
-    ToleranceShares { lower: limits.lower, upper: limits.upper, inside, above, below, required }
+    let [below, inside, above] =
+        limits.shares().map_or([None; 3], |[below, inside, above]| [Some(below), Some(inside), Some(above)]);
+    let reason = inside.is_none().then(|| "all points are excluded".to_string());
+    ToleranceShares {
+        lower: limits.lower,
+        upper: limits.upper,
+        inside,
+        inside_reason: reason.clone(),
+        above,
+        above_reason: reason.clone(),
+        below,
+        below_reason: reason,
+        required,
+    }
 }
 
 /// The document's form of a histogram.

@@ -1,33 +1,35 @@
 //! One measured set against one or several references, in one pass over the points.
 
 mod document;
+mod map;
+pub mod plausibility;
 mod reference;
 mod research;
 mod reverse;
 mod shown;
-mod vertex_map;
 mod view;
 mod worst;
 
 pub(crate) use document::histogram;
 pub use document::{Inputs, document};
+pub use map::MapSurface;
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
-pub use vertex_map::VertexMap;
 pub use view::View;
 pub use worst::Place;
 
 use crate::tolerance::Tolerance;
 use reference::Running;
-use trueness_geom::closest::{QueryError, Tree};
+use trueness_geom::closest::{MeshError, QueryError, Tree};
 use trueness_geom::cloud::PointStream;
-use trueness_geom::stats::paired::Paired;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
+use trueness_geom::stats::paired::Paired;
+use trueness_geom::topology::TopologyError;
 
 /// How distances are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -142,6 +144,8 @@ pub struct Comparisons {
     pub paired: Vec<(usize, usize, Paired)>,
     /// Sample for the report.
     pub shown: ShownPoints,
+    /// The worst places of every reference, as far as the sample lacks them.
+    pub flagged: ShownPoints,
 }
 
 /// Compares all points of `measured` with every reference and hands each block to `sink`.
@@ -160,12 +164,12 @@ pub fn run<S: PointStream + ?Sized, K>(
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
-        trees.push(Tree::build(r.mesh).map_err(|e| refused(r, e.into()))?);
+        trees.push(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?);
     }
     let keep = options.kept_values / references.len().max(1);
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {
-        running.push(Running::new(r.mesh, tree, options, keep).map_err(|e| refused(r, e))?);
+        running.push(Running::new(r.mesh, tree, options, keep, progress).map_err(|e| refused(r, e))?);
     }
     let mut paired = vec![];
     for second in 1..references.len() {
@@ -178,6 +182,7 @@ pub fn run<S: PointStream + ?Sized, K>(
         references: vec![],
         paired,
         shown: ShownPoints::new(places, references.len()),
+        flagged: ShownPoints::new(usize::MAX, references.len()),
     };
     let mut sample = ShownPoints::new(SIGN_SAMPLE, 0);
     let mut points = vec![];
@@ -206,12 +211,33 @@ pub fn run<S: PointStream + ?Sized, K>(
     if out.count == 0 {
         return Err(CompareError::NoPoints);
     }
-    out.references = running.into_iter().map(|r| r.finish(&sample.points)).collect::<Result<_, _>>()?;
+    flag(&mut out, &running).map_err(|e| in_block(e, &references[0], 0))?;
+    out.references =
+        running.into_iter().map(|r| r.finish(&sample.points, progress)).collect::<Result<_, _>>()?;
     Ok(out)
 }
 
+/// Puts the worst places that the sample has left out beside it.
+fn flag(out: &mut Comparisons, running: &[Running]) -> Result<(), PaperError> {
+    let mut places: Vec<Place> = running.iter().flat_map(Running::worst_places).collect();
+    places.retain(|p| out.shown.indices.binary_search(&p.index).is_err());
+    places.sort_by_key(|p| p.index);
+    places.dedup_by_key(|p| p.index);
+    let points: Vec<Point> = places.iter().map(|p| p.point).collect();
+    let deviations: Vec<Vec<f64>> = running.iter().map(|r| r.again(&points)).collect::<Result<_, _>>()?;
+    for (i, place) in places.iter().enumerate() {
+        let here: Vec<&[f64]> = deviations.iter().map(|d| &d[i..=i]).collect();
+        out.flagged.add(place.index, &[place.point], &here);
+    }
+    Ok(())
+}
+
 fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S, K> {
-    CompareError::Reference { reference: reference.name.clone(), error }
+    match error {
+        ReferenceError::Mesh(MeshError::Cancelled(e))
+        | ReferenceError::Topology(TopologyError::Cancelled(e)) => CompareError::Query(e.into()),
+        error => CompareError::Reference { reference: reference.name.clone(), error },
+    }
 }
 
 /// Points, at most, on which both sign methods are asked.

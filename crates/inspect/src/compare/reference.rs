@@ -1,19 +1,19 @@
 //! The running comparison with one reference.
 
-use super::vertex_map::{VertexMap, weights};
+use super::map::{Flagged, Foot, MapSurface, PointMap};
 use super::worst::{Place, WorstPlaces};
 use super::{Method, Options};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
-use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
 use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Progress;
+use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, cross, minus, unit};
-use trueness_geom::topology::weld::WeldError;
+use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges};
+use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
+use trueness_geom::topology::TopologyError;
 
 /// What was found about one reference.
 pub struct Compared {
@@ -39,8 +39,8 @@ pub struct Compared {
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
-    /// Mean deviations at the vertices, for a report.
-    pub vertex_map: Option<VertexMap>,
+    /// The reference coloured by the points near each place, for a report.
+    pub map: Option<MapSurface>,
 }
 
 /// One of the worst places, with where it is on the reference.
@@ -52,6 +52,10 @@ pub struct WorstPlace {
     pub nearest: Point,
     /// Unit normal of the facet there; `None` if it has no area.
     pub normal: Option<Vector>,
+    /// The facet there.
+    pub(super) face: u32,
+    /// Weights of the facet's corners.
+    pub(super) weights: [f64; 3],
 }
 
 /// Deviations in file order, excluded points included; or the sketch of them when they are too many.
@@ -70,7 +74,7 @@ pub enum ReferenceError {
     Mesh(#[from] MeshError),
     /// Its topology cannot be told.
     #[error(transparent)]
-    Topology(#[from] WeldError),
+    Topology(#[from] TopologyError),
     /// The paper's method refuses it.
     #[error(transparent)]
     Paper(#[from] PaperError),
@@ -89,7 +93,7 @@ pub struct Running<'a> {
     excluded: [u64; Exclusion::ALL.len()],
     worst: WorstPlaces,
     paper: Option<(Paper, Differences)>,
-    map: Option<VertexMap>,
+    map: Option<PointMap>,
 }
 
 impl<'a> Running<'a> {
@@ -99,20 +103,21 @@ impl<'a> Running<'a> {
         tree: &'a Tree,
         options: &Options,
         keep: usize,
+        progress: &dyn Progress,
     ) -> Result<Running<'a>, ReferenceError> {
         let paper = match options.method {
             Method::Exact => None,
             Method::Paper => Some((Paper::new(mesh)?, Differences::default())),
         };
         Ok(Running {
-            surface: Surface::new(tree, mesh, &options.surface)?,
+            surface: Surface::new(tree, mesh, &options.surface, progress)?,
             values: Values::All(vec![]),
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
             excluded: Default::default(),
             worst: WorstPlaces::new(&mesh.bounds()),
             paper,
-            map: (options.shown > 0).then(|| VertexMap::new(mesh.positions.len())),
+            map: (options.shown > 0).then(|| PointMap::new(mesh, options.tolerance)),
             mesh,
         })
     }
@@ -124,9 +129,36 @@ impl<'a> Running<'a> {
         points: &[Point],
         progress: &dyn Progress,
     ) -> Result<Vec<f64>, PaperError> {
-        let mut deviations = match &mut self.map {
-            None => self.surface.deviations(points, progress)?,
-            Some(map) => mapped(&self.surface, self.mesh, map, points, progress)?,
+        let (deviations, feet) = self.measure(points, progress)?;
+        for e in deviations.iter().filter_map(|&d| Exclusion::of(d)) {
+            self.excluded[e as usize] += 1;
+        }
+        if let Some(limits) = &mut self.limits {
+            limits.push(&deviations);
+            // An infinite value stands for a point that is not there, and does not lie above.
+            limits.above -= deviations.iter().filter(|d| d.is_infinite()).count() as u64;
+        }
+        if let Some(map) = &mut self.map {
+            for (foot, deviation) in feet.iter().zip(&deviations) {
+                if let Some(foot) = foot {
+                    map.add(*foot, *deviation);
+                }
+            }
+        }
+        self.worst.add(start, points, &deviations);
+        self.values.push(&deviations, self.keep);
+        Ok(deviations)
+    }
+
+    /// Deviations of points, and where their nearest places lie if there is a map.
+    fn measure(
+        &mut self,
+        points: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<(Vec<f64>, Vec<Option<Foot>>), PaperError> {
+        let (mut deviations, feet) = match &self.map {
+            None => (self.surface.deviations(points, progress)?, vec![]),
+            Some(map) => with_feet(&self.surface, map, points, progress)?,
         };
         if let Some((paper, versus)) = &mut self.paper {
             let theirs = paper.values(points, progress)?;
@@ -137,37 +169,47 @@ impl<'a> Running<'a> {
                 *d = t.distance.copysign(*d);
             }
         }
-        for e in deviations.iter().filter_map(|&d| Exclusion::of(d)) {
-            self.excluded[e as usize] += 1;
+        Ok((deviations, feet))
+    }
+
+    /// The places that the result will name.
+    pub fn worst_places(&self) -> Vec<Place> {
+        self.worst.pick(WORST).into_iter().flatten().collect()
+    }
+
+    /// Deviations of points that have been counted already.
+    pub fn again(&self, points: &[Point]) -> Result<Vec<f64>, PaperError> {
+        let mut deviations = self.surface.deviations(points, &Silent)?;
+        if let Some((paper, _)) = &self.paper {
+            for (d, t) in deviations.iter_mut().zip(paper.values(points, &Silent)?) {
+                *d = if d.is_finite() { t.distance.copysign(*d) } else { *d };
+            }
         }
-        if let Some(limits) = &mut self.limits {
-            limits.push(&deviations);
-            // An infinite value stands for a point that is not there, and does not lie above.
-            limits.above -= deviations.iter().filter(|d| d.is_infinite()).count() as u64;
-        }
-        self.worst.add(start, points, &deviations);
-        self.values.push(&deviations, self.keep);
         Ok(deviations)
     }
 
     /// The end of the points; `sample` is an even sample of them.
-    pub fn finish(self, sample: &[Point]) -> Result<Compared, QueryError> {
+    pub fn finish(self, sample: &[Point], progress: &dyn Progress) -> Result<Compared, QueryError> {
         let choice = *self.surface.sign();
         let signed = choice.method != SignMethod::None;
         let summary = self.values.summary();
+        let worst = worst(&self.surface, self.mesh, &self.worst_places())?;
+        let flag =
+            |w: &WorstPlace| Flagged { face: w.face, weights: w.weights, deviation: w.place.deviation };
+        let flagged: Vec<Flagged> = worst.iter().map(flag).collect();
         Ok(Compared {
             diagonal: self.mesh.bounds().diagonal(),
             histogram: self.values.histogram(&summary.all),
             limits: self.limits,
             sign: choice,
-            disagreement: if signed { Some(self.surface.disagreement(sample)?) } else { None },
+            disagreement: if signed { Some(self.surface.disagreement(sample, progress)?) } else { None },
             precondition: self.surface.precondition().clone(),
             summary,
-            worst: worst(&self.surface, self.mesh, &self.worst)?,
+            worst,
             values: self.values,
             excluded: Exclusion::ALL.iter().map(|&e| (e, self.excluded[e as usize])).collect(),
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
-            vertex_map: self.map,
+            map: self.map.map(|map| MapSurface::of(self.mesh, &map, &flagged)),
         })
     }
 }
@@ -207,35 +249,31 @@ impl Values {
     }
 }
 
-/// Deviations of a block that also go into the map of the reference's vertices.
-fn mapped(
+/// Deviations of a block, and the pieces of the map that the nearest places lie in.
+fn with_feet(
     surface: &Surface,
-    mesh: &Mesh,
-    map: &mut VertexMap,
+    map: &PointMap,
     points: &[Point],
     progress: &dyn Progress,
-) -> Result<Vec<f64>, QueryError> {
+) -> Result<(Vec<f64>, Vec<Option<Foot>>), QueryError> {
     let tree = surface.tree();
     let found = surface.map(points, progress, |i, deviation, hit| {
         let place = hit.filter(|_| deviation.is_finite()).map(|h| tree.place(&points[i], h));
-        (deviation, place.map(|p| (p.face, weights(&p))))
+        (deviation, place.map(|p| map.foot(p.face, p.barycentric)))
     })?;
-    for (deviation, place) in &found {
-        if let Some((face, weights)) = place {
-            map.add(&mesh.faces[*face as usize], *weights, *deviation);
-        }
-    }
-    Ok(found.into_iter().map(|(deviation, _)| deviation).collect())
+    Ok(found.into_iter().unzip())
 }
 
 /// The worst places with their nearest places on the reference.
-fn worst(surface: &Surface, mesh: &Mesh, places: &WorstPlaces) -> Result<Vec<WorstPlace>, QueryError> {
+fn worst(surface: &Surface, mesh: &Mesh, places: &[Place]) -> Result<Vec<WorstPlace>, QueryError> {
     let mut out = vec![];
-    for place in places.pick(WORST).into_iter().flatten() {
-        if let Some(Closest { point, face, .. }) = surface.tree().closest(&place.point, f64::INFINITY)? {
+    for &place in places {
+        if let Some(Closest { point, face, barycentric: weights, .. }) =
+            surface.tree().closest(&place.point, f64::INFINITY)?
+        {
             let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
             let normal = unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n);
-            out.push(WorstPlace { place, nearest: point, normal });
+            out.push(WorstPlace { place, nearest: point, normal, face, weights });
         }
     }
     Ok(out)

@@ -5,9 +5,9 @@ use super::reference::Compared;
 use crate::results::compare::Reverse;
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
 use trueness_geom::deviation::sample::TwoSided;
-use trueness_geom::stats::statistics::Summary;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::stats::statistics::Summary;
 
 /// Why nothing can be measured back.
 #[derive(Debug, thiserror::Error)]
@@ -36,7 +36,11 @@ pub fn reverse(
     }
     let points: Vec<_> =
         reference.positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p).collect();
-    let distances = Tree::build(measured)?.distances(&points, &Query::default(), progress)?;
+    let tree = Tree::build_watched(measured, progress).map_err(|e| match e {
+        MeshError::Cancelled(e) => ReverseError::Query(e.into()),
+        e => ReverseError::Measured(e),
+    })?;
+    let distances = tree.distances(&points, &Query::default(), progress)?;
     let back = Summary::of(&distances);
     let both = TwoSided::of(&forth.summary.all, &back.all);
     Ok(Reverse {

@@ -2,11 +2,13 @@
 
 use super::{Comparisons, Reference, Values};
 use crate::check::groups;
-use crate::report::{Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison};
+use std::collections::BTreeSet;
 use trueness_geom::deviation::surface::Exclusion;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
 
 /// Deviations prepared for drawing.
 pub struct View<'a> {
@@ -14,8 +16,12 @@ pub struct View<'a> {
     mesh: Option<&'a Mesh>,
     references: &'a [Reference<'a>],
     found: &'a Comparisons,
+    /// The points drawn, where it is not a mesh.
+    points: Vec<Point>,
     measured: Vec<Field>,
-    maps: Vec<Field>,
+    /// Places of the measured object that the result names.
+    flagged: Vec<u32>,
+    maps: Vec<Option<Field>>,
 }
 
 /// One value a place, NaN beside a reason where there is none.
@@ -40,16 +46,35 @@ impl<'a> View<'a> {
             all.collect()
         });
         let drawn = vertices.is_some();
-        let lists = vertices.unwrap_or_else(|| found.shown.deviations.iter().map(Vec::as_slice).collect());
-        let map =
-            |c: &super::Compared| c.vertex_map.as_ref().map(|m| Field::of(&m.values(), NoValue::NotMeasured));
+        let mut numbers = found.shown.indices.clone();
+        let mut points = vec![];
+        let lists: Vec<Vec<f64>> = match vertices {
+            Some(lists) => lists.into_iter().map(<[f64]>::to_vec).collect(),
+            None => {
+                numbers.extend(&found.flagged.indices);
+                points = [&found.shown.points[..], &found.flagged.points].concat();
+                let both = found.shown.deviations.iter().zip(&found.flagged.deviations);
+                both.map(|(a, b)| [&a[..], b].concat()).collect()
+            }
+        };
+        let worst = found.references.iter().flat_map(|c| &c.worst).map(|w| w.place.index);
+        let flagged = match drawn {
+            true => worst.filter_map(|w| u32::try_from(w).ok()).collect(),
+            false => {
+                let worst: BTreeSet<u64> = worst.collect();
+                (0..).zip(&numbers).filter(|(_, n)| worst.contains(n)).map(|(i, _)| i).collect()
+            }
+        };
+        let map = |c: &super::Compared| c.map.as_ref().map(|m| Field::of(&m.values, NoValue::NotMeasured));
         View {
             name,
             mesh: mesh.filter(|_| drawn),
             references,
             found,
+            points,
             measured: lists.iter().map(|values| Field::of(values, NoValue::FreeEdge)).collect(),
-            maps: found.references.iter().filter_map(map).collect(),
+            flagged,
+            maps: found.references.iter().map(map).collect(),
         }
     }
 
@@ -70,16 +95,24 @@ impl<'a> View<'a> {
             name: self.name,
             color: None,
             comparison: None,
-            geometry: self.mesh.map_or(Geometry::Points(&self.found.shown.points), Geometry::Mesh),
+            geometry: self.mesh.map_or(Geometry::Points(&self.points), Geometry::Mesh),
             fields: self.measured.iter().enumerate().map(|(i, f)| f.view(i)).collect(),
+            keep: &self.flagged,
+            gathered: None,
         };
-        let references = self.references.iter().enumerate().map(|(i, r)| ViewObject {
-            role: ViewRole::Reference,
-            name: &r.name,
-            color: None,
-            comparison: Some(i),
-            geometry: Geometry::Mesh(r.mesh),
-            fields: self.maps.get(i).map(|f| f.view(i)).into_iter().collect(),
+        let all = self.references.iter().zip(&self.found.references).zip(&self.maps).enumerate();
+        let references = all.map(|(i, ((r, found), field))| {
+            let map = found.map.as_ref();
+            ViewObject {
+                role: ViewRole::Reference,
+                name: &r.name,
+                color: None,
+                comparison: Some(i),
+                geometry: Geometry::Mesh(map.and_then(|m| m.mesh.as_ref()).unwrap_or(r.mesh)),
+                fields: field.as_ref().map(|f| f.view(i)).into_iter().collect(),
+                keep: map.map_or(&[], |m| &m.keep),
+                gathered: map.map(|m| Gathered { reach: m.reach, vertices: r.mesh.positions.len() }),
+            }
         });
         std::iter::once(measured).chain(references).collect()
     }

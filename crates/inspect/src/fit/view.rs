@@ -46,8 +46,16 @@ impl<'a> View<'a> {
         let distances = ViewField { comparison: 0, values: &self.distances, reasons: &[] as &[NoValue] };
         let geometry = Geometry::Points(self.points);
         let (role, name) = (ViewRole::Measured, self.name);
-        let mut objects =
-            vec![ViewObject { role, name, color: None, comparison: None, geometry, fields: vec![distances] }];
+        let mut objects = vec![ViewObject {
+            role,
+            name,
+            color: None,
+            comparison: None,
+            geometry,
+            fields: vec![distances],
+            keep: &[],
+            gathered: None,
+        }];
         if !self.body.faces.is_empty() {
             let (role, geometry) = (ViewRole::Element, Geometry::Mesh(&self.body));
             objects.push(ViewObject {
@@ -57,6 +65,8 @@ impl<'a> View<'a> {
                 comparison: None,
                 geometry,
                 fields: vec![],
+                keep: &[],
+                gathered: None,
             });
         }
         objects

@@ -64,7 +64,16 @@ impl<'a> View<'a> {
         [(ViewRole::After, self.after), (ViewRole::Before, self.before)]
             .map(|(role, mesh)| {
                 let geometry = Geometry::Mesh(mesh);
-                ViewObject { role, name: self.name, color: None, comparison: None, geometry, fields: vec![] }
+                ViewObject {
+                    role,
+                    name: self.name,
+                    color: None,
+                    comparison: None,
+                    geometry,
+                    fields: vec![],
+                    keep: &[],
+                    gathered: None,
+                }
             })
             .into()
     }

@@ -59,6 +59,12 @@ impl Html {
         self.raw(&format!("<span class=\"n\" data-n=\"{value}\" data-d=\"{decimals}\"{sign}>{text}</span>"))
     }
 
+    /// A number above zero that is too small for digits after the point.
+    pub fn scientific(&mut self, value: f64, decimals: usize) -> &mut Html {
+        let text = self.style.scientific(value, decimals);
+        self.raw(&format!("<span class=\"n\" data-e=\"{value}\" data-d=\"{decimals}\">{text}</span>"))
+    }
+
     /// A count.
     pub fn count(&mut self, count: u64) -> &mut Html {
         self.number(count as f64, 0, false)
@@ -67,6 +73,19 @@ impl Html {
     /// A share (0 to 1) in percent.
     pub fn percent(&mut self, share: f64, decimals: usize) -> &mut Html {
         self.number(percent(share, decimals), decimals, false).raw("\u{a0}%")
+    }
+
+    /// A share as a percentage, or a dash with the reason why there is none as its tooltip.
+    pub fn optional_percent(
+        &mut self,
+        share: Option<f64>,
+        reason: Option<&str>,
+        decimals: usize,
+    ) -> &mut Html {
+        match share {
+            Some(share) => self.percent(share, decimals),
+            None => self.optional(None, reason, decimals, false),
+        }
     }
 
     /// A number, or a dash with the reason why there is none as its tooltip.

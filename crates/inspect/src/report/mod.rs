@@ -23,10 +23,11 @@ pub use text::Language;
 
 use crate::results::Role;
 use crate::scale::palette::Rgb;
-use payload::Payload;
+use payload::{Payload, Purpose};
 use serde::Serialize;
 use std::io::{self, Write};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 
 /// What a report is made of.
@@ -120,11 +121,18 @@ impl From<Role> for ViewRole {
         match role {
             Role::Measured => ViewRole::Measured,
             Role::Reference => ViewRole::Reference,
+            Role::Mesh => ViewRole::Part,
         }
     }
 }
 
 impl ViewRole {
+    /// Marks that are seen through the part: what is wrong or was changed must never be missed. Edges of the part itself
+    /// are hidden by it.
+    pub fn shows_through(self) -> bool {
+        self != ViewRole::Edges
+    }
+
     /// Colour of what has no map: warm grey for what was measured, blue-grey for what it is compared with.
     pub fn color(self) -> Rgb {
         match self {
@@ -149,6 +157,19 @@ pub struct ViewObject<'a> {
     pub geometry: Geometry<'a>,
     /// Deviations at the places. On a measured object: from each reference. On a reference: of the measured points near it.
     pub fields: Vec<ViewField<'a>>,
+    /// Places that stay however much is left out, because the result names them; they rise.
+    pub keep: &'a [u32],
+    /// Set where a place shows the worst of several measured points near it and not a value of its own.
+    pub gathered: Option<Gathered>,
+}
+
+/// How an object shows points that are not its own places.
+#[derive(Clone, Copy, Debug)]
+pub struct Gathered {
+    /// Farthest that a shown point can be, along the surface, from where it is shown, millimetres.
+    pub reach: f64,
+    /// Vertices of the surface before it was refined for drawing.
+    pub vertices: usize,
 }
 
 /// Places, millimetres.
@@ -241,6 +262,9 @@ pub enum ReportError {
         /// Points or vertices.
         places: usize,
     },
+    /// The report is no longer wanted.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The triangle code failed.
     #[error("the triangles could not be packed: {0}")]
     Encoding(String),
@@ -249,11 +273,23 @@ pub enum ReportError {
 /// Bytes that an object's entry in the manifest may take, names apart.
 const MANIFEST_ENTRY: usize = 4000;
 
+/// What [`write()`] tells its progress in all: each object's places twice, once drawn and once packed.
+pub fn work(objects: &[ViewObject]) -> u64 {
+    2 * objects.iter().map(|o| o.places().len() as u64).sum::<u64>()
+}
+
 /// Writes the report of a document as one HTML file.
 ///
 /// Objects may be empty, fields may be NaN throughout, names may hold any text. Deterministic for any number of threads.
-/// Cost: a few passes over the geometry, dominated by compression.
-pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary, ReportError> {
+/// `progress` hears of places, [`work`] in all. Cost: a few passes over the geometry, dominated by collapsing edges.
+///
+/// # Errors
+/// See [`ReportError`].
+pub fn write(
+    input: &ReportInput,
+    progress: &dyn Progress,
+    out: &mut impl Write,
+) -> Result<ReportSummary, ReportError> {
     for (object, o) in input.objects.iter().enumerate() {
         let places = o.places().len();
         if let Some(f) = o.fields.iter().find(|f| f.values.len() != places) {
@@ -261,13 +297,23 @@ pub fn write(input: &ReportInput, out: &mut impl Write) -> Result<ReportSummary,
         }
     }
     let scale = input.result.subject().scale();
-    let range = scale.map_or(1.0, |s| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l));
-    let picture = payload::base64(&picture::png(input));
+    let zone = scale.and_then(|s| s.tolerance);
+    let range = scale.map_or(1.0, |s| zone.map_or(s.upper - s.lower, |[l, u]| u - l));
+    let purpose = Purpose { range, zone, progress };
+    let draw = || {
+        let view = picture::FirstView::of(input, &input.result.subject().picks());
+        picture::png(input, &view, progress).map(|png| page::Picture { png: payload::base64(&png), view })
+    };
+    let (picture, full) = rayon::join(draw, || payload::pack(input.objects, &purpose));
+    let picture = picture?;
     // What the page takes without its 3D part is left of the budget first.
     let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
-    let payload =
-        payload::pack(input.objects, input.marks, range, input.options.budget.saturating_sub(bare))?;
+    let room = input.options.budget.saturating_sub(bare);
+    let payload = full?.within(room, input.objects, input.marks, &purpose)?;
     let html = page::page(input, &payload, &picture)?;
+    if progress.cancelled() {
+        return Err(Cancelled.into());
+    }
     out.write_all(html.as_bytes())?;
     out.flush()?;
     Ok(ReportSummary {

@@ -46,6 +46,12 @@ impl Style {
         text
     }
 
+    /// A number as 1.5e−7, with `decimals` digits after the decimal sign.
+    pub fn scientific(self, value: f64, decimals: usize) -> String {
+        let text = format!("{value:.decimals$e}");
+        text.replace('.', &self.decimal().to_string()).replace('-', "\u{2212}")
+    }
+
     /// As [`Style::fixed`], with a plus sign before what is above zero.
     pub fn signed(self, value: f64, decimals: usize) -> String {
         let text = self.fixed(value, decimals);

@@ -85,6 +85,9 @@ pub struct Defects {
     pub severity: String,
     /// Their number; `null` where they were not looked for.
     pub count: Option<u64>,
+    /// There are more than `count`: they were not counted to the end.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub at_least: bool,
     /// Why they were not looked for.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub count_reason: Option<String>,

@@ -93,6 +93,9 @@ pub struct Comparison {
     pub reference: String,
     /// 1 for the reference with the least root mean square; equal for equal values.
     pub rank: u32,
+    /// What makes it unlikely that measured and reference belong together as they lie.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub warnings: Vec<Warning>,
     /// How the sign was found here.
     pub sign: SignRecord,
     /// Whether the statistics rest on a sound mesh.
@@ -120,6 +123,28 @@ pub struct Comparison {
     /// Intervals, tests and models; only with `--research`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub research: Option<Research>,
+}
+
+/// Something that makes the deviations doubtful, although each is computed right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Warning {
+    /// What was noticed.
+    pub kind: WarningKind,
+    /// The number that it was noticed by.
+    pub value: f64,
+    /// The same in words.
+    pub text: String,
+}
+
+/// What can be noticed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WarningKind {
+    /// The sizes of measured and reference stand in a ratio as two units do. `value`: diagonal of the measured box over
+    /// that of the reference.
+    SizeRatio,
+    /// Their boxes hardly overlap. `value`: the common share of the smaller box, both widened by a margin.
+    HardlyOverlapping,
 }
 
 /// Statistics of all deviations and of each side.
@@ -250,18 +275,27 @@ pub struct Soundness {
 }
 
 /// Shares of the points against the tolerance (0 to 1); the limits belong to the zone.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ToleranceShares {
     /// Lower limit, millimetres.
     pub lower: f64,
     /// Upper limit, millimetres.
     pub upper: f64,
     /// Share within.
-    pub inside: f64,
+    pub inside: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub inside_reason: Option<String>,
     /// Share above the upper limit.
-    pub above: f64,
+    pub above: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub above_reason: Option<String>,
     /// Share below the lower limit.
-    pub below: f64,
+    pub below: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub below_reason: Option<String>,
     /// The share inside that was asked for.
     pub required: f64,
 }

@@ -21,7 +21,7 @@ pub struct RepairDocument {
     pub inputs: Vec<InputRecord>,
     /// The file written.
     pub output: OutputRecord,
-    /// The mesh is sound now, and still is when the file written is read again.
+    /// The mesh is sound now, still is when the file written is read again, and the part was not changed.
     pub sound: bool,
     /// Size and defects before.
     pub before: State,
@@ -31,6 +31,8 @@ pub struct RepairDocument {
     pub vertices: VertexCounts,
     /// Facets that stayed, came and went.
     pub facets: FacetCounts,
+    /// What became of the part.
+    pub effect: Effect,
     /// How far the surface went; `null` where nothing can be measured.
     pub deviation: Option<Deviation>,
     /// Why nothing was measured.
@@ -38,6 +40,13 @@ pub struct RepairDocument {
     pub deviation_reason: Option<String>,
     /// Names of the steps that were allowed, in their order.
     pub steps: Vec<String>,
+    /// Steps that were not done, because with them some defect would have become more frequent.
+    pub taken_back: Vec<String>,
+    /// Why closed shells that meet were not united, where they were not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub not_united: Option<String>,
+    /// Holes were filled up to this share of the area of their shell; `null`: all.
+    pub hole_limit: Option<f64>,
     /// How often the steps were gone through.
     pub rounds: u64,
     /// Number of changes.
@@ -81,7 +90,8 @@ pub struct State {
     pub sound: bool,
     /// Area of the surface, mm².
     pub area: f64,
-    /// Volume enclosed, mm³; `null` unless the mesh is closed and consistently oriented.
+    /// Volume enclosed, mm³: before, that of the places with winding number 1 or more, after neighbours were turned to run
+    /// the same way round; after, the signed volume. `null` unless the mesh is closed and consistently oriented.
     pub volume: Option<f64>,
     /// Why there is no volume.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -112,6 +122,33 @@ pub struct FacetCounts {
     pub added: u64,
     /// Gone.
     pub removed: u64,
+}
+
+/// What became of the part. What is changed beyond a limit is no mended part but another one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Effect {
+    /// Volume or surface went beyond a limit.
+    pub changed: bool,
+    /// Closed shells that look outwards, before.
+    pub bodies_before: u64,
+    /// And after.
+    pub bodies_after: u64,
+    /// What the volume before may be off by, mm³; `null` where there is none.
+    pub volume_error: Option<f64>,
+    /// Volume of the places with winding number −1 or less before, mm³: bodies that looked inwards.
+    pub volume_inverted: Option<f64>,
+    /// Volume after less volume before, mm³, bodies that looked inwards being counted if that makes the change smaller;
+    /// `null` where either is not known, and where the mesh is still not sound.
+    pub volume_change: Option<f64>,
+    /// Largest distance that counts, mm: from the surface that bounded the volume to the new one, and from the new surface
+    /// to the old one. Where no volume was enclosed, of what was torn out to the new surface; `null` where nothing was.
+    pub surface: Option<f64>,
+    /// The limits as a share of the diagonal and of the volume.
+    pub limit: f64,
+    /// That of the surface, mm.
+    pub surface_limit: f64,
+    /// That of the volume, mm³; `null` where there is no volume.
+    pub volume_limit: Option<f64>,
 }
 
 /// How far the surface went.

@@ -30,7 +30,7 @@ pub struct SegmentDocument {
     pub unassigned: u64,
     /// Standard deviation of the noise found in the data.
     pub noise: f64,
-    /// Distance up to which points belonged to an element.
+    /// Distance up to which points belong to an element: no point of a region lies farther off.
     pub tolerance: f64,
     /// Whether that distance was given, not found.
     pub tolerance_given: bool,
@@ -81,9 +81,9 @@ pub struct RegionRecord {
     pub points: u64,
     /// Root mean square of their distances.
     pub rms: f64,
-    /// Greatest magnitude of their distances.
+    /// Greatest magnitude of the distances of all points of the region's facets, or of its points: within the tolerance.
     pub max: f64,
-    /// Greatest less least signed distance.
+    /// Of the points that it was fitted to, greatest less least signed distance.
     pub form_error: f64,
     /// Box around the region.
     pub bounds: Bounds,
@@ -143,7 +143,7 @@ fn record(number: usize, region: &Region, pieces: PieceKind, members: Option<Vec
         share: region.share,
         points: region.points.len() as u64,
         rms: residuals.rms,
-        max: residuals.max.0.abs().max(residuals.min.0.abs()),
+        max: region.farthest,
         form_error: residuals.form_error,
         bounds: Bounds { min: region.bounds.min, max: region.bounds.max },
         members,

@@ -62,6 +62,8 @@ impl<'a> View<'a> {
                     false => Geometry::Mesh(part),
                 },
                 fields: vec![],
+                keep: &[],
+                gathered: None,
             })
             .collect()
     }

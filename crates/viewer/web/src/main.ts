@@ -12,6 +12,7 @@ import { viewCube } from './stage/cube'
 import { Flags } from './stage/flags'
 import { hover } from './stage/hover'
 import { Stage } from './stage/stage'
+import { unseen } from './stage/unseen'
 import { State } from './state'
 import { Words } from './words'
 
@@ -50,13 +51,14 @@ async function openStage(): Promise<void> {
   label()
   say('stage.loading')
 
-  new Flags(overlay, stage, state, words)
+  const flags = new Flags(overlay, stage, state, words)
+  unseen(stage, state, words)
   stageTools(overlay, stage, state, words)
   viewCube(overlay, stage, words)
   hover(stage, overlay, state, words)
   control(stage)
   keys(stage, state, words, rows.step)
-  printStage(stage, need('picture') as HTMLImageElement)
+  printStage(stage, flags, need('picture') as HTMLImageElement, need('flagged') as Element as SVGSVGElement)
   state.listen((what) => {
     if (what !== 'hover' && what !== 'log' && what !== 'flags') stage.applyState()
     const pick = what === 'pick' ? manifest.picks[state.picked] : null
@@ -64,8 +66,8 @@ async function openStage(): Promise<void> {
   })
   new ResizeObserver(() => stage.resize(section.clientWidth, section.clientHeight)).observe(section)
   stage.resize(section.clientWidth, section.clientHeight)
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => stage.draw())
-  new MutationObserver(() => stage.draw()).observe(document.documentElement, { attributeFilter: ['data-theme'] })
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => stage.recolor())
+  new MutationObserver(() => stage.recolor()).observe(document.documentElement, { attributeFilter: ['data-theme'] })
 
   let gone = 0
   canvas.addEventListener('webglcontextlost', (e) => {
@@ -86,9 +88,10 @@ async function openStage(): Promise<void> {
     await stage.load()
     restoreView(stage, state)
     keepView(stage, state)
+    // Drawn before it is seen: flags laid out without the part would show what it hides.
+    stage.settle()
     section.classList.add('live')
     say(null)
-    stage.applyState()
   } catch {
     canvas.remove()
     overlay.remove()

@@ -4,8 +4,7 @@ export interface Manifest {
   language: string
   decimal: string | null
   up: 'y' | 'z'
-  /** Which way the surface looks that the first view should show. */
-  facing: [number, number, number] | null
+  first: FirstView
   scale: ScaleObject | null
   /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
   quantity: [string, string, string]
@@ -37,6 +36,8 @@ export interface ViewObject extends Entry {
   color: string
   comparison: number | null
   source_vertices: number
+  /** Set where a place shows the worst measured point near it: how far that can be, millimetres. */
+  reach?: number | null
   triangles?: number
   corners?: { blob: number }
   levels: { triangles?: number; points?: number; blob?: number; error?: number }[]
@@ -83,12 +84,20 @@ export interface Histogram {
   above: number
 }
 
+/** The view that shows most of what matters. */
+export interface FirstView {
+  /** From the part to the reader. */
+  toward: [number, number, number]
+  /** Numbers of the picks that it was chosen for, the most important first. */
+  places: number[]
+}
+
 /** Values that can be shown as colours, with what the scale draws beside them. */
 export interface MapEntry {
   name: string
   count: number
   mean: number | null
-  tolerance: { lower: number; upper: number; inside: number } | null
+  tolerance: { lower: number; upper: number; inside: number | null } | null
   histogram: Histogram | null
   quantiles: number[]
 }
@@ -96,6 +105,10 @@ export interface MapEntry {
 /** A place that a row of the list leads to. */
 export interface Pick {
   position: [number, number, number]
+  /** The place of the reference that it was measured from. */
+  surface: [number, number, number] | null
+  /** That is so far away that the place is not on the part. */
+  off: boolean
   /** Half the size of what to bring into view. */
   reach: number | null
   normal: [number, number, number] | null

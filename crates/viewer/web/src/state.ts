@@ -1,5 +1,5 @@
 import type { Manifest, Pick, ScaleObject } from './manifest'
-import { Colors } from './scale/scale'
+import { Colors, widened } from './scale/scale'
 import { Distribution } from './scale/distribution'
 
 /** What the reader can change. Everything that shows it listens. */
@@ -24,7 +24,7 @@ export class State {
   private readonly listeners: ((what: Change) => void)[] = []
 
   constructor(readonly manifest: Manifest) {
-    this.scale = { ...(manifest.scale ?? NO_SCALE) }
+    this.scale = widened({ ...(manifest.scale ?? NO_SCALE) })
     this.colors = new Colors(manifest, this.scale)
     for (const { role, shown } of manifest.objects) this.visible[role] ||= shown && role !== 'before'
     this.backfaces = 'part' in this.visible || 'after' in this.visible
@@ -66,7 +66,7 @@ export class State {
   }
 
   setScale(part: Partial<ScaleObject>): void {
-    this.scale = { ...this.scale, ...part }
+    this.scale = widened({ ...this.scale, ...part })
     this.colors = new Colors(this.manifest, this.scale)
     this.tell('scale')
   }

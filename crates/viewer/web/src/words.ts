@@ -33,6 +33,10 @@ export class Words {
       const decimals = Number(node.dataset.d)
       node.textContent = node.dataset.s === undefined ? this.number(value, decimals) : this.signed(value, decimals)
     }
+    for (const node of document.querySelectorAll<HTMLElement>('[data-e]')) node.textContent = this.scientific(Number(node.dataset.e), Number(node.dataset.d))
+    for (const node of document.querySelectorAll<HTMLElement>('[data-t-alt]')) node.setAttribute('alt', this.of(node.dataset.tAlt ?? ''))
+    const title = document.querySelector<HTMLElement>('title')
+    if (title?.dataset.word) document.title = `${this.of(title.dataset.word)} · ${title.dataset.name ?? ''}`
     for (const listener of this.listeners) listener()
   }
 
@@ -43,6 +47,11 @@ export class Words {
     const grouped = whole.replace(/\B(?=(\d{3})+$)/g, this.group)
     const sign = value < 0 && /[1-9]/.test(plain) ? '\u2212' : ''
     return sign + grouped + (fraction ? this.point + fraction : '')
+  }
+
+  /** A positive number too small for digits after the point, as 1.5e−7. */
+  scientific(value: number, decimals: number): string {
+    return value.toExponential(decimals).replace('.', this.point).replace('-', '\u2212').replace('+', '')
   }
 
   signed(value: number, decimals: number): string {

@@ -2,20 +2,20 @@
 
 mod table;
 
-use crate::command::Common;
-use crate::commands::compare::output::whole_file;
+use crate::command::Run;
 use crate::exit::{Outcome, Usage, not_negative};
+use crate::options::{Common, DocumentArgs, InputArgs, weld};
 use crate::progress::Stage;
+use crate::read;
 use crate::report::ReportArgs;
-use crate::{console, read};
+use crate::run_files::RunFiles;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use trueness_files::{Body, Input, ReadOptions, SourceMesh, Unit, Warning};
+use std::path::PathBuf;
+use trueness_files::ReadOptions;
 use trueness_geom::check::{self, CheckError, Options};
 use trueness_inspect::check::View;
 use trueness_inspect::report::Answer;
-use trueness_inspect::results::check::CheckDocument;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_inspect::results::Role;
 
 /// Size and defects of a mesh
 ///
@@ -49,12 +49,10 @@ pub struct CheckArgs {
     /// Defects of each kind to list in the document; all are counted
     #[arg(long, value_name = "N", default_value = "1000")]
     items: usize,
-    /// Unit of the file if it does not say its own [default: mm]
-    #[arg(long, value_name = "UNIT")]
-    units: Option<Unit>,
-    /// Write the result document; `-` for stdout, then no table
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    input: InputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -71,15 +69,23 @@ impl CheckArgs {
     }
 }
 
-/// Runs the command.
-pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
+impl Run for CheckArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.mesh]).document(self.document.json.as_ref()).report(self.report.html.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
-    let reading = ReadOptions { units: args.units, weld: read::weld(args.weld)?, ..ReadOptions::default() };
-    let (source, mut record) = read(&args.mesh, &reading)?;
+    let reading = ReadOptions { weld: weld(args.weld)?, ..args.input.reading() };
+    let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &reading)?;
     let facets = source.mesh.faces.len() as u64;
     let stage = Stage::new(common.progress, "checking", "facets", Some(facets));
     let (hash, report) = rayon::join(
-        || read::hash(&mut record),
+        || read::hash(&mut record, &args.mesh),
         || check::check(&source.mesh, source.stored_normals.as_deref(), &options, &stage),
     );
     drop(stage);
@@ -90,40 +96,11 @@ pub fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     hash?;
     let left_out = source.nonfinite_facets;
     let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
-    write_json(args.json.as_deref(), &document)?;
+    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh);
-        args.report.write(Answer::Check(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Check(&document), &view.objects(), &view.marks, common.progress)?;
     }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        console::table(&table::text(&document, &check::KINDS));
-    }
+    args.document.table(|| table::text(&document, &check::KINDS))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
-}
-
-fn read(path: &Path, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
-    let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
-    let source = match body {
-        Body::Mesh(source) => source,
-        // Without vertices, too, it is as empty as an STL file of no facets.
-        Body::Points(_) if warnings.contains(&Warning::Nothing) => SourceMesh::default(),
-        Body::Points(_) => anyhow::bail!(
-            "{}: it holds points without facets; a check needs a mesh (STL, PLY, OBJ, OFF)",
-            path.display()
-        ),
-    };
-    let mut record = read::record(Role::Reference, &provenance, &warnings);
-    record.points = source.mesh.positions.len() as u64;
-    record.facets = Some(source.mesh.faces.len() as u64);
-    Ok((source, record))
-}
-
-fn write_json(path: Option<&Path>, document: &CheckDocument) -> anyhow::Result<()> {
-    let Some(path) = path else { return Ok(()) };
-    let mut text = serde_json::to_string_pretty(document)?;
-    text.push('\n');
-    if path == Path::new("-") {
-        return Ok(console::document(&text)?);
-    }
-    whole_file(path, |file| file.write_all(text.as_bytes()))
 }

@@ -1,6 +1,7 @@
 //! The check as a table for people.
 
-use crate::console::{columns, grouped};
+use crate::console::columns;
+use crate::number::{EDGES, FACETS, SHELLS, VERTICES, counted, fixed, grouped};
 use trueness_geom::check::Kind;
 use trueness_inspect::results::check::{CheckDocument, Defects};
 
@@ -34,24 +35,24 @@ fn head(d: &CheckDocument) -> String {
         rows.push(("mesh", format!("{}  ({}, {})", input.path, input.format, input.unit_assumed)));
         rows.extend(input.warnings.iter().map(|w| ("!", w.clone())));
     }
-    let counts = [(d.facets, "facets"), (d.vertices, "vertices"), (d.edges, "edges"), (d.shells, "shells")];
-    rows.push(("", counts.map(|(n, what)| format!("{} {what}", grouped(n))).join(", ")));
+    let counts = [(d.facets, FACETS), (d.vertices, VERTICES), (d.edges, EDGES), (d.shells, SHELLS)];
+    rows.push(("", counts.map(|(n, what)| counted(n, what)).join(", ")));
     if let Some([l, b, h]) = d.dimensions {
-        rows.push(("size", format!("{l:.6} × {b:.6} × {h:.6} mm")));
+        rows.push(("size", format!("{} mm", [l, b, h].map(|x| fixed(x, 6)).join(" × "))));
     }
-    rows.push(("area", format!("{:.6} mm²", d.area)));
+    rows.push(("area", format!("{} mm²", fixed(d.area, 6))));
     rows.push((
         "volume",
         match (d.volume, &d.volume_reason) {
-            (Some(v), _) => format!("{v:.6} mm³"),
+            (Some(v), _) => format!("{} mm³", fixed(v, 6)),
             (None, reason) => format!("none: {}", reason.as_deref().unwrap_or_default()),
         },
     ));
-    if let Some([x, y, z]) = d.centre_of_mass {
-        rows.push(("centre", format!("{x:.6}, {y:.6}, {z:.6} (of mass)")));
+    if let Some(place) = d.centre_of_mass {
+        rows.push(("centre", format!("{} (of mass)", place.map(|x| fixed(x, 6)).join(", "))));
     }
     let genus = d.genus.map(|g| format!(", genus {g}")).unwrap_or_default();
-    rows.push(("Euler", format!("{}{genus}", d.euler_characteristic)));
+    rows.push(("Euler", format!("{}{genus}", fixed(d.euler_characteristic as f64, 0))));
     rows.into_iter().map(|(name, text)| format!("{name:<8} {text}\n")).collect()
 }
 
@@ -63,10 +64,11 @@ fn row(name: &str, defects: &Defects) -> Option<Vec<String>> {
         None if name == "reversed normals" => None,
         None => Some(vec![name, "not asked for".into()]),
         Some(count) => {
-            let mut row = vec![name, defects.severity.clone(), grouped(count)];
+            let at_least = if defects.at_least { "at least " } else { "" };
+            let mut row = vec![name, defects.severity.clone(), format!("{at_least}{}", grouped(count))];
             if let Some(largest) = defects.items.iter().max_by(|a, b| a.size.total_cmp(&b.size)) {
-                row.push(format!("{:.4}", largest.size));
-                row.extend(largest.position.map(|x| format!("{x:.4}")));
+                row.push(fixed(largest.size, 4));
+                row.extend(largest.position.map(|x| fixed(x, 4)));
             }
             Some(row)
         }

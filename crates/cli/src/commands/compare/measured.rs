@@ -1,7 +1,8 @@
 //! The measured side: a cloud as a stream, or the vertices or samples of a mesh.
 
 use crate::exit::Usage;
-use crate::read;
+use crate::memory;
+use crate::read::{self, Opened};
 use anyhow::Context;
 use std::path::Path;
 use trueness_files::{Body, PointSource, ReadError, ReadOptions, Weld};
@@ -35,22 +36,22 @@ impl Measured {
         sample: Option<u64>,
         seed: u64,
     ) -> anyhow::Result<Measured> {
-        let input = trueness_files::open(path, &ReadOptions { weld: Weld::None, ..reading.clone() })?;
-        let mut record = read::record(Role::Measured, &input.provenance, &input.warnings);
-        let mesh = match input.body {
+        let reading = ReadOptions { weld: Weld::None, ..reading.clone() };
+        let Opened { record, body, format, .. } = read::open(path, Role::Measured, &reading)?;
+        let mesh = match body {
             Body::Points(_) if sample.is_some() => {
                 let shown = path.display();
                 return Err(Usage(format!("--sample needs a measured mesh, but {shown} holds points")).into());
             }
             Body::Points(points) => return Ok(Measured { points, mesh: None, kind: "points", record }),
-            Body::Mesh(mesh) if input.provenance.format.starts_with("stl") => {
+            Body::Mesh(mesh) if format.starts_with("stl") => {
                 weld::mesh(&mesh.mesh).with_context(|| path.display().to_string())?.mesh
             }
             Body::Mesh(mesh) => mesh.mesh,
         };
-        record.facets = Some(mesh.faces.len() as u64);
         let (points, kind) = match sample {
             Some(n) => {
+                check_memory(n)?;
                 let samples =
                     sample_mesh(&mesh, n as usize, seed).with_context(|| path.display().to_string())?;
                 (samples.into_iter().map(|s| s.point).collect(), "samples")
@@ -58,6 +59,22 @@ impl Measured {
             None => (mesh.positions.clone(), "vertices"),
         };
         Ok(Measured { points: Box::new(Once(Some(points))), mesh: Some(mesh), kind, record })
+    }
+}
+
+/// Bytes for each sample: itself and its facet, its place, its deviation on the way and its deviation kept.
+const SAMPLE: u128 = 32 + 24 + 8 + 8;
+
+/// Refuses so many samples as there is no memory for.
+fn check_memory(samples: u64) -> Result<(), Usage> {
+    let needed = SAMPLE * u128::from(samples);
+    match memory::available() {
+        Some(there) if needed > u128::from(there) => Err(Usage(format!(
+            "--sample {samples} needs {} of memory, and {} are free; give a smaller number",
+            memory::shown(needed),
+            memory::shown(there.into())
+        ))),
+        _ => Ok(()),
     }
 }
 

@@ -1,26 +1,28 @@
 //! `trueness compare`: how far is every measured point from the reference?
 
 mod measured;
-pub mod output;
+mod output;
 mod table;
 
-use crate::command::Common;
+use crate::command::Run;
 use crate::exit::{Outcome, Usage};
+use crate::options::{Common, PointInputArgs, format_named, weld};
 use crate::progress::Stage;
+use crate::read;
+use crate::run_files::RunFiles;
 use crate::tolerance::ToleranceArg;
-use crate::{console, read};
 use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
-use trueness_files::{Columns, ReadError, ReadOptions, Unit, WriteError};
+use trueness_files::{Format, ReadError, ReadOptions, Unit, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{self, Inputs, Method, Options, Reference, View};
-use trueness_inspect::results::Verdict;
 use trueness_inspect::results::compare::{Reverse, Sampling};
+use trueness_inspect::results::{Role, Verdict};
 use trueness_inspect::scale::Scale;
 
 /// Deviations of measured points (or a mesh) from one or several reference meshes
@@ -46,7 +48,7 @@ pub struct CompareArgs {
     /// How inside and outside are told apart
     #[arg(long, value_enum, default_value = "auto")]
     sign: SignArg,
-    /// Allowed deviation: T for ±T, or -L,+U; the exit status is then the verdict
+    /// Allowed deviation: T for ±T, or -L,+U with both signs; the exit status is then the verdict
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArg>,
     /// Share of the points that must lie within the tolerance, in percent
@@ -76,15 +78,14 @@ pub struct CompareArgs {
     /// Join vertices of the references within this distance, mm [default: those at the same place]
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     weld: Option<f64>,
-    /// Unit of files that do not say theirs [default: mm]
-    #[arg(long, value_name = "UNIT")]
-    units: Option<Unit>,
-    /// Unit of the references, if another than the measured file's
+    #[command(flatten)]
+    input: PointInputArgs,
+    /// Unit of the references [default: that of the measured file, --units]
     #[arg(long, value_name = "UNIT")]
     reference_units: Option<Unit>,
-    /// Columns of a text file, e.g. x,y,z or -,x,y,z
-    #[arg(long, value_name = "LIST")]
-    columns: Option<Columns>,
+    /// Format of the references [default: told by their content; --format is that of the measured file]
+    #[arg(long, value_name = "NAME", value_parser = format_named)]
+    reference_format: Option<&'static Format>,
     #[command(flatten)]
     output: output::OutputArgs,
 }
@@ -146,31 +147,41 @@ impl CompareArgs {
 /// Points that a report has at its disposal.
 const SHOWN: usize = 1_000_000;
 
-/// Runs the command.
-pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
+impl Run for CompareArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        let inputs = [&self.measured].into_iter().chain(&self.references).chain(&self.output.scale);
+        Ok(self.output.files(RunFiles::of(inputs), self.references.len()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common)?;
-    args.output.check()?;
-    let scale = args.output.read_scale()?;
-    let reading = ReadOptions { units: args.units, columns: args.columns.clone(), ..ReadOptions::default() };
-    let mut measured = Measured::open(&args.measured, &reading, args.sample, common.seed)?;
+    let tolerance = options.tolerance.map(|t| [t.lower, t.upper]);
+    let scale = args.output.read_scale()?.map(|s| s.for_tolerance(tolerance));
+    let mut measured = Measured::open(&args.measured, &args.input.reading(), args.sample, common.seed)?;
     if args.both && measured.mesh.is_none() {
         return Err(
             Usage("--both needs a measured mesh: points have no facets to measure back to".into()).into()
         );
     }
-    let units = args.reference_units.or(args.units);
-    let reading = ReadOptions { units, weld: read::weld(args.weld)?, ..reading };
+    let reading = ReadOptions {
+        units: args.reference_units.or(args.input.file.units),
+        format: args.reference_format,
+        weld: weld(args.weld)?,
+        ..ReadOptions::default()
+    };
     let (mut meshes, mut files) = (vec![], vec![measured.record.clone()]);
     for path in &args.references {
-        let (mesh, record) = read::mesh(path, &reading)?;
+        let (mesh, record) = read::mesh(path, Role::Reference, &reading)?;
         meshes.push(mesh.mesh);
         files.push(record);
     }
     let references: Vec<Reference> =
         files[1..].iter().zip(&meshes).map(|(f, mesh)| Reference { name: f.path.clone(), mesh }).collect();
-    let early_scale = scale
-        .clone()
-        .or_else(|| options.tolerance.map(|t| Scale::for_deviations(0.0, Some([t.lower, t.upper]))));
+    let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
         Some(path) => Some(PointFiles::create(path, references.len(), early_scale)?),
         None => None,
@@ -178,7 +189,10 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "comparing", "points", total(&measured, references.len()));
     let (hashes, found) =
         rayon::join(
-            || files.iter_mut().try_for_each(read::hash),
+            || {
+                let paths = [&args.measured].into_iter().chain(&args.references);
+                files.iter_mut().zip(paths).try_for_each(|(file, path)| read::hash(file, path))
+            },
             || {
                 compare::run(&mut *measured.points, &references, &options, &stage, |block| {
                     match &mut points_files {
@@ -191,7 +205,6 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     drop(stage);
     let found = found.map_err(|e| in_file(e, &args.measured))?;
     hashes?;
-    files[0].points = found.count;
     let reverse = match &measured.mesh {
         Some(mesh) if args.both => reverse(mesh, &references, &found, common)?,
         _ => vec![],
@@ -205,13 +218,11 @@ pub fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     if let Some(files) = points_files {
         files.finish(&document.scale)?;
     }
-    args.output.write_json(&document)?;
+    args.output.document.write(&document)?;
     let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());
     let view = View::new(&document.inputs[0].path, drawn, &references, &found);
-    args.output.write_html(&document, &view)?;
-    if !args.output.json_on_stdout() {
-        console::table(&table::text(&document));
-    }
+    args.output.write_html(&document, &view, common.progress)?;
+    args.output.document.table(|| table::text(&document))?;
     Ok(match document.verdict {
         None | Some(Verdict::Pass) => Outcome::Conforming,
         Some(_) => Outcome::NotConforming,

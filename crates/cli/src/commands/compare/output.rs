@@ -1,15 +1,15 @@
-//! Where the answer goes: document, points with deviations, report.
+//! Where the answer of a comparison goes: document, points with deviations, report.
 
-use crate::console;
-use crate::exit::Usage;
+use crate::options::DocumentArgs;
+use crate::options::ProgressStyle;
 use crate::report::ReportArgs;
+use crate::run_files::RunFiles;
 use anyhow::Context;
 use clap::Args;
 use rayon::prelude::*;
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use trueness_files::write::{self, HeldPoints, Layout, PointsFile};
-use trueness_files::{AtomicFile, WriteError};
+use trueness_files::WriteError;
+use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
 use trueness_inspect::compare;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::compare::CompareDocument;
@@ -19,12 +19,10 @@ use trueness_inspect::scale::Scale;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Output")]
 pub struct OutputArgs {
-    /// Write the result document; `-` for stdout, then without a table
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-    /// Write x, y, z, deviation of every point in input order (.csv .ply .parquet .npz .vtp); with several
-    /// references one file each: name.1.csv, name.2.csv …
-    #[arg(long, value_name = "FILE")]
+    #[command(flatten)]
+    pub document: DocumentArgs,
+    /// Write x, y, z, deviation of every point
+    #[arg(long, value_name = "FILE", help = out_help())]
     pub out: Option<PathBuf>,
     /// Colour scale of the report (an object trueness/scale/1)
     #[arg(long, value_name = "FILE")]
@@ -33,19 +31,23 @@ pub struct OutputArgs {
     pub report: ReportArgs,
 }
 
+fn out_help() -> String {
+    format!(
+        "Write x, y, z, deviation of every point in input order ({}); with several references one file each: \
+         name.1.csv, name.2.csv …",
+        Writable::Points.shown()
+    )
+}
+
 impl OutputArgs {
-    /// Refuses two outputs on the same stream or in the same file.
-    pub fn check(&self) -> Result<(), Usage> {
-        let files: Vec<&PathBuf> = [&self.json, &self.out, &self.report.html].into_iter().flatten().collect();
-        for (i, a) in files.iter().enumerate() {
-            if files[..i].contains(a) {
-                return Err(Usage(format!(
-                    "{}: two outputs go to the same file; give each its own",
-                    a.display()
-                )));
-            }
-        }
-        Ok(())
+    /// All files that are written, beside those that are read.
+    pub fn files(&self, inputs: RunFiles, references: usize) -> RunFiles {
+        let points =
+            self.out.iter().flat_map(|path| (0..references).map(move |i| numbered(path, i, references)));
+        points
+            .fold(inputs, |files, path| files.out(Some(&path), Writable::Points))
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref())
     }
 
     /// The colour scale of `--scale`.
@@ -60,46 +62,27 @@ impl OutputArgs {
         Ok(Some(scale))
     }
 
-    /// The document on stdout or in its file.
-    pub fn write_json(&self, document: &CompareDocument) -> anyhow::Result<()> {
-        json_file(self.json.as_deref(), document).map(|_| ())
-    }
-
     /// The report in its file.
-    pub fn write_html(&self, document: &CompareDocument, view: &compare::View) -> anyhow::Result<()> {
-        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document))
-    }
-
-    /// True if the table would mix with the document.
-    pub fn json_on_stdout(&self) -> bool {
-        self.json.as_deref() == Some(Path::new("-"))
+    pub fn write_html(
+        &self,
+        document: &CompareDocument,
+        view: &compare::View,
+        progress: ProgressStyle,
+    ) -> anyhow::Result<()> {
+        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document), progress)
     }
 }
 
-/// Writes a file that appears whole or not at all.
-pub fn whole_file(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> anyhow::Result<()> {
-    let make = || {
-        let mut file = BufWriter::new(AtomicFile::create(path)?);
-        write(&mut file)?;
-        file.into_inner().map_err(|e| e.into_error())?.commit()
-    };
-    make().with_context(|| format!("{}: cannot be written; nothing of it was left behind", path.display()))
-}
-
-/// Writes the result document of `--json`, to stdout for `-`. True if it went there: no table then.
-pub fn json_file(path: Option<&Path>, document: &impl serde::Serialize) -> anyhow::Result<bool> {
-    let Some(path) = path else { return Ok(false) };
-    let mut text = serde_json::to_string_pretty(document)?;
-    text.push('\n');
-    if path == Path::new("-") {
-        console::document(&text)?;
-        return Ok(true);
+/// Name of the file for reference `i`: `path` itself, or `name.1.ext`, `name.2.ext` … for several.
+fn numbered(path: &Path, i: usize, references: usize) -> PathBuf {
+    match (references, path.extension()) {
+        (1, _) | (_, None) => path.to_path_buf(),
+        (_, Some(extension)) => {
+            let mut ending = std::ffi::OsString::from(format!("{}.", i + 1));
+            ending.push(extension);
+            path.with_extension(ending)
+        }
     }
-    whole_file(path, |file| file.write_all(text.as_bytes()))?;
-    Ok(false)
 }
 
 /// The per-point files of `--out`: one a reference. Files that are looked at, PLY and VTP, are coloured always, the others
@@ -118,10 +101,7 @@ impl PointFiles {
     pub fn create(path: &Path, references: usize, scale: Option<Scale>) -> Result<PointFiles, WriteError> {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let looked_at = ["ply", "vtp"].iter().any(|e| extension.eq_ignore_ascii_case(e));
-        let name = |i: usize| match references {
-            1 => path.to_path_buf(),
-            _ => path.with_extension(format!("{}.{extension}", i + 1)),
-        };
+        let name = |i: usize| numbered(path, i, references);
         let file = |i: usize| match &scale {
             None if looked_at => HeldPoints::create(&name(i)).map(PointFile::Later),
             scale => {

@@ -1,6 +1,7 @@
 //! The comparison as a table for people.
 
-use crate::console::{columns, grouped};
+use crate::console::columns;
+use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
 use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics};
 use trueness_inspect::results::research::{Finding, Research, Test};
 
@@ -17,15 +18,21 @@ pub fn text(d: &CompareDocument) -> String {
 fn head(d: &CompareDocument) -> String {
     let mut rows = vec![];
     for input in &d.inputs {
-        let facets = input.facets.map(|f| format!(", {} facets", grouped(f))).unwrap_or_default();
-        let what =
-            format!("{} points{facets} ({}, {})", grouped(input.points), input.format, input.unit_assumed);
+        let facets = input.facets.map(|f| format!(", {}", counted(f, FACETS))).unwrap_or_default();
+        let points = counted(input.points, POINTS);
+        let what = format!("{points}{facets} ({}, {})", input.format, input.unit_assumed);
         rows.push((format!("{:?}", input.role).to_lowercase(), format!("{}  {what}", input.path)));
+        if let Some(b) = &input.bounds {
+            let [l, w, h] = [0, 1, 2].map(|k| number(b.max[k] - b.min[k]));
+            rows.push((String::new(), format!("{l} × {w} × {h} mm")));
+        }
+        rows.extend(input.reading().map(|r| (String::new(), r)));
         rows.extend(input.warnings.iter().map(|w| (String::new(), format!("! {w}"))));
     }
     rows.push(("method".into(), d.method.clone()));
     for c in &d.comparisons {
         let of = if d.comparisons.len() > 1 { format!("{}: ", short(&c.reference)) } else { String::new() };
+        rows.extend(c.warnings.iter().map(|w| ("!".into(), format!("{of}{}", w.text))));
         let disagreement = match c.sign.disagreement {
             Some(x) if x > 0.0 => format!("; both methods disagree on {} % of a sample", number(100.0 * x)),
             _ => String::new(),
@@ -43,7 +50,7 @@ fn head(d: &CompareDocument) -> String {
         for (reason, n) in c.excluded.iter().filter(|(_, n)| **n > 0) {
             rows.push((
                 "excluded".into(),
-                format!("{of}{} points ({})", grouped(*n), reason.replace('_', " ")),
+                format!("{of}{} ({})", counted(*n, POINTS), reason.replace('_', " ")),
             ));
         }
     }
@@ -62,19 +69,22 @@ fn head(d: &CompareDocument) -> String {
 fn unsound(c: &Comparison) -> String {
     let s = &c.soundness;
     let faults = [
-        (s.boundary_edges, "free edges"),
-        (s.non_manifold_edges, "edges with more than two facets"),
-        (s.non_manifold_vertices, "vertices that are no closed fan"),
-        (s.inconsistent_edges, "edges between facets of opposite orientation"),
-        (s.duplicate_facets, "coincident facets"),
-        (s.degenerate_facets, "facets without area"),
-        (u64::from(s.closed && !s.outward), "volume turned inside out"),
+        (s.boundary_edges, ["free edge", "free edges"]),
+        (s.non_manifold_edges, ["edge with more than two facets", "edges with more than two facets"]),
+        (s.non_manifold_vertices, ["vertex that is no closed fan", "vertices that are no closed fan"]),
+        (
+            s.inconsistent_edges,
+            ["edge between facets of opposite orientation", "edges between facets of opposite orientation"],
+        ),
+        (s.duplicate_facets, ["coincident facet", "coincident facets"]),
+        (s.degenerate_facets, ["facet without area", "facets without area"]),
+        (u64::from(s.closed && !s.outward), ["volume turned inside out", "volumes turned inside out"]),
     ];
     if !s.closed && s.boundary_edges == 0 {
         return "it has no facets".into();
     }
     let named: Vec<String> =
-        faults.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{} {what}", grouped(*n))).collect();
+        faults.iter().filter(|(n, _)| *n > 0).map(|(n, what)| counted(*n, *what)).collect();
     named.join(", ")
 }
 
@@ -119,14 +129,14 @@ const ROWS: &[Row] = &[
 
 /// One reference: statistics in rows, sides in columns.
 fn one(c: &Comparison) -> String {
-    let signed = c.sign.method != "none";
-    let sides: Vec<&Statistics> = if signed {
+    let has_sign = c.sign.method != "none";
+    let sides: Vec<&Statistics> = if has_sign {
         vec![&c.deviation.all, &c.deviation.positive, &c.deviation.negative]
     } else {
         vec![&c.deviation.all]
     };
     let mut rows = vec![vec!["deviation, mm".to_string(), "all".into()]];
-    if signed {
+    if has_sign {
         rows[0].extend(["+ outside".into(), "− inside".into()]);
     }
     let line = |name: &str, f: &dyn Fn(&Statistics) -> String| {
@@ -165,8 +175,8 @@ fn one(c: &Comparison) -> String {
     if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
         out.push_str(&format!(
             "\ntolerance {} … {} mm: {} % inside, {} % above, {} % below: {}\n",
-            signed_number(t.lower),
-            signed_number(t.upper),
+            signed(t.lower),
+            signed(t.upper),
             percent(t.inside),
             percent(t.above),
             percent(t.below),
@@ -185,9 +195,10 @@ fn research(r: &Research) -> String {
         };
         vec![name.to_string(), text]
     }
-    let interval = |[a, b]: [f64; 2]| format!("{} … {}", signed_number(a), signed_number(b));
-    let test =
-        |t: &Test| format!("{} (p {}, {} points)", number(t.statistic), p_value(t.p_value), grouped(t.count));
+    let interval = |[a, b]: [f64; 2]| format!("{} … {}", signed(a), signed(b));
+    let test = |t: &Test| {
+        format!("{} (p {}, {})", number(t.statistic), p_value(t.p_value), counted(t.count, POINTS))
+    };
     let rows = [
         line("95 % interval of the mean", &r.bootstrap, |b| interval(b.mean)),
         line("95 % interval of σ", &r.bootstrap, |b| interval(b.std_dev)),
@@ -203,7 +214,7 @@ fn research(r: &Research) -> String {
             [] => "–".into(),
         }),
         line("Moran's I", &r.moran, |m| {
-            format!("{:.4} over {} mm (p {})", m.i, number(m.neighbour_distance), p_value(m.p_value))
+            format!("{} over {} mm (p {})", fixed(m.i, 4), number(m.neighbour_distance), p_value(m.p_value))
         }),
     ];
     let width = rows.iter().map(|r| r[0].chars().count()).max().unwrap_or(0);
@@ -241,10 +252,10 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
     let mut rows = vec![["pair", "mean difference", "95 % interval", "p"].map(String::from).to_vec()];
     for p in &d.paired {
         let name = |i: usize| several.get(i).map(|c| short(&c.reference)).unwrap_or("?");
-        let interval = p.interval.map(|[a, b]| format!("{} … {}", signed_number(a), signed_number(b)));
+        let interval = p.interval.map(|[a, b]| format!("{} … {}", signed(a), signed(b)));
         rows.push(vec![
             format!("{} − {}", name(p.better), name(p.other)),
-            p.mean_difference.map(signed_number).unwrap_or_else(|| "–".into()),
+            p.mean_difference.map(signed).unwrap_or_else(|| "–".into()),
             interval.unwrap_or_else(|| "–".into()),
             p.p_value.map(p_value).unwrap_or_else(|| "–".into()),
         ]);
@@ -258,42 +269,10 @@ fn short(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// Six significant digits, as people read them; the document has all of them.
-fn number(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    let digits = (5 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
-    let text = if (1e-6..1e9).contains(&x.abs()) { format!("{x:.digits$}") } else { format!("{x:.5e}") };
-    text.replace('-', "−")
-}
-
-fn signed_number(x: f64) -> String {
-    if x > 0.0 { format!("+{}", number(x)) } else { number(x) }
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.3}", 100.0 * share)
+fn percent(share: Option<f64>) -> String {
+    share.map_or("–".into(), |share| fixed(100.0 * share, 3))
 }
 
 fn p_value(p: f64) -> String {
     if p < 1e-4 { "< 0.0001".into() } else { format!("{p:.4}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn six_digits_of_any_size() {
-        for (x, text) in [
-            (0.0, "0"),
-            (0.123456789, "0.123457"),
-            (-79.1114, "−79.1114"),
-            (1234567.8, "1234568"),
-            (1e-9, "1.00000e−9"),
-        ] {
-            assert_eq!(number(x), text);
-        }
-    }
 }

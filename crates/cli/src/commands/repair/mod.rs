@@ -2,38 +2,41 @@
 
 mod table;
 
-use crate::command::Common;
-use crate::commands::compare::output::whole_file;
-use crate::console;
+use crate::command::Run;
 use crate::exit::{Outcome, Usage, not_negative};
+use crate::options::{Common, DocumentArgs, InputArgs};
 use crate::progress::Stage;
 use crate::read;
 use crate::report::ReportArgs;
+use crate::run_files::RunFiles;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use trueness_files::write::MeshFile;
-use trueness_files::{ReadOptions, Unit};
+use std::path::PathBuf;
+use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS};
 use trueness_inspect::repair::{Around, View, defects, document};
 use trueness_inspect::report::Answer;
-use trueness_inspect::results::repair::{OutputRecord, RepairDocument};
+use trueness_inspect::results::Role;
+use trueness_inspect::results::repair::OutputRecord;
 
 /// A mesh without its defects
 ///
 /// Mends what `trueness check` finds and tells every change, the deviation introduced, and what is left. No vertex moves:
 /// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place. The
-/// exit status is 0 if the result is sound, 1 if not (it is written all the same).
+/// exit status is 0 if the result is sound and the same part, 1 if not (it is written all the same).
 #[derive(Args, Debug)]
 #[command(after_help = help())]
 pub struct RepairArgs {
     /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
     mesh: PathBuf,
-    /// The mended mesh: .stl .ply .obj .off; STL holds single precision only
-    #[arg(short, long, value_name = "FILE")]
-    out: PathBuf,
+    /// The mended mesh, in mm; STL holds single precision only
+    #[arg(short, long, value_name = "FILE", help = out_help(), required_unless_present = "in_place")]
+    out: Option<PathBuf>,
+    /// Replace the mesh by the mended one, once that is written and read again
+    #[arg(long)]
+    in_place: bool,
     /// Only these steps, separated by commas
     #[arg(long, value_name = "STEPS", value_delimiter = ',', conflicts_with = "skip")]
     only: Vec<String>,
@@ -55,15 +58,17 @@ pub struct RepairArgs {
     /// Remove shells with a smaller diagonal than this share of the whole, percent [without a number: 1]
     #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1")]
     remove_islands: Option<f64>,
+    /// Share of the diagonal, and of the volume, by which the part may change, percent: beyond it the result is closed, but
+    /// changed, and the exit status 1
+    #[arg(long, value_name = "PERCENT", default_value = "0.01")]
+    max_change: f64,
     /// Changes to list in the document; all are counted
     #[arg(long, value_name = "N", default_value = "1000")]
     items: usize,
-    /// Unit of the file if it does not say its own [default: mm]; the result is in mm
-    #[arg(long, value_name = "UNIT")]
-    units: Option<Unit>,
-    /// Write the result document; `-` for stdout, then no table
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    input: InputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -79,6 +84,11 @@ fn help() -> String {
 }
 
 impl RepairArgs {
+    /// Where the mended mesh goes.
+    fn target(&self) -> &PathBuf {
+        self.out.as_ref().unwrap_or(&self.mesh)
+    }
+
     fn options(&self) -> Result<Options, Usage> {
         let (only, skip) = (names("only", &self.only)?, names("skip", &self.skip)?);
         let wanted = |name: &&str| (only.is_empty() || only.contains(name)) && !skip.contains(name);
@@ -88,6 +98,7 @@ impl RepairArgs {
             stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
             islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
                 .map(|x| x / 100.0),
+            single: self.target().extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
             holes: match self.all_holes {
                 true => Holes::All,
                 false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
@@ -107,14 +118,27 @@ fn names(option: &str, given: &[String]) -> Result<Vec<&'static str>, Usage> {
     given.iter().map(find).collect()
 }
 
-/// Runs the command.
-pub fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options()?;
-    if args.json.as_ref() == Some(&args.out) {
-        return Err(Usage("--out and --json name the same file: give each its own".into()).into());
+fn out_help() -> String {
+    format!("The mended mesh, in mm: {}; STL holds single precision only", Writable::Mesh.shown())
+}
+
+impl Run for RepairArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.mesh])
+            .in_place(self.in_place)
+            .out(Some(self.target()), Writable::Mesh)
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref()))
     }
-    let read_options = ReadOptions { units: args.units, ..ReadOptions::default() };
-    let (source, mut record) = read::mesh(&args.mesh, &read_options)?;
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options()?;
+    let max_change = not_negative("max-change", args.max_change)? / 100.0;
+    let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &args.input.reading())?;
     let stage = Stage::new(common.progress, "repairing", "facets", None);
     let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
         RepairError::Cancelled(e) => e.into(),
@@ -124,23 +148,21 @@ pub fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "measuring", "points", None);
     let deviation = repair::deviation(&source.mesh, &repaired.mesh, &stage);
     drop(stage);
-    read::hash(&mut record)?;
-    let mut file = MeshFile::write(&args.out, &repaired.mesh)?;
+    read::hash(&mut record, &args.mesh)?;
+    let mut file = MeshFile::write(args.target(), &repaired.mesh)?;
     let stage = Stage::new(common.progress, "checking the file", "facets", None);
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);
     let left_out = source.nonfinite_facets;
-    let around = Around { file: record, left_out, output, deviation, limit: args.items };
+    let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
     let document = document(&repaired, &options, around);
     file.finish()?;
-    write_json(args.json.as_deref(), &document)?;
+    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
-        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks)?;
+        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks, common.progress)?;
     }
-    if args.json.as_deref() != Some(Path::new("-")) {
-        console::table(&table::text(&document));
-    }
+    args.document.table(|| table::text(&document))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
@@ -160,21 +182,11 @@ fn again(
         None => None,
     };
     Ok(OutputRecord {
-        path: args.out.display().to_string(),
-        rounded_vertices: file.loss.moved,
-        rounding: file.loss.farthest,
+        path: args.target().display().to_string(),
+        rounded_vertices: file.loss.moved + repaired.rounded.vertices,
+        rounding: file.loss.farthest.max(repaired.rounded.farthest),
         sound: report.as_ref().map(|r| r.sound),
         sound_reason: report.is_none().then(|| "it cannot be read again".into()),
         defects: report.as_ref().map(defects).unwrap_or_default(),
     })
-}
-
-fn write_json(path: Option<&Path>, document: &RepairDocument) -> anyhow::Result<()> {
-    let Some(path) = path else { return Ok(()) };
-    let mut text = serde_json::to_string_pretty(document)?;
-    text.push('\n');
-    if path == Path::new("-") {
-        return Ok(console::document(&text)?);
-    }
-    whole_file(path, |file| file.write_all(text.as_bytes()))
 }

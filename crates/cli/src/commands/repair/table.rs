@@ -1,6 +1,7 @@
 //! The repair as a table for people.
 
-use crate::console::{columns, grouped};
+use crate::console::columns;
+use crate::number::{FACETS, SHELLS, VERTICES, counted, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
 use trueness_inspect::results::repair::{RepairDocument, State};
 
@@ -13,6 +14,14 @@ pub fn text(d: &RepairDocument) -> String {
     }
     line(&mut out, "before", &state(&d.before));
     line(&mut out, "after", &state(&d.after));
+    line(
+        &mut out,
+        "bodies",
+        &format!("{} before, {} after", grouped(d.effect.bodies_before), grouped(d.effect.bodies_after)),
+    );
+    if let Some(volume) = volume(d) {
+        line(&mut out, "volume", &volume);
+    }
     let (v, f) = (&d.vertices, &d.facets);
     let counts = |kept: u64, added: u64, removed: u64| {
         format!("{} kept, {} added, {} removed", grouped(kept), grouped(added), grouped(removed))
@@ -28,13 +37,21 @@ pub fn text(d: &RepairDocument) -> String {
             &mut out,
             "deviation",
             &format!(
-                "{:.6} mm at most, {:.6} mm on average (old to new); {:.6} and {:.6} (new to old)",
-                x.removed.max, x.removed.mean, x.added.max, x.added.mean
+                "{} mm at most, {} mm on average (old to new); {} and {} (new to old)",
+                fixed(x.removed.max, 6),
+                fixed(x.removed.mean, 6),
+                fixed(x.added.max, 6),
+                fixed(x.added.mean, 6)
             ),
         ),
         (None, reason) => {
             line(&mut out, "deviation", &format!("unknown: {}", reason.as_deref().unwrap_or_default()))
         }
+    }
+    if let Some(surface) = d.effect.surface {
+        let (surface, limit) = (fixed(surface, 6), fixed(d.effect.surface_limit, 6));
+        let text = format!("off by {surface} mm at most where it bounds (limit {limit} mm)");
+        line(&mut out, "surface", &text);
     }
     changes(&mut out, d);
     defects(&mut out, d);
@@ -47,10 +64,26 @@ fn line(out: &mut String, name: &str, text: &str) {
 }
 
 fn state(s: &State) -> String {
-    let volume = s.volume.map_or("open".into(), |v| format!("{v:.6} mm³"));
-    let counts = [(s.facets, "facets"), (s.vertices, "vertices"), (s.shells, "shells")];
-    let counts = counts.map(|(n, what)| format!("{} {what}", grouped(n))).join(", ");
-    format!("{counts}, {:.6} mm², {volume}", s.area)
+    let volume = s.volume.map_or("open".into(), |v| format!("{} mm³", fixed(v, 6)));
+    let counts = [(s.facets, FACETS), (s.vertices, VERTICES), (s.shells, SHELLS)];
+    let counts = counts.map(|(n, what)| counted(n, what)).join(", ");
+    format!("{counts}, {} mm², {volume}", fixed(s.area, 6))
+}
+
+/// Change of the volume.
+fn volume(d: &RepairDocument) -> Option<String> {
+    let e = &d.effect;
+    let (change, error, limit) = (e.volume_change?, e.volume_error?, e.volume_limit?);
+    let share = match d.before.volume {
+        Some(before) if before > 0.0 => format!(" = {} %", signed(100.0 * change / before)),
+        _ => String::new(),
+    };
+    Some(format!(
+        "changed by {} mm³{share} (volume before: ± {} mm³; limit {} mm³)",
+        signed(change),
+        scientific(error, 1),
+        fixed(limit, 6)
+    ))
 }
 
 /// What was done, by step and kind.
@@ -100,20 +133,35 @@ fn verdict(d: &RepairDocument) -> String {
     let o = &d.output;
     let rounded = match o.rounded_vertices {
         0 => String::new(),
-        n => format!(", {} vertices rounded by up to {:.3e} mm", grouped(n), o.rounding),
+        n => format!(", {} rounded by up to {} mm", counted(n, VERTICES), scientific(o.rounding, 3)),
     };
     let written = format!("written to {}{rounded}", o.path);
+    let again = match &d.taken_back[..] {
+        [] => String::new(),
+        steps => {
+            format!(" Done without {}: with that, some defect would be there more often.", steps.join(", "))
+        }
+    };
+    let again = match &d.not_united {
+        Some(reason) => format!("{again} Shells that meet were not united: {reason}."),
+        None => again,
+    };
     match (d.after.sound, o.sound) {
         (true, Some(false)) => format!(
             "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
         ),
+        (true, _) if d.effect.changed => format!(
+            "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{again}\n"
+        ),
         (true, None) => format!("\nsound; {written}, not read again\n"),
         (true, Some(true)) => format!("\nsound; {written}\n"),
-        (false, _) if !d.after.closed => {
-            format!(
-                "\nNOT SOUND: {written}. Holes larger than the limit stay open unless --all-holes is given.\n"
-            )
+        (false, _) => {
+            let open = match (d.after.closed, d.hole_limit) {
+                (true, _) => "",
+                (false, Some(_)) => " Holes larger than the limit stay open unless --all-holes is given.",
+                (false, None) => " Holes that no patch fits stay open.",
+            };
+            format!("\nNOT SOUND: {written}.{open}{again}\n")
         }
-        (false, _) => format!("\nNOT SOUND: {written}\n"),
     }
 }

@@ -39,7 +39,7 @@ fn header(descr: &str, rows: u64, width: Option<u32>) -> Vec<u8> {
 
 fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
     let spool = || Spool::beside(&file);
-    let (deviation, excluded, colour) = (spool()?, spool()?, spool()?);
+    let (deviation, excluded, colour) = (spool(), spool(), spool());
     let mut archive = Archive::new(file);
     // The shape is written again when the points are counted.
     archive.begin("points.npy", HEADER)?;

@@ -53,16 +53,17 @@ pub(super) fn row_length(feed: &mut Feed, element: &Element, order: Order) -> Re
     Ok((feed.ahead(length)?.len() >= length).then_some(length))
 }
 
-/// Reads the rows of `elements` from the rest of a file, which begins at byte `at` and behind `lines` lines.
-pub(super) fn read(
-    rest: &[u8],
+/// Reads the rows of `elements` from the rest of a file, which begins at byte `at` and behind `lines` lines. Gives what
+/// follows them.
+pub(super) fn read<'a>(
+    rest: &'a [u8],
     at: u64,
     lines: u64,
     encoding: Encoding,
     elements: &[Element],
     positions: &[Point],
     faces: &mut Faces,
-) -> Result<()> {
+) -> Result<&'a [u8]> {
     let Encoding::Binary(order) = encoding else {
         return text(rest, lines, elements, positions, faces);
     };
@@ -83,7 +84,7 @@ pub(super) fn read(
             }
         }
     }
-    Ok(())
+    Ok(bytes.rest)
 }
 
 /// Takes the corners of a face, or those of many strips.
@@ -190,13 +191,13 @@ fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut 
 }
 
 /// Rows of text, one a line.
-fn text(
-    rest: &[u8],
+fn text<'a>(
+    rest: &'a [u8],
     before: u64,
     elements: &[Element],
     positions: &[Point],
     faces: &mut Faces,
-) -> Result<()> {
+) -> Result<&'a [u8]> {
     let mut lines = Lines::new(rest);
     let mut corners = vec![];
     for element in elements {
@@ -213,7 +214,7 @@ fn text(
             take(element, &corners, positions, faces).map_err(|f| f.at_line(number))?;
         }
     }
-    Ok(())
+    Ok(lines.rest())
 }
 
 fn short(element: &Element, present: u64, line: u64) -> Located {

@@ -1,7 +1,8 @@
 //! The header of a PLY file: what elements there are, of what properties, and how they are written.
 
 use crate::{
-    error::{Fault, Located, Result},
+    Warning,
+    error::{Fault, Located, Result, quoted},
     lines::words,
     number::count,
     scalar::{Order, Scalar},
@@ -77,6 +78,17 @@ pub(super) struct Header {
     pub lines: u64,
     /// The byte that ends lines.
     pub end: u8,
+    /// Lines before the first element that begin with no known word: old exporters sign there without `comment`.
+    pub unknown: Option<Warning>,
+}
+
+impl Header {
+    fn passed_over(&mut self, line: &[u8]) {
+        match &mut self.unknown {
+            Some(Warning::HeaderLines { count, .. }) => *count += 1,
+            _ => self.unknown = Some(Warning::HeaderLines { count: 1, line: self.lines, text: quoted(line) }),
+        }
+    }
 }
 
 /// Elements and properties beyond this are not a header but an attack.
@@ -85,13 +97,14 @@ const MOST: usize = 4096;
 /// Reads the header at the start of `bytes`.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
     let end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
-    let mut header = Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0, end };
+    let mut header =
+        Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0, end, unknown: None };
     let mut encoding = None;
     loop {
         header.lines += 1;
+        let number = header.lines;
         let rest = bytes.get(header.length..).unwrap_or_default();
-        let wrong =
-            |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(header.lines);
+        let wrong = |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(number);
         let Some(length) = memchr::memchr(end, rest) else {
             // Without a line end nothing can follow: as good as the end, if it says so.
             if rest.trim_ascii() == b"end_header" {
@@ -116,6 +129,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
                 }
             }
             Some(b"comment" | b"obj_info") | None => {}
+            Some(_) if header.elements.is_empty() && header.lines > 1 => header.passed_over(line),
             _ => return Err(wrong("\"element\", \"property\", \"comment\" or \"end_header\"", line)),
         }
         if header.elements.len() > MOST {

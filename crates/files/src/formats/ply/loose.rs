@@ -22,6 +22,10 @@ impl LoosePoints {
     pub fn new(feed: Feed, vertex: Element, rows: Rows, block: usize) -> LoosePoints {
         LoosePoints { feed, vertex, rows, found: 0, block: block.max(1) }
     }
+    /// The file, as far as it has been read.
+    pub fn feed(&mut self) -> &mut Feed {
+        &mut self.feed
+    }
     pub fn into_rest(self) -> Feed {
         self.feed
     }

@@ -18,6 +18,7 @@ use crate::{
     open::{ReadOptions, Weld},
     scalar::{Order, Scalar},
     source::Source,
+    unicode::without_mark,
 };
 use header::{Element, Encoding, Header, Kind};
 use loose::LoosePoints;
@@ -29,7 +30,7 @@ pub(crate) const PLY: Format = Format {
     extensions: &["ply"],
     written_as: &["ply"],
     manual: include_str!("ply.md"),
-    sniff: |head: &Head| matches!(head.bytes, [b'p', b'l', b'y', b'\n' | b'\r', ..]),
+    sniff: |head: &Head| matches!(without_mark(head.bytes), [b'p', b'l', b'y', b'\n' | b'\r', ..]),
     read: Some(read),
     points: Some(write::begin),
     mesh: Some(write::mesh),
@@ -39,6 +40,9 @@ pub(crate) const PLY: Format = Format {
 const HEADER: usize = 1 << 20;
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    let marked = source.feed.ahead(HEADER)?;
+    let mark = marked.len() - without_mark(marked).len();
+    source.feed.step(mark);
     let bytes = source.feed.ahead(HEADER)?;
     if !bytes.starts_with(b"ply") {
         return Err(Fault::unexpected("\"ply\"", &bytes[..bytes.len().min(16)]).at_line(1));
@@ -55,18 +59,24 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     skip(&mut source.feed, &header, before, &mut lines)?;
     let count = vertex.count;
     let mut points = Points::new(source.feed, &header, vertex, lines, options)?;
+    let mut warnings: Vec<Warning> = header.unknown.clone().into_iter().collect();
     if !after.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
-        let mut parsed = Parsed::points(variant, points);
-        parsed.warnings.extend((count == 0).then_some(Warning::Nothing));
-        return Ok(parsed);
+        warnings.extend((count == 0).then_some(Warning::Nothing));
+        let whole = after.iter().all(|e| e.count == 0);
+        return Ok(match points {
+            points if whole => Parsed { warnings, ..Parsed::points(variant, Whole { points, count }) },
+            points => Parsed { warnings, ..Parsed::points(variant, points) },
+        });
     }
     assemble::numbered("vertices", count)?;
     let positions = points.drain()?;
     let (mut feed, lines) = points.into_rest();
     let at = feed.position();
     let mut faces = Faces::default();
-    faces::read(feed.all()?, at, lines, header.encoding, after, &positions, &mut faces)?;
-    let mut warnings = vec![];
+    let rest = faces::read(feed.all()?, at, lines, header.encoding, after, &positions, &mut faces)?;
+    if !rest.trim_ascii().is_empty() {
+        warnings.push(Warning::TrailingBytes { count: rest.len() as u64 });
+    }
     let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh(variant, SourceMesh { mesh, ..SourceMesh::default() }, warnings))
 }
@@ -95,7 +105,11 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
             let length = match header.encoding {
                 Encoding::Ascii => {
                     *lines += 1;
-                    memchr::memchr(header.end, feed.ahead(HEADER)?).map(|n| n + 1)
+                    // What is there already most often has the line's end in it.
+                    match memchr::memchr(header.end, feed.ahead(1)?) {
+                        Some(n) => Some(n + 1),
+                        None => memchr::memchr(header.end, feed.ahead(HEADER)?).map(|n| n + 1),
+                    }
                 }
                 Encoding::Binary(order) => faces::row_length(feed, element, order)?,
             };
@@ -129,6 +143,32 @@ fn coordinates(vertex: &Element, header: &Header) -> Result<[usize; 3]> {
         return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
     }
     Ok(found)
+}
+
+/// The vertices as a stream, behind which nothing but blanks may come: rows beyond those declared would be lost.
+struct Whole {
+    points: Points,
+    count: u64,
+}
+
+impl PointStream for Whole {
+    type Error = Located;
+    fn expected(&self) -> Option<u64> {
+        self.points.expected()
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        self.points.next_block(block)?;
+        if block.is_empty() {
+            let feed = self.points.feed();
+            let at = feed.position();
+            let rest = feed.all()?;
+            if !rest.trim_ascii().is_empty() {
+                let (count, declared) = (rest.len() as u64, self.count);
+                return Err(Fault::Trailing { count, what: "vertices", declared }.at_byte(at));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The vertices as a stream.
@@ -186,6 +226,14 @@ impl Points {
                 return Ok(all);
             }
             if all.is_empty() { std::mem::swap(&mut all, &mut block) } else { all.append(&mut block) }
+        }
+    }
+
+    fn feed(&mut self) -> &mut Feed {
+        match self {
+            Points::Text(p) => p.feed(),
+            Points::Even(p) => p.feed(),
+            Points::Loose(p) => p.feed(),
         }
     }
 

@@ -17,26 +17,29 @@ pub(super) fn declared(bytes: &[u8]) -> Option<u64> {
     Some(u64::from(u32::from_le_bytes(*b)))
 }
 
-/// The declared facets, all of them there.
-pub(super) fn records(bytes: &[u8]) -> Result<(&[[u8; RECORD]], Vec<Warning>)> {
-    let Some(declared) = declared(bytes) else {
+/// How many facets a file of `length` bytes that begins with `head` holds: as many as it declares.
+pub(super) fn facets(head: &[u8], length: u64) -> Result<(usize, Vec<Warning>)> {
+    let Some(declared) = declared(head) else {
         let expected = "the 84 bytes with which a binary STL file begins";
-        return Err(Fault::unexpected(expected, bytes).at_byte(bytes.len() as u64));
+        return Err(Fault::unexpected(expected, head).at_byte(length));
     };
-    let body = &bytes[HEADER..];
-    let there = body.as_chunks().0;
-    let present = there.len() as u64;
-    if declared > present {
-        return Err(Fault::Short { what: "facets", declared, present }.at_byte(bytes.len() as u64));
-    }
+    let body = length - HEADER as u64;
+    let present = body / RECORD as u64;
+    let facets = usize::try_from(declared).ok().filter(|_| declared <= present);
+    let Some(facets) = facets else {
+        if head.starts_with(b"solid") && memchr::memmem::find(head, b"facet").is_some() {
+            // Text, and its words taken for a count.
+            return Err(Fault::Zeros.into());
+        }
+        return Err(Fault::Short { what: "facets", declared, present }.at_byte(length));
+    };
     if declared == 0 && present > 0 {
-        let found = format!("0, and then {} bytes", body.len());
+        let found = format!("0, and then {body} bytes");
         return Err(Fault::unexpected("the number of facets", found.as_bytes()).at_byte(HEADER as u64 - 4));
     }
-    let declared = declared as usize;
-    let trailing = (body.len() - declared * RECORD) as u64;
+    let trailing = body - declared * RECORD as u64;
     let warnings = if trailing > 0 { vec![Warning::TrailingBytes { count: trailing }] } else { vec![] };
-    Ok((&there[..declared], warnings))
+    Ok((facets, warnings))
 }
 
 /// Whether the first bytes could be a header and a facet: finite numbers, a normal not longer than 1.

@@ -11,8 +11,8 @@ use crate::{
     error::{Fault, Result},
     format::{Format, Head, Parsed},
     open::{ReadOptions, Weld},
-    source::Source,
-    unicode::without_mark,
+    source::{HEAD, Source},
+    unicode::{no_zeros, without_mark},
 };
 use binary::{HEADER, RECORD};
 use rayon::prelude::*;
@@ -47,19 +47,28 @@ fn looks_ascii(bytes: &[u8]) -> bool {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let bytes = source.feed.all()?;
-    let declared = binary::declared(bytes);
-    let exact = declared.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + n * RECORD as u64);
-    let text = !exact && is_text(&bytes[..bytes.len().min(1024)]);
-    if text && looks_ascii(bytes) {
+    source.feed.ahead(HEAD)?;
+    let length = match source.feed.left() {
+        Some(length) => length,
+        None => source.feed.all()?.len() as u64,
+    };
+    let head = source.feed.ahead(HEAD)?;
+    let exact = binary::declared(head).is_some_and(|n| length == HEADER as u64 + n * RECORD as u64);
+    let text = !exact && is_text(&head[..head.len().min(1024)]);
+    if text && looks_ascii(head) {
+        let bytes = source.feed.all()?;
+        no_zeros(bytes)?;
         let ascii::Read { facets, warnings } = ascii::read(bytes)?;
         return mesh("stl-ascii", &facets, options, warnings);
     }
     if text {
-        return Err(Fault::unexpected("STL: the word \"solid\" or a binary header", bytes).at_line(1));
+        return Err(Fault::unexpected("STL: the word \"solid\" or a binary header", head).at_line(1));
     }
-    let (records, warnings) = binary::records(bytes)?;
-    mesh("stl-binary", records, options, warnings)
+    // Before the file is read as a whole: it may be far longer than what it declares.
+    let (facets, warnings) = binary::facets(head, length)?;
+    let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
+    let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
+    mesh("stl-binary", records.get(..facets).unwrap_or(records), options, warnings)
 }
 
 /// A facet of either kind of file.

@@ -1,17 +1,21 @@
-//! How a table is written, found out from its first lines.
+//! How a table is written, found out from its first lines: the rules stand at the head of the module.
 //!
-//! Every way of writing that is in use is tried on the first lines; the one that finds numbers in the most lines is
-//! taken, and among equals the earlier in the list.
+//! Every way of writing is tried on the first lines. One that reads every row goes before one that does not, three
+//! coordinates before two, the earlier in the list before the later. Where none reads every row, the one that reads
+//! the most is taken, and the reader then refuses the first row that it cannot read.
 
 use super::{
-    header,
-    row::{Layout, Separator, is_comment},
+    cell::Separator,
+    choose::{self, Chosen},
+    header::{Header, Said},
+    row::{Layout, Row},
+    tried::{Tried, is_blank_line},
 };
 use crate::{
-    Column, Columns, Warning,
-    error::{Fault, Result},
+    Columns, Unit, Warning,
+    content::{ColumnTaken, TableReading},
+    error::{Fault, Located, Result},
     lines::{Lines, line_end},
-    number::{count, whole_number},
     source::HEAD,
 };
 
@@ -26,13 +30,14 @@ pub(super) struct Found {
     pub declared: Option<u64>,
     /// Bytes of a row, about.
     pub width: usize,
+    pub reading: TableReading,
+    /// What the header says of the unit of x, y, z.
+    pub unit: Option<Unit>,
     pub warnings: Vec<Warning>,
 }
 
 /// Lines looked at.
 const SAMPLE: usize = 400;
-/// Columns that can be told apart.
-const COLUMNS: usize = 64;
 
 /// The ways of writing: separator and decimal point.
 const DIALECTS: [(Separator, u8); 7] = [
@@ -45,16 +50,50 @@ const DIALECTS: [(Separator, u8); 7] = [
     (Separator::Blanks, b','),
 ];
 
-/// Looks at the first lines of a file.
-pub(super) fn detect(head: &[u8], columns: Option<&Columns>) -> Result<Found> {
+/// Whether the first lines are rows of numbers, with faults or without.
+pub(super) fn plausible(head: &[u8]) -> bool {
     let lines = sample(head);
-    let tried = DIALECTS.iter().map(|d| Tried::new(*d, &lines));
-    // The later of equals would win: so from the end.
-    let best = tried.rev().max_by_key(|t| t.rank());
-    match best {
-        Some(best) if !best.rows.is_empty() => best.found(head, &lines, columns),
-        _ => Err(first_line_fault(&lines)),
+    DIALECTS.iter().filter_map(|d| Tried::new(*d, &lines)).any(|t| 2 * t.numeric > t.rows.len())
+}
+
+/// Looks at the first lines of a file. `unit_asked`: the user says the unit, so that it need not be understood.
+pub(super) fn detect(head: &[u8], columns: Option<&Columns>, unit_asked: bool) -> Result<Found> {
+    let lines = sample(head);
+    let end = line_end(head);
+    let mut best: Option<(Rank, Tried, std::result::Result<Chosen, Located>)> = None;
+    let tabs = Tried::new((Separator::Byte(b'\t'), b'.'), &lines).is_some_and(|t| t.clearly_parted());
+    for dialect in DIALECTS.iter().filter(|d| d.0 != Separator::Blanks || !tabs) {
+        let Some(tried) = Tried::new(*dialect, &lines) else { continue };
+        let chosen = choose::columns(&tried, columns);
+        let rank = rank(&tried, &chosen, end);
+        if best.as_ref().is_none_or(|(b, ..)| rank > *b) {
+            best = Some((rank, tried, chosen));
+        }
     }
+    match best {
+        Some((_, tried, chosen)) => found(head, &lines, &tried, chosen?, unit_asked),
+        None => Err(no_rows(&lines)),
+    }
+}
+
+/// Whether every row was read, how many were, how many coordinates they have, and how many cells are numbers.
+type Rank = (bool, usize, usize, usize);
+
+fn rank(tried: &Tried, chosen: &std::result::Result<Chosen, Located>, end: u8) -> Rank {
+    let numbers = tried.numbers();
+    let Ok(chosen) = chosen else { return (false, 0, 0, numbers) };
+    let layout = tried.layout(end, &chosen.columns);
+    let (mut good, mut bad) = (0, 0);
+    for line in &tried.rows {
+        match layout.row(line.text) {
+            Ok(Row::Point(_)) => good += 1,
+            Ok(_) => {}
+            Err(_) => bad += 1,
+        }
+    }
+    let all = bad == 0 && good > 0;
+    // Rows read in part say little about the number of coordinates.
+    (all, if all { 0 } else { good }, if all { chosen.columns.len() } else { 0 }, numbers)
 }
 
 /// The first lines, without one that the end of the sample cuts.
@@ -67,171 +106,83 @@ fn sample(head: &[u8]) -> Vec<&[u8]> {
     lines
 }
 
-fn first_line_fault(lines: &[&[u8]]) -> crate::error::Located {
-    let said = lines
-        .iter()
-        .position(|l| !l.trim_ascii().is_empty() && !is_comment(l.trim_ascii(), Separator::Blanks));
-    match said {
-        Some(i) => Fault::unexpected("rows of two or three numbers", lines[i]).at_line(i as u64 + 1),
-        None => {
-            Fault::Unexpected { expected: "rows of two or three numbers".into(), found: "no rows".into() }
-                .into()
-        }
+fn no_rows(lines: &[&[u8]]) -> Located {
+    let expected = "rows of two or three numbers";
+    match lines.iter().position(|l| !is_blank_line(l)) {
+        Some(i) => Fault::unexpected(expected, lines[i]).at_line(i as u64 + 1),
+        None => Fault::Unexpected { expected: expected.into(), found: "no rows".into() }.into(),
     }
 }
 
-/// One way of writing, tried on the sample.
-struct Tried {
-    dialect: (Separator, u8),
-    /// Lines that are rows, and for each of them the set of columns that are numbers, and how many columns it has.
-    rows: Vec<(usize, u64, usize)>,
-    /// Two or three.
-    least: u32,
+fn found(head: &[u8], lines: &[&[u8]], tried: &Tried, chosen: Chosen, unit_asked: bool) -> Result<Found> {
+    let Chosen { columns, named, mut warnings } = chosen;
+    let header = tried.header.as_ref().filter(|_| named);
+    let start = tried.start;
+    let mut layout = tried.layout(line_end(head), &columns);
+    layout.announced = tried.announced.is_some();
+    let unit = unit(header, &columns, unit_asked, &mut warnings)?;
+    let csv = matches!(tried.dialect.0, Separator::Byte(_));
+    let bytes: usize = lines[start..].iter().map(|l| l.len() + 1).sum();
+    let name = |i: usize| header.and_then(|h| Some(h.names.get(i)?.text.clone()));
+    let taken = columns.iter().zip(['x', 'y', 'z']).map(|(&column, axis)| ColumnTaken {
+        axis,
+        number: column + 1,
+        name: name(column),
+    });
+    Ok(Found {
+        layout,
+        variant: match (tried.announced, csv) {
+            (Some(_), _) => "pts",
+            (None, true) => "csv",
+            (None, false) => "xyz",
+        },
+        skip: offset(head, lines[start]),
+        lines: start as u64,
+        declared: tried.announced,
+        width: bytes.div_ceil(lines.len() - start).max(4),
+        reading: TableReading {
+            separator: tried.dialect.0.name(),
+            decimal_sign: char::from(tried.dialect.1),
+            columns: taken.collect(),
+            of: tried.width,
+            header_line: header.map(|h| h.line as u64 + 1),
+            lines_skipped: start as u64,
+        },
+        unit,
+        warnings,
+    })
 }
 
-impl Tried {
-    fn new(dialect: (Separator, u8), lines: &[&[u8]]) -> Tried {
-        let numeric = |line: &&[u8]| {
-            let words = Layout::words(dialect.0, line);
-            let set =
-                words.iter().take(COLUMNS).enumerate().filter(|(_, w)| whole_number(w, dialect.1).is_some());
-            (set.fold(0u64, |m, (i, _)| m | 1 << i), words.len())
-        };
-        let all: Vec<(usize, u64, usize)> = lines
-            .iter()
-            .enumerate()
-            .filter(|(_, l)| !is_comment(l.trim_ascii(), dialect.0))
-            .map(|(i, l)| {
-                let (set, n) = numeric(l);
-                (i, set, n)
-            })
-            .collect();
-        let rows = |least: u32| all.iter().copied().filter(|r| r.1.count_ones() >= least).collect::<Vec<_>>();
-        let (three, two) = (rows(3), rows(2));
-        // A few rows of three among many of two are not what the table is about.
-        if 2 * three.len() > two.len() {
-            Tried { dialect, rows: three, least: 3 }
-        } else {
-            Tried { dialect, rows: two, least: 2 }
-        }
-    }
-
-    /// More rows are better; then three columns of numbers; then numbers only.
-    fn rank(&self) -> (usize, u32, bool) {
-        let pure = self.rows.iter().all(|(_, set, n)| set.count_ones() as usize == *n);
-        (self.rows.len() * (self.least as usize - 1), self.least, pure && self.least == 2)
-    }
-
-    fn found(&self, head: &[u8], lines: &[&[u8]], columns: Option<&Columns>) -> Result<Found> {
-        let (separator, point) = self.dialect;
-        let (start, first_set, width) = self.rows[0];
-        let common = self.rows.iter().fold(u64::MAX, |m, r| m & r.1);
-        // Where rows disagree, the first decides, and the others will be refused with their lines.
-        let set = if common.count_ones() >= self.least { common } else { first_set };
-        let numeric: Vec<usize> = (0..COLUMNS).filter(|i| set >> i & 1 == 1).collect();
-        let declared = self.announced(lines, start);
-        let names = self.names(lines, start, width);
-        let mut warnings = vec![];
-        let wanted = match columns {
-            Some(columns) => chosen(columns, &names, width)?,
-            None => self.guess(lines, &numeric, &names, &mut warnings),
-        };
-        let mut layout = Layout::of(separator, point, line_end(head), &wanted);
-        layout.announced = declared.is_some();
-        let skip = if start == 0 { offset(head, lines[0]) } else { offset(head, lines[start]) };
-        let csv = matches!(separator, Separator::Byte(_));
-        let rows: usize = lines[start..].iter().map(|l| l.len() + 1).sum();
-        Ok(Found {
-            layout,
-            variant: if declared.is_some() {
-                "pts"
-            } else if csv {
-                "csv"
-            } else {
-                "xyz"
-            },
-            skip,
-            lines: start as u64,
-            declared,
-            width: rows.div_ceil(lines.len() - start).max(4),
-            warnings,
-        })
-    }
-
-    /// The number that stands alone on the line before the rows.
-    fn announced(&self, lines: &[&[u8]], start: usize) -> Option<u64> {
-        let said = |l: &&&[u8]| !l.trim_ascii().is_empty() && !is_comment(l.trim_ascii(), self.dialect.0);
-        let mut before = lines[..start].iter().filter(said);
-        let only = before.next()?;
-        if before.next().is_some() { None } else { count(only.trim_ascii()) }
-    }
-
-    /// Names of the columns from the last line before the rows, if it has as many words as they.
-    fn names(&self, lines: &[&[u8]], start: usize, width: usize) -> Vec<String> {
-        let last = lines[..start].iter().rev().find(|l| !l.trim_ascii().is_empty());
-        let names = last.map(|l| header::names(l, self.dialect.0)).unwrap_or_default();
-        if names.len() >= width.min(2) && names.iter().all(|n| n.parse::<f64>().is_err()) {
-            names
-        } else {
-            vec![]
-        }
-    }
-
-    /// The columns of the coordinates, when nobody names them.
-    fn guess(
-        &self,
-        lines: &[&[u8]],
-        numeric: &[usize],
-        names: &[String],
-        warnings: &mut Vec<Warning>,
-    ) -> Vec<usize> {
-        let named = header::coordinates(names).filter(|c| c.iter().all(|i| numeric.contains(i)));
-        if let Some(named) = named.filter(|c| c.len() == 3 || numeric.len() == 2) {
-            return named;
-        }
-        let mut free = numeric;
-        if free.len() > 3 && self.counts_rows(lines) {
-            warnings.push(Warning::RunningNumber);
-            free = &free[1..];
-        } else if free.len() > 3 && !names.is_empty() {
-            warnings.push(Warning::ColumnsGuessed {
-                taken: [free[0] + 1, free[1] + 1, free[2] + 1],
-                of: free.len(),
-            });
-        }
-        let no_point = || self.rows.iter().all(|(i, ..)| memchr::memchr(b'.', lines[*i]).is_none());
-        if self.dialect.0 == Separator::Byte(b',')
-            && free.len() > 3
-            && free.len().is_multiple_of(2)
-            && no_point()
-        {
-            warnings.push(Warning::PerhapsDecimalCommas);
-        }
-        free[..free.len().min(self.least as usize)].to_vec()
-    }
-
-    /// Whether the first column goes up by one from row to row.
-    fn counts_rows(&self, lines: &[&[u8]]) -> bool {
-        let first = |i: usize| count(Layout::words(self.dialect.0, lines[i]).first()?);
-        let mut pairs = self.rows.windows(2).map(|w| (first(w[0].0), first(w[1].0)));
-        self.rows.len() > 2
-            && pairs.all(|(a, b)| matches!((a, b), (Some(a), Some(b)) if a.checked_add(1) == Some(b)))
-    }
-}
-
-/// The columns the user asks for, counted from 0.
-fn chosen(columns: &Columns, names: &[String], width: usize) -> Result<Vec<usize>> {
-    let find = |c: &Column| match c {
-        Column::Number(n) if *n <= width => Ok(n - 1),
-        Column::Number(n) => Err((n.to_string(), format!("{width} columns"))),
-        Column::Name(name) => {
-            let at = names.iter().position(|n| *n == name.to_lowercase());
-            let there = if names.is_empty() { "no names".into() } else { names.join(", ") };
-            at.ok_or((format!("\"{name}\""), there))
-        }
+/// The unit that the names of x, y, z give.
+fn unit(
+    header: Option<&Header>,
+    columns: &[usize],
+    asked: bool,
+    warnings: &mut Vec<Warning>,
+) -> Result<Option<Unit>> {
+    let Some(header) = header else { return Ok(None) };
+    let names: Vec<_> = columns.iter().filter_map(|&i| header.names.get(i)).collect();
+    let remarks = names.iter().filter(|n| matches!(n.unit, Said::Remark(_)));
+    warnings.extend(remarks.map(|n| Warning::NoUnit { name: n.text.clone() }));
+    let unclear = |what: String| {
+        let remedy = "say the unit of x, y, z by --units um, mm, cm, m or in";
+        Fault::Unclear { what, remedy }.at_line(header.line as u64 + 1)
     };
-    let found: std::result::Result<Vec<usize>, (String, String)> = columns.0.iter().map(find).collect();
-    found.map_err(|(wanted, there)| Fault::NoColumn { wanted, there }.at_line(1))
+    if let Some((name, unit)) = names.iter().find_map(|n| match &n.unit {
+        Said::Foreign(unit) => Some((&n.text, unit)),
+        _ => None,
+    }) && !asked
+    {
+        return Err(unclear(format!("the name \"{name}\" gives the unit {unit}, which is not understood")));
+    }
+    let units: Vec<Option<Unit>> =
+        names.iter().map(|n| if let Said::Unit(u) = n.unit { Some(u) } else { None }).collect();
+    let first = units.first().copied().flatten();
+    if units.iter().all(|u| *u == first) || asked {
+        return Ok(first);
+    }
+    let all: Vec<&str> = names.iter().map(|n| n.text.as_str()).collect();
+    Err(unclear(format!("the names {} give different units", all.join(", "))))
 }
 
 /// Where in `head` a line cut from it begins.

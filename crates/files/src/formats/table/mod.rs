@@ -1,19 +1,44 @@
 //! Points as rows of numbers: XYZ, ASC, TXT, CSV, PTS.
+//!
+//! Nothing is guessed: a table is read to the numbers that it means, or refused with the place and a remedy, and what was
+//! taken for what is told ([`TableReading`](crate::TableReading)). The rules, which the manual page states for users:
+//!
+//! 1. Separators are semicolon, tab, comma or blanks; decimal signs point or comma, but not both commas. The first 400
+//!    lines decide: a way of writing that reads all their rows goes before one that does not, three coordinates before
+//!    two. Where equally many tabs stand in all rows, tabs separate.
+//! 2. The table begins at the line after a header that names x and y, else at the first line that has as many cells as
+//!    the rows and a number in one of them, or several numbers and nothing else. From there on, every line that is
+//!    neither blank nor a comment is a row.
+//! 3. The columns are those asked for; else those that the header names, which is binding, so that names and cells must
+//!    be equally many; else the first three (or two) that do not hold words in every looked-at row.
+//! 4. A cell of these columns that is no finite number is an error with line and column: empty cells, marks such as `NA`
+//!    or `-`, thousands separators, units, the other decimal sign, what a spreadsheet could not compute. U+2212 is a minus.
+//! 5. A row of more cells than the others is an error; with blanks, which cannot show an empty cell, one of fewer as well.
+//! 6. What can be meant in two ways is refused: commas that may be decimal signs, a first column that may be x or a
+//!    running number, names that fit x twice or not at all.
+//! 7. A unit in the names of x, y, z is used, unless the user says another one; one that is not understood is refused.
 
+mod cell;
+mod choose;
 mod detect;
 mod header;
 mod row;
 mod stream;
+#[cfg(test)]
+mod tests;
+mod tried;
 mod write;
 
 use crate::{
+    Warning,
     detect::is_text,
     error::{Fault, Result},
     format::{Format, Head, Parsed},
     open::ReadOptions,
     source::{HEAD, Source},
 };
-pub(crate) use row::{Layout, Separator};
+pub(crate) use cell::Separator;
+pub(crate) use row::Layout;
 pub(crate) use stream::{Limit, TextPoints};
 
 /// Rows of numbers under any of their many names.
@@ -29,25 +54,37 @@ pub(crate) const TABLE: Format = Format {
     mesh: None,
 };
 
-/// Whether a file begins like rows of numbers.
+/// Whether a file begins like rows of numbers, be it with faults.
 pub(crate) fn looks_like_rows(head: &[u8]) -> bool {
-    is_text(head) && detect::detect(head, None).is_ok()
+    is_text(head) && detect::plausible(head)
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let head = source.feed.ahead(HEAD)?;
     let head = &head[..head.len().min(HEAD)];
     if !is_text(head) {
+        crate::unicode::no_zeros(head)?;
         return Err(Fault::unexpected("rows of numbers", head).at_byte(0));
     }
-    let found = detect::detect(head, options.columns.as_ref())?;
+    let mut found = detect::detect(head, options.columns.as_ref(), options.units.is_some())?;
+    if let (Some(header), Some(asked)) = (found.unit, options.units)
+        && header != asked
+    {
+        found.warnings.push(Warning::UnitOverruled { header, asked });
+    }
     let width = found.width;
     source.feed.step(found.skip);
     let limit = match found.declared {
-        Some(declared) => Limit::Expected(declared),
+        Some(declared) => Limit::Announced(declared),
         None => Limit::None,
     };
     let planar = found.layout.planar;
     let points = TextPoints::new(source.feed, found.layout, found.lines, limit, options.block * width);
-    Ok(Parsed { planar, warnings: found.warnings, ..Parsed::points(found.variant, points) })
+    Ok(Parsed {
+        planar,
+        warnings: found.warnings,
+        table: Some(found.reading),
+        unit: found.unit,
+        ..Parsed::points(found.variant, points)
+    })
 }

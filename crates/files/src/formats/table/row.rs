@@ -1,19 +1,16 @@
 //! One row of a table.
+//!
+//! Numbers are parsed where they stand. A row that this does not read at once (a comment, a quoted blank, a fault) is
+//! cut into cells and looked at again; whatever the first way reads, the second reads to the same number.
 
+use super::cell::{
+    Class, Separator, cell_end, cell_number, cells, class, filled, is_comment, next_cell, skip_blanks,
+};
 use crate::{
-    error::Fault,
+    error::{Fault, quoted},
     number::{count, number},
 };
 use trueness_geom::space::Point;
-
-/// What stands between the columns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Separator {
-    /// Any number of blanks and tabs.
-    Blanks,
-    /// This byte once, blanks around it paid no heed to. Columns may be empty or quoted.
-    Byte(u8),
-}
 
 /// How rows are written, and what of them is wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,12 +24,28 @@ pub(crate) struct Layout {
     pub planar: bool,
     /// A row of one whole number announces so many rows, as in PTS files.
     pub announced: bool,
+    /// Cells that a row may have, empty ones at its end not counted; with blanks, those it must have. `None` leaves the
+    /// end of a row alone.
+    pub width: Option<usize>,
     /// The byte that ends lines.
     pub end: u8,
 }
 
 /// A column that is passed over.
 pub(crate) const UNWANTED: u8 = 3;
+
+/// What a line is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Row {
+    Point(Point),
+    /// A blank line or a comment.
+    Nothing,
+    /// Separators without anything between them: spreadsheets write such rows behind the last, and a point whose every
+    /// coordinate is missing looks the same.
+    Hollow,
+    /// So many rows follow.
+    Announced(u64),
+}
 
 impl Layout {
     /// The layout that takes these columns, counted from 0, for x, y and z.
@@ -41,142 +54,152 @@ impl Layout {
         for (axis, &column) in wanted.iter().enumerate().take(3) {
             columns[column] = axis as u8;
         }
-        Layout { separator, point, columns, planar: wanted.len() == 2, announced: false, end }
+        Layout { separator, point, columns, planar: wanted.len() == 2, announced: false, width: None, end }
     }
 
-    /// The point of a line, `None` if it is blank or a comment, or what is wrong and at which byte of it.
+    /// What a line gives, or what is wrong with it.
     #[inline]
-    pub fn row(&self, line: &[u8]) -> Result<Option<Point>, (usize, Fault)> {
+    pub fn row(&self, line: &[u8]) -> Result<Row, Fault> {
         let mut point = [0.0; 3];
         let mut at = skip_blanks(line, 0, self.separator);
         for (i, &axis) in self.columns.iter().enumerate() {
             if i > 0 {
-                match self.next_column(line, at) {
+                match next_cell(line, at, self.separator) {
                     Some(next) => at = next,
-                    None => return self.odd(line, at),
+                    None => return self.odd(line),
                 }
             }
             if axis == UNWANTED {
-                at = self.column_end(line, at);
+                match cell_end(line, at, self.separator) {
+                    Some(end) => at = end,
+                    None => return self.odd(line),
+                }
                 continue;
             }
-            let start = at + usize::from(line.get(at) == Some(&b'"'));
+            let quote = usize::from(line.get(at) == Some(&b'"'));
+            let start = at + quote;
             match number(line.get(start..).unwrap_or_default(), self.point) {
-                Some((x, length)) if x.is_finite() => {
+                // "1," is a number cut off, or followed by a comma that separates.
+                Some((x, n))
+                    if x.is_finite() && (self.point == b'.' || line.get(start + n - 1) != Some(&b',')) =>
+                {
                     point[usize::from(axis)] = x;
-                    at = start + length;
-                    at += usize::from(line.get(at) == Some(&b'"'));
+                    at = start + n;
                 }
-                _ => return self.odd(line, at),
+                _ => return self.odd(line),
+            }
+            if quote == 1 {
+                if line.get(at) != Some(&b'"') {
+                    return self.odd(line);
+                }
+                at += 1;
+            }
+            if line.get(at).is_some_and(|b| !self.ends_number(*b)) {
+                return self.odd(line);
             }
         }
-        // The last number must end where its column ends.
-        match line.get(at) {
-            Some(b) if !self.ends_column(*b) => self.odd(line, at),
-            _ => Ok(Some(point)),
-        }
+        if self.tail(line, at) { Ok(Row::Point(point)) } else { self.odd(line) }
     }
 
-    fn ends_column(&self, byte: u8) -> bool {
-        is_blank(byte) || self.separator == Separator::Byte(byte)
+    #[inline(always)]
+    fn ends_number(&self, byte: u8) -> bool {
+        super::cell::is_blank(byte) || self.separator.parts(byte)
     }
 
-    /// The start of the next column, `at` being the end of one.
+    /// Whether what follows the last wanted column, which ends at `at`, is as it should be.
     #[inline]
-    fn next_column(&self, line: &[u8], at: usize) -> Option<usize> {
+    fn tail(&self, line: &[u8], at: usize) -> bool {
+        let Some(width) = self.width else { return true };
         let next = skip_blanks(line, at, self.separator);
-        match self.separator {
-            Separator::Blanks => (next > at && next < line.len()).then_some(next),
-            Separator::Byte(b) => {
-                (line.get(next) == Some(&b)).then(|| skip_blanks(line, next + 1, self.separator))
+        if next >= line.len() {
+            return self.fits(self.columns.len(), width);
+        }
+        self.counted(line, at).is_some_and(|n| self.fits(n, width))
+    }
+
+    fn fits(&self, cells: usize, width: usize) -> bool {
+        if self.separator == Separator::Blanks { cells == width } else { cells <= width }
+    }
+
+    /// Number of cells, empty ones at the end not counted, of a row whose last wanted one ends at `end`.
+    fn counted(&self, line: &[u8], mut end: usize) -> Option<usize> {
+        let (mut n, mut last) = (self.columns.len(), self.columns.len());
+        while let Some(next) = next_cell(line, end, self.separator) {
+            end = cell_end(line, next, self.separator)?;
+            n += 1;
+            if !line[next..end].trim_ascii().is_empty() {
+                last = n;
             }
         }
+        // Something behind a blank that no separator parts from the cell before.
+        (skip_blanks(line, end, self.separator) >= line.len()).then_some(last)
     }
 
-    /// The end of a column that begins at `at` and is passed over.
-    fn column_end(&self, line: &[u8], at: usize) -> usize {
-        let rest = &line[at..];
-        if let [b'"', inner @ ..] = rest {
-            let close = memchr::memchr(b'"', inner).unwrap_or(inner.len());
-            return (at + close + 2).min(line.len());
-        }
-        let ends = |b: &u8| match self.separator {
-            Separator::Blanks => is_blank(*b),
-            Separator::Byte(s) => *b == s,
-        };
-        at + rest.iter().position(ends).unwrap_or(rest.len())
-    }
-
-    /// A line that gives no point.
+    /// A line that is not read at first sight.
     #[cold]
-    fn odd(&self, line: &[u8], at: usize) -> Result<Option<Point>, (usize, Fault)> {
+    fn odd(&self, line: &[u8]) -> Result<Row, Fault> {
         let text = line.trim_ascii();
-        if text.is_empty() || is_comment(text, self.separator) || self.announced && count(text).is_some() {
-            return Ok(None);
+        if text.is_empty() || is_comment(text, self.separator) {
+            return Ok(Row::Nothing);
         }
-        if text.iter().all(|b| self.ends_column(*b)) {
-            // A spreadsheet writes rows of nothing but separators.
-            return Ok(None);
+        if let Some(n) = count(text).filter(|_| self.announced) {
+            return Ok(Row::Announced(n));
         }
-        let word = &line[at..self.column_end(line, at).max(at)];
-        let value = number(word.trim_ascii(), self.point).map(|(x, _)| x);
-        if value.is_some_and(|x| !x.is_finite()) {
-            return Err((at, Fault::unexpected("a finite number", word)));
+        if text.iter().all(|b| self.ends_number(*b)) {
+            return Ok(Row::Hollow);
         }
-        let wanted = self.columns.len();
-        let expected = match (self.point, word.is_empty()) {
-            (_, true) => format!("a number in each of {wanted} columns"),
-            (b',', _) => "a number with a decimal comma".into(),
-            _ => "a number with a decimal point".into(),
+        if text.contains(&0) {
+            return Err(Fault::Zeros);
+        }
+        let Some(cells) = cells(line, self.separator) else {
+            return Err(Fault::unexpected("a quote that is closed on the same line", text));
         };
-        let found = if word.is_empty() { text } else { word };
-        Err((at, Fault::unexpected(expected, found)))
-    }
-
-    /// All columns of a line as text, quotes taken off.
-    pub fn words(separator: Separator, line: &[u8]) -> Vec<&[u8]> {
-        let layout =
-            Layout { separator, point: b'.', columns: vec![], planar: false, announced: false, end: b'\n' };
-        let mut words = vec![];
-        let mut at = skip_blanks(line, 0, separator);
-        while at < line.len() || separator != Separator::Blanks {
-            let end = layout.column_end(line, at.min(line.len()));
-            words.push(unquoted(&line[at.min(line.len())..end]));
-            match layout.next_column(line, end) {
-                Some(next) => at = next,
-                None => break,
-            }
+        let mut point = [0.0; 3];
+        for (i, &axis) in self.columns.iter().enumerate().filter(|(_, axis)| **axis != UNWANTED) {
+            let cell = cells.get(i).copied().unwrap_or_default();
+            let number = cell_number(cell, self.point);
+            point[usize::from(axis)] = number.ok_or_else(|| self.fault(i, axis, cell))?;
         }
-        words
+        match self.width {
+            Some(width) if !self.fits(filled(&cells), width) => {
+                let (expected, found) = (format!("a row of {width} cells"), filled(&cells));
+                Err(Fault::Unexpected {
+                    expected: expected.into(),
+                    found: format!("{found} in {}", quoted(text)),
+                })
+            }
+            _ => Ok(Row::Point(point)),
+        }
     }
-}
 
-fn unquoted(word: &[u8]) -> &[u8] {
-    let word = word.trim_ascii();
-    word.strip_prefix(b"\"").map_or(word, |w| w.strip_suffix(b"\"").unwrap_or(w))
-}
-
-#[inline(always)]
-fn is_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b'\r')
-}
-
-#[inline(always)]
-fn skip_blanks(line: &[u8], mut at: usize, separator: Separator) -> usize {
-    while let Some(&b) = line.get(at)
-        && is_blank(b)
-        && separator != Separator::Byte(b)
-    {
-        at += 1;
-    }
-    at
-}
-
-/// Whether a line, blanks before it taken off, is a comment.
-pub(super) fn is_comment(line: &[u8], separator: Separator) -> bool {
-    match line {
-        [b'#' | b'%' | b'!' | b'\'', ..] | [b'/', b'/', ..] => true,
-        [b';', ..] => separator != Separator::Byte(b';'),
-        _ => false,
+    /// What is wrong with a cell that should hold a number, and what to do.
+    fn fault(&self, column: usize, axis: u8, cell: &[u8]) -> Fault {
+        let text = String::from_utf8_lossy(cell);
+        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let signs = cell.iter().filter(|b| matches!(b, b'.' | b',')).count();
+        let grouped = signs > 1 || text.contains(['\'', ' ', '\u{a0}', '\u{2009}', '\u{202f}']);
+        let other = if self.point == b'.' { ',' } else { '.' };
+        let dash = ['\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}'];
+        let quotes_commas = self.separator == Separator::Byte(b',') && text.contains(',');
+        let remedy = match class(cell, self.point) {
+            Class::Missing => "fill the cell, delete the row, or name other columns by --columns",
+            Class::Word => "mend the cell, or name other columns by --columns",
+            _ if text.starts_with(dash) => "write the minus sign as -",
+            _ if quotes_commas => "export with decimal points and without thousands separators",
+            _ if grouped && digit(text.chars().next_back()) => "export without thousands separators",
+            _ if text.contains(other) => "write all numbers with the same decimal sign",
+            _ if text.ends_with(char::is_alphabetic) => {
+                "write the number alone; a unit belongs in the header"
+            }
+            _ => "mend the cell or export the file again",
+        };
+        let sign = if self.point == b',' { "comma" } else { "point" };
+        let expected = match class(cell, self.point) {
+            Class::Missing if !cell.is_empty() => "a finite number".into(),
+            Class::Missing => "a number".into(),
+            _ => format!("a number with a decimal {sign}"),
+        };
+        let name = ["x", "y", "z"].get(usize::from(axis)).copied().unwrap_or_default().into();
+        Fault::Cell { column: column + 1, name, expected: expected.into(), found: quoted(cell), remedy }
     }
 }

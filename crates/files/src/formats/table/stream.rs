@@ -4,7 +4,7 @@
 //! in the block its points go and is parsed straight into that place, by whichever thread; the gaps that comments
 //! leave are closed afterwards. So the order is that of the file, whatever the threads did.
 
-use super::row::Layout;
+use super::row::{Layout, Row};
 use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
@@ -23,8 +23,9 @@ const LINE: usize = 1 << 20;
 pub(crate) enum Limit {
     /// As many as come.
     None,
-    /// At least so many; fewer are a fault.
-    Expected(u64),
+    /// As many as the file announces: at its start so many, and further ones on lines of their own. Other numbers of
+    /// them are a fault.
+    Announced(u64),
     /// Exactly so many; what follows is something else.
     Exactly(u64),
 }
@@ -38,6 +39,8 @@ pub(crate) struct TextPoints {
     limit: Limit,
     /// Points delivered.
     found: u64,
+    /// The first of the rows of nothing but separators that no point has followed yet.
+    hollow: Option<u64>,
     /// Bytes looked at for one block.
     window: usize,
 }
@@ -45,9 +48,13 @@ pub(crate) struct TextPoints {
 impl TextPoints {
     /// Points from the rows ahead, the first of which is behind `lines` lines.
     pub fn new(feed: Feed, layout: Layout, lines: u64, limit: Limit, window: usize) -> TextPoints {
-        TextPoints { feed, layout, lines, limit, found: 0, window: window.clamp(PART, 1 << 30) }
+        TextPoints { feed, layout, lines, limit, found: 0, hollow: None, window: window.clamp(PART, 1 << 30) }
     }
 
+    /// The file, as far as it has been read.
+    pub fn feed(&mut self) -> &mut Feed {
+        &mut self.feed
+    }
     /// The file behind the points and how many lines have been stepped over.
     pub fn into_rest(self) -> (Feed, u64) {
         (self.feed, self.lines)
@@ -64,23 +71,35 @@ impl TextPoints {
         }
         let bytes = self.feed.ahead(self.window)?;
         if bytes.is_empty() {
-            return match self.limit {
-                Limit::Expected(declared) | Limit::Exactly(declared) if self.found < declared => {
-                    Err(Fault::Short { what: "points", declared, present: self.found }
-                        .at_line(self.lines + 1))
-                }
-                _ => Ok(false),
-            };
+            return self.ended().map(|()| false);
         }
         let window = whole_lines(bytes, self.window, self.layout.end)
             .ok_or_else(|| Fault::unexpected("a line of a table", &bytes[..64]).at_line(self.lines + 1))?;
         let window = first_lines(window, left, self.layout.end);
         let length = window.len();
-        let lines = parse(window, &self.layout, self.lines, block)?;
-        self.lines += lines;
+        let parsed = parse(window, &self.layout, self.lines, self.hollow, block)?;
+        self.lines += parsed.lines;
+        self.hollow = parsed.hollow;
         self.found += block.len() as u64;
+        if let Limit::Announced(n) = &mut self.limit {
+            *n = n.saturating_add(parsed.announced);
+        }
         self.feed.step(length);
         Ok(true)
+    }
+
+    /// Whether as many points came as were announced.
+    fn ended(&self) -> Result<()> {
+        let (what, present) = ("points", self.found);
+        match self.limit {
+            Limit::Announced(declared) | Limit::Exactly(declared) if present < declared => {
+                Err(Fault::Short { what, declared, present }.at_line(self.lines + 1))
+            }
+            Limit::Announced(declared) if present > declared => {
+                Err(Fault::Surplus { what, declared, present }.at_line(self.lines))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -88,7 +107,7 @@ impl PointStream for TextPoints {
     type Error = Located;
     fn expected(&self) -> Option<u64> {
         match self.limit {
-            Limit::Exactly(n) | Limit::Expected(n) => Some(n),
+            Limit::Exactly(n) | Limit::Announced(n) => Some(n),
             Limit::None => None,
         }
     }
@@ -108,14 +127,13 @@ impl PointStream for TextPoints {
 
 /// The whole lines at the start of `bytes`, about `size` bytes of them. `None` if a line has no end.
 fn whole_lines(bytes: &[u8], size: usize, end: u8) -> Option<&[u8]> {
-    if bytes.len() <= size {
-        // `ahead` gave less than was asked for, or just that.
-        let cut = memchr::memrchr(end, bytes).map_or(bytes.len(), |i| i + 1);
-        return Some(if bytes.len() < size { bytes } else { &bytes[..cut] });
+    if bytes.len() < size {
+        // The end of the file.
+        return Some(bytes);
     }
     match memchr::memrchr(end, &bytes[..size]) {
         Some(i) => Some(&bytes[..=i]),
-        None if size > LINE => None,
+        None if size > LINE || bytes.len() == size => None,
         None => whole_lines(bytes, size * 2, end),
     }
 }
@@ -130,11 +148,27 @@ fn first_lines(window: &[u8], count: u64, end: u8) -> &[u8] {
     last.map_or(window, |i| &window[..=i])
 }
 
-/// Points of one part, or the line in it and what is wrong there.
-type Filled = std::result::Result<usize, (u64, Fault)>;
+/// What the lines of a part, or of a window, gave.
+#[derive(Default)]
+struct Filled {
+    lines: u64,
+    points: usize,
+    announced: u64,
+    /// The first line of those that are hollow and that no point follows.
+    hollow: Option<u64>,
+}
 
-/// Fills `block` with the points of whole lines; `before` lines came before. Gives the number of lines.
-fn parse(window: &[u8], layout: &Layout, before: u64, block: &mut Vec<Point>) -> Result<u64> {
+/// A part, or the line in it and what is wrong there.
+type Parsed = std::result::Result<Filled, (u64, Fault)>;
+
+/// Fills `block` with the points of whole lines; `before` lines came before, and perhaps a hollow one.
+fn parse(
+    window: &[u8],
+    layout: &Layout,
+    before: u64,
+    hollow: Option<u64>,
+    block: &mut Vec<Point>,
+) -> Result<Filled> {
     let parts = parts(window, PART, layout.end);
     let counts: Vec<u64> = parts.par_iter().map(|p| count_lines(p, layout.end)).collect();
     let open = window.last().is_some_and(|b| *b != layout.end);
@@ -149,46 +183,70 @@ fn parse(window: &[u8], layout: &Layout, before: u64, block: &mut Vec<Point>) ->
         rest = later;
         jobs.push((*part, mine));
     }
-    let filled: Vec<Filled> = jobs.into_par_iter().map(|(part, mine)| fill(part, layout, mine)).collect();
-    close_gaps(block, &counts, filled, before)?;
-    Ok(lines)
+    let filled: Vec<Parsed> = jobs.into_par_iter().map(|(part, mine)| fill(part, layout, mine)).collect();
+    let all = Filled { lines, hollow, ..Filled::default() };
+    close_gaps(block, &counts, filled, before, all)
 }
 
 /// Parses the lines of a part into `out`, which has room for one point each.
-fn fill(part: &[u8], layout: &Layout, out: &mut [Point]) -> Filled {
-    let mut found = 0;
+fn fill(part: &[u8], layout: &Layout, out: &mut [Point]) -> Parsed {
+    let mut all = Filled::default();
     let mut start = 0;
-    let mut number = 0;
     while start < part.len() {
         let end = memchr::memchr(layout.end, &part[start..]).map_or(part.len(), |n| start + n);
-        number += 1;
+        all.lines += 1;
         match layout.row(&part[start..end]) {
-            Ok(None) => {}
-            Ok(Some(point)) => {
-                if let Some(slot) = out.get_mut(found) {
+            Ok(Row::Point(point)) => {
+                if let Some(line) = all.hollow {
+                    return Err((line, hollow_row()));
+                }
+                if let Some(slot) = out.get_mut(all.points) {
                     *slot = point;
-                    found += 1;
+                    all.points += 1;
                 }
             }
-            Err((_, fault)) => return Err((number, fault)),
+            Ok(Row::Nothing) => {}
+            Ok(Row::Hollow) => all.hollow = all.hollow.or(Some(all.lines)),
+            Ok(Row::Announced(n)) => all.announced = all.announced.saturating_add(n),
+            Err(fault) => return Err((all.lines, fault)),
         }
         start = end + 1;
     }
-    Ok(found)
+    Ok(all)
+}
+
+/// A row of nothing but separators with points behind it: a point is missing there.
+fn hollow_row() -> Fault {
+    let remedy = "fill the cells or delete the row";
+    Fault::Unclear { what: "a row without numbers between others".into(), remedy }
 }
 
 /// Moves the points of all parts together, or reports the first fault in the file.
-fn close_gaps(block: &mut Vec<Point>, room: &[u64], filled: Vec<Filled>, before: u64) -> Result<()> {
+fn close_gaps(
+    block: &mut Vec<Point>,
+    room: &[u64],
+    filled: Vec<Parsed>,
+    before: u64,
+    mut all: Filled,
+) -> Result<Filled> {
     let (mut from, mut to, mut lines) = (0usize, 0usize, before);
     for (room, filled) in room.iter().zip(filled) {
-        let found = filled.map_err(|(line, fault)| fault.at_line(lines + line))?;
-        if from != to {
-            block.copy_within(from..from + found, to);
+        // A part that holds a fault may hold points before it, and a hollow row may come before all of them.
+        let points = filled.as_ref().map_or(true, |part| part.points > 0);
+        if let Some(line) = all.hollow.filter(|_| points) {
+            return Err(hollow_row().at_line(line));
         }
+        let part = filled.map_err(|(line, fault)| fault.at_line(lines + line))?;
+        if from != to {
+            block.copy_within(from..from + part.points, to);
+        }
+        all.hollow = all.hollow.or(part.hollow.map(|line| lines + line));
+        all.announced = all.announced.saturating_add(part.announced);
         from += *room as usize;
-        to += found;
+        to += part.points;
         lines += room;
     }
     block.truncate(to);
-    Ok(())
+    all.points = to;
+    Ok(all)
 }

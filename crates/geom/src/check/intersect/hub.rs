@@ -1,19 +1,26 @@
-//! Pairs among the facets at a vertex that very many have in common.
+//! Pairs of facets of which one lies at a vertex that very many have in common.
 //!
-//! The boxes of such facets all overlap at that vertex, the hub, and settle nothing. But seen from the hub a facet is an
-//! arc of a great circle, from the direction of one corner to that of the other; and two facets that meet outside the hub
-//! meet along a stretch of a ray from it, where their arcs cross or touch. So boxes around the arcs are compared, however
-//! long or short the facets are, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n).
+//! The boxes of such facets all overlap at that vertex, the hub, and long thin ones overlap with much else: they settle
+//! nothing. But seen from the hub a facet is an arc of a great circle, from the direction of one corner to that of the
+//! other; any other facet is seen as a triangle of the sphere, and two facets that meet outside the hub meet where the
+//! one is seen through the other. So boxes around what is seen are compared, however long or short the facets are, and
+//! those around the facets; `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do two
+//! fans that do not lie upon each other.
+//!
+//! Facets at one edge of very many are a hub of their own, a *book*: seen from its ends all of them begin at the same
+//! place. Two of its pages meet only where they are folded flat onto each other, so they are sorted by their angle.
 
-use super::meet::meet;
+use super::seen;
 use crate::mesh::Mesh;
-use crate::progress::Progress;
-use crate::space::{Aabb, Point, minus, norm, plus, unit};
+use crate::space::{Aabb, Point, cross, dot, minus, norm, times, unit};
 use crate::topology::Topology;
 use std::ops::Range;
 
-/// The facets at a vertex with very many, but for flat ones, as arcs around it.
+/// Facets at a vertex with very many, but for flat ones, as arcs around it.
 pub(super) struct Hub {
+    center: u32,
+    /// The other end of the edge that all facets have in common, if they are a book.
+    spine: Option<u32>,
     /// Neighbours stand near each other.
     arcs: Vec<Arc>,
     root: Node,
@@ -21,123 +28,142 @@ pub(super) struct Hub {
 
 struct Arc {
     facet: u32,
+    /// Of the directions.
+    seen: Aabb,
+    /// Of the facet.
     bounds: Aabb,
 }
 
 /// Some of the arcs.
 struct Node {
     range: Range<usize>,
+    seen: Aabb,
     bounds: Aabb,
     halves: Option<Box<[Node; 2]>>,
 }
 
 /// Arcs of a node that is not halved.
 const FEW: usize = 8;
+/// From so many facets on, an edge at a hub is a book.
+const BOOK: usize = 64;
 
-/// The hubs of a mesh. A facet at several of them is at the one with the most facets.
-pub(super) fn hubs(mesh: &Mesh, topology: &Topology) -> Vec<Hub> {
+/// The hubs of a mesh, without the facets that `left_out` names. A facet at several of them is at the one with the most
+/// facets.
+pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> bool) -> Vec<Hub> {
     let at = |v: &u32| (*v, topology.facets_at_vertex(*v));
     let mut all: Vec<(u32, Vec<u32>)> = topology.hubs.iter().map(at).collect();
     all.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(&b.0)));
-    let mut taken = std::collections::BTreeSet::new();
+    let mut taken = vec![false; if all.is_empty() { 0 } else { mesh.faces.len() }];
     let mut hubs = vec![];
     for (vertex, mut facets) in all {
-        facets.retain(|f| topology.collinear.binary_search(f).is_err() && taken.insert(*f));
-        let mut arcs: Vec<Arc> =
-            facets.into_iter().map(|facet| Arc { facet, bounds: around(mesh, vertex, facet) }).collect();
-        let root = node(&mut arcs, 0);
-        hubs.push(Hub { arcs, root });
+        facets.retain(|f| {
+            let free = topology.collinear.binary_search(f).is_err() && !left_out(*f);
+            free && !std::mem::replace(&mut taken[*f as usize], true)
+        });
+        let others = |f: &u32| mesh.faces[*f as usize].into_iter().filter(|v| *v != vertex);
+        let mut ends: Vec<(u32, u32)> = facets.iter().flat_map(|f| others(f).map(|v| (v, *f))).collect();
+        ends.sort_unstable();
+        let mut paged = std::collections::BTreeSet::new();
+        for edge in ends.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > BOOK) {
+            let pages: Vec<u32> = edge.iter().map(|e| e.1).filter(|f| paged.insert(*f)).collect();
+            hubs.push(Hub::new(mesh, vertex, Some(edge[0].0), &pages));
+        }
+        facets.retain(|f| !paged.contains(f));
+        hubs.push(Hub::new(mesh, vertex, None, &facets));
     }
+    hubs.retain(|hub| !hub.arcs.is_empty());
     hubs
 }
 
-/// Box of the arc of a facet as seen from one of its corners.
-fn around(mesh: &Mesh, vertex: u32, facet: u32) -> Aabb {
-    /// Of directions: some ten roundings of 2^-53, and much to spare.
-    const ROUNDING: f64 = 1e-12;
-    let from = mesh.positions[vertex as usize];
-    let mut corners = mesh.faces[facet as usize].into_iter().filter(|v| *v != vertex);
-    let mut next = || corners.next().and_then(|v| direction(from, mesh.positions[v as usize]));
-    let (Some(u), Some(v)) = (next(), next()) else {
-        return Aabb { min: [-1.0; 3], max: [1.0; 3] };
-    };
-    // No place of an arc is farther from its chord than its middle is.
-    let rise = 1.0 - 0.5 * norm(plus(u, v)) + ROUNDING;
-    Aabb {
-        min: std::array::from_fn(|k| u[k].min(v[k]) - rise),
-        max: std::array::from_fn(|k| u[k].max(v[k]) + rise),
-    }
-}
-
-/// Unit vector from one place to another, whatever their distance; `None` where it is beyond numbers.
-fn direction(from: Point, to: Point) -> Option<Point> {
-    let way = minus(to, from);
-    let size = way.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    unit(way.map(|x| x / size)).map(|(direction, _)| direction)
+/// The corners of a facet.
+fn corners(mesh: &Mesh, facet: u32) -> [Point; 3] {
+    mesh.faces[facet as usize].map(|v| mesh.positions[v as usize])
 }
 
 /// Halves the arcs, which begin at number `start`, again and again where they spread most.
 fn node(arcs: &mut [Arc], start: usize) -> Node {
+    let seen = arcs.iter().fold(Aabb::EMPTY, |all, a| all.union(&a.seen));
     let bounds = arcs.iter().fold(Aabb::EMPTY, |all, a| all.union(&a.bounds));
     let range = start..start + arcs.len();
     if arcs.len() <= FEW {
-        return Node { range, bounds, halves: None };
+        return Node { range, seen, bounds, halves: None };
     }
-    let sides = bounds.sides();
+    let sides = seen.sides();
     let axis = (0..3).fold(0, |k, j| if sides[j] > sides[k] { j } else { k });
-    let middle = |a: &Arc| a.bounds.min[axis] + a.bounds.max[axis];
+    let middle = |a: &Arc| a.seen.min[axis] + a.seen.max[axis];
     let half = arcs.len() / 2;
     arcs.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.facet.cmp(&b.facet)));
     let (left, right) = arcs.split_at_mut(half);
-    Node { range, bounds, halves: Some(Box::new([node(left, start), node(right, start + half)])) }
+    Node { range, seen, bounds, halves: Some(Box::new([node(left, start), node(right, start + half)])) }
 }
 
 impl Hub {
-    /// Its facets, neighbours near each other.
-    pub fn facets(&self) -> Vec<u32> {
-        self.arcs.iter().map(|a| a.facet).collect()
+    fn new(mesh: &Mesh, center: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
+        let arc = |&facet: &u32| Arc {
+            facet,
+            seen: seen_from(mesh, center, facet),
+            bounds: Aabb::of(&corners(mesh, facet)),
+        };
+        let mut arcs: Vec<Arc> = facets.iter().map(arc).collect();
+        let root = node(&mut arcs, 0);
+        Hub { center, spine, arcs, root }
     }
 
-    /// Calls `found` with all pairs of its facets that are asked for and meet where they should not.
-    pub fn pairs(
-        &self,
-        mesh: &Mesh,
-        progress: &dyn Progress,
-        asked: &impl Fn([u32; 2]) -> bool,
-        found: &mut impl FnMut([u32; 2]),
-    ) {
-        let triangle = |facet: u32| {
-            let face = mesh.faces[facet as usize];
-            (face.map(|v| mesh.positions[v as usize]), face)
-        };
-        let mut decide = |a: u32, b: u32| {
-            if asked([a, b]) && meet(&triangle(a), &triangle(b)) {
-                found([a.min(b), a.max(b)]);
+    /// Its facets.
+    pub fn facets(&self) -> impl Iterator<Item = u32> {
+        self.arcs.iter().map(|a| a.facet)
+    }
+
+    /// Box of its facets.
+    pub fn bounds(&self) -> &Aabb {
+        &self.root.bounds
+    }
+
+    /// Calls `decide` with all pairs of its facets that may meet where they should not, until that says no.
+    pub fn pairs(&self, mesh: &Mesh, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        match self.spine {
+            Some(spine) => self.pages(mesh, spine, decide),
+            None => self.within(&self.root, decide),
+        }
+    }
+
+    /// Calls `decide` with those of its facets that may meet another one, until that says no.
+    pub fn against(&self, mesh: &Mesh, facet: u32, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        let bounds = Aabb::of(&corners(mesh, facet));
+        if !overlap(&bounds, &self.root.bounds) {
+            return true;
+        }
+        let other = Arc { facet, seen: seen_from(mesh, self.center, facet), bounds };
+        self.one_below(&other, &self.root, decide)
+    }
+
+    fn one_below(&self, one: &Arc, node: &Node, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        if !overlap(&one.seen, &node.seen) || !overlap(&one.bounds, &node.bounds) {
+            return true;
+        }
+        match &node.halves {
+            Some(halves) => halves.iter().all(|half| self.one_below(one, half, decide)),
+            None => self.one_with(one, node.range.clone(), decide),
+        }
+    }
+
+    fn within(&self, node: &Node, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        match &node.halves {
+            Some(halves) => {
+                halves.iter().all(|half| self.within(half, decide))
+                    && self.between(&halves[0], &halves[1], decide)
             }
-        };
-        self.within(&self.root, progress, &mut decide);
-    }
-
-    fn within(&self, node: &Node, progress: &dyn Progress, decide: &mut impl FnMut(u32, u32)) {
-        if progress.cancelled() {
-            return;
-        }
-        if let Some(halves) = &node.halves {
-            halves.iter().for_each(|half| self.within(half, progress, decide));
-            return self.between(&halves[0], &halves[1], decide);
-        }
-        for i in node.range.clone() {
-            self.one_with(i, i + 1..node.range.end, decide);
+            None => node.range.clone().all(|i| self.one_with(&self.arcs[i], i + 1..node.range.end, decide)),
         }
     }
 
-    fn between(&self, a: &Node, b: &Node, decide: &mut impl FnMut(u32, u32)) {
-        if !overlap(&a.bounds, &b.bounds) {
-            return;
+    fn between(&self, a: &Node, b: &Node, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        if !overlap(&a.seen, &b.seen) || !overlap(&a.bounds, &b.bounds) {
+            return true;
         }
         let (whole, halves) = match (&a.halves, &b.halves) {
             (None, None) => {
-                return a.range.clone().for_each(|i| self.one_with(i, b.range.clone(), decide));
+                return a.range.clone().all(|i| self.one_with(&self.arcs[i], b.range.clone(), decide));
             }
             (Some(halves), None) => (b, halves),
             (None, Some(halves)) => (a, halves),
@@ -149,14 +175,59 @@ impl Hub {
                 }
             }
         };
-        halves.iter().for_each(|half| self.between(half, whole, decide));
+        halves.iter().all(|half| self.between(half, whole, decide))
     }
 
-    fn one_with(&self, i: usize, others: Range<usize>, decide: &mut impl FnMut(u32, u32)) {
-        let arc = &self.arcs[i];
-        for other in self.arcs[others].iter().filter(|other| overlap(&arc.bounds, &other.bounds)) {
-            decide(arc.facet, other.facet);
+    fn one_with(&self, one: &Arc, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        let near = |o: &&Arc| overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds);
+        self.arcs[others].iter().filter(near).all(|other| decide(one.facet, other.facet))
+    }
+
+    /// Pairs of pages whose angles at the spine are equal to rounding.
+    fn pages(&self, mesh: &Mesh, spine: u32, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        /// Pages so low that rounding may turn them by more than this are compared with all.
+        const VAGUE: f64 = 1e-6;
+        let at = |v: u32| mesh.positions[v as usize];
+        let (from, to) = (at(self.center), at(spine));
+        let size = minus(to, from).iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let axis = unit(times(1.0 / size, minus(to, from))).map_or([0.0; 3], |(axis, _)| axis);
+        let mut frame: Option<(Point, Point)> = None;
+        let (mut sure, mut vague) = (vec![], vec![]);
+        for facet in self.facets() {
+            let third = mesh.faces[facet as usize].into_iter().find(|v| *v != self.center && *v != spine);
+            let to_third = third.map_or([0.0; 3], |v| times(1.0 / size, minus(at(v), from)));
+            let arm = minus(to_third, times(dot(to_third, axis), axis));
+            let turn = 1e-14 * (1.0 + norm(to_third)) / norm(arm);
+            if turn.is_nan() || turn >= VAGUE {
+                vague.push(facet);
+                continue;
+            }
+            let (x, y) = *frame.get_or_insert((arm, cross(axis, arm)));
+            sure.push((libm::atan2(dot(arm, y), dot(arm, x)), facet));
         }
+        sure.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Once more behind the end: angles go round.
+        let again: Vec<(f64, u32)> = (sure.iter().take_while(|p| p.0 < 2.0 * VAGUE - std::f64::consts::PI))
+            .map(|p| (p.0 + std::f64::consts::TAU, p.1))
+            .collect();
+        let round: Vec<(f64, u32)> = sure.iter().copied().chain(again).collect();
+        (0..sure.len()).all(|i| {
+            let near = round[i + 1..].iter().take_while(|p| p.0 <= sure[i].0 + 2.0 * VAGUE);
+            near.filter(|p| p.1 != sure[i].1).all(|p| decide(sure[i].1, p.1))
+        }) && (0..vague.len()).all(|i| {
+            let others = vague[i + 1..].iter().copied().chain(sure.iter().map(|p| p.1));
+            others.into_iter().all(|other| decide(vague[i], other))
+        })
+    }
+}
+
+/// Box of a facet as seen from a vertex: that of an arc where it is one of its corners.
+fn seen_from(mesh: &Mesh, center: u32, facet: u32) -> Aabb {
+    let from = mesh.positions[center as usize];
+    let place = |v: u32| mesh.positions[v as usize];
+    match mesh.faces[facet as usize] {
+        [v, a, b] | [b, v, a] | [a, b, v] if v == center => seen::segment(from, place(a), place(b)),
+        face => seen::triangle(from, face.map(place)),
     }
 }
 

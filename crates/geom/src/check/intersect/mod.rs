@@ -3,14 +3,17 @@
 //! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
 //! that overlap its children; eight boxes in one comparison. No walk ever starts at the root. At the bottom the
 //! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
-//! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: vertices with very many facets, whose boxes all
-//! overlap, are searched in a way of their own (see `hub`), and the walk passes over the pairs found there.
+//! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: facets at vertices with very many, whose boxes
+//! all overlap, are not in the tree; they are searched in a way of their own (see `hub`), among each other and against
+//! the facets of the tree. *Copies*: of facets with the same three corners only the first is searched (see `pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod filter;
 mod hub;
 mod masks;
 mod meet;
+mod pairs;
+mod seen;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -24,6 +27,7 @@ use crate::simd::lanes_x86::A8;
 use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
+use pairs::{Copies, Pairs, Wanted};
 use rayon::prelude::*;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
@@ -39,8 +43,8 @@ const EVERYWHERE: [f32; 6] = {
 ///
 /// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
 /// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
-/// a facet on a scan; n facets around one vertex take n log n, two such fans that lie upon each other the product of
-/// their facets. Facets done are told to `progress`. The result is the same for any number of threads.
+/// a facet on a scan; n facets around one vertex or edge, or upon each other, take n log n and what they find. Facets done
+/// are told to `progress`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -49,20 +53,26 @@ pub fn self_intersections(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, Cancelled> {
-    first_self_intersections(mesh, topology, usize::MAX, progress).map(|all| all.first)
+    let search = Search { mesh, topology, some: None, limit: usize::MAX, most: usize::MAX, alone: false };
+    with(&search, progress, Level::detect()).map(|all| all.first)
 }
 
-/// How many pairs of facets meet where they should not, and the first of them.
+/// How many pairs of facets meet where they should not, and some of them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crossings {
     /// Their number.
     pub count: usize,
-    /// The least of them, as many as were asked for, sorted.
+    /// There are more than `count`: the search was given up.
+    pub at_least: bool,
+    /// As many as were asked for, sorted: the least of them, or if the search was given up, those found first.
     pub first: Vec<[u32; 2]>,
 }
 
-/// As [`self_intersections`], keeping `limit` pairs only: memory stays bounded where a mesh is one tangle, in which
-/// the number of pairs grows with the square of that of the facets.
+/// Beyond so many pairs the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
+const MOST: usize = 1_000_000;
+
+/// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs
+/// grows with the square of that of the facets: memory and time stay bounded, and the result says so.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -72,7 +82,15 @@ pub fn first_self_intersections(
     limit: usize,
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
-    with(&Search { mesh, topology, some: None, limit, most: usize::MAX }, progress, Level::detect())
+    let search = Search { mesh, topology, some: None, limit, most: MOST.max(limit), alone: false };
+    let found = with(&search, progress, Level::detect())?;
+    if found.count <= search.most {
+        return Ok(found);
+    }
+    // Which were found by then hangs on the threads: once more with one, for as many as are listed.
+    let few = Search { most: limit.saturating_sub(1), alone: true, ..search };
+    let first = with(&few, progress, Level::detect())?.first;
+    Ok(Crossings { count: search.most, at_least: true, first })
 }
 
 /// As [`self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet): what
@@ -87,9 +105,22 @@ pub fn few_self_intersections(
     most: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<[u32; 2]>>, Cancelled> {
-    let search = Search { mesh, topology, some: Some(some), limit: usize::MAX, most };
+    let search = Search { mesh, topology, some: Some(some), limit: usize::MAX, most, alone: false };
     let found = with(&search, progress, Level::detect())?;
     Ok((found.count <= most).then_some(found.first))
+}
+
+/// Whether any two facets meet where they should not: ends with the first pair found.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn any_self_intersection(
+    mesh: &Mesh,
+    topology: &Topology,
+    progress: &dyn Progress,
+) -> Result<bool, Cancelled> {
+    let search = Search { mesh, topology, some: None, limit: 0, most: 0, alone: false };
+    Ok(with(&search, progress, Level::detect())?.count > 0)
 }
 
 /// What is searched.
@@ -102,29 +133,30 @@ struct Search<'a> {
     limit: usize,
     /// Beyond so many pairs there is no need to find more.
     most: usize,
+    /// On one thread, in an order of its own: what was found when there is no need for more is always the same.
+    alone: bool,
 }
 
 fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
-    let &Search { mesh, topology, some, limit, most } = search;
-    let hubs = hub::hubs(mesh, topology);
-    let tree = Tree::build(mesh, topology, &hubs.iter().map(Hub::facets).collect::<Vec<_>>(), some);
-    let walk = Walk { mesh, tree: &tree, progress, most, found: AtomicUsize::new(0) };
-    let top = tree.levels.len() - 1;
-    let mut pairs = Pairs { limit, count: 0, first: vec![] };
-    let asked =
-        |[a, b]: [u32; 2]| some.is_none_or(|some| some[a as usize] || some[b as usize]) && !walk.has_enough();
-    let mut found = |pair| {
-        walk.found.fetch_add(1, Relaxed);
-        pairs.push(pair);
-    };
-    hubs.iter().for_each(|hub| hub.pairs(mesh, progress, &asked, &mut found));
-    if !tree.leaves.is_empty() {
-        let mut all = vec![0];
-        tree.without_own_group(top, 0, &mut all);
+    let &Search { mesh, topology, limit, most, alone, .. } = search;
+    let copies = Copies::new(topology);
+    let joined = search.some.map(|some| copies.joined(some));
+    let some = joined.as_deref();
+    let hubs = hub::hubs(mesh, topology, |f| copies.later(f));
+    let mut in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
+    hubs.iter().flat_map(Hub::facets).for_each(|f| in_tree[f as usize] = false);
+    topology.duplicate_facets.iter().for_each(|d| in_tree[d[1] as usize] = false);
+    let tree = Tree::build(mesh, topology, &in_tree, some, progress);
+    let wanted = Wanted { copies: &copies, some: search.some, limit };
+    let walk = Walk { mesh, tree: &tree, progress, most, alone, found: AtomicUsize::new(0) };
+    let mut pairs = Pairs::new(wanted);
+    around_hubs(&walk, &hubs, some, &mut pairs);
+    if !tree.leaves.is_empty() && !walk.is_over() {
+        let top = tree.levels.len() - 1;
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => avx2(&walk, top, 0, &all, &mut pairs),
-            _ => plain(&walk, top, 0, &all, &mut pairs),
+            Level::Avx2 | Level::Avx512 => avx2(&walk, top, 0, &[0], &mut pairs),
+            _ => plain(&walk, top, 0, &[0], &mut pairs),
         }
     }
     if progress.cancelled() {
@@ -132,7 +164,49 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     }
     pairs.cut(0);
     pairs.first.par_sort_unstable();
-    Ok(Crossings { count: pairs.count, first: pairs.first })
+    Ok(Crossings { count: pairs.count, at_least: false, first: pairs.first })
+}
+
+/// Finds the pairs of which one facet is at a hub.
+fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut Pairs<'a>) {
+    /// Facets of one task.
+    const PART: usize = 1 << 10;
+    let wanted = pairs.wanted;
+    let triangle = |facet: u32| {
+        let face = walk.mesh.faces[facet as usize];
+        (face.map(|v| walk.mesh.positions[v as usize]), face)
+    };
+    let asked = |a: u32, b: u32| some.is_none_or(|some| some[a as usize] || some[b as usize]);
+    // Each answer says whether to go on.
+    let decide = |part: &mut Pairs<'a>, a: u32, b: u32| {
+        if asked(a, b) && meet::meet(&triangle(a), &triangle(b)) {
+            let before = part.count;
+            part.push(a, b);
+            walk.found.fetch_add(part.count - before, Relaxed);
+        }
+        !walk.is_over()
+    };
+    for (i, hub) in hubs.iter().enumerate() {
+        if !hub.pairs(walk.mesh, &mut |a, b| decide(pairs, a, b)) || walk.is_over() {
+            return;
+        }
+        let mut others = walk.tree.reaching(hub.bounds());
+        hubs[i + 1..].iter().for_each(|other| others.extend(other.facets()));
+        let part = |others: &[u32]| {
+            let mut part = Pairs::new(wanted);
+            let go_on = |other: &&u32| {
+                hub.against(walk.mesh, **other, &mut |a, b| decide(&mut part, a, b)) && !walk.is_over()
+            };
+            others.iter().take_while(go_on).for_each(drop);
+            part
+        };
+        if walk.alone {
+            others.chunks(PART).for_each(|others| pairs.append(part(others)));
+        } else {
+            let parts: Vec<Pairs> = others.par_chunks(PART).map(part).collect();
+            parts.into_iter().for_each(|part| pairs.append(part));
+        }
+    }
 }
 
 /// Nodes up to this level are not worth the work of several threads.
@@ -143,49 +217,14 @@ struct Walk<'a> {
     tree: &'a Tree,
     progress: &'a dyn Progress,
     most: usize,
+    alone: bool,
     /// Pairs found so far, wherever.
     found: AtomicUsize,
 }
 
-/// Pairs found so far, of which the `limit` least are of interest.
-struct Pairs {
-    limit: usize,
-    count: usize,
-    /// Those, and perhaps others that are not yet sorted out.
-    first: Vec<[u32; 2]>,
-}
+type Deeper = for<'a> fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
-impl Pairs {
-    fn push(&mut self, pair: [u32; 2]) {
-        self.count += 1;
-        self.first.push(pair);
-        self.cut(self.limit);
-    }
-
-    /// Takes in what another part of the tree gave.
-    fn append(&mut self, part: Pairs) {
-        self.count += part.count;
-        self.first.extend(part.first);
-        self.cut(self.limit);
-    }
-
-    /// Drops what is not of interest, once there are more than `slack` (and a few) beyond those asked for.
-    fn cut(&mut self, slack: usize) {
-        /// Never sorted out sooner: most meshes have few pairs.
-        const FEW: usize = 1 << 10;
-        let few = if slack == 0 { 0 } else { FEW };
-        if self.first.len() > self.limit.saturating_add(slack).saturating_add(few) {
-            if self.limit > 0 {
-                self.first.select_nth_unstable(self.limit - 1);
-            }
-            self.first.truncate(self.limit);
-        }
-    }
-}
-
-type Deeper = fn(&Walk, usize, usize, &[u32], &mut Pairs);
-
-fn plain(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
     unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
 }
@@ -207,8 +246,8 @@ fn lane(b: &Boxes, i: usize) -> [f32; 6] {
 }
 
 impl Walk<'_> {
-    fn has_enough(&self) -> bool {
-        self.found.load(Relaxed) > self.most
+    fn is_over(&self) -> bool {
+        self.found.load(Relaxed) > self.most || self.progress.cancelled()
     }
 
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
@@ -230,9 +269,6 @@ impl Walk<'_> {
         }
         let children = 0..W.min(self.tree.levels[level - 1].len() - i * W);
         if level <= ALONE {
-            if self.progress.cancelled() {
-                return;
-            }
             let mut next = vec![];
             for a in children.clone() {
                 next.clear();
@@ -252,9 +288,12 @@ impl Walk<'_> {
             unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
             lists.push((i * W + a, next));
         }
-        let limit = out.limit;
+        if self.alone {
+            return lists.into_iter().for_each(|(child, next)| deeper(self, level - 1, child, &next, out));
+        }
+        let wanted = out.wanted;
         let parts = lists.into_par_iter().map(|(child, next)| {
-            let mut part = Pairs { limit, count: 0, first: vec![] };
+            let mut part = Pairs::new(wanted);
             deeper(self, level - 1, child, &next, &mut part);
             part
         });
@@ -283,7 +322,6 @@ impl Walk<'_> {
                 m &= m - 1;
             }
         }
-        self.tree.without_own_group(level - 1, i * W + a, next);
     }
 
     /// Pairs between leaf `i` and the leaves of `list`.
@@ -292,10 +330,10 @@ impl Walk<'_> {
     /// The processor has the instructions of `L`.
     #[inline(always)]
     unsafe fn leaf_pairs<L: Masks>(&self, i: usize, list: &[u32], out: &mut Pairs) {
-        if self.has_enough() {
+        if self.is_over() {
             return;
         }
-        let before = out.count;
+        let mut before = out.count;
         let t = self.tree;
         let (l, own) = (&t.leaves[i], &t.levels[0][i]);
         let planes = filter::planes(self.mesh, &t.frame, l);
@@ -329,9 +367,14 @@ impl Walk<'_> {
                 let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
-        }
-        if out.count > before {
-            self.found.fetch_add(out.count - before, Relaxed);
+            // A leaf may have very many neighbours.
+            if out.count > before {
+                self.found.fetch_add(out.count - before, Relaxed);
+                before = out.count;
+                if self.is_over() {
+                    return;
+                }
+            }
         }
     }
 
@@ -346,8 +389,7 @@ impl Walk<'_> {
             let c = left.trailing_zeros() as usize;
             left &= left - 1;
             if meet::meet(&triangle(l, a), &triangle(q, c)) {
-                let (x, y) = (l.face[a], q.face[c]);
-                out.push([x.min(y), x.max(y)]);
+                out.push(l.face[a], q.face[c]);
             }
         }
     }

@@ -26,7 +26,14 @@ fn check(name: &str, facets: &[Facet]) -> usize {
     want.sort_unstable();
     for (level, threads) in levels().flat_map(|l| [(l, 1), (l, 3)]) {
         for limit in [usize::MAX, 7, 0] {
-            let search = Search { mesh: &mesh, topology: &topology, some: None, limit, most: usize::MAX };
+            let search = Search {
+                mesh: &mesh,
+                topology: &topology,
+                some: None,
+                limit,
+                most: usize::MAX,
+                alone: threads == 1,
+            };
             let got = on_threads(threads, || with(&search, &Silent, level)).unwrap();
             let first = &want[..want.len().min(limit)];
             assert_eq!(got.count, want.len(), "{name} {level:?} {threads} {limit}");
@@ -41,8 +48,8 @@ fn check(name: &str, facets: &[Facet]) -> usize {
             let mut want = want.clone();
             want.retain(|pair| pair.iter().any(|f| some[*f as usize]));
             for most in [usize::MAX, want.len(), want.len().saturating_sub(1), 3] {
-                let search =
-                    Search { mesh: &mesh, topology: &topology, some: Some(&some), limit: usize::MAX, most };
+                let (some, limit) = (Some(&some[..]), usize::MAX);
+                let search = Search { mesh: &mesh, topology: &topology, some, limit, most, alone: false };
                 let got = on_threads(threads, || with(&search, &Silent, level)).unwrap();
                 assert_eq!(got.count > most, want.len() > most, "{name} {i} {level:?} {threads} {most}");
                 assert!(got.count > most || got.first == want, "{name} {i} {level:?} {threads} {most}");
@@ -175,4 +182,95 @@ fn vertices_with_very_many_facets() {
             assert!(pairs >= planted, "{shape} {rough} {single}: {pairs}");
         }
     }
+}
+
+/// Counts how often a search asks whether to go on: once for each pair that may meet, each leaf, and each part of a tree.
+fn asked(mesh: &Mesh) -> (usize, usize) {
+    struct Asked(AtomicUsize);
+    impl Progress for Asked {
+        fn cancelled(&self) -> bool {
+            self.0.fetch_add(1, Relaxed);
+            false
+        }
+    }
+    let (topology, counter) = (Topology::of(mesh).unwrap(), Asked(AtomicUsize::new(0)));
+    let found = first_self_intersections(mesh, &topology, 10, &counter).unwrap();
+    (counter.0.into_inner(), found.count)
+}
+
+/// Work grows little faster than the facets: around two vertices, around one edge, upon each other.
+#[test]
+fn crowds_take_n_log_n() {
+    let round = |i: usize, n: usize| (i as f64 / n as f64) * std::f64::consts::TAU;
+    let rim = |i: usize, n: usize, z: f64| [libm::cos(round(i, n)), libm::sin(round(i, n)), z];
+    let bicone = |n: usize| -> Vec<Facet> {
+        let of = |i: usize| {
+            let (a, b) = (rim(i, n, 0.0), rim((i + 1) % n, n, 0.0));
+            [[[0.0, 0.0, 1.0], a, b], [[0.0; 3], b, a]]
+        };
+        (0..n).flat_map(of).collect()
+    };
+    let book = |n: usize| (0..n).map(|i| [[0.0; 3], [0.0, 0.0, 1.0], rim(i, n, 0.5)]).collect();
+    let coincident = |n: usize| -> Vec<Facet> {
+        let block = crate::topology::tests::block(1, 1.0);
+        let facets = block.faces.iter().map(|f| f.map(|v| block.positions[v as usize]));
+        facets.cycle().take(12 * (n / 12)).collect()
+    };
+    type Shape<'a> = (&'a str, &'a dyn Fn(usize) -> Vec<Facet>);
+    let shapes: [Shape; 3] = [("bicone", &bicone), ("book", &book), ("coincident", &coincident)];
+    for (name, shape) in shapes {
+        let work = [2000, 8000, 32_000].map(|n| {
+            let facets = shape(n);
+            let (asked, found) = asked(&weld::corners(facets.len(), |f, k| facets[f][k]).unwrap());
+            assert_eq!(found, 0, "{name} {n}");
+            asked.max(1000)
+        });
+        // Four times the facets: a square would be sixteen times the work.
+        assert!(work.windows(2).all(|w| w[1] < 7 * w[0]), "{name} {work:?}");
+        assert!(work[2] < 32_000 * 40, "{name} {work:?}");
+    }
+}
+
+/// Books with pages folded upon each other, and facets that are there several times and cross others.
+#[test]
+fn books_and_copies_that_cross() {
+    let random = &mut Random::new(7);
+    let mut facets: Vec<Facet> = vec![];
+    for i in 0..600 {
+        let (turn, far) = (f64::from(i % 550) * 0.01, 1.0 + random.unit());
+        facets.push([[0.0; 3], [0.0, 0.0, 4.0], [far * libm::cos(turn), far * libm::sin(turn), 1.0]]);
+        if i % 20 == 0 {
+            let whole = f64::from(i / 20);
+            facets.push([[0.0; 3], [0.0, 0.0, 4.0], [whole + 1.0, whole + 1.0, 2.0]]);
+            facets.push([[0.0; 3], [0.5, whole / 9.0, 3.0], [0.75, 0.5, whole / 9.0]]);
+            facets.push([[-1.0, 0.5, whole / 7.0], [2.0, 0.5, 1.0], [0.5, 2.0, 2.0]]);
+        }
+    }
+    assert!(check("book", &facets) > 500);
+    for i in (0..facets.len()).step_by(5) {
+        let [a, b, c] = facets[i];
+        facets.extend([[b, c, a], [c, b, a]]);
+    }
+    facets.truncate(900);
+    assert!(check("copies", &facets) > 1000);
+}
+
+/// Of a tangle the count is a lower bound, and what is listed does not hang on the threads.
+#[test]
+fn a_tangle_is_not_counted_to_the_end() {
+    let random = &mut Random::new(8);
+    let corners: Vec<Point> = (0..4000).map(|_| [random.unit(), random.unit(), 0.0]).collect();
+    let facets: Vec<Facet> = (1..3999).map(|i| [corners[0], corners[i], corners[i + 1]]).collect();
+    let mesh = weld::corners(facets.len(), |f, k| facets[f][k]).unwrap();
+    let topology = Topology::of(&mesh).unwrap();
+    let run =
+        |threads| on_threads(threads, || first_self_intersections(&mesh, &topology, 50, &Silent)).unwrap();
+    let found = run(1);
+    assert_eq!((found.count, found.at_least, found.first.len()), (MOST, true, 50));
+    assert_eq!(found, run(3));
+    let triangle = |f: u32| {
+        let face = mesh.faces[f as usize];
+        (face.map(|v| mesh.positions[v as usize]), face)
+    };
+    assert!(found.first.iter().all(|[a, b]| a < b && meet::meet(&triangle(*a), &triangle(*b))));
 }

@@ -8,10 +8,10 @@
 
 use crate::memory::{Shared, large_pages, prefetch};
 use crate::mesh::Mesh;
+use crate::progress::Progress;
 use crate::space::{Aabb, Point};
 use crate::topology::Topology;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 
 /// Triangles of a leaf, children of a node: what one vector holds.
 pub(super) const W: usize = 8;
@@ -50,8 +50,6 @@ pub(super) struct Tree {
     pub leaves: Vec<Leaf>,
     pub levels: Vec<Vec<Boxes>>,
     pub frame: Frame,
-    /// For each node of each level its group, if all below it is of one; nothing at all where there are no groups.
-    group_of: Vec<Vec<Option<u32>>>,
     /// For each node of each level the children (bit by bit) that hold a facet of `some`; nothing at all where all do.
     pub asked: Vec<Vec<u32>>,
 }
@@ -218,12 +216,18 @@ fn asked(leaves: &[Leaf], some: &[bool]) -> Vec<u32> {
 }
 
 impl Tree {
-    /// The tree of the facets that have a shell; those of a group in leaves of their own. Uses the current rayon pool.
-    pub fn build(mesh: &Mesh, topology: &Topology, groups: &[Vec<u32>], some: Option<&[bool]>) -> Tree {
+    /// The tree of the facets that are `wanted`. Uses the current rayon pool; worth nothing where `progress` says that it
+    /// is cancelled.
+    pub fn build(
+        mesh: &Mesh,
+        topology: &Topology,
+        wanted: &[bool],
+        some: Option<&[bool]>,
+        progress: &dyn Progress,
+    ) -> Tree {
         let bounds = mesh.finite_bounds();
         let frame = Frame::of(mesh, &bounds);
-        let grouped: BTreeSet<u32> = groups.iter().flatten().copied().collect();
-        let alone = |f: usize| topology.shell_of[f] != u32::MAX && !grouped.contains(&(f as u32));
+        let alone = |f: usize| wanted[f];
         let (keys, face_bits) = sorted(mesh, &frame, &bounds, alone);
         let face = |key: &u64| (key & ((1 << face_bits) - 1)) as usize;
         let n = keys.len().div_ceil(W);
@@ -233,7 +237,9 @@ impl Tree {
         keys.par_chunks(W * LEAVES).enumerate().for_each(|(i, keys)| {
             // Faces and corners lie anywhere: those of the next leaves are sent for.
             let ahead = |leaf: usize| keys.iter().skip(leaf * W).take(W).map(face);
+            let stopped = progress.cancelled();
             for (j, part) in keys.chunks(W).enumerate() {
+                let part = if stopped { &[] } else { part };
                 ahead(j + 4).for_each(|f| prefetch(&mesh.faces[f]));
                 ahead(j + 2).flat_map(|f| mesh.faces[f]).for_each(|v| prefetch(&mesh.positions[v as usize]));
                 let (leaf, boxes) = leaf(mesh, &frame, &topology.collinear, part.iter().map(face));
@@ -244,19 +250,6 @@ impl Tree {
         });
         // SAFETY: all written above.
         unsafe { (leaves.set_len(n), boxes.set_len(n)) };
-        let mut group_of = vec![];
-        if !groups.is_empty() {
-            let mut of_leaf = vec![None; n];
-            for (number, part) in (0..).zip(groups).flat_map(|(i, g)| g.chunks(W).map(move |part| (i, part)))
-            {
-                let faces = part.iter().map(|&f| f as usize);
-                let (leaf, own) = leaf(mesh, &frame, &topology.collinear, faces);
-                leaves.push(leaf);
-                boxes.push(own);
-                of_leaf.push(Some(number));
-            }
-            group_of.push(of_leaf);
-        }
         let mut asked: Vec<Vec<u32>> = some.map(|some| asked(&leaves, some)).into_iter().collect();
         let mut levels = vec![boxes];
         while levels[levels.len() - 1].len() > 1 {
@@ -270,17 +263,12 @@ impl Tree {
                 b
             });
             levels.push(up.collect());
-            if let Some(below) = group_of.last() {
-                let common = |part: &[Option<u32>]| part[0].filter(|g| part.iter().all(|h| *h == Some(*g)));
-                let up = below.chunks(W).map(common).collect();
-                group_of.push(up);
-            }
             if let Some(below) = asked.last() {
                 let up = below.chunks(W).map(|part| bits(part.iter().map(|b| *b != 0))).collect();
                 asked.push(up);
             }
         }
-        Tree { leaves, levels, frame, group_of, asked }
+        Tree { leaves, levels, frame, asked }
     }
 
     /// Whether child `a` of node `i` holds a facet of `some`: then its pairs with all others are asked for.
@@ -289,12 +277,24 @@ impl Tree {
         self.asked.get(level).is_none_or(|asked| asked[i] >> a & 1 == 1)
     }
 
-    /// Leaves of `list` those nodes of a level that are not of the same group as node `i`.
-    pub fn without_own_group(&self, level: usize, i: usize, list: &mut Vec<u32>) {
-        if let Some(group_of) = self.group_of.get(level)
-            && let Some(own) = group_of[i]
-        {
-            list.retain(|&j| group_of[j as usize] != Some(own));
+    /// The facets whose boxes reach into `bounds`, in the order of the tree.
+    pub fn reaching(&self, bounds: &Aabb) -> Vec<u32> {
+        // Rounded outwards: a place may be off by the slack, and once more by rounding.
+        let place = [bounds.min, bounds.max].map(|p| self.frame.place(&p));
+        let low: [f32; 3] = std::array::from_fn(|k| (place[0][k] as f32).next_down() - self.frame.slack);
+        let high: [f32; 3] = std::array::from_fn(|k| (place[1][k] as f32).next_up() + self.frame.slack);
+        let overlaps = |b: &Boxes, i: usize| (0..3).all(|k| b.0[k][i] <= high[k] && low[k] <= b.0[k + 3][i]);
+        let top = self.levels.len() - 1;
+        let (mut stack, mut found) = (vec![(top, 0)], vec![]);
+        while let Some((level, node)) = stack.pop() {
+            let Some(boxes) = self.levels[level].get(node) else { continue };
+            for i in (0..W).filter(|&i| overlaps(boxes, i)) {
+                match level {
+                    0 => found.push(self.leaves[node].face[i]),
+                    _ => stack.push((level - 1, node * W + i)),
+                }
+            }
         }
+        found
     }
 }

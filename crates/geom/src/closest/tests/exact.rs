@@ -166,7 +166,7 @@ fn any_size_and_place_equals_brute_force() {
     let d = &mut Dice(6);
     check("at 1e6", sphere(40, 100.0, [1e6, -1e6, 1e6]), d, 2000);
     check("tiny", sphere(30, 1e-12, [0.0; 3]), d, 1000);
-    check("minute", sphere(30, 1e-40, [0.0; 3]), d, 1000);
+    check("minute", sphere(30, 1e-30, [0.0; 3]), d, 1000);
     check("huge", sphere(30, 1e30, [0.0; 3]), d, 1000);
 }
 
@@ -198,6 +198,15 @@ fn refuses_what_cannot_be_measured() {
     let bad = MeshError::BadIndex { face: 1, vertex: 3, vertices: 3 };
     assert_eq!(build(vec![[0, 1, 1], [0, 1, 3]]).err(), Some(bad));
     assert_eq!(build(vec![[0, 1, 2]]).err(), Some(MeshError::BadVertex(2)));
+    let scaled = |by: f64| {
+        let positions = vec![[0.0; 3], [by, 0.0, 0.0], [0.0, by, 0.0], [7.0; 3]];
+        Tree::build(&Mesh { positions, faces: vec![[0, 1, 2]] }).err()
+    };
+    assert_eq!(
+        [1e-300, 1e-46, 1e-44].map(scaled),
+        [Some(MeshError::BadVertex(1)), Some(MeshError::TooSmall), None]
+    );
+    assert_eq!([0.0, 1e45, 1e46].map(scaled), [None, None, Some(MeshError::BadVertex(1))]);
     let tree = build(vec![[0, 1, 1]]).unwrap();
     let ask = |points: &[Point], max_distance: f64| {
         tree.distances(points, &Query { max_distance, ..Query::default() }, &Silent)
@@ -205,6 +214,9 @@ fn refuses_what_cannot_be_measured() {
     let far = f64::INFINITY;
     assert_eq!(ask(&[[0.0; 3], [far, 0.0, 0.0]], far), Err(QueryError::BadPoint(1)));
     assert_eq!(ask(&[[0.0, 1.1e60, 0.0]], far), Err(QueryError::BadPoint(0)));
+    assert_eq!(ask(&[[0.0, 1.0, 1e-50], [0.0, 1.0, -0.9e-50]], far), Err(QueryError::BadPoint(1)));
+    let tiny = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1e-51]], faces: vec![[0, 1, 2]] };
+    assert_eq!(Tree::build(&tiny).err(), Some(MeshError::BadVertex(2)));
     assert_eq!(ask(&[], far), Ok(vec![]));
     assert!(matches!(ask(&[], f64::NAN), Err(QueryError::BadMaxDistance(_))));
     assert_eq!(ask(&[], -1.0), Err(QueryError::BadMaxDistance(-1.0)));
@@ -226,4 +238,60 @@ fn tells_of_every_point_and_stops_when_asked() {
     tree.distances(&points, &Query::default(), &count).unwrap();
     assert_eq!(count.0.into_inner(), 30_000);
     assert_eq!(tree.distances(&points, &Query::default(), &Stop), Err(QueryError::Cancelled(Cancelled)));
+}
+
+/// A needle in the plane of x and y, with whole coordinates, turned and stretched ninefold by a matrix of whole numbers: all
+/// exact. Squared distances in the plane follow from whole numbers too.
+#[test]
+fn needles_keep_their_digits() {
+    type Flat = [i64; 2];
+    let cross = |o: Flat, a: Flat, b: Flat| {
+        let [u, v] = [a, b].map(|p| [p[0] - o[0], p[1] - o[1]].map(i128::from));
+        u[0] * v[1] - u[1] * v[0]
+    };
+    let dot = |o: Flat, a: Flat, b: Flat| {
+        let [u, v] = [a, b].map(|p| [p[0] - o[0], p[1] - o[1]].map(i128::from));
+        u[0] * v[0] + u[1] * v[1]
+    };
+    let edge = |p: Flat, a: Flat, b: Flat| {
+        let (along, length) = (dot(a, b, p), dot(a, b, b));
+        match along {
+            _ if along <= 0 => dot(a, p, p) as f64,
+            _ if along >= length => dot(b, p, p) as f64,
+            _ => (cross(a, b, p) as f64).powi(2) / length as f64,
+        }
+    };
+    let place = |[x, y]: Flat, z: i64| -> Point {
+        [[1, -8, 4], [4, 4, 7], [-8, 1, 4]].map(|row: [i64; 3]| (row[0] * x + row[1] * y + row[2] * z) as f64)
+    };
+    let d = &mut Dice(31);
+    let mut inside = 0;
+    for case in 0..20_000 {
+        let long = 1i64 << 44;
+        let wide = 1i64 << (d.bits() % 42);
+        let mut below = |n: i64| (d.bits() % n as u64) as i64;
+        let flat = [[0, 0], [long, below(3) * wide], [below(long), wide]];
+        let t = [0, 1, 2].map(|k| flat[(k + case) % 3]);
+        let (x, y) = (below(long), below(2 * wide) - wide / 2);
+        // Along the needle, and up with the width, the length, or not at all.
+        let up = [0, below(4 * wide), below(wide) / 1024, below(long)][case / 3 % 4];
+        let p = [x, y + (i128::from(x) * i128::from(flat[1][1] / 2) / i128::from(long)) as i64];
+        let turns = [cross(t[0], t[1], p), cross(t[1], t[2], p), cross(t[2], t[0], p)];
+        let within = turns.iter().all(|c| *c >= 0) || turns.iter().all(|c| *c <= 0);
+        let edges = [edge(p, t[0], t[1]), edge(p, t[1], t[2]), edge(p, t[2], t[0])];
+        let flat2 = if within { 0.0 } else { edges.into_iter().fold(f64::INFINITY, f64::min) };
+        let want = 9.0 * (flat2 + (up as f64).powi(2)).sqrt();
+        let mesh = Mesh { positions: t.map(|c| place(c, 0)).to_vec(), faces: vec![[0, 1, 2]] };
+        let (squared, _) = brute::closest(&mesh, &place(p, up));
+        let got = squared.sqrt();
+        // Distances to edges are differences of the whole length, after some ten roundings of it.
+        let limit = 16.0 * f64::EPSILON * 9.0 * long as f64;
+        assert!((got - want).abs() <= limit, "{case}: {got} {want}, width {wide} of {long}");
+        let found = Tree::build(&mesh).unwrap().closest(&place(p, up), f64::INFINITY).unwrap().unwrap();
+        assert_eq!(found.distance.to_bits(), got.to_bits(), "{case}");
+        let off = norm(minus(found.point, place(p, up)));
+        assert!((off - want).abs() <= 4.0 * limit, "{case}: {off} {want}");
+        inside += u32::from(within);
+    }
+    assert!(inside > 3000, "{inside}");
 }

@@ -66,7 +66,7 @@ fn the_smallest_circle_is_that_of_all_pairs_and_triples() {
     for seed in 0..20 {
         let points = Made { kind: Kind::Circle2, count: 14, share: 1.0, noise: 3.0, seed }.points();
         let fit = fitted(&points, Kind::Circle2, Method::MinimumCircumscribed).unwrap();
-        let crate::fit::Shape::Circle2 { radius, .. } = fit.shape else { panic!() };
+        let crate::shape::Shape::Circle2 { radius, .. } = fit.shape else { panic!() };
         let holds = |c: [f64; 2]| points.iter().map(|p| (p[0] - c[0]).hypot(p[1] - c[1])).fold(0.0, f64::max);
         let mut least = f64::INFINITY;
         for a in &points {

@@ -1,7 +1,7 @@
 //! Every answer of `corpus/reference_fits`.
 
 use super::{Fit, Kind, Method, Parameter, Shape, fitted};
-use crate::fit::Shape::{Cone, Cylinder, Line, Line2, Plane};
+use crate::shape::Shape::{Cone, Cylinder, Line, Line2, Plane};
 use crate::space::{Aabb, Point, cross, minus, norm};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -90,12 +90,8 @@ fn error(name: &str, reference: &[f64], fit: &Fit) -> f64 {
         ("point", Cylinder { point, direction, .. } | Cone { point, direction, .. }) => {
             norm(cross(minus(three(reference), *point), *direction))
         }
-        ("radius", Cone { point, direction, half_angle, radius, .. }) => {
-            // The reference's radius is at the foot of the mean, ours at the foot of the middle of the box: both
-            // say how far the axis point is from the surface.
-            let _ = (point, direction, half_angle, radius);
-            0.0
-        }
+        // Both at the foot of the mean: how far it is from the surface.
+        ("radius", Cone { half_angle, radius, .. }) => (radius - reference[0]).abs() * half_angle.cos(),
         _ => match found(name) {
             Some(Parameter::Number(x)) => (x - reference[0]).abs(),
             Some(Parameter::Vector(v)) => norm(minus(v, three(reference))),

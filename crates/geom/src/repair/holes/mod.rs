@@ -83,7 +83,10 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let trial = |ring| Trial { ring, way: 0, patch: None, facets: 0..0 };
     let mut trials: Vec<Trial> = Ring::all(&known).into_iter().map(trial).collect();
-    trials.iter_mut().for_each(|trial| propose(&Site { work, known: &known }, trial));
+    for trial in &mut trials {
+        work.go_on()?;
+        propose(&Site { work, known: &known }, trial);
+    }
     let (facets, vertices) = (work.mesh().faces.len() as u32, work.mesh().positions.len());
     while trials.iter().any(|trial| trial.patch.is_some()) {
         for trial in &mut trials {
@@ -99,7 +102,10 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
             break;
         }
         work.truncate(facets, vertices);
-        again.into_iter().for_each(|i| propose(&Site { work, known: &known }, &mut trials[i]));
+        for i in again {
+            work.go_on()?;
+            propose(&Site { work, known: &known }, &mut trials[i]);
+        }
     }
     for Trial { ring, patch, facets, .. } in &trials {
         if let Some(patch) = patch {

@@ -152,6 +152,36 @@ fn short_noisy_fillets_are_tori() {
     }
 }
 
+/// Every measured point of every piece of a region lies within the tolerance, and the greatest distance is that told: with
+/// little and much noise, tolerances found and given, of meshes and clouds.
+#[test]
+fn members_tolerance_and_greatest_distance_agree() {
+    let made = |which: usize| match which {
+        0 => turned(1.0, 72).moved(),
+        1 => turned(1.0, 72).moved().noisy(0.005, 5),
+        2 => turned(0.25, 40).moved().noisy(0.05, 5),
+        _ => bored(64).moved().noisy(0.02, 5),
+    };
+    for (which, tolerance) in (0..4).flat_map(|which| [None, Some(0.03)].map(|t| (which, t))) {
+        let part = made(which);
+        let options = Options { tolerance, ..Options::default() };
+        let of_mesh = mesh(&part.mesh, &options, &Silent).unwrap();
+        let of_cloud = cloud(&part.mesh.positions, &options, &Silent).unwrap();
+        for (found, is_mesh) in [(of_mesh, true), (of_cloud, false)] {
+            for (label, region) in (0u32..).zip(&found.regions) {
+                let members = (0..found.labels.len()).filter(|&i| found.labels[i] == label);
+                let corners = |i: usize| if is_mesh { part.mesh.faces[i].to_vec() } else { vec![i as u32] };
+                let points: Vec<u32> = members.clone().flat_map(corners).collect();
+                let distance = |&p: &u32| region.fit.shape.distance(part.mesh.positions[p as usize]).abs();
+                let farthest = points.iter().map(distance).fold(0.0, f64::max);
+                assert_eq!(members.count(), region.pieces);
+                assert!(farthest == region.farthest && farthest <= found.tolerance, "{farthest} {region:?}");
+                assert!(region.points.iter().all(|p| points.contains(p)));
+            }
+        }
+    }
+}
+
 /// At an edge a vertex is of both faces, and with noise of neither.
 #[test]
 fn elements_rest_on_points_inside_their_faces() {

@@ -3,10 +3,10 @@
 //! Moran's I (Biometrika 37, 1950) with the weights of a nearest-neighbour graph; its expectation and variance under
 //! random rearrangement of the values after Cliff and Ord, Spatial processes (1981).
 
-use crate::spatial::neighbours::PointTree;
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::normal_p;
 use crate::space::Point;
+use crate::spatial::neighbours::PointTree;
 use rayon::prelude::*;
 
 /// How to look.

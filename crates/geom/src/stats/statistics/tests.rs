@@ -1,7 +1,7 @@
 use super::*;
-use crate::stats::sketch::RELATIVE_ERROR;
 use crate::num::random::Random;
 use crate::num::sum::Sum;
+use crate::stats::sketch::RELATIVE_ERROR;
 
 fn sequence(count: usize) -> Vec<f64> {
     (0..count).map(|i| ((i * 7919) % 10007) as f64 / 1000.0 - 3.3).collect()
@@ -217,4 +217,23 @@ fn streamed_quantiles_keep_their_promise() {
         assert!((s.mad.unwrap() - k.mad.unwrap()).abs() <= 2.0 * RELATIVE_ERROR * largest);
         assert_eq!(s.std_dev, k.std_dev);
     }
+}
+
+/// Whole numbers far from zero: their central moments are known in whole numbers.
+#[test]
+fn far_from_zero_the_shape_keeps_its_digits() {
+    let random = &mut crate::num::random::Random::new(9);
+    let parts: Vec<i64> = (0..1 << 13).map(|_| (random.unit() * random.unit() * 16384.0) as i64).collect();
+    let values: Vec<f64> = parts.iter().map(|r| ((1i64 << 43) + r) as f64).collect();
+    let n = parts.len() as i128;
+    let sum: i128 = parts.iter().map(|r| i128::from(*r)).sum();
+    let central = |power: u32| {
+        let whole: i128 = parts.iter().map(|r| (n * i128::from(*r) - sum).pow(power)).sum();
+        whole as f64 / (n as f64).powi(power as i32 + 1)
+    };
+    let all = Summary::of(&values).all;
+    assert!(all.mean.unwrap() > 1e9 * all.std_dev.unwrap());
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-12 * b.abs();
+    assert!(near(all.skewness.unwrap(), central(3) / central(2).powf(1.5)), "{:?}", all.skewness);
+    assert!(near(all.kurtosis.unwrap() + 3.0, central(4) / central(2).powi(2)), "{:?}", all.kurtosis);
 }

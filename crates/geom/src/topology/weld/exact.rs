@@ -12,6 +12,7 @@ use super::bits::Bits;
 use super::error::{MOST_FACETS, WeldError};
 use crate::memory::{atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
+use crate::space::Point;
 use rayon::prelude::*;
 use std::sync::atomic::{
     AtomicU32, AtomicUsize,
@@ -246,6 +247,39 @@ fn number<P: Position>(item: &(impl Fn(usize) -> P + Sync), first: Vec<AtomicU32
         }
     });
     Mesh { positions, faces: triples(id) }
+}
+
+/// The mesh itself if its vertices are distinct places that facets use; else welded.
+pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
+    let welded = mesh(this)?.mesh;
+    Ok(if welded.positions.len() == this.positions.len() { this.clone() } else { welded })
+}
+
+/// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
+/// may have come to lie upon it.
+pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
+    let vertex_of = mesh(&of)?.vertex_of;
+    let mut first = vec![u32::MAX; of.positions.len()];
+    for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
+        let first = &mut first[*number as usize];
+        *first = v.min(*first);
+    }
+    of.faces.iter_mut().for_each(|f| *f = f.map(|v| first[vertex_of[v as usize] as usize]));
+    Ok(of)
+}
+
+/// Without those vertices beyond the first `keep` that no facet uses; the others keep their order.
+pub(crate) fn compact(mesh: Mesh, keep: usize) -> Mesh {
+    let mut number: Vec<u32> = vec![u32::MAX; mesh.positions.len()];
+    mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
+    let mut positions: Vec<Point> = vec![];
+    for (v, p) in mesh.positions.into_iter().enumerate() {
+        if v < keep || number[v] == 0 {
+            number[v] = positions.len() as u32;
+            positions.push(p);
+        }
+    }
+    Mesh { positions, faces: mesh.faces.iter().map(|f| f.map(|v| number[v as usize])).collect() }
 }
 
 #[cfg(test)]

@@ -6,6 +6,6 @@ mod exact;
 mod within;
 
 pub use error::{MOST_FACETS, WeldError};
-pub(crate) use exact::check_corners;
 pub use exact::{Position, Welded, corners, mesh};
+pub(crate) use exact::{as_it_is, check_corners, compact, rejoined};
 pub use within::within;

@@ -1,9 +1,10 @@
 //! The page of a check: sound or not, what the mesh is, and every kind of defect with its places.
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
+use super::super::page::blocks::{
+    Headline, Tone, fact, key_number, not_printed, pick_row, place_cells, section, swatch,
+};
 use super::{Head, Pick, Subject};
-use crate::results::InputRecord;
 use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
 use serde_json::Value;
@@ -23,10 +24,6 @@ impl Subject for CheckDocument {
             (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
             (false, _) => Headline { key: "not_sound", tone: Tone::Fail },
         }
-    }
-
-    fn role(&self, _: &InputRecord) -> &'static str {
-        "mesh"
     }
 
     fn picture(&self) -> &'static str {
@@ -89,6 +86,19 @@ impl Subject for CheckDocument {
 
     fn picks(&self) -> Vec<Pick> {
         picks(&self.found(), 0)
+    }
+
+    /// Errors before warnings, the largest first.
+    fn important(&self, picks: &[Pick]) -> Vec<usize> {
+        let kinds = self.found();
+        let errors = |(kind, d): &(&str, &Defects)| {
+            std::iter::repeat_n(d.severity == "error", listed(kind, d).len()).collect::<Vec<_>>()
+        };
+        let errors: Vec<bool> = kinds.iter().flat_map(errors).collect();
+        let size = |n: usize| picks[n].reach.unwrap_or(0.0);
+        let mut order: Vec<usize> = (0..picks.len().min(errors.len())).collect();
+        order.sort_by(|a, b| errors[*b].cmp(&errors[*a]).then(size(*b).total_cmp(&size(*a))));
+        order
     }
 
     fn json(&self) -> serde_json::Result<Value> {
@@ -162,6 +172,7 @@ pub fn kinds(h: &mut Html, found: &[(&str, &Defects)], first_pick: usize) {
         h.raw("<span class=\"kind-name\">").word(&format!("defect.{kind}")).raw("</span>");
         let severity = if defects.severity == "error" { "severity.error" } else { "severity.warning" };
         h.raw("<span class=\"severity\">").word(severity).raw("</span><strong>");
+        h.raw(if defects.at_least { "≥ " } else { "" });
         h.count(defects.count.unwrap_or(0)).raw("</strong></summary>\n");
         h.raw("<p class=\"note\">").word(&format!("about.{kind}")).raw("</p>");
         let rows = listed(kind, defects);
@@ -189,7 +200,8 @@ fn table(h: &mut Html, kind: &str, rows: &[(usize, &Item)], first: usize) {
     h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word(word);
     h.raw("</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>");
     for (n, (_, item)) in rows.iter().enumerate() {
-        h.raw(&format!("<tr data-pick=\"{}\"><td>{}</td><td class=\"r\">", first + n, n + 1));
+        pick_row(h, n, first + n);
+        h.raw(&format!("<td>{}</td><td class=\"r\">", n + 1));
         let decimals = match unit {
             "" => 0,
             _ if item.size > 0.0 && item.size < 0.1 => 6,
@@ -204,6 +216,7 @@ fn table(h: &mut Html, kind: &str, rows: &[(usize, &Item)], first: usize) {
         h.raw("</tr>");
     }
     h.raw("</tbody></table>");
+    not_printed(h, rows.len());
 }
 
 /// What was looked for and not found, and what was not looked for.
@@ -255,7 +268,7 @@ fn model(h: &mut Html, d: &CheckDocument) {
         };
     });
     fact(h, "gap", |h| {
-        h.text(&format!("{:.2e}", d.tolerances.gap)).raw("\u{a0}mm");
+        h.scientific(d.tolerances.gap, 2).raw("\u{a0}mm");
     });
     h.raw("</dl>");
 }

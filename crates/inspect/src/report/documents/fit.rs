@@ -208,7 +208,7 @@ fn row(h: &mut Html, name: &str, axis: &str, x: f64, uncertainty: Option<f64>, u
     h.number(x, decimals, false).raw(unit).raw("</td><td class=\"r\">");
     match uncertainty {
         Some(0.0) => h.raw("0"),
-        Some(u) if u < 0.5e-9 => h.text(&format!("{u:.0e}")),
+        Some(u) if u < 0.5e-9 => h.scientific(u, 0),
         u => h.optional(u, None, decimals, false),
     };
     h.raw("</td></tr>");

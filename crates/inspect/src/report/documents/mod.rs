@@ -7,7 +7,7 @@ mod repair;
 mod segment;
 
 use super::html::Html;
-use super::page::blocks::{Headline, role_key};
+use super::page::blocks::Headline;
 use crate::results::InputRecord;
 use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
@@ -64,10 +64,6 @@ pub trait Subject {
     fn head(&self) -> Head<'_>;
     /// The first word.
     fn headline(&self) -> Headline;
-    /// Key of what a file is called.
-    fn role(&self, input: &InputRecord) -> &'static str {
-        role_key(input.role)
-    }
     /// Key of a convention that every number on the page follows.
     fn convention(&self) -> Option<&'static str> {
         None
@@ -111,6 +107,16 @@ pub trait Subject {
     fn picks(&self) -> Vec<Pick> {
         vec![]
     }
+    /// Numbers of the picks that the first view should show, the most important first: those of the first map with the
+    /// greatest values.
+    fn important(&self, picks: &[Pick]) -> Vec<usize> {
+        let size = |n: &usize| picks[*n].value.unwrap_or(0.0).abs();
+        let mut valued: Vec<usize> = (0..picks.len())
+            .filter(|n| picks[*n].value.is_some() && picks[*n].map.unwrap_or(0) == 0)
+            .collect();
+        valued.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        valued
+    }
     /// The whole document.
     fn json(&self) -> serde_json::Result<Value>;
 }
@@ -134,6 +140,8 @@ pub struct Map<'a> {
 pub struct Pick {
     /// Where to look.
     pub position: Point,
+    /// The place of the reference that it was measured from.
+    pub surface: Option<Point>,
     /// Half the size of what to bring into view, millimetres; without it the view keeps its size.
     pub reach: Option<f64>,
     /// Which way the surface looks there.

@@ -1,11 +1,12 @@
 //! The page of a repair: what was changed and where, the mesh before and after, and what it cost.
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section, swatch};
+use super::super::page::blocks::{
+    Headline, Tone, fact, key_number, not_printed, pick_row, place_cells, section, swatch,
+};
 use super::{Head, Pick, Subject};
 use crate::repair::by_step;
-use crate::results::InputRecord;
-use crate::results::repair::{Distances, RepairDocument, State};
+use crate::results::repair::{Change, Distances, RepairDocument, State};
 use crate::scale::palette::category;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -24,12 +25,11 @@ impl Subject for RepairDocument {
         match (self.sound, self.change_count) {
             (true, 0) => Headline { key: "nothing_to_repair", tone: Tone::Pass },
             (true, _) => Headline { key: "repaired", tone: Tone::Pass },
+            (false, _) if self.after.sound && self.effect.changed => {
+                Headline { key: "closed_but_changed", tone: Tone::Fail }
+            }
             (false, _) => Headline { key: "not_repaired", tone: Tone::Fail },
         }
-    }
-
-    fn role(&self, _: &InputRecord) -> &'static str {
-        "mesh"
     }
 
     fn picture(&self) -> &'static str {
@@ -52,6 +52,12 @@ impl Subject for RepairDocument {
         if let Some(d) = &self.deviation {
             key_number(h, "deviation.introduced", "", |h| {
                 length(h, d.added.max.max(d.removed.max));
+            });
+        }
+        if let Some(change) = self.effect.volume_change {
+            let class = if self.effect.changed { "warn" } else { "" };
+            key_number(h, "volume.change", class, |h| {
+                h.number(change, 3, true).raw("\u{a0}mm³");
             });
         }
         let class = if self.output.sound == Some(false) { "warn" } else { "" };
@@ -97,6 +103,17 @@ impl Subject for RepairDocument {
         picks
     }
 
+    /// Those of the most facets.
+    fn important(&self, picks: &[Pick]) -> Vec<usize> {
+        let listed = |(_, changes): (_, Vec<&Change>)| {
+            changes.into_iter().take(LISTED).map(|c| c.facets).collect::<Vec<_>>()
+        };
+        let facets: Vec<u64> = by_step(self).into_iter().flat_map(listed).collect();
+        let mut order: Vec<usize> = (0..picks.len().min(facets.len())).collect();
+        order.sort_by_key(|n| std::cmp::Reverse(facets[*n]));
+        order
+    }
+
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
     }
@@ -130,7 +147,8 @@ fn changes(h: &mut Html, d: &RepairDocument) {
         );
         let rows = changes.len().min(LISTED);
         for (k, change) in changes.iter().take(rows).enumerate() {
-            h.raw(&format!("<tr data-pick=\"{}\"><td>", first + k));
+            pick_row(h, k, first + k);
+            h.raw("<td>");
             let name = if same { (k + 1).to_string() } else { change.what.clone() };
             h.text(&name).raw("</td><td class=\"r\">");
             h.count(change.facets).raw("</td>");
@@ -138,6 +156,7 @@ fn changes(h: &mut Html, d: &RepairDocument) {
             h.raw("</tr>");
         }
         h.raw("</tbody></table>");
+        not_printed(h, rows);
         if rows < changes.len() {
             h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(rows as u64).raw(" / ");
             h.count(changes.len() as u64).raw("</p>");
@@ -178,6 +197,9 @@ fn states(h: &mut Html, d: &RepairDocument) {
     row("shells", &|h, s| {
         h.count(s.shells);
     });
+    row("bodies", &|h, s| {
+        h.count(if std::ptr::eq(s, &d.before) { d.effect.bodies_before } else { d.effect.bodies_after });
+    });
     row("area.mm2", &|h, s| {
         h.number(s.area, 2, false);
     });
@@ -210,9 +232,21 @@ fn deviation(h: &mut Html, d: &RepairDocument) {
             h.raw("</small>");
         });
     }
+    if let Some(surface) = d.effect.surface {
+        fact(h, "surface.bounding", |h| {
+            h.raw("≤\u{a0}");
+            length(h, surface);
+        });
+    }
+    fact(h, "change.limit", |h| {
+        length(h, d.effect.surface_limit);
+        if let Some(limit) = d.effect.volume_limit {
+            h.raw(", ").number(limit, 3, false).raw("\u{a0}mm³");
+        }
+    });
     if d.output.rounded_vertices > 0 {
         fact(h, "file.rounding", |h| {
-            h.raw("≤\u{a0}").text(&format!("{:.1e}", d.output.rounding)).raw("\u{a0}mm");
+            h.raw("≤\u{a0}").scientific(d.output.rounding, 1).raw("\u{a0}mm");
         });
     }
     h.raw("</dl>");

@@ -92,7 +92,7 @@ impl Subject for SegmentDocument {
 /// A small length, however small.
 fn micro(h: &mut Html, length: f64) {
     if length > 0.0 && length < 5e-5 {
-        h.text(&format!("{length:.1e}"));
+        h.scientific(length, 1);
     } else {
         h.number(length, if length < 0.1 { 5 } else { 3 }, false);
     }

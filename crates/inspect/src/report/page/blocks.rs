@@ -119,26 +119,55 @@ pub fn place_cells(h: &mut Html, place: [f64; 3]) {
     }
 }
 
+/// Rows of a list of places that are printed; the screen has all that are listed.
+const PRINTED: usize = 12;
+
+/// Begins row `n` of a list of places, which leads to a pick.
+pub fn pick_row(h: &mut Html, n: usize, pick: usize) {
+    let class = if n < PRINTED { "" } else { " class=\"more\"" };
+    h.raw(&format!("<tr data-pick=\"{pick}\"{class}>"));
+}
+
+/// Says on paper how many of `rows` are not printed.
+pub fn not_printed(h: &mut Html, rows: usize) {
+    if rows > PRINTED {
+        h.raw("<p class=\"note paper\">+\u{a0}")
+            .count((rows - PRINTED) as u64)
+            .raw(" ")
+            .word("more.not_printed");
+        h.raw("</p>");
+    }
+}
+
 /// What a file is called on the page.
 pub fn role_key(role: Role) -> &'static str {
     match role {
         Role::Measured => "measured",
         Role::Reference => "reference",
+        Role::Mesh => "mesh",
     }
 }
 
 /// The files read.
-pub fn files(h: &mut Html, inputs: &[InputRecord], role: impl Fn(&InputRecord) -> &'static str) {
-    section(h, "files", |h| inputs.iter().for_each(|input| file(h, input, role(input))));
+pub fn files(h: &mut Html, inputs: &[InputRecord]) {
+    section(h, "files", |h| inputs.iter().for_each(|input| file(h, input)));
 }
 
-fn file(h: &mut Html, input: &InputRecord, role: &str) {
+fn file(h: &mut Html, input: &InputRecord) {
+    let role = role_key(input.role);
     h.raw(&format!("<div class=\"file\"><p><span class=\"chip {role}\"><i></i>")).word(role).raw("</span> ");
     h.name(&input.path).raw("</p><p class=\"note\">").text(&input.format).raw(" · ").count(input.bytes);
     let what = if input.facets.is_some() { "vertices" } else { "points" };
     h.raw("\u{a0}B · ").count(input.points).raw(" ").word(what);
     if let Some(facets) = input.facets {
         h.raw(" · ").count(facets).raw(" ").word("facets");
+    }
+    if let Some(b) = &input.bounds {
+        h.raw(" · ");
+        for k in 0..3 {
+            h.raw(if k > 0 { "\u{2009}×\u{2009}" } else { "" }).number(b.max[k] - b.min[k], 3, false);
+        }
+        h.raw("\u{a0}mm");
     }
     h.raw(" · ").word("unit_assumed").raw(" ").text(&input.unit_assumed).raw("</p>");
     match &input.sha256 {

@@ -2,28 +2,38 @@
 
 use super::super::html::{Html, json};
 use super::super::payload::Payload;
+use super::super::picture::FirstView;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// Values of the distribution that the script interpolates shares of a range from.
 const QUANTILES: usize = 2000;
 
 /// Writes the data elements.
-pub fn data(h: &mut Html, input: &ReportInput, payload: &Payload) -> Result<(), ReportError> {
+pub fn data(
+    h: &mut Html,
+    input: &ReportInput,
+    payload: &Payload,
+    first: &FirstView,
+) -> Result<(), ReportError> {
     let subject = input.result.subject();
     let manifest = json!({
         "schema": "trueness/view/1",
         "language": input.options.language.code(),
         "decimal": input.options.decimal,
         "up": if input.options.up == Up::Y { "y" } else { "z" },
-        "facing": subject.facing(),
+        "first": {
+            "toward": first.toward,
+            "places": first.places.iter().map(|(n, _)| n).collect::<Vec<_>>(),
+        },
         "scale": subject.scale(),
         "quantity": subject.quantity(),
         "palettes": subject.scale().map(palettes),
         "maps": maps(input),
-        "picks": picks(input),
+        "picks": picks(input, first),
         "objects": payload.objects,
         "simplified": payload.simplified,
         "display_error": payload.display_error,
@@ -49,11 +59,11 @@ fn maps(input: &ReportInput) -> Value {
 }
 
 /// The places of the list, in the order of its rows.
-fn picks(input: &ReportInput) -> Value {
+fn picks(input: &ReportInput, first: &FirstView) -> Value {
     let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
-    let all = input.result.subject().picks().into_iter().map(|p| {
+    let all = input.result.subject().picks().into_iter().zip(&first.off).map(|(p, off)| {
         json!({
-            "position": p.position, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
+            "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
             "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
         })
     });
@@ -86,7 +96,7 @@ fn quantiles(input: &ReportInput, map: usize) -> Vec<f64> {
         .filter_map(|o| o.field(map))
         .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
         .collect();
-    sorted.sort_unstable_by(f64::total_cmp);
+    sorted.par_sort_unstable_by(f64::total_cmp);
     let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
     let steps = QUANTILES.min(last.max(1));
     (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()

@@ -34,7 +34,7 @@ pub fn figure(h: &mut Html, scale: &Scale, histogram: Option<&Histogram>, [_, hi
 
 /// From deviation to place along the axis; the caps take what is beyond the scale.
 fn axis(scale: &Scale) -> impl Fn(f64) -> f64 + use<> {
-    let (lower, upper) = (scale.lower, scale.upper);
+    let [lower, upper] = scale.ends();
     let (from, to) = (LEFT + CAP, RIGHT - CAP);
     move |d| from + (d - lower) / (upper - lower) * (to - from)
 }
@@ -42,9 +42,10 @@ fn axis(scale: &Scale) -> impl Fn(f64) -> f64 + use<> {
 /// Bars within the scale, each in the colour of its middle; what lies beyond stands as one share at each end.
 fn bars(h: &mut Html, histogram: Option<&Histogram>, scale: &Scale, at: &impl Fn(f64) -> f64) {
     let Some(histogram) = histogram else { return };
+    let [lower, upper] = scale.ends();
     let greatest = histogram.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
     for (edges, count) in histogram.edges.windows(2).zip(&histogram.counts) {
-        let (from, to) = (edges[0].max(scale.lower), edges[1].min(scale.upper));
+        let (from, to) = (edges[0].max(lower), edges[1].min(upper));
         if *count == 0 || from >= to {
             continue;
         }
@@ -76,7 +77,8 @@ fn strip(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
 fn ticks(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
     let zone = scale.tolerance.unwrap_or([f64::NAN; 2]);
     let mut limits = scale.limits();
-    limits.sort_by_key(|l| (!zone.contains(l), *l != scale.lower && *l != scale.upper));
+    limits.dedup();
+    limits.sort_by_key(|l| (!zone.contains(l), !scale.ends().contains(l)));
     let mut written: Vec<f64> = vec![];
     for limit in limits {
         let x = at(limit);

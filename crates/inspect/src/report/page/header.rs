@@ -3,7 +3,8 @@
 use super::super::ReportInput;
 use super::super::html::Html;
 use super::super::payload::Payload;
-use super::blocks::{badge, file_name};
+use super::blocks::{badge, file_name, role_key};
+use crate::results::Role;
 
 /// The heading: the title given, else the part's name, else the first file's.
 pub fn title(input: &ReportInput) -> String {
@@ -19,14 +20,7 @@ pub fn header(h: &mut Html, input: &ReportInput) {
     h.raw(&format!("<header class=\"header h-{}\">\n<div class=\"row\"><h1>", headline.tone.name()));
     badge(h, headline);
     h.raw("</h1><p class=\"title\">").name(&title(input)).raw("</p><p class=\"who\">");
-    for (n, file) in subject.head().inputs.iter().enumerate() {
-        let role = subject.role(file);
-        if n > 0 {
-            h.raw("<span class=\"to\" aria-hidden=\"true\">↔</span>");
-        }
-        h.raw(&format!("<span class=\"chip {role}\"><i></i>")).word(role).raw(" ");
-        h.name(file_name(&file.path)).raw("</span>");
-    }
+    who(h, input);
     h.raw("</p><p class=\"unit\">").text(subject.head().units);
     if let Some(key) = subject.convention() {
         h.raw(" · ").word(key);
@@ -36,6 +30,31 @@ pub fn header(h: &mut Html, input: &ReportInput) {
     h.raw("<div id=\"numbers\" class=\"numbers\">");
     subject.numbers(h);
     h.raw("</div>\n</header>\n");
+}
+
+/// The files and what they are. Of several references that of the comparison on the stage, and how many there are.
+fn who(h: &mut Html, input: &ReportInput) {
+    let subject = input.result.subject();
+    let files = subject.head().inputs;
+    let references = files.iter().filter(|f| f.role == Role::Reference).count();
+    let several = references > 1;
+    let mut number = 0;
+    for (n, file) in files.iter().enumerate() {
+        let role = role_key(file.role);
+        let one_of = several && file.role == Role::Reference;
+        if n > 0 && !(one_of && number > 0) {
+            h.raw("<span class=\"to\" aria-hidden=\"true\">↔</span>");
+        }
+        let comparison = if one_of { format!(" data-comparison=\"{number}\"") } else { String::new() };
+        let hidden = if one_of && number > 0 { " hidden" } else { "" };
+        h.raw(&format!("<span class=\"chip {role}\"{comparison}{hidden}><i></i>")).word(role).raw(" ");
+        h.name(file_name(&file.path));
+        if one_of {
+            number += 1;
+            h.raw(&format!("<span class=\"of\">{number} / {references}</span>"));
+        }
+        h.raw("</span>");
+    }
 }
 
 fn identification(h: &mut Html, input: &ReportInput) {

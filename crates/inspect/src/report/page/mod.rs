@@ -3,32 +3,48 @@
 pub mod blocks;
 mod data;
 mod figure;
+mod flags;
 mod header;
 mod policy;
 
-use super::html::Html;
+use super::html::{Html, escaped};
 use super::number::Style;
 use super::payload::Payload;
+use super::picture::FirstView;
 use super::{ReportError, ReportInput};
 
-/// The page around the payload and the picture (base64 of a PNG).
-pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<String, ReportError> {
+/// The stored picture.
+pub struct Picture {
+    /// Base64 of a PNG.
+    pub png: String,
+    /// What it shows.
+    pub view: FirstView,
+}
+
+/// The page around the payload and the picture.
+pub fn page(input: &ReportInput, payload: &Payload, picture: &Picture) -> Result<String, ReportError> {
     let (options, subject) = (input.options, input.result.subject());
     let mut h = Html::new(Style { language: options.language, decimal: options.decimal });
     h.raw("<!doctype html>\n<html lang=\"")
         .raw(options.language.code())
         .raw("\">\n<head>\n<meta charset=\"utf-8\">\n");
-    h.raw(&policy::meta())
+    let title = header::title(input);
+    let running =
+        policy::running_head(&[Some(title.as_str()), options.part.as_deref(), options.serial.as_deref()]);
+    h.raw(&policy::meta(&running))
         .raw("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    h.raw("<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"referrer\" content=\"no-referrer\">\n<title>");
-    h.text(&format!("{} · {}", subject.headline().word_in(options.language), header::title(input)));
-    h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n</head>\n");
+    h.raw("<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"referrer\" content=\"no-referrer\">\n");
+    let headline = subject.headline();
+    h.raw(&format!("<title data-word=\"verdict.{}\" data-name=\"{}\">", headline.key, escaped(&title)));
+    h.text(&format!("{} · {title}", headline.word_in(options.language)));
+    h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n");
+    h.raw("<style>").raw(&running).raw("</style>\n</head>\n");
     let scale = subject.scale();
     h.raw(if scale.is_some() { "<body>\n" } else { "<body class=\"no-scale\">\n" });
     header::header(&mut h, input);
     h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
     subject.list(&mut h);
-    blocks::files(&mut h, subject.head().inputs, |input| subject.role(input));
+    blocks::files(&mut h, subject.head().inputs);
     blocks::section(&mut h, "method", |h| {
         subject.method(h);
         h.raw("<p class=\"note\">trueness ").text(subject.head().version).raw(" · ");
@@ -45,7 +61,7 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<Str
     }
     h.raw("</main>\n");
     header::status(&mut h, input, payload);
-    data::data(&mut h, input, payload)?;
+    data::data(&mut h, input, payload, &picture.view)?;
     if trueness_viewer::BUILT {
         h.raw("<script>").raw(trueness_viewer::SCRIPT).raw("</script>\n");
     }
@@ -54,11 +70,15 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &str) -> Result<Str
 }
 
 /// The stored picture and the distribution under it; the script draws over the one and redraws the other.
-fn stage(h: &mut Html, input: &ReportInput, picture: &str) {
+fn stage(h: &mut Html, input: &ReportInput, picture: &Picture) {
     let subject = input.result.subject();
     h.raw("<section id=\"stage\" class=\"stage\">\n<img id=\"picture\" class=\"picture\" alt=\"");
     h.text(super::text::word(subject.picture(), input.options.language));
-    h.raw("\" src=\"data:image/png;base64,").raw(picture).raw("\">\n</section>\n");
+    h.raw(&format!("\" data-t-alt=\"{}\" src=\"data:image/png;base64,", subject.picture()));
+    h.raw(&picture.png).raw("\">\n");
+    flags::flags(h, &subject.picks(), &picture.view, subject.scale());
+    flags::hidden(h, &picture.view);
+    h.raw("</section>\n");
     if let Some(scale) = subject.scale() {
         h.raw("<figure id=\"figure\" class=\"figure\">");
         let histogram = subject.maps().first().and_then(|m| m.histogram);

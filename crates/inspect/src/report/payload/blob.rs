@@ -1,14 +1,41 @@
 //! Bytes on their way into the page: gzip without time or name, then base64. The same bytes every time.
 
-use flate2::{Compression, write::GzEncoder};
-use std::io::Write;
+use zlib_rs::{DeflateConfig, Strategy, compress_bound, compress_slice};
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+/// What deflate says for the longest window, and that the frame be gzip's (RFC 1952).
+const GZIP: i32 = 15 + 16;
+/// Bytes that the frame takes.
+const FRAME: usize = 64;
 
-/// Gzip of `bytes`. Writing to memory cannot fail; if it did the blob would be empty, which the page reports.
-pub fn gzip(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = GzEncoder::new(vec![], Compression::new(8));
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default()
+/// What bytes are like, which decides where deflate looks for repetitions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Differences from a prediction: noise and runs of one value. Looking for anything but runs takes thirty times as long and
+    /// makes more bytes.
+    Differences,
+    /// Codes in which the same sequences come again.
+    Code,
+}
+
+/// Gzip of `bytes`. There is room for whatever comes out; if there was not the blob would be empty, which the page reports.
+pub fn gzip(bytes: &[u8], kind: Kind) -> Vec<u8> {
+    let strategy = if kind == Kind::Differences { Strategy::Rle } else { Strategy::Default };
+    packed(bytes, DeflateConfig { window_bits: GZIP, strategy, ..DeflateConfig::new(6) })
+}
+
+/// Zlib stream (RFC 1950) of `bytes`.
+pub fn zlib(bytes: &[u8]) -> Vec<u8> {
+    packed(bytes, DeflateConfig::new(6))
+}
+
+fn packed(bytes: &[u8], config: DeflateConfig) -> Vec<u8> {
+    let mut room = vec![0; compress_bound(bytes.len()) + FRAME];
+    let (out, code) = compress_slice(&mut room, bytes, config);
+    // 0 is what zlib calls OK.
+    let length = if code as i32 == 0 { out.len() } else { 0 };
+    room.truncate(length);
+    room
 }
 
 /// Base64 with padding (RFC 4648).
@@ -46,10 +73,15 @@ mod tests {
     #[test]
     fn gzip_has_no_time_and_comes_back() {
         let bytes: Vec<u8> = (0..10_000u32).map(|i| (i * i % 251) as u8).collect();
-        let packed = gzip(&bytes);
-        assert_eq!(packed[4..8], [0; 4]);
+        for kind in [Kind::Differences, Kind::Code] {
+            let packed = gzip(&bytes, kind);
+            assert_eq!(packed[4..8], [0; 4]);
+            let mut back = vec![];
+            flate2::read::GzDecoder::new(&packed[..]).read_to_end(&mut back).unwrap();
+            assert_eq!(back, bytes);
+        }
         let mut back = vec![];
-        flate2::read::GzDecoder::new(&packed[..]).read_to_end(&mut back).unwrap();
+        flate2::read::ZlibDecoder::new(&zlib(&bytes)[..]).read_to_end(&mut back).unwrap();
         assert_eq!(back, bytes);
     }
 }

@@ -1,9 +1,11 @@
 //! Marks as blobs: their places on a grid, and for each triangle, line and dot the number of its mark.
 
 use super::super::marks::{Mark, Marks};
+use super::blob::Kind;
 use super::grid::Grid;
 use super::planes::pack;
 use super::{Payload, hex};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use trueness_geom::space::Aabb;
 
@@ -25,7 +27,7 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
     let positions: Vec<u8> = (0..3)
         .flat_map(|k| {
             let at = |i: usize| i32::from(all[i][k]);
-            pack((0..all.len()).map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 }), all.len(), 2)
+            pack((0..all.len()).into_par_iter().map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 }), 2)
         })
         .collect();
     let counts: [fn(&Mark) -> usize; 3] = [|m| m.triangles.len(), |m| m.segments.len(), |m| m.points.len()];
@@ -33,8 +35,9 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         .iter()
         .flat_map(|count| last_first.iter().flat_map(|(n, m)| std::iter::repeat_n(*n, count(m))))
         .collect();
-    let steps = (0..numbers.len()).map(|i| numbers[i] - if i > 0 { numbers[i - 1] } else { 0 });
-    let numbers = pack(steps, numbers.len(), 3);
+    let steps =
+        (0..numbers.len()).into_par_iter().map(|i| numbers[i] - if i > 0 { numbers[i - 1] } else { 0 });
+    let numbers = pack(steps, 3);
     let total = |count: fn(&Mark) -> usize| marks.items().map(count).sum::<usize>();
     let groups: Vec<Value> = marks
         .groups
@@ -45,7 +48,7 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         "role": marks.role, "kind": "marks", "vertices": all.len(), "origin": grid.origin, "step": grid.step,
         "shown": marks.comparison.is_none(), "comparison": marks.comparison, "first": first, "groups": groups, "triangles": total(counts[0]),
         "segments": total(counts[1]), "points": total(counts[2]),
-        "positions": {"blob": part.add(&positions)}, "items": {"blob": part.add(&numbers)},
+        "positions": {"blob": part.add(&positions, Kind::Differences)}, "items": {"blob": part.add(&numbers, Kind::Differences)},
     })
 }
 

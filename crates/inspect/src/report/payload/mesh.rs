@@ -1,12 +1,16 @@
 //! A mesh and its deviations as blobs.
 
+use super::super::ReportError;
 use super::field::{Codes, NoValue};
 use super::grid::Grid;
+use super::order;
 use super::planes::pack;
 use super::predict::{Rule, rules};
-use meshopt::{SimplifyOptions, VertexDataAdapter};
+use super::simplify::Places;
+use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Aabb, Point};
+use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::space::Point;
 
 /// Triangles of the coarser levels, where the mesh has clearly more.
 const LEVELS: [usize; 3] = [600_000, 150_000, 40_000];
@@ -23,59 +27,77 @@ pub struct Ordered {
     pub error: f64,
 }
 
+/// What may be left out of a mesh, and what not.
+pub struct Wanted<'a> {
+    /// Vertices that stay.
+    pub keep: &'a [u32],
+    /// Triangles at most.
+    pub limit: usize,
+    /// Vertices at the same place may become one.
+    pub join: bool,
+}
+
 impl Ordered {
-    /// Takes the drawable triangles of a mesh: all corners exist, are finite and differ. Equal places become one vertex.
-    /// Where that leaves more than `limit` triangles, edges are collapsed onto existing vertices; those in `keep` stay.
-    pub fn of(mesh: &Mesh, keep: &[u32], limit: usize) -> Ordered {
-        // Without a sign on zero, equal places have equal bits.
-        let places: Vec<Point> = mesh.positions.iter().map(|p| p.map(|x| x + 0.0)).collect();
-        let drawable = |f: &&[u32; 3]| {
-            f.iter().all(|c| places.get(*c as usize).is_some_and(|p| p.iter().all(|x| x.is_finite())))
-        };
-        let corners: Vec<u32> = mesh.faces.iter().filter(drawable).flatten().copied().collect();
-        let (count, one) = meshopt::generate_vertex_remap(&places, Some(&corners));
-        let mut source = vec![u32::MAX; count];
-        for (old, new) in (0u32..).zip(&one) {
-            if let Some(slot) = source.get_mut(*new as usize) {
-                *slot = old.min(*slot);
-            }
-        }
-        let positions: Vec<Point> = source.iter().map(|s| places[*s as usize]).collect();
-        let mut corners: Vec<u32> = corners
-            .chunks_exact(3)
-            .map(|t| [0, 1, 2].map(|k| one[t[k] as usize]))
+    /// Takes the drawable triangles of a mesh: all corners exist, are finite and differ. Where there are more than the limit,
+    /// edges are collapsed onto existing vertices.
+    pub fn of(mesh: &Mesh, wanted: &Wanted, progress: &dyn Progress) -> Result<Ordered, Cancelled> {
+        let one =
+            if wanted.join { joined(&mesh.positions) } else { (0..mesh.positions.len() as u32).collect() };
+        let finite =
+            |c: &u32| mesh.positions.get(*c as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
+        let drawable = |f: &&[u32; 3]| f.iter().all(finite);
+        let mut corners: Vec<u32> = mesh
+            .faces
+            .par_iter()
+            .filter(drawable)
+            .map(|f| f.map(|v| one[v as usize]))
             .filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-            .flatten()
+            .flatten_iter()
             .collect();
         let mut error = 0.0;
-        if corners.len() / 3 > limit {
-            let locked: Vec<u32> = keep.iter().filter_map(|k| one.get(*k as usize).copied()).collect();
-            (corners, error) = collapse(&corners, &positions, &locked, limit);
+        if corners.len() / 3 > wanted.limit {
+            let mut locks = vec![false; mesh.positions.len()];
+            for v in wanted.keep.iter().filter_map(|k| one.get(*k as usize)) {
+                locks[*v as usize] = true;
+            }
+            let places = Places::of(&mesh.positions);
+            (corners, error) = places.simplify(&corners, &locks, wanted.limit, progress)?;
         }
-        Ordered::from_corners(corners, positions, source, error)
+        Ok(Ordered::from_corners(&order::for_cache(&corners, progress)?, &mesh.positions, error))
     }
 
-    /// Brings triangles into an order that uses few vertices at a time, and numbers the vertices as they are first used.
-    fn from_corners(corners: Vec<u32>, positions: Vec<Point>, source: Vec<u32>, error: f64) -> Ordered {
-        let corners = meshopt::optimize_vertex_cache(&corners, positions.len());
+    /// Numbers the vertices as they are first used.
+    fn from_corners(corners: &[u32], positions: &[Point], error: f64) -> Ordered {
         let mut number = vec![u32::MAX; positions.len()];
-        let mut old_of = vec![];
+        let mut source = vec![];
         let mut renumbered = Vec::with_capacity(corners.len());
-        for &old in &corners {
+        for &old in corners {
             let number = &mut number[old as usize];
             if *number == u32::MAX {
-                *number = old_of.len() as u32;
-                old_of.push(old as usize);
+                *number = source.len() as u32;
+                source.push(old);
             }
             renumbered.push(*number);
         }
         Ordered {
             triangles: triples(&renumbered),
-            positions: old_of.iter().map(|o| positions[*o]).collect(),
-            source: old_of.iter().map(|o| source[*o]).collect(),
+            positions: source.iter().map(|o| positions[*o as usize]).collect(),
+            source,
             error,
         }
     }
+}
+
+/// For each vertex the lowest one at the same place; −0 is 0.
+fn joined(positions: &[Point]) -> Vec<u32> {
+    let key = |v: &u32| positions[*v as usize].map(|x| (x + 0.0).to_bits());
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.par_sort_unstable_by_key(|v| (key(v), *v));
+    let mut one = vec![0; positions.len()];
+    for group in order.chunk_by(|a, b| key(a) == key(b)) {
+        group.iter().for_each(|v| one[*v as usize] = group[0]);
+    }
+    one
 }
 
 /// A mesh as bytes, before compression.
@@ -84,79 +106,66 @@ pub struct MeshBytes {
     pub triangles: Vec<u8>,
     /// Differences from the prediction, x then y then z.
     pub positions: Vec<u8>,
-    /// Coarser index lists over the same vertices: code, triangles, error in millimetres.
-    pub levels: Vec<(Vec<u8>, usize, f64)>,
     rules: Vec<Rule>,
 }
 
 impl MeshBytes {
-    /// Encodes triangles, positions on `grid`, and the coarser levels.
-    pub fn of(mesh: &Ordered, grid: &Grid) -> Result<MeshBytes, meshopt::Error> {
+    /// Encodes triangles and positions on `grid`.
+    pub fn of(mesh: &Ordered, grid: &Grid) -> Result<MeshBytes, ReportError> {
         let (code, read) = triangle_code(&flat(&mesh.triangles), mesh.positions.len())?;
         let rules = rules(&read, mesh.positions.len());
-        let places: Vec<[u16; 3]> = mesh.positions.iter().map(|p| grid.place(p)).collect();
-        let mut positions = vec![];
-        for k in 0..3 {
+        let places: Vec<[u16; 3]> = mesh.positions.par_iter().map(|p| grid.place(p)).collect();
+        let coordinate = |k: usize| {
             let at = |v: u32| i32::from(places[v as usize][k]);
-            let differences = rules.iter().zip(0..).map(|(rule, v)| at(v) - rule.position(at));
-            positions.extend(pack(differences, places.len(), 2));
-        }
-        let mut levels = vec![];
-        for target in LEVELS.into_iter().filter(|t| 10 * t < 7 * mesh.triangles.len()) {
-            let (corners, error) = collapse(&flat(&mesh.triangles), &mesh.positions, &[], target);
-            let corners = meshopt::optimize_vertex_cache(&corners, mesh.positions.len());
-            levels.push((triangle_code(&corners, mesh.positions.len())?.0, corners.len() / 3, error));
-        }
-        Ok(MeshBytes { triangles: code, positions, levels, rules })
+            pack(rules.par_iter().enumerate().map(|(v, rule)| at(v as u32) - rule.position(at)), 2)
+        };
+        let positions = [0, 1, 2].map(coordinate).concat();
+        Ok(MeshBytes { triangles: code, positions, rules })
     }
 
     /// Encodes one deviation a vertex, in this mesh's order.
-    pub fn field(&self, codes: &Codes, value: impl Fn(u32) -> (f64, NoValue)) -> Vec<u8> {
+    pub fn field(&self, codes: &Codes, value: impl Fn(u32) -> (f64, NoValue) + Sync) -> Vec<u8> {
         let all: Vec<i32> = (0..self.rules.len() as u32)
+            .into_par_iter()
             .map(|v| {
                 let (d, reason) = value(v);
                 codes.code(d, reason)
             })
             .collect();
         let at = |v: u32| all[v as usize];
-        pack(
-            self.rules.iter().zip(0..).map(|(rule, v)| at(v).wrapping_sub(rule.value(at))),
-            all.len(),
-            codes.bytes,
-        )
+        let differences =
+            self.rules.par_iter().enumerate().map(|(v, rule)| at(v as u32).wrapping_sub(rule.value(at)));
+        pack(differences, codes.bytes)
     }
 }
 
-/// The code, and the triangles as a reader gets them back (each may start at another corner).
-fn triangle_code(corners: &[u32], vertices: usize) -> Result<(Vec<u8>, Vec<[u32; 3]>), meshopt::Error> {
-    let code = meshopt::encode_index_buffer(corners, vertices)?;
-    let read = meshopt::decode_index_buffer::<u32>(&code, corners.len())?;
-    Ok((code, triples(&read)))
+/// Triangles of the levels that a mesh gets.
+pub fn level_sizes(triangles: usize) -> impl Iterator<Item = usize> {
+    LEVELS.into_iter().filter(move |t| 10 * t < 7 * triangles)
 }
 
-/// Collapses edges until at most about `triangles` are left. The error is in millimetres.
-fn collapse(corners: &[u32], positions: &[Point], locked: &[u32], triangles: usize) -> (Vec<u32>, f64) {
-    let bounds = Aabb::of(positions);
-    // Single precision only after the corner of the box is taken off.
-    let near: Vec<[f32; 3]> =
-        positions.iter().map(|p| std::array::from_fn(|k| (p[k] - bounds.min[k]) as f32)).collect();
-    let Ok(vertices) = VertexDataAdapter::new(meshopt::typed_to_bytes(&near), 12, 0) else {
-        return (corners.to_vec(), 0.0);
-    };
-    let mut locks = vec![false; positions.len()];
-    locked.iter().for_each(|v| locks[*v as usize] = true);
-    let mut error = 0.0f32;
-    let options = SimplifyOptions::ErrorAbsolute;
-    let left = meshopt::simplify_with_locks(
-        corners,
-        &vertices,
-        &locks,
-        3 * triangles,
-        f32::MAX,
-        options,
-        Some(&mut error),
-    );
-    (left, f64::from(error))
+/// Coarser index lists over the same vertices, each made from the one before: code, triangles, error in millimetres.
+pub fn levels(mesh: &Ordered, progress: &dyn Progress) -> Result<Vec<(Vec<u8>, usize, f64)>, ReportError> {
+    let places = Places::of(&mesh.positions);
+    let locks = vec![false; mesh.positions.len()];
+    let (mut corners, mut error) = (flat(&mesh.triangles), 0.0);
+    let mut levels = vec![];
+    for target in level_sizes(mesh.triangles.len()) {
+        let (left, more) = places.simplify(&corners, &locks, target, progress)?;
+        error += more;
+        corners = order::for_cache(&left, progress)?;
+        let (code, _) = triangle_code(&corners, mesh.positions.len())?;
+        levels.push((code, corners.len() / 3, error));
+    }
+    Ok(levels)
+}
+
+/// The code, and the triangles as a reader gets them back (each may start at another corner).
+fn triangle_code(corners: &[u32], vertices: usize) -> Result<(Vec<u8>, Vec<[u32; 3]>), ReportError> {
+    let failed = |e: meshopt::Error| ReportError::Encoding(e.to_string());
+    let code = meshopt::encode_index_buffer(corners, vertices).map_err(failed)?;
+    let read = meshopt::decode_index_buffer::<u32>(&code, corners.len()).map_err(failed)?;
+    Ok((code, triples(&read)))
 }
 
 fn flat(triangles: &[[u32; 3]]) -> Vec<u32> {
@@ -170,6 +179,8 @@ fn triples(corners: &[u32]) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trueness_geom::progress::Silent;
+    use trueness_geom::space::Aabb;
 
     /// A wavy sheet of `n` × `n` squares, some vertices doubled, some faces broken.
     fn sheet(n: u32) -> Mesh {
@@ -199,7 +210,8 @@ mod tests {
     #[test]
     fn positions_and_values_come_back() {
         let mesh = sheet(40);
-        let ordered = Ordered::of(&mesh, &[], usize::MAX);
+        let ordered =
+            Ordered::of(&mesh, &Wanted { keep: &[], limit: usize::MAX, join: true }, &Silent).unwrap();
         assert_eq!((ordered.positions.len(), ordered.triangles.len()), (41 * 41, 2 * 40 * 40));
         let grid = Grid::over(&Aabb::of(&ordered.positions), 16);
         let bytes = MeshBytes::of(&ordered, &grid).unwrap();
@@ -227,7 +239,8 @@ mod tests {
     #[test]
     fn collapsing_keeps_what_must_stay() {
         let mesh = sheet(60);
-        let ordered = Ordered::of(&mesh, &[1234], 1000);
+        let ordered =
+            Ordered::of(&mesh, &Wanted { keep: &[1234], limit: 1000, join: true }, &Silent).unwrap();
         assert!(ordered.triangles.len() <= 1100 && ordered.error > 0.0, "{}", ordered.triangles.len());
         assert!(ordered.positions.contains(&mesh.positions[1234]));
     }

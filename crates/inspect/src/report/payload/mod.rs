@@ -6,30 +6,37 @@
 
 mod blob;
 mod field;
+mod gather;
 mod grid;
 mod marks;
 mod mesh;
+mod order;
 mod planes;
 mod points;
 mod predict;
+mod simplify;
 
-pub use blob::base64;
+pub use blob::{base64, zlib};
 pub use field::NoValue;
 
 use super::marks::Marks;
 use super::picture::first_view;
 use super::{Geometry, ReportError, ViewObject, ViewRole};
 use crate::scale::palette::Rgb;
+use blob::Kind;
 use field::Codes;
 use grid::Grid;
-use mesh::{MeshBytes, Ordered};
+use mesh::{MeshBytes, Ordered, Wanted};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
 /// The worst points of each field are kept however much is left out.
 const KEPT: usize = 200;
+/// Bytes of base64 that a triangle of a coarser level takes.
+const LEVEL_BYTES: usize = 2;
 /// Points drawn at most: more change nothing that can be seen, and the file is for looking.
 const MOST_POINTS: usize = 1_000_000;
 
@@ -54,8 +61,8 @@ impl Payload {
         self.blobs.iter().map(String::len).sum()
     }
 
-    fn add(&mut self, bytes: &[u8]) -> usize {
-        self.blobs.push(base64(&blob::gzip(bytes)));
+    fn add(&mut self, bytes: &[u8], kind: Kind) -> usize {
+        self.blobs.push(base64(&blob::gzip(bytes, kind)));
         self.blobs.len() - 1
     }
 }
@@ -68,19 +75,105 @@ struct Quality {
     bits: u32,
 }
 
-/// Packs all objects into at most `budget` bytes of base64, as far as that can be done.
-///
-/// First everything is kept; then positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
-/// `range` is what the deviations are looked at in: the width of the tolerance zone or of the scale.
-pub fn pack(
-    objects: &[ViewObject],
-    marks: &[Marks],
-    range: f64,
-    budget: usize,
-) -> Result<Payload, ReportError> {
-    let marks = pack_all_marks(objects, marks);
-    let budget = budget.saturating_sub(marks.len());
-    Ok(join(pack_objects(objects, range, budget)?, marks))
+/// What objects are packed for.
+#[derive(Clone, Copy)]
+pub struct Purpose<'a> {
+    /// What the deviations are looked at in, millimetres: the width of the tolerance zone or of the scale.
+    pub range: f64,
+    /// The tolerance, by which the worst of several points is told.
+    pub zone: Option<[f64; 2]>,
+    /// Hears of places, and is asked whether to go on.
+    pub progress: &'a dyn Progress,
+}
+
+/// All objects in full, before it is known how much room there is.
+pub struct Full {
+    packed: Vec<Packed>,
+    quality: Quality,
+}
+
+/// An object as blobs, without the coarser levels of a mesh.
+struct Packed {
+    part: Payload,
+    mesh: Option<Ordered>,
+}
+
+/// Packs everything, nothing left out but points that cannot be told apart.
+pub fn pack(objects: &[ViewObject], purpose: &Purpose) -> Result<Full, ReportError> {
+    let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
+    let points =
+        objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
+    let quality = Quality { points, triangles, bits: 16 };
+    Ok(Full { packed: pack_at(objects, purpose, quality)?, quality })
+}
+
+impl Full {
+    /// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
+    ///
+    /// First everything is kept; then positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
+    pub fn within(
+        self,
+        budget: usize,
+        objects: &[ViewObject],
+        marks: &[Marks],
+        purpose: &Purpose,
+    ) -> Result<Payload, ReportError> {
+        let marks = pack_all_marks(objects, marks);
+        let budget = budget.saturating_sub(marks.len());
+        let Full { mut packed, mut quality } = self;
+        loop {
+            let least = quality.points <= 1000 && quality.triangles <= 1000;
+            let expected: usize = packed.iter().map(Packed::expected).sum();
+            let mut share = budget as f64 / expected.max(1) as f64;
+            if share >= 1.0 || least {
+                let payload = with_levels(packed, purpose)?;
+                share = budget as f64 / payload.len().max(1) as f64;
+                if share >= 1.0 || least {
+                    purpose.progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
+                    return Ok(join(payload, marks));
+                }
+            }
+            if quality.bits == 16 && share > 0.85 && objects.iter().all(|o| coarse_grid_is_fine(o)) {
+                quality.bits = 14;
+            } else {
+                let less = |n: usize| (n as f64 * share * 0.96) as usize;
+                quality =
+                    Quality { points: less(quality.points), triangles: less(quality.triangles), ..quality };
+            }
+            packed = pack_at(objects, purpose, quality)?;
+        }
+    }
+}
+
+impl Packed {
+    /// Bytes of base64, with what the levels will probably take.
+    fn expected(&self) -> usize {
+        let triangles = self.mesh.as_ref().map_or(0, |m| m.triangles.len());
+        self.part.len() + mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES
+    }
+}
+
+/// Adds the coarser levels of meshes, and puts all together.
+fn with_levels(packed: Vec<Packed>, purpose: &Purpose) -> Result<Payload, ReportError> {
+    let add = |Packed { mut part, mesh }: Packed| {
+        let levels = mesh.map_or(Ok(vec![]), |m| mesh::levels(&m, purpose.progress))?;
+        let blobs: Vec<String> =
+            levels.par_iter().map(|(code, ..)| base64(&blob::gzip(code, Kind::Code))).collect();
+        let entries: Vec<Value> = levels
+            .iter()
+            .zip(part.blobs.len()..)
+            .map(
+                |((_, triangles, error), blob)| json!({"triangles": triangles, "error": error, "blob": blob}),
+            )
+            .collect();
+        part.blobs.extend(blobs);
+        if !entries.is_empty() {
+            part.objects[0]["levels"] = entries.into();
+        }
+        Ok(part)
+    };
+    let parts: Vec<Payload> = packed.into_par_iter().map(add).collect::<Result<_, ReportError>>()?;
+    Ok(parts.into_iter().fold(Payload::default(), join))
 }
 
 /// Marks are few and are never thinned out. Their objects' numbers follow those of the others.
@@ -105,27 +198,6 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("{r:02x}{g:02x}{b:02x}")
 }
 
-fn pack_objects(objects: &[ViewObject], range: f64, budget: usize) -> Result<Payload, ReportError> {
-    let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
-    let points =
-        objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
-    let mut quality = Quality { points, triangles, bits: 16 };
-    loop {
-        let payload = pack_at(objects, range, quality)?;
-        let share = budget as f64 / payload.len().max(1) as f64;
-        let least = quality.points <= 1000 && quality.triangles <= 1000;
-        if share >= 1.0 || least {
-            return Ok(payload);
-        }
-        if quality.bits == 16 && share > 0.85 && objects.iter().all(|o| coarse_grid_is_fine(o)) {
-            quality.bits = 14;
-        } else {
-            let less = |n: usize| (n as f64 * share * 0.96) as usize;
-            quality = Quality { points: less(quality.points), triangles: less(quality.triangles), ..quality };
-        }
-    }
-}
-
 /// 14 bits do while their step is at most an eighth of the median edge.
 fn coarse_grid_is_fine(object: &ViewObject) -> bool {
     let Some(mesh) = object.mesh() else { return true };
@@ -141,24 +213,23 @@ fn coarse_grid_is_fine(object: &ViewObject) -> bool {
     Grid::over(&mesh.bounds(), 14).step <= median / 8.0
 }
 
-fn pack_at(objects: &[ViewObject], range: f64, quality: Quality) -> Result<Payload, ReportError> {
+fn pack_at(objects: &[ViewObject], purpose: &Purpose, quality: Quality) -> Result<Vec<Packed>, ReportError> {
     let shown = first_view(objects);
-    let parts: Vec<Payload> = objects
-        .par_iter()
-        .enumerate()
-        .map(|(id, object)| {
-            let mut part = Payload::default();
-            let entry = match object.geometry {
-                Geometry::Mesh(mesh) => pack_mesh(&mut part, object, mesh, range, quality)?,
-                Geometry::Points(points) => pack_points(&mut part, object, points, range, quality),
-            };
-            part.objects.push(entry);
-            part.objects[0]["id"] = json!(id);
-            part.objects[0]["shown"] = json!(shown.contains(&id));
-            Ok(part)
-        })
-        .collect::<Result<_, ReportError>>()?;
-    Ok(parts.into_iter().fold(Payload::default(), join))
+    let one = |(id, object): (usize, &ViewObject)| {
+        let mut part = Payload::default();
+        let (entry, mesh) = match object.geometry {
+            Geometry::Mesh(mesh) => {
+                let (entry, ordered) = pack_mesh(&mut part, object, mesh, purpose, quality)?;
+                (entry, Some(ordered))
+            }
+            Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
+        };
+        part.objects.push(entry);
+        part.objects[0]["id"] = json!(id);
+        part.objects[0]["shown"] = json!(shown.contains(&id));
+        Ok(Packed { part, mesh })
+    };
+    objects.par_iter().enumerate().map(one).collect()
 }
 
 /// Appends a part, whose blobs get later numbers.
@@ -194,77 +265,92 @@ fn pack_mesh(
     part: &mut Payload,
     object: &ViewObject,
     mesh: &Mesh,
-    range: f64,
+    purpose: &Purpose,
     quality: Quality,
-) -> Result<Value, ReportError> {
-    let ordered = Ordered::of(mesh, &worst(object), quality.triangles.max(4));
+) -> Result<(Value, Ordered), ReportError> {
+    let keep = kept(object);
+    // Places that show gathered points lie together on purpose where faces meet.
+    let wanted = Wanted { keep: &keep, limit: quality.triangles.max(4), join: object.gathered.is_none() };
+    let ordered = Ordered::of(mesh, &wanted, purpose.progress)?;
     let grid = Grid::over(&Aabb::of(&ordered.positions), quality.bits);
-    let bytes = MeshBytes::of(&ordered, &grid).map_err(|e| ReportError::Encoding(e.to_string()))?;
+    let bytes = MeshBytes::of(&ordered, &grid)?;
+    if purpose.progress.cancelled() {
+        return Err(Cancelled.into());
+    }
     part.simplified = ordered.error > 0.0;
     part.display_error = ordered.error + grid.error();
-    let levels: Vec<Value> = bytes
-        .levels
-        .iter()
-        .map(|(code, triangles, error)| json!({"triangles": triangles, "error": error, "blob": part.add(code)}))
-        .collect();
-    let triangles = json!({"blob": part.add(&bytes.triangles)});
-    let positions = json!({"blob": part.add(&bytes.positions)});
-    let fields: Vec<Value> = object
-        .fields
-        .iter()
-        .map(|field| {
-            let codes = Codes::for_values(field.values, range);
-            let packed = bytes.field(&codes, |v| field.at(ordered.source[v as usize] as usize));
-            field_entry(field.comparison, &codes, part.add(&packed))
-        })
-        .collect();
-    Ok(entry(
+    let triangles = json!({"blob": part.add(&bytes.triangles, Kind::Code)});
+    let positions = json!({"blob": part.add(&bytes.positions, Kind::Differences)});
+    let mut reach = object.gathered.map(|g| g.reach);
+    let owners = reach.filter(|_| part.simplified).map(|r| {
+        let owners = gather::owners(mesh, &ordered.source);
+        reach = Some(r + gather::farthest(mesh, &owners));
+        owners
+    });
+    let mut fields = vec![];
+    for field in &object.fields {
+        let codes = Codes::for_values(field.values, purpose.range);
+        let worst = owners.as_ref().map(|owners| gather::worst(field.values, owners, purpose.zone));
+        let at = |v: usize| match &worst {
+            Some(worst) => (worst[v], field.at(v).1),
+            None => field.at(v),
+        };
+        let packed = bytes.field(&codes, |v| at(ordered.source[v as usize] as usize));
+        fields.push(field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences)));
+    }
+    let entry = entry(
         object,
         "mesh",
         &grid,
-        (ordered.positions.len(), mesh.positions.len()),
+        (ordered.positions.len(), object.gathered.map_or(mesh.positions.len(), |g| g.vertices)),
         json!({
-            "triangles": ordered.triangles.len(), "source_triangles": mesh.faces.len(),
-            "corners": triangles, "positions": positions, "levels": levels, "fields": fields,
+            "triangles": ordered.triangles.len(), "source_triangles": mesh.faces.len(), "reach": reach,
+            "corners": triangles, "positions": positions, "levels": [], "fields": fields,
             "display_error": part.display_error,
         }),
-    ))
+    );
+    Ok((entry, ordered))
 }
 
 fn pack_points(
     part: &mut Payload,
     object: &ViewObject,
     points: &[Point],
-    range: f64,
+    purpose: &Purpose,
     quality: Quality,
-) -> Value {
+) -> Result<Value, ReportError> {
     let finite: Vec<u32> =
         (0u32..).zip(points).filter(|(_, p)| p.iter().all(|x| x.is_finite())).map(|(i, _)| i).collect();
     let grid = Grid::over(&Aabb::of(finite.iter().map(|i| &points[*i as usize])), quality.bits);
     let places: Vec<[u16; 3]> = finite.iter().map(|i| grid.place(&points[*i as usize])).collect();
     let worst: Vec<u32> =
-        worst(object).iter().filter_map(|w| finite.binary_search(w).ok()).map(|i| i as u32).collect();
+        kept(object).iter().filter_map(|w| finite.binary_search(w).ok()).map(|i| i as u32).collect();
     let levels = points::levels(&places, &worst, quality.points);
     let count = levels.order.len();
+    if purpose.progress.cancelled() {
+        return Err(Cancelled.into());
+    }
     let positions: Vec<u8> = (0..3)
         .flat_map(|k| {
             let at = |i: usize| i32::from(places[levels.order[i] as usize][k]);
-            let differences = (0..count).map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 });
-            planes::pack(differences, count, 2)
+            let differences = (0..count).into_par_iter().map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 });
+            planes::pack(differences, 2)
         })
         .collect();
-    let positions = json!({"blob": part.add(&positions)});
+    let positions = json!({"blob": part.add(&positions, Kind::Differences)});
     let fields: Vec<Value> = object
         .fields
         .iter()
         .map(|field| {
-            let codes = Codes::for_values(field.values, range);
+            let codes = Codes::for_values(field.values, purpose.range);
             let at = |i: usize| {
                 let (value, reason) = field.at(finite[levels.order[i] as usize] as usize);
                 codes.code(value, reason)
             };
-            let differences = (0..count).map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
-            field_entry(field.comparison, &codes, part.add(&planes::pack(differences, count, codes.bytes)))
+            let differences =
+                (0..count).into_par_iter().map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
+            let packed = planes::pack(differences, codes.bytes);
+            field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences))
         })
         .collect();
     part.display_error = grid.error();
@@ -272,7 +358,7 @@ fn pack_points(
         part.points = (count, points.len());
     }
     let ends: Vec<Value> = levels.ends.iter().map(|e| json!({"points": e})).collect();
-    entry(
+    Ok(entry(
         object,
         "points",
         &grid,
@@ -280,7 +366,7 @@ fn pack_points(
         json!({
             "positions": positions, "levels": ends, "fields": fields, "display_error": part.display_error,
         }),
-    )
+    ))
 }
 
 fn entry(object: &ViewObject, kind: &str, grid: &Grid, (shown, given): (usize, usize), rest: Value) -> Value {
@@ -302,9 +388,9 @@ fn field_entry(comparison: usize, codes: &Codes, blob: usize) -> Value {
     })
 }
 
-/// The points or vertices with the greatest deviations, over all fields.
-fn worst(object: &ViewObject) -> Vec<u32> {
-    let mut worst: Vec<u32> = vec![];
+/// The points or vertices with the greatest deviations, over all fields, and those that the result names.
+fn kept(object: &ViewObject) -> Vec<u32> {
+    let mut worst: Vec<u32> = object.keep.to_vec();
     for field in &object.fields {
         let size = |i: &u32| field.values[*i as usize].abs();
         let mut finite: Vec<u32> =

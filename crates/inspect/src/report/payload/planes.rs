@@ -1,13 +1,12 @@
 //! Integers near their prediction as bytes that compress well.
 
+use rayon::prelude::*;
+
 /// The differences `value - prediction` modulo 2^(8·`width`), folded so that small ones of either sign are small
 /// (0, −1, 1, −2 → 0, 1, 2, 3), as `width` planes of bytes, the lowest first.
-pub fn pack(differences: impl Iterator<Item = i32> + Clone, count: usize, width: usize) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(count * width);
-    for plane in 0..width {
-        bytes.extend(differences.clone().map(|d| (fold(d, width) >> (8 * plane)) as u8));
-    }
-    bytes
+pub fn pack(differences: impl IndexedParallelIterator<Item = i32>, width: usize) -> Vec<u8> {
+    let folded: Vec<u32> = differences.map(|d| fold(d, width)).collect();
+    (0..width).flat_map(|plane| folded.iter().map(move |d| (d >> (8 * plane)) as u8)).collect()
 }
 
 fn fold(difference: i32, width: usize) -> u32 {
@@ -30,6 +29,6 @@ mod tests {
 
     #[test]
     fn planes_lie_one_after_the_other() {
-        assert_eq!(pack([1, 256, -1].into_iter(), 3, 2), [2, 0, 1, 0, 2, 0]);
+        assert_eq!(pack([1, 256, -1].into_par_iter(), 2), [2, 0, 1, 0, 2, 0]);
     }
 }

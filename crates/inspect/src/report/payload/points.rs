@@ -2,6 +2,8 @@
 //!
 //! Stopping after any level leaves an even subsample, so a level of detail is no more than a number of points.
 
+use rayon::prelude::*;
+
 /// Points of the first level.
 const COARSEST: usize = 2048;
 
@@ -16,7 +18,7 @@ pub struct Levels {
 /// Orders at most `limit` of the points, evenly chosen along the curve. Those in `keep` are among them, and come first.
 pub fn levels(places: &[[u16; 3]], keep: &[u32], limit: usize) -> Levels {
     let mut curve: Vec<(u64, u32)> = places.iter().zip(0..).map(|(q, i)| (morton(q), i)).collect();
-    curve.sort_unstable();
+    curve.par_sort_unstable();
     let mut taken = vec![false; places.len()];
     let mut order: Vec<u32> = keep.iter().copied().filter(|k| (*k as usize) < places.len()).collect();
     order.iter().for_each(|k| taken[*k as usize] = true);
@@ -45,7 +47,7 @@ pub fn levels(places: &[[u16; 3]], keep: &[u32], limit: usize) -> Levels {
 }
 
 /// Bits of the three coordinates interleaved.
-fn morton(q: &[u16; 3]) -> u64 {
+pub fn morton(q: &[u16; 3]) -> u64 {
     (0..3).fold(0, |key, k| key | spread(q[k]) << k)
 }
 

@@ -1,13 +1,18 @@
-//! The first view: isometric, orthographic, the part in the middle.
+//! The first view: orthographic, the part in the middle.
 
 use super::super::Up;
-use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, plus, times, unit};
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, unit};
 
 /// Share of the picture's smaller side that the part fills at most.
 const FILL: f64 = 0.86;
 
-/// Cosine of the angle beyond which a surface is too oblique to be seen well.
-const SEEN: f64 = 0.35;
+/// The model's axis that points up on the screen, and the way its front looks.
+pub fn vertical_and_front(up: Up) -> (Vector, Vector) {
+    match up {
+        Up::Z => ([0.0, 0.0, 1.0], [0.0, -1.0, 0.0]),
+        Up::Y => ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+    }
+}
 
 /// Orthographic projection to pixels.
 pub struct Camera {
@@ -21,33 +26,24 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Looks at `places` from the right, the front and above; at a surface that looks along `facing` and would hardly be
-    /// seen so, from its side and above.
+    /// Looks at `places` from `toward`, the vertical upright, leaving `margin` pixels free on the left and on the right.
     pub fn first_view<'a>(
         places: impl Iterator<Item = &'a Point>,
         up: Up,
-        facing: Option<Vector>,
-        width: u32,
-        height: u32,
+        toward: Vector,
+        [width, height, margin]: [u32; 3],
     ) -> Camera {
-        let (front, vertical) = match up {
-            Up::Z => ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
-            Up::Y => ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
-        };
-        let along = |v: Vector, otherwise: Vector| unit(v).map_or(otherwise, |(v, _)| v);
-        let corner = along(plus(plus([1.0, 0.0, 0.0], front), vertical), vertical);
+        let (vertical, _) = vertical_and_front(up);
         let across = [vertical[1], vertical[2], vertical[0]];
-        let toward = match facing.filter(|n| dot(corner, *n) <= SEEN) {
-            Some(n) => along(plus(plus(times(1.6, n), vertical), times(0.4, across)), corner),
-            None => corner,
-        };
+        let along = |v: Vector, otherwise: Vector| unit(v).map_or(otherwise, |(v, _)| v);
         let right = along(cross(vertical, toward), across);
         let up = cross(toward, right);
         let flat = places.map(|p| [dot(*p, right), dot(*p, up), 0.0]).collect::<Vec<_>>();
         let bounds = Aabb::of(&flat);
         let [w, h, _] = if bounds.is_empty() { [1.0; 3] } else { bounds.sides() };
         let size = [f64::from(width), f64::from(height)];
-        let scale = FILL * (size[0] / w.max(1e-300)).min(size[1] / h.max(1e-300)).min(1e300);
+        let free = f64::from(width.saturating_sub(2 * margin).max(width / 3));
+        let scale = FILL * (free / w.max(1e-300)).min(size[1] / h.max(1e-300)).min(1e300);
         let middle = |k: usize| if bounds.is_empty() { 0.0 } else { 0.5 * (bounds.min[k] + bounds.max[k]) };
         Camera { right, up, toward, center: [middle(0), middle(1)], scale, size }
     }

@@ -3,15 +3,17 @@
 //! A plain software rasteriser. Like the script's, it colours each pixel from the value interpolated there.
 
 mod camera;
+mod direction;
 mod overlay;
 mod png;
 
-use super::marks::Marks;
+use super::documents::Pick;
 use super::{Geometry, ReportInput, ViewObject, ViewRole};
 use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use camera::Camera;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, unit};
 
 const WIDTH: u32 = 1200;
@@ -20,20 +22,34 @@ const HEIGHT: u32 = 900;
 const FINE: u32 = 2;
 /// Least brightness of a surface seen edge-on.
 const DARKEST: f64 = 0.72;
-/// Cosine of the angle beyond which a facet keeps its own normal.
-const SHARP: f64 = 0.866;
+/// Room for the flags on the left and on the right, where there are any.
+const FLAGS: u32 = 170;
+/// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
+/// a crease: the facet then keeps its own normal throughout.
+const CREASE: f64 = 0.965_925_826_289_068_3;
 
-/// Numbers of the objects that the first view shows: the measured mesh with its map, else the reference that carries the
-/// map of the first comparison, else the measured points over the plain reference. Of other things, all but what was there
-/// before a repair.
+/// So many times more points than vertices make a reference far coarser than the points.
+const FAR_COARSER: usize = 4;
+/// Fewer points than these hardly look like the part.
+const FEW: usize = 2000;
+
+/// Numbers of the objects that the first view shows: the measured mesh with its map; of a cloud the points, if there are enough
+/// of them and the reference is far coarser, else the reference that carries the map of the first comparison, else the points
+/// over the plain reference. Of other things, all but what was there before a repair.
 pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let mapped = |role| {
         let fits = |o: &&ViewObject| o.role == role && o.mesh().is_some() && o.field(0).is_some();
-        objects.iter().any(|o| fits(&o))
+        objects.iter().find(fits)
     };
-    let (measured, reference) = (mapped(ViewRole::Measured), mapped(ViewRole::Reference));
+    let points = objects.iter().filter(|o| o.role == ViewRole::Measured).filter_map(|o| o.points());
+    let points = points.map(<[Point]>::len).sum::<usize>();
+    let reference = mapped(ViewRole::Reference);
+    let coarse = reference.is_some_and(|r| {
+        points >= FEW.max(FAR_COARSER * r.gathered.map_or(r.places().len(), |g| g.vertices))
+    });
+    let measured = mapped(ViewRole::Measured).is_some() || coarse;
     let shown = |o: &ViewObject| match o.role {
-        ViewRole::Measured => measured || !reference,
+        ViewRole::Measured => measured || reference.is_none(),
         ViewRole::Reference => !measured && (o.comparison.unwrap_or(0) == 0),
         ViewRole::Before => false,
         _ => true,
@@ -41,17 +57,56 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     (0..).zip(objects).filter(|(_, o)| shown(o)).map(|(n, _)| n).collect()
 }
 
-/// The first view of a report as a PNG on a transparent ground.
-pub fn png(input: &ReportInput) -> Vec<u8> {
-    let (objects, subject) = (input.objects, input.result.subject());
-    let scale = subject.scale();
-    let shown: Vec<&ViewObject> = first_view(objects).into_iter().map(|n| &objects[n]).collect();
-    let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-    let places = shown.iter().flat_map(|o| o.places()).filter(finite);
-    let (width, height) = (FINE * WIDTH, FINE * HEIGHT);
-    let camera = Camera::first_view(places, input.options.up, subject.facing(), width, height);
-    let mut canvas = Canvas::new(width, height);
-    for object in shown {
+/// The objects that the first view shows.
+fn shown_objects<'a>(objects: &'a [ViewObject<'a>]) -> Vec<&'a ViewObject<'a>> {
+    first_view(objects).into_iter().map(|n| &objects[n]).collect()
+}
+
+/// How the report is looked at first: the direction, and where the picks lie in the stored picture.
+pub struct FirstView {
+    /// From the part to the eye, of length 1.
+    pub toward: Vector,
+    /// The picks that it was chosen for, most important first, and whether each is hidden.
+    pub places: Vec<(usize, bool)>,
+    /// For each pick, whether it lies so far off that it is not on the part.
+    pub off: Vec<bool>,
+    camera: Camera,
+}
+
+impl FirstView {
+    /// Of a report with these picks.
+    pub fn of(input: &ReportInput, picks: &[Pick]) -> FirstView {
+        let direction::Direction { toward, places, off } = direction::direction(input, picks);
+        let shown = shown_objects(input.objects);
+        let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
+        let flagged = |n: &usize| picks[*n].value.is_some() && picks[*n].map.unwrap_or(0) == 0;
+        let beside = (0..picks.len()).filter(|n| off[*n] && flagged(n)).map(|n| &picks[n].position);
+        let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
+        let margin = if (0..picks.len()).any(|n| flagged(&n)) { FLAGS } else { 0 };
+        let camera =
+            Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
+        FirstView { toward, places, off, camera }
+    }
+
+    /// Width and height of the picture in pixels.
+    pub const SIZE: [u32; 2] = [WIDTH, HEIGHT];
+
+    /// Where a place lies in the picture, pixels from the top left.
+    pub fn pixel(&self, place: &Point) -> [f64; 2] {
+        let [x, y, _] = self.camera.project(place);
+        [x, y].map(|x| x / f64::from(FINE))
+    }
+}
+
+/// Places drawn between two questions whether to go on.
+const TASK: usize = 1 << 13;
+
+/// The first view of a report as a PNG on a transparent ground. `progress` hears of the places of all objects.
+pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Result<Vec<u8>, Cancelled> {
+    let (objects, camera) = (input.objects, &view.camera);
+    let scale = input.result.subject().scale();
+    let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
+    for object in shown_objects(objects) {
         let paint = Paint {
             base: object.color(),
             values: object.field(0).map(|f| f.values).zip(scale.map(Colors::of)),
@@ -59,17 +114,19 @@ pub fn png(input: &ReportInput) -> Vec<u8> {
         match object.geometry {
             // Translucent things are there as their outlines, which are marks.
             Geometry::Mesh(_) if object.role == ViewRole::Element => {}
-            Geometry::Mesh(mesh) => canvas.mesh(mesh, &paint, &camera),
-            Geometry::Points(points) => canvas.points(points, &paint, &camera),
+            Geometry::Mesh(mesh) => canvas.mesh(mesh, &paint, camera, progress)?,
+            Geometry::Points(points) => canvas.points(points, &paint, camera, progress)?,
         }
     }
-    let first = input.marks.iter().filter(|m| m.comparison.is_none());
-    let all: Vec<_> = first.flat_map(Marks::colored).collect();
+    progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
     // The first marks lie over the others.
-    for (mark, color) in all.into_iter().rev() {
-        overlay::draw(&mut canvas, mark, color, &camera);
+    for marks in input.marks.iter().filter(|m| m.comparison.is_none()).rev() {
+        let all: Vec<_> = marks.colored().collect();
+        for (mark, color) in all.into_iter().rev() {
+            overlay::draw(&mut canvas, mark, color, camera, marks.role.shows_through());
+        }
     }
-    png::encode(WIDTH, HEIGHT, &canvas.reduced())
+    Ok(png::encode(WIDTH, HEIGHT, &canvas.reduced()))
 }
 
 /// What an object is coloured by: its values where it has some, else its own colour.
@@ -108,18 +165,28 @@ impl Canvas {
     }
 
     /// Triangles with a missing or non-finite corner are passed over; one without all three values is drawn as no value.
-    fn mesh(&mut self, mesh: &Mesh, paint: &Paint, camera: &Camera) {
+    fn mesh(
+        &mut self,
+        mesh: &Mesh,
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let normals = smooth_normals(mesh);
-        for face in &mesh.faces {
+        for (n, face) in mesh.faces.iter().enumerate() {
+            if n % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
             let corner =
                 |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
             let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
             let Some((facet, _)) = unit(cross(minus(*b, *a), minus(*c, *a))) else { continue };
             let at = [a, b, c].map(|p| camera.project(p));
-            let light = face.map(|v| {
-                let n = normals[v as usize];
-                dot(if dot(n, facet) < SHARP { facet } else { n }, camera.toward).abs()
-            });
+            // A facet on a crease is as flat in the picture as it is.
+            let smooth = face.map(|v| normals[v as usize]);
+            let smooth = smooth.map(|n| n.filter(|n| dot(*n, facet) > 0.0));
+            let smooth = if smooth.iter().all(Option::is_some) { smooth } else { [None; 3] };
+            let light = smooth.map(|n| dot(n.unwrap_or(facet), camera.toward).abs());
             let value = paint.values.as_ref().map(|(v, table)| (face.map(|i| v[i as usize]), table));
             self.each_sample(&at, |canvas, x, y, depth, w| {
                 let mix = |x: &[f64; 3]| (0..3).map(|k| w[k] * x[k]).sum::<f64>();
@@ -129,6 +196,7 @@ impl Canvas {
                 });
             });
         }
+        Ok(())
     }
 
     /// Calls `put` with place, depth and barycentric coordinates for every sample that a triangle covers.
@@ -173,10 +241,19 @@ impl Canvas {
     }
 
     /// Round dots.
-    fn points(&mut self, points: &[Point], paint: &Paint, camera: &Camera) {
+    fn points(
+        &mut self,
+        points: &[Point],
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         // Few points are drawn large enough to be seen.
         let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 16.0);
         for (i, p) in points.iter().enumerate() {
+            if i % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
             let [x, y, z] = camera.project(p);
             if !(x.is_finite() && y.is_finite()) {
                 continue;
@@ -184,6 +261,7 @@ impl Canvas {
             let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
             self.disc([x, y], radius, |canvas, x, y| canvas.put(x, y, z as f32, || color));
         }
+        Ok(())
     }
 
     /// One pixel from `FINE`² samples; opacity is the share covered.
@@ -227,16 +305,30 @@ impl Colors<'_> {
     }
 }
 
-/// Area-weighted; zero where the facets around cancel out.
-fn smooth_normals(mesh: &Mesh) -> Vec<Vector> {
+/// Area-weighted; none on creases, and where the facets around cancel out.
+fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
     let mut sums = vec![[0.0; 3]; mesh.positions.len()];
+    let normal = |face: &[u32; 3]| {
+        let corner =
+            |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
+        let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
+        Some(cross(minus(*b, *a), minus(*c, *a)))
+    };
     for face in &mesh.faces {
-        let corner = |k: usize| mesh.positions.get(face[k] as usize).copied();
-        let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
-        let n = cross(minus(b, a), minus(c, a));
+        let Some(n) = normal(face) else { continue };
         face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], n));
     }
-    sums.into_iter().map(|n| unit(n).map_or([0.0; 3], |(n, _)| n)).collect()
+    let mut normals: Vec<Option<Vector>> = sums.into_iter().map(|n| unit(n).map(|(n, _)| n)).collect();
+    let means = normals.clone();
+    for face in &mesh.faces {
+        let Some((n, _)) = normal(face).and_then(unit) else { continue };
+        for v in face.map(|v| v as usize) {
+            if means[v].is_some_and(|mean| dot(mean, n) < CREASE) {
+                normals[v] = None;
+            }
+        }
+    }
+    normals
 }
 
 /// Diffuse light from the eye.

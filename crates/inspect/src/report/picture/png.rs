@@ -1,7 +1,7 @@
 //! PNG (RFC 2083), true colour with opacity, eight bits.
 
-use flate2::{Compression, Crc, write::ZlibEncoder};
-use std::io::Write;
+use super::super::payload::zlib;
+use zlib_rs::crc32::crc32;
 
 /// Encodes `width` × `height` pixels of red, green, blue, opacity, row by row from the top.
 pub fn encode(width: u32, height: u32, pixels: &[[u8; 4]]) -> Vec<u8> {
@@ -13,8 +13,7 @@ pub fn encode(width: u32, height: u32, pixels: &[[u8; 4]]) -> Vec<u8> {
         rows.extend(row.iter().zip(&above).flat_map(|(p, a)| [0, 1, 2, 3].map(|k| p[k].wrapping_sub(a[k]))));
         above.copy_from_slice(row);
     }
-    let mut zlib = ZlibEncoder::new(vec![], Compression::new(8));
-    let packed = zlib.write_all(&rows).and_then(|()| zlib.finish()).unwrap_or_default();
+    let packed = zlib(&rows);
     let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
     header.extend([8, 6, 0, 0, 0]);
     let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
@@ -25,11 +24,8 @@ pub fn encode(width: u32, height: u32, pixels: &[[u8; 4]]) -> Vec<u8> {
 }
 
 fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) {
-    let mut crc = Crc::new();
-    crc.update(kind);
-    crc.update(data);
     file.extend((data.len() as u32).to_be_bytes());
     file.extend(kind);
     file.extend(data);
-    file.extend(crc.sum().to_be_bytes());
+    file.extend(crc32(crc32(0, kind), data).to_be_bytes());
 }

@@ -19,10 +19,11 @@ export function scaleColumn(state: State, words: Words): void {
   need('figure').replaceChildren(lying, ends)
 
   let drawing: Drawing
+  let lyingDrawing: Drawing
   const draw = () => {
     const box = area.getBoundingClientRect()
     drawing = drawScale(chart, state, words, Math.max(80, Math.round(box.height)), Math.max(100, Math.round(box.width)), true)
-    drawScale(lying, state, words, 760, 130, false)
+    lyingDrawing = drawScale(lying, state, words, 760, 130, false)
   }
   const [quantity, highEnd, lowEnd] = state.manifest.quantity
   const say = () => {
@@ -47,7 +48,10 @@ export function scaleColumn(state: State, words: Words): void {
   }
   brush(chart, state, () => drawing)
   new ResizeObserver(draw).observe(area)
-  state.listen((what) => (what === 'hover' || what === 'look' ? draw() : update()))
+  state.listen((what) => {
+    if (what === 'hover') for (const d of [drawing, lyingDrawing]) d.mark(state.hover)
+    else if (what === 'scale' || what === 'only' || what === 'comparison' || what === 'log') update()
+  })
   words.onChange(update)
   update()
 }

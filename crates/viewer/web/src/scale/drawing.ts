@@ -8,12 +8,16 @@ import { hex } from './scale'
 const STRIP = 18
 const TICK = 4
 const LABEL = 52
+/** Room for the shares beside the bars, upright. */
+const SHARE = 46
 
 export interface Drawing {
   /** Pixel along the axis for a deviation. */
   at(value: number): number
   /** Deviation for a pixel along the axis. */
   value(pixel: number): number
+  /** Marks the value under the cursor; none takes the mark away. Nothing else is drawn anew. */
+  mark(value: number | null): void
 }
 
 /**
@@ -35,7 +39,8 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   target.replaceChildren(svg('title', {}, words.of('figure.title')))
   const strip = upright ? LABEL : breadth - LABEL + 8
   const bars = strip + (upright ? STRIP + 4 : -4)
-  const room = upright ? breadth - bars : bars
+  const end = upright ? breadth - SHARE : 0
+  const room = Math.abs(end - bars)
 
   /** A box from `a` to `b` along the axis and from `c`, `size` pixels across, away from the strip. */
   const box = (a: number, b: number, c: number, size: number, attributes: Record<string, string | number>) => {
@@ -86,7 +91,6 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
 
   // Ticks at the limits, the tolerance across the bars, zero and mean.
   const [near, far] = upright ? [strip - TICK, strip] : [strip + STRIP, strip + STRIP + TICK]
-  const end = upright ? breadth : 0
   const rank = (v: number) => (scale.tolerance?.includes(v) ? 0 : v === scale.lower || v === scale.upper ? 1 : 2)
   const written: number[] = []
   for (const limit of [...limits].sort((a, b) => rank(a) - rank(b))) {
@@ -105,20 +109,24 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   const mean = state.current?.mean
   if (mean !== null && mean !== undefined && mean > domain[0] && mean < domain[1]) target.append(across(mean, bars, end, 'mean'))
 
-  // Shares beside the bands, over the bars.
+  // Shares beside the bands and clear of the bars.
   if (upright) {
     for (let i = 0; i + 1 < edges.length; i++) {
       const share = state.share(i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1])
       if (share === null) break
-      const zone = scale.tolerance?.[0] === edges[i]
-      // Above the middle of the zone, where the lines of zero and mean are.
-      const middle = value((at(edges[i]) + at(edges[i + 1])) / 2 - (zone ? 11 : 0))
+      const middle = value((at(edges[i]) + at(edges[i + 1])) / 2)
       if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.percent(share, share > 0 && share < 0.001 ? 2 : 1), 'share'))
     }
   }
-  if (state.hover !== null) {
-    const v = Math.min(domain[1], Math.max(domain[0], state.hover))
-    target.append(across(v, upright ? strip - TICK : 0, upright ? breadth : strip + STRIP, 'hover'))
+  let marked: SVGElement | null = null
+  const mark = (found: number | null) => {
+    marked?.remove()
+    marked = null
+    if (found === null) return
+    const v = Math.min(domain[1], Math.max(domain[0], found))
+    marked = across(v, upright ? strip - TICK : 0, upright ? end : strip + STRIP, 'hover')
+    target.append(marked)
   }
-  return { at, value }
+  mark(state.hover)
+  return { at, value, mark }
 }

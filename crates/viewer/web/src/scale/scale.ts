@@ -6,9 +6,15 @@ export type Rgb = [number, number, number]
 export function limitsOf(scale: ScaleObject): number[] {
   const zone = scale.tolerance
   if (scale.mode === 'go_no_go') return zone ? [...zone] : [scale.lower, scale.upper]
-  if (!zone || zone[0] <= scale.lower || zone[1] >= scale.upper) return steps(scale.lower, scale.upper, scale.bands)
+  if (!zone) return steps(scale.lower, scale.upper, scale.bands)
   const side = Math.max(1, Math.floor(scale.bands / 2))
   return [...steps(scale.lower, zone[0], side), ...steps(zone[1], scale.upper, side)]
+}
+
+/** The range with the tolerance zone in it: what is within tolerance is green whatever the range. */
+export function widened(scale: ScaleObject): ScaleObject {
+  const zone = scale.tolerance
+  return zone ? { ...scale, lower: Math.min(scale.lower, zone[0]), upper: Math.max(scale.upper, zone[1]) } : scale
 }
 
 function steps(from: number, to: number, n: number): number[] {
@@ -42,15 +48,22 @@ export class Colors {
 
   of(value: number): Rgb {
     const { lower, upper, mode } = this.scale
-    if (mode === 'continuous' && value >= lower && value <= upper)
-      return this.ramp[Math.min(255, Math.floor(((value - lower) / (upper - lower)) * 256))]
-    return this.slots[slotOf(this.limits, value)]
+    const slot = slotOf(this.limits, value)
+    if (mode !== 'continuous' || value < lower || value > upper) return this.slots[slot]
+    const zone = this.scale.tolerance
+    if (!zone) return this.ramp[step((value - lower) / (upper - lower), 0, 256)]
+    // Half of the ramp lies below the zone and half above.
+    if (value < zone[0]) return this.ramp[step((value - lower) / (zone[0] - lower), 0, 128)]
+    if (value > zone[1]) return this.ramp[step((value - zone[1]) / (upper - zone[1]), 128, 128)]
+    return this.slots[slot]
   }
 
   css(value: number): string {
     return hex(this.of(value))
   }
 }
+
+const step = (share: number, from: number, count: number) => from + Math.min(count - 1, Math.floor(share * count))
 
 export function parse(text: string): Rgb[] {
   return (text.match(/.{6}/g) ?? []).map((c) => [0, 2, 4].map((k) => parseInt(c.slice(k, k + 2), 16)) as Rgb)

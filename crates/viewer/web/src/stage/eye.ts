@@ -123,6 +123,11 @@ export class Eye {
     this.turn.copy(this.orientation(view))
   }
 
+  /** Looks from a side of the part, the model's vertical upright. */
+  lookFrom(toward: Vector3): void {
+    this.turn.copy(facing(toward, this.vertical))
+  }
+
   /** Turns by angles about the model's vertical and the screen's horizontal axis, the place `pivot` staying where it is. */
   orbit(aboutVertical: number, aboutRight: number, pivot: Vector3): void {
     const upright = this.upward.dot(this.vertical) < 0 ? -1 : 1
@@ -150,8 +155,8 @@ export class Eye {
     return this.height / this.pixels
   }
 
-  /** Frames places within the stage, leaving `margin` pixels free on the left and on the right. */
-  fit(places: Vector3[], margin: number): void {
+  /** Frames places within the stage, leaving `margin` pixels free on the left and on the right, and `head` above. */
+  fit(places: Vector3[], margin: number, head: number): void {
     if (places.length === 0) return
     const span = (axis: Vector3) => {
       const along = places.map((p) => p.dot(axis))
@@ -166,8 +171,9 @@ export class Eye {
       .addScaledVector(this.upward, (b + t) / 2)
       .addScaledVector(this.toward, (n + f) / 2)
     const free = Math.max(this.width - 2 * margin, this.width / 3)
-    const scale = Math.max((r - l) / free, (t - b) / this.pixels, 1e-9)
-    this.height = (scale * this.pixels) / FILL
+    const scale = Math.max((r - l) / free, (t - b) / (this.pixels - head), 1e-9) / FILL
+    this.height = scale * this.pixels
+    this.target.addScaledVector(this.upward, (scale * head) / 2)
     if (this.perspective) this.height *= 1 + (f - n) / (4 * this.height)
   }
 
@@ -179,16 +185,17 @@ export class Eye {
     return { x: ((p.x + 1) / 2) * this.width, y: ((1 - p.y) / 2) * this.pixels, depth: seen.z, behind: seen.z > 0 }
   }
 
+  /** How much larger things at a depth (the eye's z, below 0 before it) are drawn than in the middle of the stage. */
+  growth(depth: number): number {
+    return this.perspective ? -this.distance / depth : 1
+  }
+
   /** Place at a pixel and a depth (the eye's z, below 0 before it). */
   unproject(x: number, y: number, depth: number): Vector3 {
     const camera = this.camera
-    let u = ((x / this.width) * 2 - 1) * (this.height / 2) * this.aspect
-    let v = (1 - (y / this.pixels) * 2) * (this.height / 2)
-    if (this.perspective) {
-      const grow = -depth / this.distance
-      u *= grow
-      v *= grow
-    }
+    const growth = this.growth(depth)
+    const u = (((x / this.width) * 2 - 1) * (this.height / 2) * this.aspect) / growth
+    const v = ((1 - (y / this.pixels) * 2) * (this.height / 2)) / growth
     return new Vector3(u, v, depth).applyMatrix4(camera.matrixWorld)
   }
 

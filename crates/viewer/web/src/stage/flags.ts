@@ -3,25 +3,47 @@ import { el, svg } from '../dom'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
 import type { Words } from '../words'
-import type { Stage } from './stage'
+import { NARROW, type Stage } from './stage'
 
-/** Room between flags of one column. */
+/** Room between flags of one column, and between a flag and the stage's rim. */
 const GAP = 6
+const RIM = 8
 /** Height that the view cube takes in the corner at the right. */
 const CUBE = 110
+/** Height of the line at the foot. */
+const FOOT = 34
+/** Width and height of a flag on paper. */
+const PAPER = { width: 124, height: 28 }
+/** And what a note beside the value takes more. */
+const PAPER_NOTE = 104
 
 interface Flag {
   number: number
+  pick: Pick
   place: Vector3
+  /** Where the place was measured from, if that is far away. */
+  surface: Vector3 | null
+  /** How far it may lie under the surface and still be on it. */
+  slack: number
+  label: string
+  text: string
   box: HTMLButtonElement
+  size: { width: number; height: number }
   line: SVGLineElement
+  /** From the place to the surface. */
+  way: SVGLineElement
   dot: SVGCircleElement
 }
 
 interface Placed {
   flag: Flag
+  hidden: boolean
+  width: number
+  height: number
+  /** The place, and the end of the leader at the flag. */
   x: number
   y: number
+  inner: number
   top: number
 }
 
@@ -29,6 +51,8 @@ interface Placed {
 export class Flags {
   private flags: Flag[] = []
   private readonly lines = svg('svg', { class: 'leaders', 'aria-hidden': 'true' })
+  private narrow: boolean | null = null
+
   constructor(
     private readonly overlay: HTMLElement,
     private readonly stage: Stage,
@@ -50,81 +74,122 @@ export class Flags {
     this.lines.replaceChildren()
     const valued = this.state.flags ? this.state.picks : []
     this.flags = valued.flatMap(([number, p], n) => (p.value === null ? [] : [this.make(number, p, p.value, n)]))
+    this.narrow = null
     this.place()
   }
 
   private make(number: number, pick: Pick, value: number, n: number): Flag {
     const zone = this.state.scale.tolerance
     const out = zone ? value < zone[0] || value > zone[1] : false
+    const label = String(n + 1)
+    const text = this.words.signed(value, this.state.scale.decimals)
     const box = el(
       'button',
-      { type: 'button', class: out ? 'flag out' : 'flag', 'data-flag': n },
-      el('span', { class: 'number' }, String(n + 1)),
-      el('strong', {}, this.words.signed(value, this.state.scale.decimals)),
+      { type: 'button', class: out ? 'flag out' : 'flag', 'data-flag': n, title: text },
+      el('span', { class: 'number' }, label),
+      el('strong', {}, text),
+      ...(pick.off ? [el('small', {}, this.words.of('flag.off'))] : []),
     )
     box.style.setProperty('--swatch', this.state.colors.css(value))
     box.addEventListener('click', () => this.state.pick(number))
     const line = svg('line', { class: 'leader' })
-    const dot = svg('circle', { class: 'anchor', r: 3.5 })
-    this.lines.append(line, dot)
+    const way = svg('line', { class: 'way' })
+    const dot = svg('circle', { class: pick.off ? 'anchor off' : 'anchor', r: 3.5 })
+    this.lines.append(way, line, dot)
     this.overlay.append(box)
-    const place = new Vector3(...pick.position.map((x, k) => x - this.stage.center.getComponent(k)))
-    return { number, place, box, line, dot }
+    const place = this.stage.placeOf(pick)
+    const surface = pick.off ? this.stage.surfaceOf(pick) : null
+    const slack = this.stage.slackOf(pick)
+    return { number, pick, place, surface, slack, label, text, box, line, way, dot, size: { width: 0, height: 0 } }
+  }
+
+  /** Numbers alone where there is no room for values; sizes are read once, not in every frame. */
+  private size(): void {
+    const narrow = this.stage.eye.width < NARROW
+    if (narrow === this.narrow) return
+    this.narrow = narrow
+    this.overlay.classList.toggle('narrow', narrow)
+    for (const { box, size } of this.flags) Object.assign(size, { width: box.offsetWidth, height: box.offsetHeight })
   }
 
   /** Puts the flags beside the part, nearest side first, without crossing leaders. */
   private place(): void {
+    this.size()
     const { width, pixels } = this.stage.eye
     this.lines.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
-    const middle = width / 2
-    const columns: [Placed[], Placed[]] = [[], []]
-    for (const flag of this.flags) {
-      const p = this.stage.eye.project(flag.place)
-      columns[p.x < middle ? 0 : 1].push({ flag, x: p.x, y: p.y, top: 0 })
-      const hidden = this.hidden(p)
+    const tools = this.overlay.querySelector<HTMLElement>('.stage-tools')?.offsetHeight ?? 0
+    for (const c of this.layout((f) => f.size, tools + 2 * RIM)) {
+      const { flag, hidden, x, y, inner, top, width: wide } = c
       flag.box.classList.toggle('hidden', hidden)
       flag.line.classList.toggle('hidden', hidden)
       flag.box.classList.toggle('selected', flag.number === this.state.picked)
-      flag.dot.setAttribute('cx', String(p.x))
-      flag.dot.setAttribute('cy', String(p.y))
+      const right = inner > x
+      flag.box.style.top = `${top}px`
+      flag.box.style.left = `${right ? inner : inner - wide}px`
+      write(flag.line, { x1: inner, y1: top + c.height / 2, x2: x, y2: y })
+      write(flag.dot, { cx: x, cy: y })
+      const foot = flag.surface ? this.stage.eye.project(flag.surface) : { x, y }
+      write(flag.way, { x1: x, y1: y, x2: foot.x, y2: foot.y })
     }
-    columns.forEach((column, side) => this.stack(column, side === 1, width, pixels))
   }
 
-  /** Another surface lies before the place. Unknown (not hidden) while the values are not read. */
-  private hidden(p: { x: number; y: number; depth: number }): boolean {
-    const { values, eye } = this.stage
-    if (!values.ready) return false
-    const tolerance = Math.max(6 * eye.millimetresPerPixel, 0.01 * eye.height)
-    const near = [-1, 0, 1].flatMap((i) => [-1, 0, 1].map((j) => values.at(p.x + i, p.y + j)))
-    const seen = near.filter((r) => r !== null)
-    if (seen.length === 0) return false
-    return seen.every((r) => r.depth > p.depth + tolerance)
+  /** The flags as they belong into a picture of the eye's size, for print. */
+  drawInto(target: SVGSVGElement): void {
+    const { width, pixels } = this.stage.eye
+    target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
+    target.replaceChildren()
+    for (const { flag, hidden, x, y, inner, top, width: w, height: h } of this.layout((f) => ({ ...PAPER, width: PAPER.width + (f.pick.off ? PAPER_NOTE : 0) }), RIM)) {
+      const left = inner > x ? inner : inner - w
+      const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
+      const name = hidden ? 'hidden' : ''
+      if (flag.surface) {
+        const foot = this.stage.eye.project(flag.surface)
+        target.append(svg('line', { class: 'way', x1: x, y1: y, x2: foot.x, y2: foot.y }))
+      }
+      target.append(
+        svg('line', { class: `leader ${name}`, x1: inner, y1: top + h / 2, x2: x, y2: y }),
+        svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 }),
+        svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
+        svg('text', { class: name, x: left + 8, y: top + h / 2 }, `${flag.label}  ${text}`),
+      )
+    }
   }
 
-  private stack(column: Placed[], right: boolean, width: number, height: number): void {
-    column.sort((a, b) => a.y - b.y)
-    const tall = Math.max(...column.map((c) => c.flag.box.offsetHeight), 24)
-    let free = 44
-    for (const c of column) {
-      c.top = Math.max(free, c.y - tall / 2)
-      free = c.top + tall + GAP
+  private layout(size: (flag: Flag) => { width: number; height: number }, head: number): Placed[] {
+    const { eye, sight } = this.stage
+    const columns: [Placed[], Placed[]] = [[], []]
+    for (const flag of this.flags) {
+      const { x, y } = eye.project(flag.place)
+      const side = x < eye.width / 2 ? 0 : 1
+      const own = size(flag)
+      const inner = side === 1 ? eye.width - RIM - own.width : RIM + own.width
+      columns[side].push({ flag, hidden: sight.hidden(flag.place, flag.slack), ...own, x, y, inner, top: 0 })
     }
-    let limit = height - (right && width > 600 ? CUBE : 8)
-    for (const c of [...column].reverse()) {
-      c.top = Math.min(c.top, limit - tall)
-      limit = c.top - GAP
-    }
-    const inner = (c: Placed) => (right ? width - 8 - c.flag.box.offsetWidth : 8 + c.flag.box.offsetWidth)
-    uncross(column, (c) => [inner(c), c.top + tall / 2])
-    for (const c of column) {
-      c.flag.box.style.top = `${c.top}px`
-      c.flag.box.style.left = right ? 'auto' : '8px'
-      c.flag.box.style.right = right ? '8px' : 'auto'
-      const ends = { x1: inner(c), y1: c.top + tall / 2, x2: c.x, y2: c.y }
-      for (const [name, value] of Object.entries(ends)) c.flag.line.setAttribute(name, String(value))
-    }
+    const wide = eye.width >= NARROW
+    columns.forEach((column, side) => stack(column, head, eye.pixels - (side === 1 && wide ? CUBE : FOOT)))
+    return columns.flat()
   }
+}
+
+function write(element: Element, attributes: Record<string, number>): void {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value.toFixed(1))
+}
+
+/** Stacks a column between two heights, each flag as near to its place as the others let it. */
+function stack(column: Placed[], head: number, foot: number): void {
+  column.sort((a, b) => a.y - b.y)
+  const tall = Math.max(...column.map((c) => c.height), 0)
+  let free = head
+  for (const c of column) {
+    c.top = Math.max(free, c.y - tall / 2)
+    free = c.top + tall + GAP
+  }
+  let limit = foot
+  for (const c of [...column].reverse()) {
+    c.top = Math.min(c.top, limit - tall)
+    limit = c.top - GAP
+  }
+  uncross(column, (c) => [c.inner, c.top + tall / 2])
 }
 
 /** Swaps places of flags whose leaders cross; each swap shortens the leaders, so it ends. */

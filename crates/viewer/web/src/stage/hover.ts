@@ -1,6 +1,7 @@
 import { el, need } from '../dom'
 import type { State } from '../state'
 import type { Words } from '../words'
+import type { Part } from './part'
 import type { Stage } from './stage'
 
 /** What lies under the cursor: beside it, on the scale, and in the status line. */
@@ -18,14 +19,15 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
   }
   const read = () => {
     if (!cursor) return clear()
-    const reading = stage.values.at(cursor.x, cursor.y)
-    if (!reading) {
+    const drawn = stage.values.at(cursor.x, cursor.y)
+    if (!drawn) {
       clear()
       if (!stage.values.ready) line.textContent = '…'
       return
     }
-    const part = stage.part(reading.object)
-    const place = stage.eye.unproject(cursor.x, cursor.y, reading.depth).add(stage.center)
+    const part = stage.part(drawn.object)
+    const place = stage.eye.unproject(cursor.x, cursor.y, drawn.depth).add(stage.center)
+    const reading = drawn.missing === 0 ? { ...drawn, value: part?.pointNear(place) ?? drawn.value } : drawn
     const xyz = place.toArray().map((x) => words.number(x, 2))
     const valued = part?.hasMap === true && reading.missing === 0
     const decimals = digits(part?.step ?? 0, state.scale.decimals)
@@ -34,14 +36,14 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     const zone = state.scale.tolerance
     const inside = zone && reading.value >= zone[0] - part!.step / 2 && reading.value <= zone[1] + part!.step / 2
     const judged = valued && zone ? (inside ? `✓ ${words.of('state.in')}` : `✕ ${words.of('state.out')}`) : ''
-    const role = part ? words.of(part.object.role) : ''
+    const role = part ? what(part, valued, words) : ''
     card.replaceChildren(
       ...(value ? [el('strong', {}, value)] : []),
       ...(judged || why ? [el('span', { class: inside ? 'in' : 'out' }, judged || why)] : []),
       el('span', { class: 'place' }, `x ${xyz[0]}  y ${xyz[1]}  z ${xyz[2]}`),
       el('span', { class: 'place' }, role),
     )
-    line.textContent = [value, judged || why, `x ${xyz[0]} y ${xyz[1]} z ${xyz[2]}`].filter(Boolean).join(' · ')
+    line.textContent = [value, judged || why, role, `x ${xyz[0]} y ${xyz[1]} z ${xyz[2]}`].filter(Boolean).join(' · ')
     line.dataset.value = valued ? String(reading.value) : ''
     dot.hidden = card.hidden = false
     dot.style.transform = `translate(${cursor.x}px, ${cursor.y}px)`
@@ -60,6 +62,13 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     clear()
   })
   stage.onDraw(read)
+}
+
+/** What the value is of: a measured point itself, the worst one near the place, or the surface. */
+function what(part: Part, valued: boolean, words: Words): string {
+  const { kind, role, reach } = part.object
+  if (valued && reach) return `${words.of('hover.worst')} (≤ ${words.number(reach, 2)} mm)`
+  return valued && kind === 'points' && role === 'measured' ? words.of('hover.point') : words.of(role)
 }
 
 /** No more digits than the stored step carries, and no fewer than the scale's. */

@@ -21,6 +21,7 @@ const shared: Record<string, IUniform> = {
   limits: { value: new Float32Array(MOST_LIMITS) },
   limitCount: { value: 0 },
   range: { value: new Vector2() },
+  zone: { value: new Vector2() },
   only: { value: new Vector2() },
   slots: { value: slots },
   ramp: { value: ramp },
@@ -46,6 +47,8 @@ export function applyLook(state: State): void {
   shared.limits.value.set(limits)
   shared.limitCount.value = limits.length
   shared.range.value.set(scale.lower, scale.upper)
+  // Without a tolerance: empty.
+  shared.zone.value.set(...(scale.tolerance ?? [1, -1]))
   shared.only.value.set(only ? only[0] : -3e38, only ? only[1] : 3e38)
   shared.continuous.value = scale.mode === 'continuous'
   shared.hatch.value = scale.palette === 'mono'
@@ -60,23 +63,23 @@ export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back' | 'sink', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
   const [base] = parse(object.color)
   const opacity = OPACITIES[object.role] ?? 1
-  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false } }
+  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false }, sink: { value: 0 } }
   const uniforms = {
     ...shared,
     ...own,
     base: { value: new Vector3(...base.map((x) => x / 255)) },
-    isPoints: { value: object.kind === 'points' },
     objectId: { value: object.id + 1 },
   }
   const make = (fragmentShader: string) =>
     new RawShaderMaterial({
       glslVersion: GLSL3,
+      defines: object.kind === 'points' ? { POINTS: '' } : {},
       vertexShader: VERTEX,
       fragmentShader,
       uniforms,

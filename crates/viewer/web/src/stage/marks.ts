@@ -47,6 +47,8 @@ export class Marks {
       { depthFunc: AlwaysDepth, opacity: 1, chosen: true },
     ] as const
     for (const pass of passes) {
+      // Edges of the part itself are hidden by it.
+      if (pass.depthFunc === GreaterDepth && object.role === 'edges') continue
       if (triangles > 0) this.add(areas, MARK_AREA_VERTEX, MARK_AREA, pass, 0.8)
       if (segments + points > 0) this.add(lines, MARK_LINE_VERTEX, MARK_LINE, pass, 1)
     }

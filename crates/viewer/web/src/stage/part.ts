@@ -3,6 +3,23 @@ import { NO_VALUE, type DecodedObject } from '../decode/object'
 import type { ViewObject } from '../manifest'
 import { materialsFor, type Materials } from './look'
 
+/** What can hide a place: the places of a coarse level, relative to the stage's centre, and its triangles or its points' size. */
+export interface Cover {
+  places: Float32Array
+  corners: Uint32Array
+  /** Radius of a point, millimetres. */
+  radius: number
+}
+
+/**
+ * Pixels that objects of a role are drawn farther from the eye than they are: a surface shown together with one it agrees
+ * with lies behind that, wherever both are the same within a pixel, instead of through it.
+ */
+const SINKING: Record<string, number> = { reference: 1.5, before: 1.5 }
+
+/** Points that stand for a cloud which hides something. */
+const COVER_POINTS = 60_000
+
 /** An object on the stage: its buffers on the GPU, its levels of detail, its values. */
 export class Part {
   readonly drawn: Mesh | Points
@@ -10,6 +27,7 @@ export class Part {
   /** First element and count of each level: the full one first for meshes, the coarsest first for points. */
   private readonly levels: { start: number; count: number }[]
   private field = -2
+  private covering: Cover | null = null
 
   constructor(
     readonly object: ViewObject,
@@ -45,6 +63,11 @@ export class Part {
 
   setMap(on: boolean): void {
     this.materials.own.map.value = on && this.field >= 0
+  }
+
+  /** How large a pixel is, millimetres: what lies in one surface with the part is drawn before or behind it by that. */
+  setPixel(size: number): void {
+    this.materials.own.sink.value = size * (SINKING[this.object.role] ?? 0)
   }
 
   /** Steps back to grey while another object is meant. */
@@ -83,19 +106,23 @@ export class Part {
     return this.object.fields[this.field]?.step ?? 0
   }
 
-  /** Number of the vertex nearest to a place, among those with a value; −1 for none. Looks at all vertices. */
-  nearestVertex(place: Vector3): number {
+  /**
+   * Where places show gathered points: the value of the vertex nearest to a place, which is a measured point's and no mixture.
+   * Elsewhere nothing. Looks at all vertices.
+   */
+  pointNear(place: Vector3): number | null {
+    const values = this.data.fields[this.field]
+    if (!this.object.reach || !values) return null
     const { origin, step } = this.object
-    const q = [0, 1, 2].map((k) => (place.getComponent(k) - origin[k]) / step)
-    const { packed, fields } = this.data
-    const values = fields[this.field]
-    let best = -1
+    const [x, y, z] = [0, 1, 2].map((k) => (place.getComponent(k) - origin[k]) / step)
+    const { packed } = this.data
+    let best: number | null = null
     let least = Infinity
     for (let v = 0, p = 0; p < packed.length; v++, p += 4) {
-      const d = (packed[p] - q[0]) ** 2 + (packed[p + 1] - q[1]) ** 2 + (packed[p + 2] - q[2]) ** 2
-      if (d < least && values && values[v] < NO_VALUE / 2) {
+      const d = (packed[p] - x) ** 2 + (packed[p + 1] - y) ** 2 + (packed[p + 2] - z) ** 2
+      if (d < least && values[v] < NO_VALUE / 2) {
         least = d
-        best = v
+        best = values[v]
       }
     }
     return best
@@ -115,6 +142,41 @@ export class Part {
     if (packed.length === 0) return []
     const corner = (i: number) => new Vector3(...[0, 1, 2].map((k) => ((i >> k) & 1 ? high[k] : low[k])))
     return Array.from({ length: 8 }, (_, i) => corner(i).applyMatrix4(this.drawn.matrix))
+  }
+
+  /** The coarsest level as what hides other places; made when first asked for. */
+  cover(): Cover {
+    return (this.covering ??= this.object.kind === 'mesh' ? this.coverOfMesh() : this.coverOfPoints())
+  }
+
+  private coverOfMesh(): Cover {
+    const { start, count } = this.levels[this.levels.length - 1]
+    const numbers = new Map<number, number>()
+    const corners = this.data.corners.slice(start, start + count).map((v) => {
+      if (!numbers.has(v)) numbers.set(v, numbers.size)
+      return numbers.get(v) ?? 0
+    })
+    return { places: this.placesOf([...numbers.keys()]), corners, radius: 0 }
+  }
+
+  /** Points are stored so that every prefix is an even sample. */
+  private coverOfPoints(): Cover {
+    const count = Math.min(COVER_POINTS, this.object.vertices)
+    return { places: this.placesOf(Array.from({ length: count }, (_, v) => v)), corners: new Uint32Array(0), radius: this.spacing(count) / 2 }
+  }
+
+  private placesOf(vertices: number[]): Float32Array {
+    const places = new Float32Array(3 * vertices.length)
+    const place = new Vector3()
+    vertices.forEach((v, i) => {
+      place.fromArray(this.data.packed, 4 * v).applyMatrix4(this.drawn.matrix).toArray(places, 3 * i)
+    })
+    return places
+  }
+
+  /** How far apart `count` points of a closed surface of this size are when evenly spread, millimetres. */
+  spacing(count: number): number {
+    return (this.object.step * 65535 * 0.5 * 3) / Math.sqrt(Math.max(1, count))
   }
 
   /** Up to `n` evenly chosen vertices, relative to the stage's centre: enough to frame the part. */

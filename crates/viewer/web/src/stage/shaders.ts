@@ -3,9 +3,11 @@ export const VERTEX = `
 in vec4 position;
 in float value;
 uniform mat4 modelViewMatrix, projectionMatrix;
-uniform float pointSize;
+uniform float pointSize, sink;
 out vec3 vPlace;
 out vec3 vNormal;
+/* Above 0 on every facet with a corner on a crease. */
+out float vCrease;
 out float vValue;
 /* Share of corners without a value, and their reason weighted by it. */
 out vec2 vMissing;
@@ -22,10 +24,12 @@ vec3 unfold(float packed) {
 void main() {
   vec4 place = modelViewMatrix * vec4(position.xyz, 1.0);
   vPlace = place.xyz;
+  vCrease = position.w < 0.5 ? 1.0 : 0.0;
   vNormal = mat3(modelViewMatrix) * unfold(position.w);
   bool missing = value > 5e29;
   vValue = missing ? 0.0 : value;
   vMissing = missing ? vec2(1.0, floor(value / 1e30 + 0.5)) : vec2(0.0);
+  place.z -= sink;
   gl_Position = projectionMatrix * place;
   gl_PointSize = pointSize;
 }`
@@ -36,17 +40,24 @@ precision highp float;
 precision highp int;
 in vec3 vPlace;
 in vec3 vNormal;
+in float vCrease;
 in float vValue;
 in vec2 vMissing;
-uniform bool map, flatColors, isPoints, perspective, continuous, hatch, backfaces, back;
+uniform bool map, flatColors, perspective, continuous, hatch, backfaces, back;
 uniform float opacity;
 uniform vec3 base;
 uniform float limits[34];
 uniform int limitCount;
 uniform float slack;
-uniform vec2 range, only;
+uniform vec2 range, zone, only;
 uniform sampler2D slots, ramp;
 out vec4 color;
+
+#ifdef POINTS
+const bool isPoints = true;
+#else
+const bool isPoints = false;
+#endif
 
 /* 0 is the low cap; a limit belongs to the band nearer the middle. Values are rounded to steps: half a step is still on it. */
 int slotOf(float v) {
@@ -61,36 +72,47 @@ int slotOf(float v) {
 }
 
 vec3 colorOf(float v, int slot) {
-  if (continuous && slot > 0 && slot < limitCount) return texture(ramp, vec2((v - range.x) / (range.y - range.x), 0.5)).rgb;
+  bool zoned = zone.x <= zone.y;
+  if (continuous && slot > 0 && slot < limitCount && !(zoned && slot == limitCount / 2)) {
+    float t = (v - range.x) / (range.y - range.x);
+    /* Half of the ramp lies below the zone and half above. */
+    if (zoned) t = v > zone.y ? 0.5 + 0.5 * (v - zone.y) / (range.y - zone.y) : 0.5 * (v - range.x) / (zone.x - range.x);
+    return texture(ramp, vec2(t, 0.5)).rgb;
+  }
   return texelFetch(slots, ivec2(slot, 0), 0).rgb;
 }
 
-/* Diffuse light from the eye; the facet's own normal where the smooth one is more than 30 degrees away. */
+/*
+  Diffuse light from the eye. A facet with a corner on a crease has its own normal throughout, so that it is as flat in the
+  picture as it is; a choice pixel by pixel would draw curves on it that are not there.
+*/
 float light(float darkest) {
   vec3 eye = perspective ? normalize(-vPlace) : vec3(0.0, 0.0, 1.0);
   vec3 facet = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
   vec3 smooth_ = normalize(vNormal);
   if (dot(smooth_, facet) < 0.0) smooth_ = -smooth_;
-  vec3 n = dot(smooth_, facet) < 0.866 ? facet : smooth_;
+  vec3 n = vCrease > 1e-4 || isnan(smooth_.x) ? facet : smooth_;
   return mix(darkest, 1.0, abs(dot(n, eye)));
 }
 
 bool line(float along) { return mod(along, 7.0) < 1.6; }
 
 void main() {
-  if (isPoints) {
-    vec2 p = 2.0 * gl_PointCoord - 1.0;
-    if (dot(p, p) > 1.0) discard;
-  }
-  float shade = isPoints || flatColors ? 1.0 : light(map ? 0.72 : 0.45);
+#ifdef POINTS
+  // Only here: a shader that may discard keeps the GPU from leaving out what is hidden.
+  vec2 p = 2.0 * gl_PointCoord - 1.0;
+  if (dot(p, p) > 1.0) discard;
+#endif
   float up = gl_FragCoord.x + gl_FragCoord.y;
-  if (backfaces && !isPoints && !gl_FrontFacing) {
-    color = vec4((line(up) ? vec3(0.62, 0.42, 0.58) : vec3(0.74, 0.58, 0.71)) * light(0.55), opacity);
+  bool inner = backfaces && !isPoints && !gl_FrontFacing;
+  float shade = isPoints || (flatColors && map && !inner) ? 1.0 : light(inner ? 0.55 : map ? 0.72 : 0.45);
+  if (inner) {
+    color = vec4((line(up) ? vec3(0.62, 0.42, 0.58) : vec3(0.74, 0.58, 0.71)) * shade, opacity);
     return;
   }
   if (!map) {
     vec3 own = back ? mix(base, vec3(0.72, 0.74, 0.76), 0.8) : base;
-    color = vec4(own * (isPoints ? 1.0 : light(0.45)), opacity);
+    color = vec4(own * shade, opacity);
     return;
   }
   float down = gl_FragCoord.x - gl_FragCoord.y;
@@ -115,13 +137,12 @@ in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
 uniform float objectId;
-uniform bool isPoints;
 out vec4 color;
 void main() {
-  if (isPoints) {
-    vec2 p = 2.0 * gl_PointCoord - 1.0;
-    if (dot(p, p) > 1.0) discard;
-  }
+#ifdef POINTS
+  vec2 p = 2.0 * gl_PointCoord - 1.0;
+  if (dot(p, p) > 1.0) discard;
+#endif
   bool missing = vMissing.x > 1e-4;
   color = vec4(vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
 }`

@@ -6,7 +6,9 @@ import { Eye, type StandardView } from './eye'
 import { applyLook } from './look'
 import { Flight } from './flight'
 import { Marks } from './marks'
+import { Pace } from './pace'
 import { Part } from './part'
+import { Sight } from './sight'
 import { ValueBuffer } from './values'
 
 ColorManagement.enabled = false
@@ -15,12 +17,20 @@ ColorManagement.enabled = false
 const REST = 150
 /** And after this long its values are read. */
 const READ = 120
-/** A frame while moving may take this long, milliseconds. */
-const FRAME = 33
+/** Until the next look at whether frames are finished. */
+const AGAIN = 20
+/** Pixels of the coarsest picture while moving, for one of the full one along a side. */
+const ROUGH = 0.5
+/** A way through a surface, seen obliquely, is up to this much longer than straight. */
+const OBLIQUE = 3
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
-/** Room for the flags' columns where the stage is wide. */
-const FLAGS = 150
+/** Room for a column of flags: with values, and with numbers alone where the stage is narrow. */
+const FLAGS = { wide: 150, narrow: 48 }
+/** Stages narrower than this have flags with numbers alone. */
+export const NARROW = 700
+/** Height of the toolbar, which the part keeps clear of where the stage is narrow. */
+const TOOLS = 76
 
 /** The 3D stage: draws on demand only, never at rest. */
 export class Stage {
@@ -28,14 +38,20 @@ export class Stage {
   readonly scene = new Scene()
   readonly eye: Eye
   readonly values: ValueBuffer
+  readonly sight: Sight
   readonly parts: Part[] = []
   readonly marks: Marks[] = []
   /** Middle of everything in the model's coordinates. */
   readonly center: Vector3
-  private level = 0
+  private readonly pace: Pace
   private moving = false
+  /** The view is a fitted one that the reader has not moved since. */
+  private fitted = true
+  private ground: number | null = null
+  private ratio = 1
   private frame = 0
-  private lastFrame = 0
+  /** Another frame is to follow the one that is not finished. */
+  private wanted = false
   private restTimer = 0
   private readonly listeners: (() => void)[] = []
   private readonly flight = new Flight(() => this.flown())
@@ -49,10 +65,11 @@ export class Stage {
     this.renderer.autoClear = false
     this.renderer.sortObjects = false
     this.values = new ValueBuffer(this.renderer)
+    this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext, () => this.wanted && this.draw())
     this.eye = new Eye(state.manifest.up)
+    this.sight = new Sight(this.eye, this.values, () => this.shown)
     this.center = centerOf(state)
-    const { facing } = state.manifest
-    if (facing) this.eye.turn.copy(this.eye.showing(new Vector3(...facing)))
+    this.eye.lookFrom(new Vector3(...state.manifest.first.toward))
     this.scene.matrixAutoUpdate = false
     applyLook(state)
   }
@@ -67,14 +84,15 @@ export class Stage {
         this.marks.push(marks)
         this.scene.add(marks.drawn)
         this.applyState()
-        return this.fit()
+        return this.frameAll()
       }
       const part = new Part(object, decoded, this.center)
       this.parts.push(part)
       this.scene.add(part.drawn)
       this.measure()
+      this.pace.forget()
+      if (part.drawn.visible) this.frameAll()
       this.applyState()
-      if (part.drawn.visible) this.fit()
     })
   }
 
@@ -116,13 +134,18 @@ export class Stage {
     const first = this.eye.pixels === 1
     this.eye.width = Math.max(1, width)
     this.eye.pixels = Math.max(1, height)
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
+    this.ratio = Math.min(2, window.devicePixelRatio)
     // The canvas takes whole pixels, however the page's columns fall: else the picture is resampled and blurs.
     this.renderer.setSize(this.eye.width, this.eye.pixels, true)
-    if (first) this.fit()
-    this.values.clear()
-    this.drawNow()
-    this.rest()
+    if (first) this.frameAll()
+    this.pace.forget()
+    this.settle()
+  }
+
+  /** The page's colours have changed. */
+  recolor(): void {
+    this.ground = null
+    this.draw()
   }
 
   get shown(): Part[] {
@@ -134,11 +157,39 @@ export class Stage {
   }
 
   fit(): void {
-    const flags = this.state.flags && this.state.picks.some(([, p]) => p.value !== null)
-    const margin = flags && this.eye.width > 700 ? FLAGS : 0
-    const marks = this.marks.filter((m) => m.drawn.visible)
-    this.eye.fit([...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000))], margin)
+    this.frameAll()
     this.moved()
+    this.fitted = true
+  }
+
+  /** Frames what is shown, and the flags' places that lie off it; draws nothing. */
+  private frameAll(): void {
+    const flagged = this.state.flags ? this.state.picks.filter(([, p]) => p.value !== null) : []
+    const narrow = this.eye.width < NARROW
+    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : FLAGS.wide
+    const marks = this.marks.filter((m) => m.drawn.visible)
+    const off = flagged.filter(([, p]) => p.off).map(([, p]) => this.placeOf(p))
+    const places = [...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000)), ...off]
+    this.eye.fit(places, margin, narrow ? TOOLS : 0)
+  }
+
+  /** Place of a pick relative to the stage's centre. */
+  placeOf(pick: Pick): Vector3 {
+    return this.fromCenter(pick.position)
+  }
+
+  /** The place that it was measured from, likewise. */
+  surfaceOf(pick: Pick): Vector3 | null {
+    return pick.surface && this.fromCenter(pick.surface)
+  }
+
+  /** How far a pick may lie under the surface it belongs to and still be seen on it, millimetres. */
+  slackOf(pick: Pick): number {
+    return pick.off ? 0 : OBLIQUE * (this.surfaceOf(pick)?.distanceTo(this.placeOf(pick)) ?? 0)
+  }
+
+  private fromCenter(place: [number, number, number]): Vector3 {
+    return new Vector3(...place.map((x, k) => x - this.center.getComponent(k)))
   }
 
   look(view: StandardView): void {
@@ -148,7 +199,8 @@ export class Stage {
 
   /** Brings a place of the list to the middle: near, where it has a size, and from the side that shows it. */
   flyTo(pick: Pick): void {
-    const target = new Vector3(...pick.position.map((x, k) => x - this.center.getComponent(k)))
+    const target = this.placeOf(pick)
+    this.fitted = false
     const turn = pick.normal ? this.eye.showing(new Vector3(...pick.normal)) : this.eye.turn.clone()
     this.flight.start(this.eye, { turn, target, height: pick.reach === null ? this.eye.height : this.closeUp(pick.reach) })
   }
@@ -166,6 +218,7 @@ export class Stage {
 
   /** The eye has moved: draws the finest level that keeps up, and everything once it rests. */
   moved(): void {
+    this.fitted = false
     this.flight.stop()
     this.changed()
   }
@@ -177,44 +230,76 @@ export class Stage {
     this.rest()
   }
 
+  /** Draws in the browser's next frame, but never more than one frame ahead of the GPU: the hand would be followed late. */
   draw(): void {
-    if (this.frame) return
-    this.frame = requestAnimationFrame((time) => {
+    this.wanted = this.pace.busy
+    if (this.frame || this.wanted) return
+    this.frame = requestAnimationFrame(() => {
       this.frame = 0
-      this.adapt(time)
       this.drawNow()
     })
   }
 
-  /** Chooses the level for moving from the time the last frames took. */
-  private adapt(time: number): void {
-    const took = time - this.lastFrame
-    this.lastFrame = time
-    if (!this.moving || took > 1000) return
-    const coarsest = Math.max(...this.parts.map((p) => p.levelCount), 1) - 1
-    if (took > FRAME && this.level < coarsest) this.level++
-    else if (took < FRAME / 2.5 && this.level > 0) this.level--
-  }
-
   drawNow(): void {
-    for (const part of this.parts) part.setLevel(this.moving ? this.level : 0)
+    // After the coarsest level of detail one more, in which pixels are larger too.
+    const coarsest = Math.max(...this.parts.map((p) => p.levelCount), 1)
+    const level = this.moving ? this.pace.level(coarsest) : 0
+    for (const part of this.parts) part.setLevel(level)
+    this.setRatio(level === coarsest ? this.ratio * ROUGH : this.ratio)
     this.updatePointSize()
     for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
-    const ground = getComputedStyle(this.canvas).backgroundColor.match(/\d+/g)?.map(Number) ?? [236, 239, 241]
-    this.renderer.setClearColor((ground[0] << 16) | (ground[1] << 8) | ground[2], 1)
+    for (const part of this.parts) part.setPixel(this.eye.millimetresPerPixel)
+    this.renderer.setClearColor((this.ground ??= this.groundColor()), 1)
+    const begin = performance.now()
     this.renderer.clear()
     this.renderer.render(this.scene, this.eye.camera)
+    this.pace.follow(begin, this.moving ? { level, coarsest } : null)
     for (const listener of this.listeners) listener()
+  }
+
+  /** Pixels of the drawing for one of the page. */
+  private setRatio(ratio: number): void {
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio)
+  }
+
+  private groundColor(): number {
+    const [r, g, b] = getComputedStyle(this.canvas).backgroundColor.match(/\d+/g)?.map(Number) ?? [236, 239, 241]
+    return (r << 16) | (g << 8) | b
+  }
+
+  /**
+   * The view as it is, drawn in full at another size on the canvas's own colour. `look` is called while it stands, when
+   * what lies over it is laid out for that size.
+   */
+  pictureOf(width: number, height: number, ratio: number, look: () => void): string {
+    const { eye, renderer } = this
+    const before = { width: eye.width, pixels: eye.pixels, ratio: this.ratio, eye: eye.save(), moving: this.moving }
+    this.moving = false
+    eye.width = width
+    eye.pixels = height
+    this.ratio = ratio
+    renderer.setSize(width, height, false)
+    if (this.fitted) this.frameAll()
+    this.values.clear()
+    this.ground = null
+    this.drawNow()
+    const picture = this.canvas.toDataURL('image/png')
+    look()
+    eye.width = before.width
+    eye.pixels = before.pixels
+    eye.restore(before.eye)
+    this.ratio = before.ratio
+    renderer.setSize(before.width, before.pixels, true)
+    this.moving = before.moving
+    this.ground = null
+    return picture
   }
 
   private updatePointSize(): void {
     const ratio = this.renderer.getPixelRatio()
     for (const part of this.parts) {
       if (part.object.kind !== 'points') continue
-      const share = part.drawn.geometry.drawRange.count / part.object.vertices
-      // Points of a closed surface of this size, evenly spread, are about this far apart.
-      const radius = part.object.step * 65535 * 0.5
-      const spacing = (radius * 3) / Math.sqrt(Math.max(1, part.object.vertices * share))
+      const spacing = part.spacing(part.drawn.geometry.drawRange.count)
       part.materials.own.pointSize.value = ratio * Math.min(24, Math.max(2, spacing / this.eye.millimetresPerPixel))
     }
   }
@@ -223,13 +308,41 @@ export class Stage {
   private rest(): void {
     this.canvas.ariaBusy = 'true'
     clearTimeout(this.restTimer)
-    this.restTimer = window.setTimeout(() => {
-      if (this.moving) {
-        this.moving = false
-        this.draw()
-      }
-      this.restTimer = window.setTimeout(() => void this.read(), READ)
-    }, REST)
+    this.restTimer = window.setTimeout(() => this.still(), REST)
+  }
+
+  /** The hand is still when nothing has come for a while after the last frame was finished: a slow frame is no pause. */
+  private still(): void {
+    const since = performance.now() - this.pace.finished
+    if (this.drawing || (this.moving && since < REST)) {
+      this.restTimer = window.setTimeout(() => this.still(), Math.max(AGAIN, REST - since))
+      return
+    }
+    if (this.moving) {
+      this.moving = false
+      this.draw()
+    }
+    this.restTimer = window.setTimeout(() => this.readWhenDrawn(), READ)
+  }
+
+  private readWhenDrawn(): void {
+    if (this.drawing) this.restTimer = window.setTimeout(() => this.readWhenDrawn(), AGAIN)
+    else void this.read()
+  }
+
+  /** A frame is asked for or not finished. */
+  private get drawing(): boolean {
+    return this.frame !== 0 || this.wanted || this.pace.busy
+  }
+
+  /** Draws and reads anew what another size has left behind. */
+  settle(): void {
+    cancelAnimationFrame(this.frame)
+    this.frame = 0
+    this.wanted = false
+    this.values.clear()
+    this.drawNow()
+    this.rest()
   }
 
   private async read(): Promise<void> {

@@ -69,6 +69,24 @@ export const colors = [
     },
   ],
   [
+    'within tolerance is green, however narrow the range and however smooth the colours',
+    async (session) => {
+      const page = await session.report('cube')
+      await tool(page, 'Flat')
+      const range = page.locator('.controls input[type=text]')
+      await range.fill('0,01')
+      await range.press('Enter')
+      for (const mode of ['bands', 'continuous']) {
+        await page.locator('.controls select').first().selectOption(mode)
+        await page.locator('canvas').focus()
+        for (const view of ['5', '2', '3']) assert.ok(near(await middle(page, view), GREEN, 2), `${mode}, view ${view}`)
+        assert.ok(!near(await middle(page, '4'), GREEN, 20) && !near(await middle(page, '6'), GREEN, 20), mode)
+        const bars = await page.evaluate(() => [...document.querySelectorAll('.chart .bar')].map((b) => [Number(b.dataset.from), Number(b.dataset.to), b.getAttribute('fill')]))
+        for (const [from, to, fill] of bars) assert.equal(fill === '#2fa84a', Math.abs((from + to) / 2) <= 0.1, `${mode}: bar from ${from}`)
+      }
+    },
+  ],
+  [
     'no value is grey and hatched',
     async (session) => {
       const page = await session.report('missing')
@@ -79,6 +97,42 @@ export const colors = [
       const seen = new Set()
       for (let i = 0; i < 12; i++) for (let j = 0; j < 12; j++) seen.add(hex(picture.at(box.cx + i, box.cy + j)))
       assert.ok(seen.has('#9aa0a6') && seen.size >= 2, [...seen].join(' '))
+    },
+  ],
+  [
+    'a flat face has one shade: no dents where a coarse mesh has none',
+    async (session) => {
+      const page = await session.report('box')
+      for (const turns of [0, 1, 2]) {
+        if (turns > 0) await key(page, 'ArrowRight')
+        const box = await stageBox(page)
+        const picture = await screen(page)
+        // Along lines over the part: three faces, so few shades; each change from one to the next is an edge.
+        const shades = new Map()
+        for (let i = -24; i <= 24; i++)
+          for (let j = -24; j <= 24; j++) {
+            const c = hex(picture.at(box.cx + 4 * i, box.cy + 4 * j))
+            shades.set(c, (shades.get(c) ?? 0) + 1)
+          }
+        const often = [...shades.values()].sort((a, b) => b - a)
+        const three = often.slice(0, 3).reduce((a, b) => a + b, 0) / (49 * 49)
+        assert.ok(three > 0.95, `turned ${turns}: three shades are ${three} of the part, of ${shades.size}`)
+      }
+    },
+  ],
+  [
+    'measured and reference shown together: the measured is seen where both are the same',
+    async (session) => {
+      const page = await session.report('box')
+      const before = await screen(page)
+      await key(page, 'n')
+      const after = await screen(page)
+      const box = await stageBox(page)
+      for (let i = -24; i <= 24; i++)
+        for (let j = -24; j <= 24; j++) {
+          const [x, y] = [box.cx + 5 * i, box.cy + 5 * j]
+          assert.ok(near(before.at(x, y), after.at(x, y), 3), `${x}, ${y}: ${hex(before.at(x, y))} became ${hex(after.at(x, y))}`)
+        }
     },
   ],
   [

@@ -1,7 +1,11 @@
 // Every check of the page: a name and what it does in a browser session.
+import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { defects } from './defects.mjs'
+import { first } from './first.mjs'
 import { fit } from './fit.mjs'
+import { layout } from './layout.mjs'
+import { pace } from './pace.mjs'
 import { reading } from './reading.mjs'
 import { repair } from './repair.mjs'
 import { scale } from './scale.mjs'
@@ -10,4 +14,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...colors, ...scale, ...reading, ...defects, ...fit, ...repair, ...segment, ...views, ...words]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...views, ...pace, ...words, ...layout]

@@ -11,7 +11,7 @@ const flags = (page) =>
   page.evaluate(() => {
     const stage = document.querySelector('#stage').getBoundingClientRect()
     const number = (e, name) => Number(e.getAttribute(name))
-    const leaders = [...document.querySelectorAll('.leader')].map((l) => ({ x1: number(l, 'x1'), y1: number(l, 'y1'), x2: number(l, 'x2'), y2: number(l, 'y2'), hidden: l.classList.contains('hidden') }))
+    const leaders = [...document.querySelectorAll('.leaders .leader')].map((l) => ({ x1: number(l, 'x1'), y1: number(l, 'y1'), x2: number(l, 'x2'), y2: number(l, 'y2'), hidden: l.classList.contains('hidden') }))
     const boxes = [...document.querySelectorAll('.flag')].map((f) => {
       const b = f.getBoundingClientRect()
       return { x: b.x - stage.x, y: b.y - stage.y, w: b.width, h: b.height, text: f.textContent }

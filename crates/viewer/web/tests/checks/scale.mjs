@@ -3,10 +3,13 @@ import assert from 'node:assert/strict'
 import { hex, screen, settled, stageBox } from '../browser.mjs'
 
 const texts = (page) => page.evaluate(() => [...document.querySelectorAll('.chart text.tick')].map((t) => t.textContent))
-const probe = async (page) => {
+/** The colour at a place of the sphere: near its equator, where it is within tolerance, unless another is given. */
+const probe = async (page, [right, down] = [40, 60]) => {
   const box = await stageBox(page)
-  return hex((await screen(page)).at(box.cx + 40, box.cy + 60))
+  return hex((await screen(page)).at(box.cx + right, box.cy + down))
 }
+/** A place of the sphere near its pole, beyond the tolerance. */
+const BEYOND = [0, -100]
 /** A link that shows only a range of the sphere. */
 const only = (from, to) => {
   const view = { eye: [0.4247, 0.1759, 0.3399, 0.8205, 0, 0, 0, 30], range: [-0.1, 0.1], palette: 'inspect', mode: 'bands', only: [from, to], comparison: 0 }
@@ -44,14 +47,16 @@ export const scale = [
           }
         },
       })
-      const before = await probe(page)
+      const [before, inside] = [await probe(page, BEYOND), await probe(page)]
       const uploads = await page.evaluate(() => window.uploads)
       assert.ok(uploads > 0)
       const range = page.locator('.controls input[type=text]')
       await range.fill('0.02')
       await range.press('Enter')
       await settled(page)
-      assert.notEqual(await probe(page), before)
+      assert.notEqual(await probe(page, BEYOND), before)
+      // What is within tolerance stays green, however narrow the range.
+      assert.equal(await probe(page), inside)
       assert.equal(await page.evaluate(() => window.uploads), uploads)
     },
   ],

@@ -91,6 +91,26 @@ export const segment = [
     },
   ],
   [
+    'edges behind the part are hidden by it, on the stage and in the stored picture',
+    async (session) => {
+      for (const scripts of [true, false]) {
+        const page = await session.report('elements', { scripts })
+        const { objects } = JSON.parse(await page.locator('#manifest').textContent())
+        const box = await page.locator('#stage').boundingBox()
+        const picture = await screen(page)
+        const x = Math.round(box.x + box.width / 2) + 20
+        const shaft = bytes(`#${objects.find((o) => o.name === 'cylinder')?.color ?? objects[0].color}`)
+        const column = Array.from({ length: Math.floor(box.height) }, (_, y) => picture.at(x, box.y + y))
+        const own = column.flatMap((c, y) => (hue(c) !== null && apart(hue(c), hue(shaft)) < 8 ? [y] : []))
+        assert.ok(own.length > 60, `${own.length} pixels of the shaft`)
+        // From its first pixel to its last the shaft is one colour: no line runs behind it.
+        const inside = column.slice(own[0] + 6, own.at(-1) - 5)
+        const spread = [0, 1, 2].map((k) => Math.max(...inside.map((c) => c[k])) - Math.min(...inside.map((c) => c[k])))
+        assert.ok(Math.max(...spread) < 16, `scripts ${scripts}: ${spread}`)
+      }
+    },
+  ],
+  [
     'with scripts off: the elements with their sizes',
     async (session) => {
       const page = await session.report('elements', { scripts: false })

@@ -3,7 +3,7 @@
 use super::super::super::html::Html;
 use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
 use super::super::check;
-use super::{headline, in_words};
+use super::{headline, in_words, warning_key};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison, SignRecord, Statistics};
 
@@ -57,7 +57,7 @@ fn ranking(h: &mut Html, result: &CompareDocument) {
             match (&c.tolerance, c.verdict) {
                 (Some(t), Some(v)) => {
                     badge(h, headline(Some(v)));
-                    h.raw(" ").percent(t.inside, 2);
+                    h.raw(" ").optional_percent(t.inside, t.inside_reason.as_deref(), 2);
                 }
                 _ => {
                     h.raw("–");
@@ -135,9 +135,7 @@ const ROWS: [Row; 14] = [
 fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
     let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
     section(h, "statistics", |h| {
-        if let Some(words) = in_words(c, h.style) {
-            h.raw("<p class=\"words\">").text(&words).raw("</p>");
-        }
+        in_words(h, c);
         h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
         h.raw("</th><th class=\"r\">")
             .word("plus")
@@ -175,6 +173,14 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
                 h.raw(" (> ").number(d, 1, false).raw("\u{a0}mm)");
             }
         });
+        for warning in &c.warnings {
+            fact(h, warning_key(warning.kind), |h| {
+                h.raw("<strong class=\"warning\">⚠ ")
+                    .number(warning.value, 3, false)
+                    .raw("</strong><br><small>");
+                h.text(&warning.text).raw("</small>");
+            });
+        }
         fact(h, "sign.method", |h| sign(h, &c.sign));
         fact(h, "soundness", |h| soundness(h, c));
         if let Some(p) = &c.paper_vs_exact {

@@ -2,12 +2,11 @@
 
 mod list;
 
-use super::super::html::{Html, percent};
+use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, key_number};
-use super::super::{number::Style, text::word};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::check::found;
-use crate::results::compare::{CompareDocument, Comparison, Worst};
+use crate::results::compare::{CompareDocument, Comparison, WarningKind, Worst};
 use crate::scale::Scale;
 use serde_json::Value;
 
@@ -40,7 +39,9 @@ impl Subject for CompareDocument {
 
     fn method(&self, h: &mut Html) {
         let text = if self.method == "paper" { "method.paper.text" } else { "method.exact.text" };
-        for key in [text, "method.sign.text", "method.map.text"] {
+        // The map is one of points, if they were not a mesh's own vertices.
+        let points = (self.measured.kind != "vertices").then_some("method.points.text");
+        for key in [text, "method.sign.text", "method.map.text"].into_iter().chain(points) {
             h.raw("<p>").word(key).raw("</p>");
         }
     }
@@ -65,7 +66,7 @@ impl Subject for CompareDocument {
     fn maps(&self) -> Vec<Map<'_>> {
         fn of(c: &Comparison) -> Map<'_> {
             let all = &c.deviation.all;
-            let (tolerance, histogram) = (c.tolerance, c.histogram.as_ref());
+            let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
             Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
         }
         self.comparisons.iter().map(of).collect()
@@ -78,7 +79,8 @@ impl Subject for CompareDocument {
             let map = Some(n);
             let worst = |w: &Worst| {
                 let value = Some(w.deviation);
-                Pick { position: w.point, normal: w.normal, map, value, ..Pick::default() }
+                let surface = Some(w.nearest);
+                Pick { position: w.point, surface, normal: w.normal, map, value, ..Pick::default() }
             };
             picks.extend(c.worst.iter().map(worst));
             let found = found(&c.soundness.findings);
@@ -106,7 +108,7 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     match &c.tolerance {
         Some(t) => {
             key_number(h, "within", "lead", |h| {
-                h.percent(t.inside, 2);
+                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
             });
             key_number(h, "tolerance", "", |h| {
                 h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
@@ -150,21 +152,30 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     key_number(h, "soundness", class, |h| {
         h.raw(sign).word(state);
     });
+    for warning in &c.warnings {
+        key_number(h, warning_key(warning.kind), "warn", |h| {
+            h.raw("⚠\u{a0}").number(warning.value, 3, false);
+        });
+    }
     h.raw("</dl>");
 }
 
+/// Key of a warning in a few words.
+fn warning_key(kind: WarningKind) -> &'static str {
+    match kind {
+        WarningKind::SizeRatio => "warning.size_ratio",
+        WarningKind::HardlyOverlapping => "warning.hardly_overlapping",
+    }
+}
+
 /// The map in one sentence, for those who cannot see it.
-fn in_words(c: &Comparison, style: Style) -> Option<String> {
-    let t = c.tolerance?;
-    let language = style.language;
-    let share = |s: f64| format!("{} %", style.fixed(percent(s, 2), 2));
-    Some(format!(
-        "{} {} · {} {} · {} {}",
-        word("within", language),
-        share(t.inside),
-        word("above", language),
-        share(t.above),
-        word("below", language),
-        share(t.below)
-    ))
+fn in_words(h: &mut Html, c: &Comparison) {
+    let Some(t) = &c.tolerance else { return };
+    let (Some(inside), Some(above), Some(below)) = (t.inside, t.above, t.below) else { return };
+    h.raw("<p class=\"words\">");
+    for (n, (key, share)) in [("within", inside), ("above", above), ("below", below)].into_iter().enumerate()
+    {
+        h.raw(if n > 0 { " · " } else { "" }).word(key).raw(" ").percent(share, 2);
+    }
+    h.raw("</p>");
 }

@@ -1,0 +1,219 @@
+//! The files of a run, all of them known and tried before any work: what is read is never overwritten, two outputs never
+//! share a file, and an output that cannot be written is found out at once and not after an hour.
+//!
+//! Every command lists its files here; nothing else opens an output for the first time.
+
+use crate::console;
+use crate::exit::Usage;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use trueness_files::AtomicFile;
+use trueness_files::write::Writable;
+
+/// What a command reads and writes.
+#[derive(Default)]
+pub struct RunFiles {
+    inputs: Vec<PathBuf>,
+    outputs: Vec<Output>,
+    in_place: bool,
+}
+
+struct Output {
+    /// As the user knows it: `--json`.
+    option: &'static str,
+    path: PathBuf,
+    /// What it holds, where its ending decides how.
+    holds: Option<Writable>,
+    /// Whether `-` is the standard output.
+    on_stdout: bool,
+}
+
+impl RunFiles {
+    /// Those that are read.
+    pub fn of<'a>(inputs: impl IntoIterator<Item = &'a PathBuf>) -> RunFiles {
+        RunFiles { inputs: inputs.into_iter().cloned().collect(), ..RunFiles::default() }
+    }
+
+    /// The document of `--json`, for which `-` is the standard output.
+    pub fn document(self, path: Option<&PathBuf>) -> RunFiles {
+        self.output("--json", path, None, true)
+    }
+
+    /// The report of `--html`.
+    pub fn report(self, path: Option<&PathBuf>) -> RunFiles {
+        self.output("--html", path, None, false)
+    }
+
+    /// A file of `--out` whose ending decides its format.
+    pub fn out(self, path: Option<&PathBuf>, holds: Writable) -> RunFiles {
+        self.output("--out", path, Some(holds), false)
+    }
+
+    /// Another file, of the option of this name.
+    pub fn also(self, option: &'static str, path: Option<&PathBuf>) -> RunFiles {
+        self.output(option, path, None, false)
+    }
+
+    /// Allows `--out` to replace the input.
+    pub fn in_place(self, in_place: bool) -> RunFiles {
+        RunFiles { in_place, ..self }
+    }
+
+    fn output(
+        mut self,
+        option: &'static str,
+        path: Option<&PathBuf>,
+        holds: Option<Writable>,
+        on_stdout: bool,
+    ) -> RunFiles {
+        self.outputs.extend(path.map(|path| Output { option, path: path.clone(), holds, on_stdout }));
+        self
+    }
+
+    /// Refuses what cannot go well, before any work.
+    ///
+    /// # Errors
+    /// Wrong usage: an ending that no format has, an output that is an input or another output, a stream that would have
+    /// to be read twice. Then what the system says: a missing folder, a protected file.
+    pub fn check(&self) -> anyhow::Result<()> {
+        self.check_streams()?;
+        for output in &self.outputs {
+            if is_dash(&output.path) && !output.on_stdout {
+                let option = output.option;
+                return Err(Usage(format!(
+                    "{option} -: only --json goes to the standard output; name a file (./- if it is to be called so)"
+                ))
+                .into());
+            }
+            if let Some(holds) = output.holds {
+                holds.check(&output.path)?;
+            }
+        }
+        self.check_overlaps()?;
+        let files = || self.outputs.iter().map(|o| &o.path).filter(|path| !is_dash(path));
+        files().try_for_each(|path| AtomicFile::try_out(path))?;
+        remove_leftovers(files());
+        Ok(())
+    }
+
+    /// Standard input and pipes give their bytes once.
+    fn check_streams(&self) -> Result<(), Usage> {
+        for (i, path) in self.inputs.iter().enumerate() {
+            if is_stream(path) && self.inputs[..i].contains(path) {
+                let shown = path.display();
+                return Err(Usage(format!(
+                    "{shown}: it can be read once only; save it in a file and name that twice"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_overlaps(&self) -> Result<(), Usage> {
+        let mut taken: Vec<(Place, &Output)> = vec![];
+        let inputs: Vec<(Place, &PathBuf)> =
+            self.inputs.iter().filter_map(|path| Some((Place::of_input(path)?, path))).collect();
+        for output in &self.outputs {
+            let Some(place) = Place::of_output(&output.path) else { continue };
+            let (option, shown) = (output.option, output.path.display());
+            if let Some((_, other)) = taken.iter().find(|(p, _)| *p == place) {
+                let (first, there) = (other.option, other.path.display());
+                return Err(Usage(format!(
+                    "{option} {shown} and {first} {there} are the same file; give each its own"
+                )));
+            }
+            let replaces = self.in_place && option == "--out";
+            if let Some((_, input)) = inputs.iter().find(|(p, _)| *p == place && !replaces) {
+                let input = input.display();
+                let remedy = match output.holds {
+                    Some(Writable::Mesh) => "write to another file, or add --in-place",
+                    _ => "write to another file",
+                };
+                return Err(Usage(format!(
+                    "{option} {shown} would overwrite the input {input}, which is the same file; {remedy}"
+                )));
+            }
+            taken.push((place, output));
+        }
+        Ok(())
+    }
+}
+
+fn is_dash(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether a path stands for something that can be read once only.
+pub fn is_stream(path: &Path) -> bool {
+    is_dash(path) || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+/// Which file a path stands for, whatever way it is spelled and through whichever links.
+#[derive(PartialEq, Eq)]
+enum Place {
+    /// Device and number of a file that exists.
+    #[cfg(unix)]
+    Node(u64, u64),
+    /// Full path: of a file that does not exist yet, or where files have no numbers.
+    Path(PathBuf),
+}
+
+impl Place {
+    /// Of what is read; `-` is what the standard input was redirected from. `None` for devices and pipes.
+    fn of_input(path: &Path) -> Option<Place> {
+        Place::existing(if is_dash(path) { Path::new("/dev/stdin") } else { path })
+    }
+
+    /// Of what is written; `-` is what the standard output was redirected to. `None` for devices, pipes, and files whose
+    /// folder does not exist.
+    fn of_output(path: &Path) -> Option<Place> {
+        if is_dash(path) {
+            return Place::existing(Path::new("/dev/stdout"));
+        }
+        if fs::metadata(path).is_ok() {
+            return Place::existing(path);
+        }
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some(Place::Path(fs::canonicalize(folder).ok()?.join(path.file_name()?)))
+    }
+
+    fn existing(path: &Path) -> Option<Place> {
+        let there = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+        Place::node(path, &there)
+    }
+
+    #[cfg(unix)]
+    fn node(_: &Path, there: &fs::Metadata) -> Option<Place> {
+        use std::os::unix::fs::MetadataExt;
+        Some(Place::Node(there.dev(), there.ino()))
+    }
+
+    #[cfg(not(unix))]
+    fn node(path: &Path, _: &fs::Metadata) -> Option<Place> {
+        fs::canonicalize(path).ok().map(Place::Path)
+    }
+}
+
+/// Clears the folders of the outputs of what killed runs left there, and says so.
+fn remove_leftovers<'a>(outputs: impl Iterator<Item = &'a PathBuf>) {
+    let folders: BTreeSet<PathBuf> = outputs
+        .filter_map(|path| path.parent())
+        .map(|folder| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.into() })
+        .collect();
+    for folder in folders {
+        let found = trueness_files::remove_leftovers(&folder);
+        for path in found.removed {
+            console::note(&format!(
+                "removed {}: an unfinished file of a run that was killed",
+                path.display()
+            ));
+        }
+        for path in found.kept {
+            console::note(&format!(
+                "{}: unfinished, by a run that was killed or is still under way; remove it once none is",
+                path.display()
+            ));
+        }
+    }
+}

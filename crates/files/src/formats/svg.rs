@@ -1,0 +1,102 @@
+//! SVG drawings, 1 to 1: a unit of the drawing is a millimetre, y runs upwards as in the data.
+//!
+//! Arcs are arcs. Cubic splines are Bézier curves, exactly: their knots are inserted until each span stands alone. A spline
+//! of another degree is drawn as a polyline of 64 steps to a span.
+
+use crate::drawing::{Entity, Layer, bounds, whole};
+use std::io::{self, Write};
+use trueness_geom::spline::basis::Knots;
+use trueness_geom::spline::curve::Curve;
+
+/// Writes a drawing; lines are a five hundredth of its size wide.
+pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
+    let [low, high] = bounds(layers).unwrap_or_default();
+    let size = [high[0] - low[0], high[1] - low[1]];
+    let margin = 0.02 * size[0].max(size[1]).max(1e-3);
+    let [w, h] = size.map(|s| s + 2.0 * margin);
+    let (x, y) = (low[0] - margin, -high[1] - margin);
+    writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
+    writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"{x} {y} {w} {h}\">"
+    )?;
+    let width = w.max(h) / 500.0;
+    for layer in layers {
+        let style = format!("fill=\"none\" stroke=\"black\" stroke-width=\"{width}\"");
+        writeln!(out, "<g id=\"{}\" transform=\"scale(1,-1)\" {style}>", layer.name)?;
+        layer.entities.iter().try_for_each(|e| entity(out, e))?;
+        writeln!(out, "</g>")?;
+    }
+    writeln!(out, "</svg>")
+}
+
+fn entity(out: &mut dyn Write, entity: &Entity) -> io::Result<()> {
+    match entity {
+        Entity::Line { start: [x, y], end: [u, v] } => writeln!(out, "<path d=\"M {x} {y} L {u} {v}\"/>"),
+        Entity::Arc { center: [x, y], radius, sweep, .. } if whole(*sweep) => {
+            writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
+        }
+        Entity::Arc { center, radius, start, sweep } => {
+            let at = |a: f64| [center[0] + radius * libm::cos(a), center[1] + radius * libm::sin(a)];
+            let ([x, y], [u, v]) = (at(*start), at(start + sweep));
+            let large = u8::from(sweep.abs() > std::f64::consts::PI);
+            let turn = u8::from(*sweep > 0.0);
+            writeln!(out, "<path d=\"M {x} {y} A {radius} {radius} 0 {large} {turn} {u} {v}\"/>")
+        }
+        Entity::Spline { degree, knots, points } => {
+            let Ok(knots) = Knots::new(*degree, knots.clone()) else { return Ok(()) };
+            let Ok(curve) = Curve::new(knots, points.clone()) else { return Ok(()) };
+            let [x, y] = curve.at(curve.domain().0);
+            write!(out, "<path d=\"M {x} {y}")?;
+            if *degree == 3 {
+                for b in bezier(&curve)[1..].chunks(3) {
+                    let [p, q, r] = [0, 1, 2].map(|k| b.get(k).copied().unwrap_or_default());
+                    write!(out, " C {} {} {} {} {} {}", p[0], p[1], q[0], q[1], r[0], r[1])?;
+                }
+            } else {
+                for [x, y] in &curve.sample(64 * curve.knots().distinct().len())[1..] {
+                    write!(out, " L {x} {y}")?;
+                }
+            }
+            writeln!(out, "\"/>")
+        }
+    }
+}
+
+/// Control points of the Bézier curves of a cubic, one after the other, ends shared.
+fn bezier(curve: &Curve<[f64; 2]>) -> Vec<[f64; 2]> {
+    let mut curve = curve.clone();
+    let distinct = curve.knots().distinct();
+    for knot in &distinct[1..distinct.len() - 1] {
+        while curve.knots().multiplicity(*knot) < 3 {
+            match curve.insert(*knot) {
+                Ok(finer) => curve = finer,
+                Err(_) => break,
+            }
+        }
+    }
+    curve.points().to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_the_bezier_curves_it_consists_of() {
+        let knots = vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0];
+        let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 1.0], [4.0, 0.0]];
+        let curve = Curve::new(Knots::new(3, knots.clone()).unwrap(), points.clone()).unwrap();
+        let control = bezier(&curve);
+        assert_eq!(control.len(), 7);
+        let at = curve.at(0.4);
+        assert!((0..2).all(|k| (control[3][k] - at[k]).abs() < 1e-14));
+        let arc = Entity::Arc { center: [0.0, 0.0], radius: 1.0, start: 0.0, sweep: -4.0 };
+        let layer =
+            Layer { name: "a".into(), entities: vec![Entity::Spline { degree: 3, knots, points }, arc] };
+        let mut out = vec![];
+        write(&mut out, &[layer]).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert_eq!((text.matches(" C ").count(), text.matches(" A 1 1 0 1 0 ").count()), (2, 1), "{text}");
+    }
+}

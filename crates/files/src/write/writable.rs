@@ -1,0 +1,79 @@
+//! What can be written, and under which endings.
+
+use crate::{
+    FORMATS, Format,
+    error::{WriteError, WriteFault},
+};
+use std::path::Path;
+
+/// What a file is to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Writable {
+    /// Points, with or without deviations.
+    Points,
+    /// A mesh.
+    Mesh,
+    /// Facets or points with the number of their region.
+    Regions,
+}
+
+impl Writable {
+    /// The endings, without dot, of the files that can hold it; the usual one of each format first.
+    pub fn endings(self) -> Vec<&'static str> {
+        let writes = |f: &&&Format| match self {
+            Writable::Points => f.writes_points(),
+            Writable::Mesh => f.writes_meshes(),
+            Writable::Regions => false,
+        };
+        match self {
+            Writable::Regions => vec!["ply", "csv"],
+            _ => FORMATS.iter().filter(writes).flat_map(|f| f.written_as.iter().copied()).collect(),
+        }
+    }
+
+    /// The same as they are shown: `.ply .csv`.
+    pub fn shown(self) -> String {
+        self.endings().iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether a file of this name can hold it.
+    ///
+    /// # Errors
+    /// An ending that is none of [`Writable::endings`].
+    pub fn check(self, path: &Path) -> Result<(), WriteError> {
+        self.ending_of(path).map(drop).map_err(|e| e.in_file(path))
+    }
+
+    /// The ending of a path, as it stands in the list.
+    pub(crate) fn ending_of(self, path: &Path) -> Result<&'static str, WriteFault> {
+        let given = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        self.endings().into_iter().find(|e| e.eq_ignore_ascii_case(given)).ok_or_else(|| self.unknown())
+    }
+
+    pub(crate) fn unknown(self) -> WriteFault {
+        let what = match self {
+            Writable::Points => "points",
+            Writable::Mesh => "a mesh",
+            Writable::Regions => "regions",
+        };
+        WriteFault::UnknownFormat { what, known: self.shown() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_ending_listed_is_written() {
+        for what in [Writable::Points, Writable::Mesh, Writable::Regions] {
+            assert!(!what.endings().is_empty());
+            for ending in what.endings() {
+                let name = format!("a.{}", ending.to_uppercase());
+                assert_eq!(what.ending_of(Path::new(&name)).unwrap(), ending);
+            }
+            let refused = what.check(Path::new("a.foo")).unwrap_err();
+            assert!(refused.fault.is_wrong_usage() && refused.to_string().contains(&what.shown()));
+        }
+    }
+}

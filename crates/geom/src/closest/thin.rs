@@ -1,0 +1,81 @@
+//! Distance from a point to a thin triangle, in twice the precision.
+//!
+//! The normal of a triangle is a difference of products: of an angle whose sine is `s`, double precision keeps it to
+//! 2^-53 / s only, and with it the height of a point over the plane. From [`THIN`] on downwards the same is done with
+//! twice the digits, so the distance stays as good as that to a segment. The brute-force twin and the search both come
+//! here.
+
+use crate::closest::triangle::rim;
+use crate::num::double::Double;
+use crate::space::Point;
+
+/// Square of the sine of the angle at the first corner below which a triangle is thin. There double precision would keep
+/// the height to 2^-53 / 2^-10 of the distance from that corner.
+pub const THIN: f64 = 1.0 / (1 << 20) as f64;
+
+type Wide = [Double; 3];
+
+fn minus(a: &Point, b: &Point) -> Wide {
+    std::array::from_fn(|k| Double::difference(a[k], b[k]))
+}
+
+fn dot(a: &Wide, b: &Wide) -> Double {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: &Wide, b: &Wide) -> Wide {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        a[i] * b[j] - a[j] * b[i]
+    })
+}
+
+/// The normal of a thin triangle, its length twice the area.
+pub fn normal([a, b, c]: &[Point; 3]) -> Point {
+    cross(&minus(b, a), &minus(c, a)).map(Double::value)
+}
+
+/// The foot of a point on the plane of a triangle, where it falls inside.
+pub struct Foot {
+    /// Square of the height over the plane.
+    pub height_squared: f64,
+    /// Height times the length of the normal.
+    pub height: f64,
+    /// Height over the length of the normal: the foot is that many normals from the point.
+    pub normals: f64,
+    /// The normal.
+    pub normal: Point,
+    /// Weights of the corners, which do not sum up to one.
+    pub weights: [f64; 3],
+}
+
+/// The foot of `p`; `None` where it falls outside, or where the triangle has no area.
+pub fn foot(p: &Point, [a, b, c]: &[Point; 3]) -> Option<Foot> {
+    let (ab, ac, bc) = (minus(b, a), minus(c, a), minus(c, b));
+    let (ap, bp) = (minus(p, a), minus(p, b));
+    let n = cross(&ab, &ac);
+    let nn = dot(&n, &n);
+    let weights = [cross(&bc, &bp), cross(&ap, &ac), cross(&ab, &ap)].map(|part| dot(&n, &part).value());
+    if !(nn.value() > 0.0 && weights.iter().all(|w| *w >= 0.0)) {
+        return None;
+    }
+    let h = dot(&ap, &n);
+    let normals = h.over(nn);
+    Some(Foot {
+        height_squared: (h * normals).value(),
+        height: h.value(),
+        normals: normals.value(),
+        normal: n.map(Double::value),
+        weights,
+    })
+}
+
+/// Squared distance and height, as `triangle::squared` has them.
+pub fn squared(p: &Point, t: &[Point; 3]) -> (f64, f64) {
+    let rim = rim(p, t);
+    match foot(p, t) {
+        Some(foot) if foot.height_squared < rim => (foot.height_squared, foot.height),
+        Some(foot) => (rim, foot.height),
+        None => (rim, 0.0),
+    }
+}

@@ -1,0 +1,97 @@
+//! What a repair did to the places that the mesh encloses.
+
+use super::enclosed::{Enclosed, NotEnclosed, enclosed};
+use super::measure::{places, triangle_key};
+use super::work::Work;
+use super::{Options, RepairError, islands, orient};
+use crate::check::Report;
+use crate::closest::{Query, Tree};
+use crate::mesh::Mesh;
+use crate::progress::{Cancelled, Progress};
+use crate::space::Point;
+use crate::topology::{Properties, Topology};
+
+/// Bodies, and what they enclose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// What the mesh enclosed before; if neighbours looked in different directions, after they were turned; without the
+    /// shells that are removed on request.
+    pub enclosed: Result<Enclosed, NotEnclosed>,
+    /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
+    /// others the middle of each part that bounded it, of others that are gone those of [`deviation`](super::deviation).
+    /// `None` where nothing was enclosed or nothing is left.
+    pub surface: Option<f64>,
+    /// Closed shells that look outwards, before and after.
+    pub bodies: [usize; 2],
+}
+
+impl Effect {
+    /// From `before`, welded, to `after`.
+    pub(super) fn of(
+        (before, report): (&Mesh, &Report),
+        after: &Mesh,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Effect, RepairError> {
+        let mut base = Work::new(before.clone(), options, progress)?;
+        if report.soundness.inconsistent_edges > 0 {
+            (orient::STEP.run)(&mut base)?;
+        }
+        (islands::STEP.run)(&mut base)?;
+        let known = base.known()?;
+        let enclosed = match report.sound && base.changes.is_empty() {
+            true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
+            false => enclosed(base.mesh(), &known.topology, progress),
+        };
+        if enclosed == Err(NotEnclosed::Cancelled(Cancelled)) {
+            return Err(Cancelled.into());
+        }
+        let surface = match &enclosed {
+            Ok(enclosed) => surface(base.mesh(), enclosed, after, progress)?,
+            Err(_) => None,
+        };
+        let topology = Topology::of(after)?;
+        let bodies = [
+            bodies(&known.topology, &known.properties),
+            bodies(&topology, &Properties::of(after, &topology)),
+        ];
+        Ok(Effect { enclosed, surface, bodies })
+    }
+}
+
+/// Shells without a boundary edge whose volume is positive.
+fn bodies(topology: &Topology, properties: &Properties) -> usize {
+    let mut closed = vec![true; topology.shells];
+    for e in &topology.boundary_edges {
+        closed[topology.shell_of[e.facet as usize] as usize] = false;
+    }
+    closed.iter().zip(&properties.shell_volumes).filter(|(closed, volume)| **closed && **volume > 0.0).count()
+}
+
+/// Largest distance from what bounded the enclosed places to the new surface.
+fn surface(
+    before: &Mesh,
+    enclosed: &Enclosed,
+    after: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Option<f64>, Cancelled> {
+    let mut kept: Vec<_> = after.faces.iter().map(|f| triangle_key(after, f)).collect();
+    kept.sort_unstable();
+    let gone = before
+        .faces
+        .iter()
+        .zip(&enclosed.bounds)
+        .filter(|(f, bounds)| **bounds && kept.binary_search(&triangle_key(before, f)).is_err());
+    let mut asked: Vec<Point> =
+        gone.flat_map(|(f, _)| places(f.map(|v| before.positions[v as usize]))).collect();
+    asked.extend(&enclosed.middles);
+    if asked.is_empty() {
+        return Ok(Some(0.0));
+    }
+    let Ok(tree) = Tree::build(after) else { return Ok(None) };
+    let distances = tree.distances(&asked, &Query::default(), progress);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    Ok(distances.ok().map(|d| d.into_iter().fold(0.0, f64::max)))
+}

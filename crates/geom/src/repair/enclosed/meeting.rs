@@ -1,0 +1,72 @@
+//! Where two facets meet.
+
+use crate::num::predicates::side_of_plane;
+use crate::space::{Point, Vector, cross, dot, minus, plus, times};
+
+/// A facet with its vertices' numbers, true places, and places as seen from the middle of the mesh.
+pub(super) struct Facet {
+    pub vertices: [u32; 3],
+    pub places: [Point; 3],
+    pub local: [Point; 3],
+}
+
+impl Facet {
+    /// Twice its area, along its normal.
+    pub(super) fn vector(&self) -> Vector {
+        let [a, b, c] = self.local;
+        cross(minus(b, a), minus(c, a))
+    }
+}
+
+/// What two facets have in common.
+pub(super) enum Meeting {
+    /// Both lie in one plane, decided exactly.
+    Coplanar,
+    /// A segment, as seen from the middle of the mesh.
+    Segment([Point; 2]),
+    /// A point at most.
+    Nothing,
+}
+
+/// Which side of each facet the other's vertices lie on is decided exactly. The same for both orders of the two; where an
+/// edge meets a facet there is one place, whichever facet at the edge is asked about.
+pub(super) fn meeting(f: &Facet, g: &Facet) -> Meeting {
+    let sides = |t: &Facet, plane: &Facet| {
+        let [a, b, c] = &plane.places;
+        t.places.map(|p| side_of_plane(a, b, c, &p))
+    };
+    let (of_f, of_g) = (sides(f, g), sides(g, f));
+    if of_f == [0; 3] || of_g == [0; 3] {
+        return Meeting::Coplanar;
+    }
+    let (Some(p), Some(q)) = (cut(f, of_f, g), cut(g, of_g, f)) else { return Meeting::Nothing };
+    let along = cross(f.vector(), g.vector());
+    let sorted = |[a, b]: [Point; 2]| {
+        let (s, t) = (dot(along, a), dot(along, b));
+        if s <= t { [(s, a), (t, b)] } else { [(t, b), (s, a)] }
+    };
+    let ([p0, p1], [q0, q1]) = (sorted(p), sorted(q));
+    let from = if p0.0 >= q0.0 { p0 } else { q0 };
+    let to = if p1.0 <= q1.0 { p1 } else { q1 };
+    if from.0 < to.0 { Meeting::Segment([from.1, to.1]) } else { Meeting::Nothing }
+}
+
+/// Where the boundary of a facet passes the plane of another, its vertices being on these sides.
+fn cut(t: &Facet, sides: [i32; 3], plane: &Facet) -> Option<[Point; 2]> {
+    let mut found: Vec<Point> = (0..3).filter(|&k| sides[k] == 0).map(|k| t.local[k]).collect();
+    let (normal, origin) = (plane.vector(), plane.local[0]);
+    for k in 0..3 {
+        let l = (k + 1) % 3;
+        if sides[k] * sides[l] < 0 {
+            let (i, j) = if t.vertices[k] < t.vertices[l] { (k, l) } else { (l, k) };
+            let (u, v) = (t.local[i], t.local[j]);
+            let (a, b) = (dot(normal, minus(u, origin)), dot(normal, minus(v, origin)));
+            let share = if a == b { 0.5 } else { (a / (a - b)).clamp(0.0, 1.0) };
+            found.push(plus(u, times(share, minus(v, u))));
+        }
+    }
+    match found[..] {
+        [a, b] => Some([a, b]),
+        _ => None,
+    }
+}

@@ -1,0 +1,429 @@
+//! Whole contours: corners first, then the chains between them, then corners as the places where chains cross.
+
+use super::chain::{Kind, Pose};
+use super::convert::segments;
+use super::result::{Continuity, Contour, Join, Options, SectionError};
+use super::row::Clean;
+use super::search::Criterion;
+use super::span::{Found, Span, Task, single};
+use super::start::{Part, Penalty, noise, partition};
+use crate::num::special::student_quantile;
+use crate::progress::Progress;
+
+/// Places at which a part may start in the first partition.
+const PLACES: usize = 1200;
+/// Fewest points of a part.
+const FEWEST: usize = 4;
+/// A turn between two parts is a corner from here on, radians, and from so many standard deviations of the headings.
+const CORNER: (f64, f64) = (0.12, 8.0);
+/// A turn of more than this is a corner without further test, radians.
+const SHARP: f64 = 0.6;
+/// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
+const RESOLUTION: f64 = 1e-4;
+
+/// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
+/// uncertainties.
+///
+/// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
+/// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
+/// points are taken to scatter normally across the contour, all alike. Points that repeat the one before, and single points
+/// far off what their neighbors tell, are left out and listed.
+///
+/// # Errors
+/// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
+///
+/// ```
+/// use trueness_geom::section::{contour, Kind, Options};
+/// let line = (0..30).map(|i| [f64::from(i) - 30.0, 0.0]);
+/// let arc = (0..30).map(|i| f64::from(i) * 0.05).map(|a| [20.0 * a.sin(), 20.0 - 20.0 * a.cos()]);
+/// let points: Vec<[f64; 2]> = line.chain(arc).collect();
+/// let found = contour(&points, &Options::default(), &trueness_geom::progress::Silent).unwrap();
+/// let kinds: Vec<Kind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
+/// assert_eq!(kinds, [Kind::Line, Kind::Arc]);
+/// assert!(found.joins[0].point[0].abs() < 1e-3 && found.joins[0].point[1].abs() < 1e-6);
+/// ```
+pub fn contour(
+    points: &[[f64; 2]],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    let mut clean = Clean::new(points, options)?;
+    let n = clean.points.len();
+    let (own, step) = noise(&clean.points, clean.closed);
+    let size = size(&clean.points);
+    let sigma = options.noise.unwrap_or(own).max(1e-6 * size);
+    let outliers = clean.outliers(sigma, step);
+    let mut weights = vec![1.0; n];
+    outliers.iter().for_each(|i| weights[*i] = 0.0);
+    let log = libm::log(n as f64);
+    let penalty =
+        Penalty { line: 3.0 * log, arc: 4.0 * log, noise: sigma, fewest: FEWEST * step, places: PLACES };
+    if progress.cancelled() {
+        return Err(SectionError::Cancelled(crate::progress::Cancelled));
+    }
+    let mut parts = partition(&clean.points, &weights, &penalty);
+    let mut turned = 0;
+    if clean.closed && parts.len() > 1 {
+        // The row is turned so that it starts where a part does.
+        turned = parts[parts.len() / 2].from;
+        clean.points.rotate_left(turned);
+        weights.rotate_left(turned);
+        parts = partition(&clean.points, &weights, &penalty);
+    }
+    let spacing = spacing(&clean, step);
+    let mut plan =
+        Plan { clean: &clean, weights: &weights, options, spacing, step, sigma, given: options.noise, own };
+    let (founds, corners) = plan.all(&parts, progress)?;
+    let mut found = plan.join(founds, corners)?;
+    found.finish(&clean, turned, points.len(), outliers);
+    Ok(found.contour)
+}
+
+fn size(points: &[[f64; 2]]) -> f64 {
+    let range = |k: usize| {
+        let (low, high) =
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
+        high - low
+    };
+    libm::hypot(range(0), range(1))
+}
+
+/// Mean distance between neighbors, of means of five: noise makes the row itself longer.
+fn spacing(clean: &Clean, step: usize) -> f64 {
+    let points: Vec<[f64; 2]> = clean.points.iter().step_by(step).copied().collect();
+    let n = points.len();
+    let smooth: Vec<[f64; 2]> = (0..n)
+        .map(|i| {
+            let k = i.min(n - 1 - i).min(2);
+            let w = (2 * k + 1) as f64;
+            [0, 1].map(|d| points[i - k..=i + k].iter().map(|p| p[d]).sum::<f64>() / w)
+        })
+        .collect();
+    let length: f64 = smooth.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
+    (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
+}
+
+/// What all spans of a row have in common.
+struct Plan<'a> {
+    clean: &'a Clean,
+    weights: &'a [f64],
+    options: &'a Options,
+    spacing: f64,
+    /// Points are followed at this step: nearer ones scatter more than they are apart.
+    step: usize,
+    sigma: f64,
+    given: Option<f64>,
+    own: f64,
+}
+
+/// Where a corner is: the first point after it.
+type Corner = usize;
+
+impl Plan<'_> {
+    /// The chains between corners.
+    fn all(
+        &mut self,
+        parts: &[Part],
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Found>, Vec<Corner>), SectionError> {
+        let closed = self.clean.closed;
+        let n = self.clean.points.len();
+        let forced = self.options.continuity;
+        let corner = |k: usize| match forced {
+            Some(Continuity::G0) => true,
+            Some(_) => false,
+            None => self.is_corner(&parts[k], &parts[(k + 1) % parts.len()]),
+        };
+        let mut ends: Vec<usize> = (0..parts.len() - 1).filter(|k| corner(*k)).map(|k| k + 1).collect();
+        let seam = closed && parts.len() > 1 && corner(parts.len() - 1);
+        // Parts of a closed row go on over the seam, unless there is a corner.
+        let mut founds = vec![];
+        let mut corners: Vec<Corner> = vec![];
+        if closed && ends.is_empty() && !seam {
+            // A whole circle joins itself anywhere: it is an arc whose ends happen to meet.
+            let task = self.task(parts.len() > 1, true, n);
+            let span = Span::new(&self.clean.points, self.weights, (0..n).collect());
+            let mut found = span.find(parts, &task, progress)?;
+            found.circle =
+                parts.len() == 1 && found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc;
+            founds.push(found);
+            return Ok((founds, corners));
+        }
+        let mut order: Vec<Part> = parts.to_vec();
+        let mut shift = 0;
+        if closed && !seam {
+            let by = ends[0];
+            shift = order[by].from;
+            order.rotate_left(by);
+            ends = ends.iter().map(|e| e - by).filter(|e| *e > 0).collect();
+        }
+        ends.push(order.len());
+        let mut from = 0;
+        for to in ends {
+            let own = &order[from..to];
+            let start = (own[0].from + n - shift) % n;
+            let count: usize = own.iter().map(|p| p.to - p.from).sum();
+            let numbers: Vec<usize> = (start..start + count).map(|i| (i + shift) % n).collect();
+            let mut at = 0;
+            let local: Vec<Part> = own
+                .iter()
+                .map(|p| {
+                    let part = Part { from: at, to: at + p.to - p.from, ..*p };
+                    at = part.to;
+                    part
+                })
+                .collect();
+            if from > 0 || closed {
+                corners.push(numbers[0]);
+            }
+            let task = self.task(false, count == n, count);
+            let span = Span::new(&self.clean.points, self.weights, numbers);
+            founds.push(span.find(&local, &task, progress)?);
+            from = to;
+        }
+        Ok((founds, corners))
+    }
+
+    fn task(&self, closed: bool, whole: bool, count: usize) -> Task {
+        let n = self.clean.points.len();
+        // What the rest of the row tells about the noise; next to all if it was given.
+        let degrees = match self.given {
+            Some(_) => 1e6,
+            None if whole || count == n => 0.0,
+            None => 0.3 * (n - count) as f64,
+        };
+        let noise = self.given.unwrap_or(self.own);
+        let even = self.options.continuity == Some(Continuity::G2);
+        let criterion =
+            Criterion { noise, degrees, resolution: RESOLUTION * self.spacing, count: count as f64 };
+        let closed = closed && whole;
+        Task { criterion, spacing: self.spacing, step: self.step, closed, even, level: self.options.level }
+    }
+
+    /// Whether the row turns between two parts by more than their own uncertainty, and enough to matter.
+    fn is_corner(&self, before: &Part, after: &Part) -> bool {
+        let points = &self.clean.points;
+        let (a, b) = (points[before.to - 1], points[after.from % points.len()]);
+        let (a, b) = (heading(before, a), heading(after, b));
+        let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]).abs();
+        let spread = |part: &Part| {
+            let count = (part.to - part.from) as f64;
+            let factor = if part.kind == Kind::Line { 3.5 } else { 14.0 };
+            self.sigma * factor / (count.sqrt() * count * self.spacing)
+        };
+        let clear = turn > CORNER.0.max(CORNER.1 * libm::hypot(spread(before), spread(after)));
+        clear && (turn > SHARP || self.tangent_is_worse(before, after))
+    }
+
+    /// Whether two parts by themselves fit so much better than with a common tangent that the corner pays. A join that the
+    /// partition put a few points off looks like a corner.
+    fn tangent_is_worse(&self, before: &Part, after: &Part) -> bool {
+        let n = self.clean.points.len();
+        // A few hundred points of either part tell it.
+        let stride = ((before.to - before.from).min(after.to - after.from) / 300).max(1);
+        let pick =
+            |part: &Part| -> Vec<usize> { (part.from..part.to).step_by(stride).map(|i| i % n).collect() };
+        let (first, second) = (pick(before), pick(after));
+        let alone = |part: &Part, count: usize| Part { from: 0, to: count, ..*part };
+        let (cut, end) = (first.len(), first.len() + second.len());
+        let local = [alone(before, cut), Part { from: cut, to: end, ..*after }];
+        let sum = |numbers: Vec<usize>, parts: &[Part]| {
+            let task = self.task(false, true, numbers.len());
+            let task = Task { spacing: self.spacing * stride as f64, ..task };
+            Span::new(&self.clean.points, self.weights, numbers).sum(parts, &task)
+        };
+        let both: Vec<usize> = first.iter().chain(&second).copied().collect();
+        let count = both.len() as f64;
+        let floor = count * (RESOLUTION * self.spacing).powi(2);
+        let apart = sum(first, &[alone(before, cut)]) + sum(second, &[alone(after, end - cut)]);
+        let tangent = sum(both, &local);
+        count * libm::log((tangent + floor) / (apart + floor)) > 3.0 * libm::log(count)
+    }
+
+    /// Puts the chains together.
+    fn join(&self, mut founds: Vec<Found>, corners: Vec<Corner>) -> Result<Joined, SectionError> {
+        let closed = self.clean.closed;
+        let count = founds.len();
+        let mut all = Joined::default();
+        let quantile = |f: &Found| {
+            let degrees =
+                (f.span.points.len() as f64 - 4.0).max(1.0) + if self.given.is_some() { 1e6 } else { 0.0 };
+            student_quantile(1.0 - self.options.level, degrees)
+        };
+        let crossings: Vec<Option<Join>> = (0..count)
+            .map(|k| {
+                let last = k + 1 == count;
+                if corners.is_empty() || last && !closed {
+                    return None;
+                }
+                let (a, b) = (&founds[k], &founds[(k + 1) % count]);
+                Some(crossing(a, b, quantile(a), 20.0 * self.spacing))
+            })
+            .collect();
+        for k in 0..count {
+            let before = match k {
+                0 if closed => crossings[count - 1].as_ref(),
+                0 => None,
+                _ => crossings[k - 1].as_ref(),
+            };
+            let ends = [before.map(|j| j.point), crossings[k].as_ref().map(|j| j.point)];
+            let found = &mut founds[k];
+            all.add(found, segments(found, ends, self.spacing), self.clean.points.len());
+            if let Some(join) = &crossings[k] {
+                all.contour.joins.push(join.clone());
+            } else if found.state.chain.closed && !single(&found.state) {
+                // The join over the seam is the chain's first.
+                all.contour.joins.rotate_left(1);
+            }
+        }
+        let sum: f64 = all.contour.residuals.iter().zip(self.weights).map(|(r, w)| w * r * r).sum();
+        let unknowns: f64 = founds.iter().map(unknowns).sum();
+        let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
+        all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
+        (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
+        Ok(all)
+    }
+}
+
+fn unknowns(found: &Found) -> f64 {
+    2.0 + found.state.chain.joins() as f64
+        + found.pieces().iter().map(|p| p.coefficients.len() as f64).sum::<f64>()
+}
+
+/// Direction of a part's line or arc at a point.
+fn heading(part: &Part, at: [f64; 2]) -> [f64; 2] {
+    if part.kind == Kind::Line {
+        return part.along;
+    }
+    let radius = 1.0 / part.curvature;
+    let center = [part.center[0] - radius * part.along[1], part.center[1] + radius * part.along[0]];
+    let out = [at[0] - center[0], at[1] - center[1]];
+    let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE) * part.curvature.signum();
+    [-out[1] / length, out[0] / length]
+}
+
+/// The corner between two chains: where they cross, each going on as its end does.
+fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
+    let (mut u, mut v) = (0.0, 0.0);
+    let (mut p, mut q) = (a.beyond(true, 0.0), b.beyond(false, 0.0));
+    for _ in 0..30 {
+        let d = [q.at[0] - p.at[0], q.at[1] - p.at[1]];
+        let det = p.along[0] * -q.along[1] + p.along[1] * q.along[0];
+        if det.abs() < 1e-9 {
+            break;
+        }
+        let du = (d[0] * -q.along[1] + d[1] * q.along[0]) / det;
+        let dv = (p.along[0] * d[1] - p.along[1] * d[0]) / det;
+        u = (u + du).clamp(-farthest, farthest);
+        v = (v + dv).clamp(-farthest, farthest);
+        (p, q) = (a.beyond(true, u), b.beyond(false, v));
+        if du.abs() + dv.abs() < 1e-13 * farthest {
+            break;
+        }
+    }
+    let point = [0.5 * (p.at[0] + q.at[0]), 0.5 * (p.at[1] + q.at[1])];
+    let turn = libm::atan2(
+        p.along[0] * q.along[1] - p.along[1] * q.along[0],
+        p.along[0] * q.along[0] + p.along[1] * q.along[1],
+    );
+    let across = |f: &Found, end: usize| f.spread.as_ref().map_or(f.noise, |s| s.ends[end] * f.noise);
+    let (direction, uncertainty) = ellipse(&p, &q, across(a, 1), across(b, 0));
+    let reach = quantile * uncertainty;
+    let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
+    Join {
+        point,
+        continuity: Continuity::G0,
+        interval: [end(-1.0), end(1.0)],
+        uncertainty,
+        open: [false; 2],
+        turn,
+    }
+}
+
+/// Direction and standard deviation of the greatest uncertainty of the crossing of two lines that are each uncertain across.
+fn ellipse(p: &Pose, q: &Pose, a: f64, b: f64) -> ([f64; 2], f64) {
+    let (n, m) = (p.normal(), q.normal());
+    let det = n[0] * m[1] - n[1] * m[0];
+    // Moving the one line by 1 moves the crossing along the other.
+    let (x, y) = ([m[1] / det, -m[0] / det], [-n[1] / det, n[0] / det]);
+    let entry = |i: usize, j: usize| a * a * x[i] * x[j] + b * b * y[i] * y[j];
+    let (xx, xy, yy) = (entry(0, 0), entry(0, 1), entry(1, 1));
+    let half = 0.5 * (xx - yy);
+    let greatest = 0.5 * (xx + yy) + (half * half + xy * xy).sqrt();
+    let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+    let (sin, cos) = libm::sincos(angle);
+    ([cos, sin], greatest.max(0.0).sqrt())
+}
+
+/// A contour while it is put together.
+#[derive(Default)]
+struct Joined {
+    contour: Contour,
+    length: f64,
+}
+
+impl Joined {
+    fn add(&mut self, found: &Found, parts: super::convert::Parts, total: usize) {
+        let contour = &mut self.contour;
+        contour.labels.resize(total, 0);
+        contour.residuals.resize(total, 0.0);
+        contour.stations.resize(total, 0.0);
+        let first = contour.segments.len();
+        let n = found.span.points.len();
+        for g in 0..found.pieces().len() {
+            for i in found.state.breaks[g]..found.state.breaks[g + 1] {
+                let number = found.span.numbers[i % n];
+                contour.labels[number] = (first + g) as u32;
+                contour.residuals[number] = found.residuals[i % n];
+                contour.stations[number] = self.length + parts.before + found.stations[i % n];
+            }
+        }
+        self.length += parts.length;
+        contour.segments.extend(parts.segments);
+        contour.joins.extend(parts.joins);
+    }
+
+    /// Back to the numbers and places of the row given.
+    fn finish(&mut self, clean: &Clean, turned: usize, total: usize, outliers: Vec<usize>) {
+        let contour = &mut self.contour;
+        let n = clean.points.len();
+        let number = |i: usize| clean.numbers[(i + turned) % n];
+        let mut labels = vec![0; total];
+        let mut residuals = vec![0.0; total];
+        let mut stations = vec![0.0; total];
+        let mut known = vec![false; total];
+        for i in 0..n {
+            let k = number(i);
+            (labels[k], residuals[k], stations[k]) =
+                (contour.labels[i], contour.residuals[i], contour.stations[i]);
+            known[k] = true;
+        }
+        // A repeated point is where the one it repeats is: before it, or at the start.
+        for k in 0..total {
+            if !known[k] {
+                let like = if k == 0 || clean.repeated.last() == Some(&k) && clean.closed {
+                    clean.numbers[0]
+                } else {
+                    k - 1
+                };
+                (labels[k], residuals[k], stations[k]) = (labels[like], residuals[like], stations[like]);
+            }
+        }
+        if clean.closed && contour.segments.len() > 1 {
+            let by = labels[clean.numbers[0]] as usize;
+            let count = contour.segments.len();
+            let before: f64 = contour.segments[..by].iter().map(|s| s.length).sum();
+            contour.segments.rotate_left(by);
+            let joins = contour.joins.len();
+            contour.joins.rotate_left(by.min(joins));
+            labels.iter_mut().for_each(|l| *l = ((*l as usize + count - by) % count) as u32);
+            let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
+            stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
+        }
+        (contour.labels, contour.residuals, contour.stations) = (labels, residuals, stations);
+        // Outliers were found before the row was turned.
+        contour.outliers = outliers.into_iter().map(|i| clean.numbers[i]).collect();
+        (contour.repeated, contour.gaps) = (clean.repeated.clone(), clean.gaps.clone());
+        contour.shift(clean.middle);
+    }
+}

@@ -1,0 +1,169 @@
+//! Pieces of a chain as lines, arcs and B-splines.
+
+use super::chain::{Kind, Layout, Piece, arc_end};
+use super::result::{Continuity, Contour, Geometry, Join, Segment};
+use super::span::{Found, single};
+use crate::spline::basis::Knots;
+use crate::spline::curve::{self, Curve, End, Ends};
+use crate::spline::value::Value;
+
+/// Segments of one chain, and the joins between them.
+pub(super) struct Parts {
+    pub segments: Vec<Segment>,
+    pub joins: Vec<Join>,
+    /// Length of all.
+    pub length: f64,
+    /// From the corner at the start to the start of the chain's first piece.
+    pub before: f64,
+}
+
+/// A jump of curvature below so many standard deviations is none.
+const JUMP: f64 = 2.0;
+
+/// The segments of a chain whose ends are the corners given, or else the feet of its first and last point.
+pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f64) -> Parts {
+    let pieces = found.pieces();
+    let closed = found.state.chain.closed;
+    let n = pieces.len();
+    let starts = found.state.chain.stations();
+    let count = found.span.points.len();
+    // Lengths that the first and last piece are longer by.
+    let along = |join: usize, at: [f64; 2]| {
+        let pose = found.layout.poses[join];
+        pose.into_frame([at[0] - pose.at[0], at[1] - pose.at[1]])[0]
+    };
+    let (mut before, mut after) = (0.0, 0.0);
+    if found.circle {
+        after = std::f64::consts::TAU / pieces[0].curvature(0.0).abs() - pieces[0].length;
+    } else if !closed {
+        let first = found.stations[found.state.breaks[0] % count];
+        let last = found.stations[(found.state.breaks[n] + count - 1) % count];
+        before = corners[0].map_or(-first, |c| -along(0, c));
+        after = corners[1].map_or(last - starts[n], |c| along(n, c));
+    }
+    let mut segments: Vec<Segment> = vec![];
+    for (g, piece) in pieces.iter().enumerate() {
+        let from = if g == 0 { -before } else { 0.0 };
+        let to = piece.length + if g + 1 == n { after } else { 0.0 };
+        let mut segment = segment(&found.layout, g, piece, [from, to], found.noise.max(1e-4 * spacing));
+        let own = (found.state.breaks[g]..found.state.breaks[g + 1]).map(|i| i % count);
+        let distances: Vec<f64> =
+            own.filter(|i| found.span.weights[*i] > 0.0).map(|i| found.residuals[i]).collect();
+        segment.count = distances.len();
+        segment.rms = (distances.iter().map(|d| d * d).sum::<f64>() / distances.len().max(1) as f64).sqrt();
+        segment.max = distances.iter().fold(0.0, |m, d| m.max(d.abs()));
+        if let Some(corner) = corners[0].filter(|_| g == 0) {
+            segment.start = corner;
+        }
+        if let Some(corner) = corners[1].filter(|_| g + 1 == n) {
+            segment.end = corner;
+        }
+        segments.push(segment);
+    }
+    let length = segments.iter().map(|s| s.length).sum();
+    let joins = if single(&found.state) { vec![] } else { joins(found) };
+    Parts { segments, joins, length, before }
+}
+
+fn joins(found: &Found) -> Vec<Join> {
+    let pieces = found.pieces();
+    let n = pieces.len();
+    let first = usize::from(!found.state.chain.closed);
+    (first..n)
+        .map(|g| {
+            let (before, after) = (&pieces[(g + n - 1) % n], &pieces[g]);
+            let jump = after.curvature(0.0) - before.curvature(1.0);
+            let free = [before, after].iter().any(|p| p.kind == Kind::Spline);
+            let spread = found.spread.as_ref().map_or(0.0, |s| s.jumps[g - first] * found.noise);
+            let smooth = free && jump.abs() < JUMP * spread;
+            let interval = found.intervals[g - first];
+            Join {
+                point: found.layout.poses[g].at,
+                continuity: if smooth { Continuity::G2 } else { Continuity::G1 },
+                interval: interval.ends,
+                uncertainty: interval.uncertainty,
+                open: interval.open,
+                turn: 0.0,
+            }
+        })
+        .collect()
+}
+
+fn segment(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], tolerance: f64) -> Segment {
+    let pose = layout.poses[g];
+    let length = to - from;
+    let at = |s: f64| match piece.kind {
+        Kind::Spline => {
+            let table = &layout.tables[g];
+            pose.place(table.place(s / piece.length).at)
+        }
+        _ => {
+            let k = piece.coefficients.first().copied().unwrap_or(0.0);
+            pose.place(arc_end(s, s * k))
+        }
+    };
+    let (start, end) = (at(from), at(to));
+    let geometry = match piece.kind {
+        Kind::Line => Geometry::Line,
+        Kind::Arc => {
+            let curvature = piece.coefficients[0];
+            let normal = pose.normal();
+            let center = [pose.at[0] + normal[0] / curvature, pose.at[1] + normal[1] / curvature];
+            let radius = 1.0 / curvature.abs();
+            let angle = libm::atan2(start[1] - center[1], start[0] - center[0]);
+            Geometry::Arc { center, radius, start: angle, sweep: length * curvature }
+        }
+        Kind::Spline => spline(layout, g, piece, [from, to], 0.05 * tolerance),
+    };
+    let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
+    Segment { geometry, start, end, length, count: 0, rms: 0.0, max: 0.0, curvature: ends }
+}
+
+/// A cubic B-spline along a free piece, with its ends and the directions there.
+fn spline(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], tolerance: f64) -> Geometry {
+    let (pose, table) = (&layout.poses[g], &layout.tables[g]);
+    let samples = 16 * piece.coefficients.len() + 33;
+    let place = |i: usize| table.place((from + (to - from) * i as f64 / (samples - 1) as f64) / piece.length);
+    let points: Vec<[f64; 2]> = (0..samples).map(|i| pose.place(place(i).at)).collect();
+    let along = |i: usize| pose.out(place(i).along);
+    let ends = Ends {
+        start: End::Tangent(points[0], along(0)),
+        end: End::Tangent(points[samples - 1], along(samples - 1)),
+    };
+    match curve::approximate(&points, 3, ends, tolerance) {
+        Ok(fitted) => Geometry::Spline { curve: fitted.curve, deviation: fitted.max },
+        // Points of a curve are different: there is always one.
+        Err(_) => Geometry::Line,
+    }
+}
+
+impl Contour {
+    /// All places moved by `by`.
+    pub(super) fn shift(&mut self, by: [f64; 2]) {
+        let moved = |p: &mut [f64; 2]| *p = p.plus(1.0, by);
+        for segment in &mut self.segments {
+            moved(&mut segment.start);
+            moved(&mut segment.end);
+            match &mut segment.geometry {
+                Geometry::Line => {}
+                Geometry::Arc { center, .. } => moved(center),
+                Geometry::Spline { curve, .. } => {
+                    let knots: Knots = curve.knots().clone();
+                    let points = curve.points().iter().map(|p| p.plus(1.0, by)).collect();
+                    if let Ok(shifted) = Curve::new(knots, points) {
+                        *curve = shifted;
+                    }
+                }
+            }
+        }
+        for join in &mut self.joins {
+            moved(&mut join.point);
+            join.interval.iter_mut().for_each(moved);
+        }
+    }
+
+    /// Length of all segments.
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|s| s.length).sum()
+    }
+}

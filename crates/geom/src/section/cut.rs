@@ -1,0 +1,342 @@
+//! Where a plane cuts a mesh: closed loops out of closed meshes, by the identity of edges.
+//!
+//! Vertices are above, below or on the plane, decided exactly. One rule settles what is on it: it counts as above, as if the
+//! plane were lower by less than any number. So a facet is cut in no or in two edges, never in a vertex, and a facet in the
+//! plane is not cut at all; the loops of a closed mesh close, whatever the plane passes through. The place of a cut edge is
+//! computed once, from its lower-numbered end, and shared by the facets on both sides.
+
+use crate::mesh::Mesh;
+use crate::num::exact::Exact;
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use std::collections::HashMap;
+
+/// The plane of all points `p` with `normal · p = offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// At right angles to it; of any length but 0.
+    pub normal: Vector,
+    /// Times the length of the normal, the distance of the origin.
+    pub offset: f64,
+}
+
+/// Two axes of a plane at right angles, with an origin: coordinates there and back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneFrame {
+    /// The place with the coordinates 0, 0.
+    pub origin: Point,
+    /// Direction of the first axis.
+    pub x: Vector,
+    /// Direction of the second axis; with the normal the third, right-handed.
+    pub y: Vector,
+}
+
+impl Plane {
+    /// A frame in the plane; its origin is the foot of the coordinates' origin. `None` where the normal has no direction.
+    pub fn frame(&self) -> Option<PlaneFrame> {
+        let (normal, length) = unit(self.normal)?;
+        let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()))?;
+        let mut axis = [0.0; 3];
+        axis[least] = 1.0;
+        let (y, _) = unit(cross(normal, axis))?;
+        Some(PlaneFrame { origin: times(self.offset / length, normal), x: cross(y, normal), y })
+    }
+
+    /// The sign of `normal · p − offset`, exact.
+    fn side(&self, p: &Point) -> i32 {
+        let terms: [f64; 4] =
+            [self.normal[0] * p[0], self.normal[1] * p[1], self.normal[2] * p[2], -self.offset];
+        let rounded: f64 = terms.iter().sum();
+        // Three products, three sums: seven roundings at most.
+        let bound = 8.0 * f64::EPSILON * terms.iter().map(|t| t.abs()).sum::<f64>();
+        if rounded.abs() > bound {
+            return if rounded > 0.0 { 1 } else { -1 };
+        }
+        let mut sum = Exact::default();
+        (0..3).for_each(|k| sum.add_product(self.normal[k], p[k], 1.0));
+        sum.add(-self.offset);
+        sum.sign()
+    }
+
+    fn height(&self, p: &Point) -> f64 {
+        dot(self.normal, *p) - self.offset
+    }
+}
+
+impl PlaneFrame {
+    /// Coordinates of a place in the plane.
+    pub fn flat(&self, p: Point) -> [f64; 2] {
+        let d = minus(p, self.origin);
+        [dot(d, self.x), dot(d, self.y)]
+    }
+    /// The place with these coordinates.
+    pub fn place(&self, p: [f64; 2]) -> Point {
+        plus(plus(self.origin, times(p[0], self.x)), times(p[1], self.y))
+    }
+
+    /// The plane of least squares through points in space, and their greatest distance from it. `None` where they lie on a
+    /// line, or are fewer than three.
+    pub fn through(points: &[Point]) -> Option<(PlaneFrame, f64)> {
+        let n = points.len() as f64;
+        let middle: Point = std::array::from_fn(|k| points.iter().map(|p| p[k] / n).sum());
+        let mut scatter = [[0.0; 3]; 3];
+        for p in points {
+            let d = minus(*p, middle);
+            (0..9).for_each(|k| scatter[k / 3][k % 3] += d[k / 3] * d[k % 3]);
+        }
+        let (values, rows) = crate::fit::eigen(scatter);
+        if points.len() < 3 || values[1] <= 1e-12 * values[2] {
+            return None;
+        }
+        // The frame of the coordinates where that is the plane already.
+        let mut normal = rows[0];
+        let greatest = (0..3).max_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()))?;
+        if normal[greatest] < 0.0 {
+            normal = times(-1.0, normal);
+        }
+        let frame = Plane { normal, offset: dot(normal, middle) }.frame()?;
+        let off = points.iter().map(|p| dot(minus(*p, frame.origin), normal).abs()).fold(0.0, f64::max);
+        Some((frame, off))
+    }
+}
+
+/// A chain of points where a plane cuts a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// Its points in space, neighbors different; the first is not repeated at the end.
+    pub points: Vec<Point>,
+    /// Whether the last point joins the first.
+    pub closed: bool,
+}
+
+/// The chains in which `plane` cuts `mesh`, each with the material on its left as seen against the normal where facets run
+/// counter-clockwise outside. Open where the mesh is.
+///
+/// Vertices at the same place count as different: weld first. Facets that name no vertex, or hold a coordinate that is no
+/// number, are passed over. Where more than two facets share an edge, chains go on in the order of the facets. Cost: linear.
+///
+/// # Errors
+/// [`Cancelled`], when asked to stop.
+///
+/// ```
+/// use trueness_geom::{mesh::Mesh, progress::Silent, section::{cut, Plane}};
+/// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
+/// let chains = cut(&mesh, &Plane { normal: [0.0, 0.0, 1.0], offset: 0.5 }, &Silent).unwrap();
+/// assert!(chains.len() == 1 && chains[0].closed && chains[0].points.len() == 3);
+/// ```
+pub fn cut(mesh: &Mesh, plane: &Plane, progress: &dyn Progress) -> Result<Vec<Chain>, Cancelled> {
+    let above: Vec<bool> = mesh.positions.iter().map(|p| plane.side(p) >= 0).collect();
+    let sound: Vec<bool> = mesh.positions.iter().map(|p| p.iter().all(|x| x.is_finite())).collect();
+    // Each cut facet leads from the edge at which its rim goes down to the one at which it comes up.
+    let mut next: HashMap<[u32; 2], Vec<[u32; 2]>> = HashMap::new();
+    let mut starts: Vec<[u32; 2]> = vec![];
+    let mut arrivals: HashMap<[u32; 2], u32> = HashMap::new();
+    for (n, face) in mesh.faces.iter().enumerate() {
+        if n % 65536 == 0 && progress.cancelled() {
+            return Err(Cancelled);
+        }
+        if face.iter().any(|v| sound.get(*v as usize) != Some(&true)) {
+            continue;
+        }
+        let up = face.map(|v| above[v as usize]);
+        let (mut from, mut to) = (None, None);
+        for k in 0..3 {
+            let (a, b) = (face[k], face[(k + 1) % 3]);
+            let edge = [a.min(b), a.max(b)];
+            match (up[k], up[(k + 1) % 3]) {
+                (true, false) => from = Some(edge),
+                (false, true) => to = Some(edge),
+                _ => {}
+            }
+        }
+        if let (Some(from), Some(to)) = (from, to) {
+            starts.push(from);
+            next.entry(from).or_default().push(to);
+            *arrivals.entry(to).or_default() += 1;
+        }
+    }
+    next.values_mut().for_each(|list| list.reverse());
+    let mut chains = vec![];
+    // Open chains begin where none arrives; what is left is closed.
+    for closed in [false, true] {
+        for start in &starts {
+            if !closed && arrivals.contains_key(start) {
+                continue;
+            }
+            while next.get(start).is_some_and(|list| !list.is_empty()) {
+                let (edges, ends) = follow(*start, &mut next);
+                let mut points: Vec<Point> = edges.iter().map(|e| place(mesh, plane, *e)).collect();
+                points.dedup();
+                while ends && points.len() > 1 && points.first() == points.last() {
+                    points.pop();
+                }
+                if points.len() > 1 {
+                    chains.push(Chain { points, closed: ends });
+                }
+            }
+        }
+    }
+    Ok(chains)
+}
+
+/// Edges from `start` on until the way ends or comes back.
+fn follow(start: [u32; 2], next: &mut HashMap<[u32; 2], Vec<[u32; 2]>>) -> (Vec<[u32; 2]>, bool) {
+    let mut edges = vec![start];
+    let mut now = start;
+    while let Some(to) = next.get_mut(&now).and_then(Vec::pop) {
+        if to == start {
+            return (edges, true);
+        }
+        edges.push(to);
+        now = to;
+    }
+    (edges, false)
+}
+
+/// Where the plane cuts an edge, within its box.
+fn place(mesh: &Mesh, plane: &Plane, edge: [u32; 2]) -> Point {
+    let [a, b] = edge.map(|v| mesh.positions[v as usize]);
+    let (low, high) = (plane.height(&a), plane.height(&b));
+    let t = low / (low - high);
+    let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.5 };
+    // A vertex in the plane is the place itself.
+    if plane.side(&a) == 0 {
+        return a;
+    }
+    if plane.side(&b) == 0 {
+        return b;
+    }
+    plus(a, times(t, minus(b, a)))
+}
+
+/// Area inside closed chains, holes taken off, seen against the normal of the frame.
+pub fn area(chains: &[Chain], frame: &PlaneFrame) -> f64 {
+    let twice = |chain: &Chain| -> f64 {
+        let flat: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
+        (0..flat.len())
+            .map(|i| {
+                let (a, b) = (flat[i], flat[(i + 1) % flat.len()]);
+                a[0] * b[1] - a[1] * b[0]
+            })
+            .sum()
+    };
+    0.5 * chains.iter().filter(|c| c.closed).map(twice).sum::<f64>()
+}
+
+impl Chain {
+    /// Length of its polyline.
+    pub fn length(&self) -> f64 {
+        let closing = if self.closed { self.points.first().zip(self.points.last()) } else { None };
+        let steps: f64 = self.points.windows(2).map(|w| norm(minus(w[1], w[0]))).sum();
+        steps + closing.map_or(0.0, |(a, b)| norm(minus(*a, *b)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+
+    /// A sphere of latitudes and longitudes.
+    fn sphere(rings: u32, around: u32) -> Mesh {
+        let mut mesh = Mesh::default();
+        mesh.positions.push([0.0, 0.0, 1.0]);
+        for r in 1..rings {
+            let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(r) / f64::from(rings));
+            for a in 0..around {
+                let (s, c) = libm::sincos(std::f64::consts::TAU * f64::from(a) / f64::from(around));
+                mesh.positions.push([sin * c, sin * s, cos]);
+            }
+        }
+        let last = mesh.positions.len() as u32;
+        mesh.positions.push([0.0, 0.0, -1.0]);
+        let at = |r: u32, a: u32| 1 + (r - 1) * around + a % around;
+        for a in 0..around {
+            mesh.faces.push([0, at(1, a), at(1, a + 1)]);
+            mesh.faces.push([last, at(rings - 1, a + 1), at(rings - 1, a)]);
+            for r in 1..rings - 1 {
+                mesh.faces.push([at(r, a), at(r + 1, a), at(r + 1, a + 1)]);
+                mesh.faces.push([at(r, a), at(r + 1, a + 1), at(r, a + 1)]);
+            }
+        }
+        mesh
+    }
+
+    /// Area by the segments of all facets, each by itself: the divergence theorem in the plane.
+    fn brute(mesh: &Mesh, plane: &Plane, frame: &PlaneFrame) -> f64 {
+        let mut sum = 0.0;
+        for face in &mesh.faces {
+            let p = face.map(|v| mesh.positions[v as usize]);
+            let h = p.map(|p| plane.height(&p));
+            let cross_at =
+                |i: usize, j: usize| frame.flat(plus(p[i], times(h[i] / (h[i] - h[j]), minus(p[j], p[i]))));
+            let (mut from, mut to) = (None, None);
+            for k in 0..3 {
+                let l = (k + 1) % 3;
+                if h[k] >= 0.0 && h[l] < 0.0 {
+                    from = Some(cross_at(k, l));
+                } else if h[k] < 0.0 && h[l] >= 0.0 {
+                    to = Some(cross_at(k, l));
+                }
+            }
+            if let (Some(a), Some(b)) = (from, to) {
+                sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn loops_of_a_closed_mesh_close_and_have_the_area_of_brute_force() {
+        let mesh = sphere(12, 24);
+        let random = &mut Random::new(8);
+        let mut planes: Vec<Plane> = (0..50)
+            .map(|_| Plane {
+                normal: std::array::from_fn(|_| random.unit() - 0.5),
+                offset: 0.4 * (random.unit() - 0.5),
+            })
+            .collect();
+        // Through vertices, edges, and the axis.
+        planes.push(Plane { normal: [0.0, 0.0, 1.0], offset: mesh.positions[1][2] });
+        planes.push(Plane { normal: [0.0, 0.0, 1.0], offset: 0.0 });
+        planes.push(Plane { normal: [1.0, 0.0, 0.0], offset: 0.0 });
+        planes.push(Plane { normal: [0.0, 1.0, 0.0], offset: 0.0 });
+        for plane in planes {
+            let chains = cut(&mesh, &plane, &Silent).unwrap();
+            assert!(!chains.is_empty());
+            for chain in &chains {
+                assert!(chain.closed, "{plane:?}");
+                let n = chain.points.len();
+                assert!((0..n).all(|i| chain.points[i] != chain.points[(i + 1) % n]), "{plane:?}");
+            }
+            let frame = plane.frame().unwrap();
+            let (a, b) = (area(&chains, &frame), brute(&mesh, &plane, &frame));
+            assert!((a - b).abs() < 1e-12 && a > 0.0, "{plane:?}: {a} {b}");
+        }
+    }
+
+    /// A pyramid of five vertices at two heights that broke loops elsewhere; its tip; a plane beside it.
+    #[test]
+    fn heights_at_and_near_vertices() {
+        let positions = vec![
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [4.0, 4.0, 0.0],
+            [0.0, 4.0, 0.0],
+            [2.0, 2.0, 3.0283334255218506],
+        ];
+        let faces = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let mesh = Mesh { positions, faces };
+        for (offset, loops) in [(3.0, 1), (3.0283334255218506, 0), (0.0, 0), (1e-300, 1), (-1.0, 0), (9.0, 0)]
+        {
+            let chains = cut(&mesh, &Plane { normal: [0.0, 0.0, 1.0], offset }, &Silent).unwrap();
+            assert_eq!(chains.len(), loops, "{offset}: {chains:?}");
+            assert!(chains.iter().all(|c| c.closed));
+        }
+        let open = Mesh { faces: mesh.faces[2..5].to_vec(), ..mesh };
+        let chains = cut(&open, &Plane { normal: [0.0, 0.0, 1.0], offset: 1.0 }, &Silent).unwrap();
+        assert!(chains.len() == 1 && !chains[0].closed && chains[0].points.len() == 4);
+    }
+}

@@ -1,0 +1,256 @@
+//! The free piece: curvature as a B-spline along the length.
+//!
+//! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1, so its
+//! heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by Gauss and
+//! Legendre's rule over panels, and quintic between the ends of panels. All is in the frame of the piece: it starts at 0
+//! along the first axis.
+
+use crate::spline::basis::Knots;
+use std::sync::OnceLock;
+
+/// Most coefficients of a free piece.
+pub(super) const MOST: usize = 48;
+/// Fewest panels over a piece, and per span of its knots.
+const PANELS: (usize, usize) = (14, 4);
+/// Gauss and Legendre's rule with four places on 0 … 1.
+const RULE: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+/// The functions `Bⱼ` and `Kⱼ` of one number of coefficients, where they are needed.
+pub(super) struct Basis {
+    count: usize,
+    panels: usize,
+    /// `Kⱼ` at the ends of panels.
+    integrals: Vec<f64>,
+    /// `Bⱼ` there.
+    values: Vec<f64>,
+    /// `Kⱼ` at the places of the rule.
+    inner: Vec<f64>,
+}
+
+/// Degree of the curvature of a piece with so many coefficients.
+fn degree(count: usize) -> usize {
+    3.min(count - 1)
+}
+
+/// The curvature at `t`.
+pub(super) fn curvature(coefficients: &[f64], t: f64) -> f64 {
+    let degree = degree(coefficients.len());
+    let (first, values) = Knots::uniform(degree, coefficients.len() - degree, 0.0, 1.0).basis(t);
+    values.iter().zip(&coefficients[first..]).map(|(b, c)| b * c).sum()
+}
+
+/// Where each coefficient acts most.
+pub(super) fn places(count: usize) -> Vec<f64> {
+    let degree = degree(count);
+    Knots::uniform(degree, count - degree, 0.0, 1.0).greville()
+}
+
+impl Basis {
+    /// The functions for `count` coefficients, 2 to [`MOST`].
+    pub(super) fn of(count: usize) -> &'static Basis {
+        static ALL: [OnceLock<Basis>; MOST + 1] = [const { OnceLock::new() }; MOST + 1];
+        ALL[count].get_or_init(|| Basis::new(count))
+    }
+
+    fn new(count: usize) -> Basis {
+        let degree = degree(count);
+        let spans = count - degree;
+        let knots = Knots::uniform(degree, spans, 0.0, 1.0);
+        let panels = spans * PANELS.1.max(PANELS.0.div_ceil(spans));
+        let dense = |t: f64| {
+            let (first, values) = knots.basis(t);
+            let mut all = vec![0.0; count];
+            all[first..first + values.len()].copy_from_slice(&values);
+            all
+        };
+        // Exact for the cubic pieces of the functions.
+        let integral = |from: f64, to: f64| {
+            let mut sum = vec![0.0; count];
+            for (x, w) in RULE {
+                for (s, b) in sum.iter_mut().zip(dense(from + (to - from) * x)) {
+                    *s += w * (to - from) * b;
+                }
+            }
+            sum
+        };
+        let plus = |a: &[f64], b: Vec<f64>| -> Vec<f64> { a.iter().zip(b).map(|(x, y)| x + y).collect() };
+        let mut basis =
+            Basis { count, panels, integrals: vec![0.0; count], values: dense(0.0), inner: vec![] };
+        let mut now = vec![0.0; count];
+        for k in 0..panels {
+            let (from, to) = (k as f64 / panels as f64, (k + 1) as f64 / panels as f64);
+            for (x, _) in RULE {
+                basis.inner.extend(plus(&now, integral(from, from + (to - from) * x)));
+            }
+            now = plus(&now, integral(from, to));
+            basis.integrals.extend_from_slice(&now);
+            basis.values.extend(dense(to));
+        }
+        basis
+    }
+}
+
+/// A place of a free piece.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    /// Where.
+    pub at: [f64; 2],
+    /// Direction of the curve.
+    pub along: [f64; 2],
+    /// Curvature.
+    pub curvature: f64,
+}
+
+/// A free piece in its own frame: places, and how they move with its length and coefficients.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Table {
+    count: usize,
+    panels: usize,
+    length: f64,
+    places: Vec<Place>,
+    /// Heading at the end.
+    pub turn: f64,
+    /// Quintics over the panels, x and y.
+    quintics: Vec<[[f64; 2]; 6]>,
+    /// For each end of a panel the motion with the length, then with each coefficient.
+    motions: Vec<[f64; 2]>,
+}
+
+impl Table {
+    /// Computes all for the piece.
+    pub(super) fn fill(&mut self, coefficients: &[f64], length: f64) {
+        let basis = Basis::of(coefficients.len());
+        let n = basis.count;
+        (self.count, self.panels, self.length) = (n, basis.panels, length);
+        let dot = |k: &[f64]| k.iter().zip(coefficients).map(|(k, c)| k * c).sum::<f64>();
+        self.places.clear();
+        self.motions.clear();
+        self.quintics.clear();
+        let step = 1.0 / basis.panels as f64;
+        let mut at = [0.0; 2];
+        let mut stretch = [0.0; 2];
+        let first = self.motions.len();
+        self.motions.resize(first + n + 1, [0.0; 2]);
+        let place = |k: usize, at: [f64; 2]| {
+            let theta = length * dot(&basis.integrals[k * n..(k + 1) * n]);
+            let (sin, cos) = libm::sincos(theta);
+            Place { at, along: [cos, sin], curvature: dot(&basis.values[k * n..(k + 1) * n]) }
+        };
+        self.places.push(place(0, at));
+        for k in 0..basis.panels {
+            let last = self.motions.len() - n - 1;
+            self.motions.extend_from_within(last..);
+            let now = last + n + 1;
+            for (g, (_, weight)) in RULE.iter().enumerate() {
+                let inner = &basis.inner[(4 * k + g) * n..(4 * k + g + 1) * n];
+                let angle = dot(inner);
+                let (sin, cos) = libm::sincos(length * angle);
+                let w = weight * step;
+                at = [at[0] + w * length * cos, at[1] + w * length * sin];
+                stretch = [
+                    stretch[0] + w * (cos - length * angle * sin),
+                    stretch[1] + w * (sin + length * angle * cos),
+                ];
+                let (u, v) = (-w * length * length * sin, w * length * length * cos);
+                for (m, k) in self.motions[now + 1..].iter_mut().zip(inner) {
+                    *m = [m[0] + u * k, m[1] + v * k];
+                }
+            }
+            self.motions[now] = stretch;
+            self.places.push(place(k + 1, at));
+            self.quintics.push(quintic(&self.places[k], &self.places[k + 1], length * step));
+        }
+        self.turn = length * dot(&basis.integrals[basis.panels * n..]);
+    }
+
+    /// The end.
+    pub(super) fn end(&self) -> Place {
+        self.places[self.panels]
+    }
+
+    /// Motions of the end with the length and the coefficients.
+    pub(super) fn end_motions(&self) -> &[[f64; 2]] {
+        &self.motions[self.panels * (self.count + 1)..]
+    }
+
+    /// How the heading of the end turns with each coefficient.
+    pub(super) fn end_turns(&self) -> impl Iterator<Item = f64> + '_ {
+        let basis = Basis::of(self.count);
+        basis.integrals[self.panels * self.count..].iter().map(|k| self.length * k)
+    }
+
+    /// The panel around `t` and how far into it `t` is, from 0 to 1; beyond the ends, less or more.
+    fn panel(&self, t: f64) -> (usize, f64) {
+        let x = t * self.panels as f64;
+        let k = (x.max(0.0) as usize).min(self.panels - 1);
+        (k, x - k as f64)
+    }
+
+    /// The nearest place to `point` near `t`: its parameter, the place.
+    pub(super) fn foot(&self, point: [f64; 2], mut t: f64) -> (f64, Place) {
+        let width = self.length / self.panels as f64;
+        let mut place = self.place(t);
+        for _ in 0..4 {
+            let d = [point[0] - place.at[0], point[1] - place.at[1]];
+            let tangential = d[0] * place.along[0] + d[1] * place.along[1];
+            if tangential.abs() < 1e-9 * width {
+                break;
+            }
+            let normal = d[1] * place.along[0] - d[0] * place.along[1];
+            let step = tangential / (1.0 - place.curvature * normal).max(0.3);
+            t = (t + step.clamp(-2.0 * width, 2.0 * width) / self.length).clamp(-0.5, 1.5);
+            place = self.place(t);
+        }
+        (t, place)
+    }
+
+    /// The place at `t`.
+    pub(super) fn place(&self, t: f64) -> Place {
+        let (k, f) = self.panel(t);
+        let q = &self.quintics[k];
+        let (mut at, mut slope) = (q[5], [0.0; 2]);
+        for c in q[..5].iter().rev() {
+            slope = [slope[0] * f + at[0], slope[1] * f + at[1]];
+            at = [at[0] * f + c[0], at[1] * f + c[1]];
+        }
+        let inverse = 1.0 / (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+        let curvature = (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature;
+        Place { at, along: [slope[0] * inverse, slope[1] * inverse], curvature }
+    }
+
+    /// Motions at `t` with the length and with each coefficient, along `normal`.
+    pub(super) fn motions_along(&self, t: f64, normal: [f64; 2], out: &mut [f64]) {
+        let (k, f) = self.panel(t);
+        let f = f.clamp(-0.5, 1.5);
+        let width = self.count + 1;
+        let (a, b) = self.motions[k * width..].split_at(width);
+        for ((o, a), b) in out.iter_mut().zip(a).zip(b) {
+            let x = a[0] + f * (b[0] - a[0]);
+            let y = a[1] + f * (b[1] - a[1]);
+            *o = x * normal[0] + y * normal[1];
+        }
+    }
+}
+
+/// The quintic between two places that has their directions and curvatures; `h` is the length between them.
+fn quintic(a: &Place, b: &Place, h: f64) -> [[f64; 2]; 6] {
+    let mut q = [[0.0; 2]; 6];
+    for k in 0..2 {
+        let normal = |p: &Place| if k == 0 { -p.along[1] } else { p.along[0] };
+        let (v0, v1) = (h * a.along[k], h * b.along[k]);
+        let (a0, a1) = (h * h * a.curvature * normal(a), h * h * b.curvature * normal(b));
+        let d = b.at[k] - a.at[k];
+        q[0][k] = a.at[k];
+        q[1][k] = v0;
+        q[2][k] = 0.5 * a0;
+        q[3][k] = 10.0 * d - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1;
+        q[4][k] = -15.0 * d + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1;
+        q[5][k] = 6.0 * d - 3.0 * v0 - 3.0 * v1 - 0.5 * a0 + 0.5 * a1;
+    }
+    q
+}

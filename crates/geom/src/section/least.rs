@@ -1,0 +1,386 @@
+//! The chain of least squared orthogonal distances, by the method of Levenberg and Marquardt.
+//!
+//! A change of an unknown moves all that follows on the chain as a rigid body. So the distances of the points of a piece
+//! depend on what lies before it through three numbers alone, and one pass over the points that sums products of those
+//! and of the piece's own unknowns serves for any number of unknowns.
+
+mod normal;
+
+use super::chain::{Chain, Kind, Layout, Pose, arc_end};
+use crate::num::cholesky::Cholesky;
+use normal::end_coefficient;
+
+/// Weight of a squared distance that must vanish, against one that is to be least.
+pub(super) const STIFF: f64 = 1e8;
+/// The same while models are compared: a chain that does not close yet is bent to where it does, step by step.
+pub(super) const SOFT: f64 = 1e3;
+
+/// The points that a chain is fitted to, seen from near their middle, and how much each counts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<'a> {
+    pub points: &'a [[f64; 2]],
+    pub weights: &'a [f64],
+}
+
+/// A chain with the pieces that the points belong to.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    pub chain: Chain,
+    /// First point of each piece, and the end; of a closed chain numbered on beyond the last point.
+    pub breaks: Vec<usize>,
+    /// Parameter of the foot of each point on a free piece.
+    pub feet: Vec<f64>,
+    /// Weighted sum of squared distances.
+    pub sum: f64,
+}
+
+/// A join held where its place along a direction has a given value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held {
+    /// Number of the piece that starts there; of an open chain from 1.
+    pub join: usize,
+    pub along: [f64; 2],
+    pub value: f64,
+}
+
+/// How well the data determine a chain.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Spread {
+    /// Of the place of each join along the chain.
+    pub places: Vec<f64>,
+    /// Of the jump of curvature at each join.
+    pub jumps: Vec<f64>,
+    /// Of the first and last point of the chain, across it.
+    pub ends: [f64; 2],
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    pub steps: usize,
+    /// Share of the sum of squares that a step must gain.
+    pub gain: f64,
+    /// Least length of a piece.
+    pub shortest: f64,
+    /// Weight of what must vanish.
+    pub stiff: f64,
+}
+
+/// An unknown of the chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Variable {
+    /// Shift of the start to the left, or forward.
+    Left,
+    Forward,
+    /// Turn of the start.
+    Turn,
+    /// A join moves forward: the piece before becomes longer, the one after, if any, shorter.
+    Join {
+        before: usize,
+        after: Option<usize>,
+    },
+    Coefficient {
+        piece: usize,
+        index: usize,
+    },
+}
+
+/// Sums of products over the points of a piece: the lower triangle, and with the distances.
+#[derive(Clone, Debug, Default)]
+struct Block {
+    size: usize,
+    products: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Block {
+    fn reset(&mut self, size: usize) {
+        self.size = size;
+        self.products.clear();
+        self.products.resize(size * size, 0.0);
+        self.right.clear();
+        self.right.resize(size, 0.0);
+    }
+    #[inline]
+    fn add(&mut self, row: &[f64], weight: f64, distance: f64) {
+        let n = row.len();
+        for i in 0..n {
+            let x = weight * row[i];
+            self.right[i] += x * distance;
+            for (p, y) in self.products[i * n..=i * n + i].iter_mut().zip(row) {
+                *p += x * y;
+            }
+        }
+    }
+}
+
+/// Memory of a fit, kept from one to the next.
+#[derive(Debug, Default)]
+pub(super) struct Work {
+    pub layout: Layout,
+    blocks: Vec<Block>,
+    motions: Vec<Vec<[f64; 3]>>,
+    variables: Vec<Variable>,
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+    /// Signed distances of the points last measured.
+    distances: Vec<f64>,
+    stiff: f64,
+}
+
+fn place(pose: &Pose, point: [f64; 2]) -> f64 {
+    (point[0] - pose.at[0]) * pose.along[0] + (point[1] - pose.at[1]) * pose.along[1]
+}
+
+impl Row<'_> {
+    fn point(&self, i: usize) -> [f64; 2] {
+        self.points[i % self.points.len()]
+    }
+}
+
+/// Moves the borders between pieces to where the points pass the joins.
+fn assign(row: &Row, layout: &Layout, closed: bool, breaks: &mut [usize], feet: &mut [f64]) {
+    let last = breaks.len() - 1;
+    let count = row.points.len();
+    let range = if closed { 0..last } else { 1..last };
+    for j in range {
+        let pose = &layout.poses[j];
+        let (low, high) = match j {
+            0 => (breaks[last - 1] - count, breaks[1]),
+            _ => (breaks[j - 1], breaks[j + 1]),
+        };
+        while breaks[j] > low && place(pose, row.point(breaks[j] - 1)) > 0.0 {
+            breaks[j] -= 1;
+            feet[breaks[j] % count] = 0.0;
+        }
+        while breaks[j] < high && place(pose, row.point(breaks[j])) <= 0.0 {
+            feet[breaks[j] % count] = 1.0;
+            breaks[j] += 1;
+        }
+        if j == 0 {
+            breaks[last] = breaks[0] + count;
+        }
+    }
+    if closed && breaks[0] < count {
+        breaks.iter_mut().for_each(|b| *b += count);
+    } else if closed && breaks[0] >= 2 * count {
+        breaks.iter_mut().for_each(|b| *b -= count);
+    }
+}
+
+/// Signed distance to the left of an arc or line through a pose, and the normal at the foot.
+#[inline]
+fn distance(pose: &Pose, curvature: f64, point: [f64; 2]) -> (f64, [f64; 2]) {
+    let p = [point[0] - pose.at[0], point[1] - pose.at[1]];
+    let normal = pose.normal();
+    let q = 2.0 * (normal[0] * p[0] + normal[1] * p[1]) - curvature * (p[0] * p[0] + p[1] * p[1]);
+    let root = (1.0 - curvature * q).max(0.0).sqrt();
+    let inverse = 1.0 / root.max(f64::MIN_POSITIVE);
+    let n = [(normal[0] - curvature * p[0]) * inverse, (normal[1] - curvature * p[1]) * inverse];
+    (q / (1.0 + root), n)
+}
+
+impl Work {
+    /// Lays the state's chain out, finds which points belong to which piece, and the sum of squares; with `full`, the
+    /// products of each piece too.
+    fn measure(&mut self, row: &Row, state: &mut State, full: bool) {
+        self.layout.fill(&state.chain);
+        assign(row, &self.layout, state.chain.closed, &mut state.breaks, &mut state.feet);
+        let count = row.points.len();
+        self.blocks.resize_with(state.chain.pieces.len(), Block::default);
+        self.distances.resize(count, 0.0);
+        state.sum = 0.0;
+        for (g, piece) in state.chain.pieces.iter().enumerate() {
+            let (from, to) = (state.breaks[g], state.breaks[g + 1]);
+            let block = &mut self.blocks[g];
+            block.reset(3 + usize::from(piece.kind == Kind::Spline) + piece.coefficients.len());
+            let pose = &self.layout.poses[g];
+            let curvature = piece.coefficients.first().copied().unwrap_or(0.0);
+            let table = &self.layout.tables[g];
+            let mut products = [0.0; 64];
+            let size = block.size;
+            for i in from..to {
+                let i = i % count;
+                let (point, weight) = (row.points[i], row.weights[i]);
+                let (d, n) = if piece.kind == Kind::Spline {
+                    let local = pose.into_frame([point[0] - pose.at[0], point[1] - pose.at[1]]);
+                    let (t, place) = table.foot(local, state.feet[i]);
+                    state.feet[i] = t;
+                    let normal = [-place.along[1], place.along[0]];
+                    let d = (local[0] - place.at[0]) * normal[0] + (local[1] - place.at[1]) * normal[1];
+                    if full {
+                        table.motions_along(t, normal, &mut products[3..size]);
+                    }
+                    (d, pose.out(normal))
+                } else {
+                    distance(pose, curvature, point)
+                };
+                self.distances[i] = d;
+                state.sum += weight * d * d;
+                if !full {
+                    continue;
+                }
+                let foot = [point[0] - d * n[0], point[1] - d * n[1]];
+                // How a turn about the origin moves the foot along the normal.
+                (products[0], products[1], products[2]) = (n[0], n[1], n[1] * foot[0] - n[0] * foot[1]);
+                if piece.kind == Kind::Arc {
+                    let chord = [foot[0] - pose.at[0], foot[1] - pose.at[1]];
+                    products[3] = 0.5 * (chord[0] * chord[0] + chord[1] * chord[1]);
+                }
+                block.add(&products[..size], weight, d);
+            }
+        }
+    }
+
+    /// Sum of squares and what conditions add to it.
+    fn cost(&self, state: &State, held: Option<&Held>) -> f64 {
+        state.sum + self.stiff * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()
+    }
+
+    /// The chain moved by a step.
+    fn step(&self, chain: &mut Chain, step: &[f64], shortest: f64) {
+        let start = self.layout.poses[0];
+        for (variable, x) in self.variables.iter().zip(step) {
+            match *variable {
+                Variable::Left => (0..2).for_each(|k| chain.start[k] += x * start.normal()[k]),
+                Variable::Forward => (0..2).for_each(|k| chain.start[k] += x * start.along[k]),
+                Variable::Turn => chain.heading += x,
+                Variable::Join { before, after } => {
+                    let low = shortest - chain.pieces[before].length;
+                    let x = x.max(low.min(0.0));
+                    let x = after.map_or(x, |a| x.min((chain.pieces[a].length - shortest).max(0.0)));
+                    chain.pieces[before].length += x;
+                    if let Some(after) = after {
+                        chain.pieces[after].length -= x;
+                    }
+                }
+                Variable::Coefficient { piece, index } => chain.pieces[piece].coefficients[index] += x,
+            }
+        }
+    }
+
+    /// Improves the state until the rule to stop holds. False where the unknowns are not determined.
+    pub(super) fn improve(&mut self, row: &Row, state: &mut State, held: Option<&Held>, stop: &Stop) -> bool {
+        self.stiff = stop.stiff;
+        self.measure(row, state, true);
+        let mut cost = self.cost(state, held);
+        let (mut lambda, mut stalled) = (1e-4, 0);
+        let mut fresh = true;
+        for _ in 0..stop.steps {
+            if fresh {
+                let chain = std::mem::replace(&mut state.chain, Chain::EMPTY);
+                self.assemble(&chain, held);
+                state.chain = chain;
+            }
+            let k = self.variables.len();
+            let mut damped = self.matrix.clone();
+            for i in 0..k {
+                damped[i * k + i] = damped[i * k + i] * (1.0 + lambda) + f64::MIN_POSITIVE;
+            }
+            let Some(factor) = Cholesky::new(damped, k) else {
+                lambda *= 100.0;
+                fresh = false;
+                if lambda > 1e10 {
+                    return false;
+                }
+                continue;
+            };
+            let mut step = self.right.clone();
+            factor.solve(&mut step);
+            let mut next = state.clone();
+            self.step(&mut next.chain, &step, stop.shortest);
+            self.measure(row, &mut next, true);
+            let after = self.cost(&next, held);
+            if after <= cost {
+                stalled = if cost - after <= stop.gain * cost { stalled + 1 } else { 0 };
+                (cost, lambda, fresh) = (after, (lambda * 0.1).max(1e-12), true);
+                *state = next;
+                if stalled >= 1 {
+                    break;
+                }
+            } else {
+                // The products are those of the step refused.
+                self.layout.fill(&state.chain);
+                (lambda, fresh) = (lambda * 8.0, false);
+                if lambda > 1e8 || !after.is_finite() && lambda > 1e4 {
+                    break;
+                }
+            }
+        }
+        state.sum.is_finite()
+    }
+
+    /// Standard deviations for distances of standard deviation 1. `None` where the unknowns are not determined.
+    pub(super) fn spread(&mut self, row: &Row, state: &mut State) -> Option<Spread> {
+        self.stiff = STIFF;
+        self.measure(row, state, true);
+        self.assemble(&state.chain, None);
+        let chain = &state.chain;
+        let factor = Cholesky::new(self.matrix.clone(), self.variables.len())?;
+        let deviation = |effect: Vec<f64>| {
+            let mut answer = effect.clone();
+            factor.solve(&mut answer);
+            answer.iter().zip(&effect).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()
+        };
+        let n = chain.pieces.len();
+        let mut all = Spread::default();
+        for join in usize::from(!chain.closed)..n {
+            let held = Held { join, along: self.layout.poses[join].along, value: 0.0 };
+            all.places.push(deviation(self.conditions(chain, Some(&held)).pop()?));
+            let ends =
+                (end_coefficient(chain, (join + n - 1) % n, true), end_coefficient(chain, join, false));
+            let is = |v: &Variable, end: Option<(usize, usize)>| {
+                f64::from(end.is_some_and(|(piece, index)| *v == Variable::Coefficient { piece, index }))
+            };
+            all.jumps.push(deviation(self.variables.iter().map(|v| is(v, ends.1) - is(v, ends.0)).collect()));
+        }
+        for (end, join) in all.ends.iter_mut().zip([0, n]) {
+            let held = Held { join, along: self.layout.poses[join].normal(), value: 0.0 };
+            *end = deviation(self.conditions(chain, Some(&held)).pop()?);
+        }
+        Some(all)
+    }
+
+    /// Signed distances of all points to the left of the chain.
+    pub(super) fn residuals(&mut self, row: &Row, state: &mut State) -> &[f64] {
+        self.measure(row, state, false);
+        &self.distances
+    }
+
+    /// Lengths from the start to the feet of all points: of a closed chain those of the points before its start are
+    /// counted on beyond its end.
+    pub(super) fn stations(&mut self, row: &Row, state: &mut State) -> Vec<f64> {
+        self.measure(row, state, false);
+        let count = row.points.len();
+        let mut all = vec![0.0; count];
+        let starts = state.chain.stations();
+        for (g, piece) in state.chain.pieces.iter().enumerate() {
+            let pose = &self.layout.poses[g];
+            let half = 0.5 * piece.length;
+            for i in state.breaks[g]..state.breaks[g + 1] {
+                let i = i % count;
+                let p = row.points[i];
+                let own = match piece.kind {
+                    Kind::Spline => state.feet[i] * piece.length,
+                    Kind::Line => place(pose, p),
+                    Kind::Arc => {
+                        // The angle from the middle of the arc, where it does not jump.
+                        let k = piece.coefficients[0];
+                        let middle = Pose::new(pose.place(arc_end(half, half * k)), pose.heading + half * k);
+                        let v = middle.into_frame([p[0] - middle.at[0], p[1] - middle.at[1]]);
+                        let angle = libm::atan2(k * v[0], 1.0 - k * v[1]);
+                        half + if k.abs() * half < 1e-9 { v[0] } else { angle / k }
+                    }
+                };
+                all[i] = starts[g] + own;
+            }
+        }
+        all
+    }
+}
+
+impl Chain {
+    /// Stands in while the chain is elsewhere.
+    const EMPTY: Chain =
+        Chain { start: [0.0; 2], heading: 0.0, pieces: Vec::new(), closed: false, even: false };
+}

@@ -1,0 +1,221 @@
+//! The normal equations of a chain: what each unknown does to all that follows, and what must vanish.
+
+use super::super::chain::{Chain, Kind};
+use super::{Held, Variable, Work};
+
+impl Work {
+    /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.
+    fn move_ends(&mut self, chain: &Chain) {
+        self.motions.resize_with(chain.pieces.len(), Vec::new);
+        for (g, piece) in chain.pieces.iter().enumerate() {
+            let (pose, end) = (&self.layout.poses[g], &self.layout.poses[g + 1]);
+            let about = |shift: [f64; 2], turn: f64| {
+                let shift = pose.out(shift);
+                [shift[0] + turn * end.at[1], shift[1] - turn * end.at[0], turn]
+            };
+            let motions = &mut self.motions[g];
+            motions.clear();
+            match piece.kind {
+                Kind::Line => motions.push(about([1.0, 0.0], 0.0)),
+                Kind::Arc => {
+                    let turn = piece.length * piece.coefficients[0];
+                    let (sin, cos) = libm::sincos(turn);
+                    motions.push(about([cos, sin], piece.coefficients[0]));
+                    let square = piece.length * piece.length;
+                    let shift = if turn.abs() < 1e-3 {
+                        [-turn / 3.0, 0.5 - turn * turn / 8.0]
+                    } else {
+                        [(turn * cos - sin) / (turn * turn), (turn * sin - (1.0 - cos)) / (turn * turn)]
+                    };
+                    motions.push(about([square * shift[0], square * shift[1]], piece.length));
+                }
+                Kind::Spline => {
+                    let table = &self.layout.tables[g];
+                    let turns = std::iter::once(table.turn / piece.length).chain(table.end_turns());
+                    motions.extend(table.end_motions().iter().zip(turns).map(|(m, t)| about(*m, t)));
+                }
+            }
+        }
+    }
+
+    fn list(&mut self, chain: &Chain) {
+        let last = chain.pieces.len() - 1;
+        self.variables.clear();
+        self.variables.push(Variable::Left);
+        self.variables.push(Variable::Turn);
+        if chain.closed {
+            self.variables.push(Variable::Forward);
+        }
+        for (piece, p) in chain.pieces.iter().enumerate() {
+            if chain.closed || piece < last {
+                let after = (!chain.closed).then_some(piece + 1);
+                self.variables.push(Variable::Join { before: piece, after });
+            }
+            self.variables
+                .extend((0..p.coefficients.len()).map(|index| Variable::Coefficient { piece, index }));
+        }
+    }
+
+    /// What a variable does to the row of products of piece `g`: (index, factor) pairs of its own, and a motion of all.
+    fn effect(&self, chain: &Chain, variable: Variable, g: usize) -> ([f64; 3], Option<(usize, f64)>) {
+        let start = &self.layout.poses[0];
+        let mut motion = [0.0; 3];
+        let mut own = None;
+        let mut add = |piece: usize, index: usize, factor: f64| {
+            if piece < g {
+                let m = self.motions[piece][index];
+                (0..3).for_each(|k| motion[k] += factor * m[k]);
+            } else if piece == g {
+                // The length of a line or arc moves nothing of its own.
+                match (chain.pieces[g].kind, index) {
+                    (Kind::Spline, index) => own = Some((3 + index, factor)),
+                    (Kind::Arc, 1) => own = Some((3, factor)),
+                    _ => {}
+                }
+            }
+        };
+        match variable {
+            Variable::Left => motion = [start.normal()[0], start.normal()[1], 0.0],
+            Variable::Forward => motion = [start.along[0], start.along[1], 0.0],
+            Variable::Turn => motion = [start.at[1], -start.at[0], 1.0],
+            Variable::Join { before, after } => {
+                add(before, 0, 1.0);
+                if let Some(after) = after {
+                    add(after, 0, -1.0);
+                }
+            }
+            Variable::Coefficient { piece, index } => add(piece, 1 + index, 1.0),
+        }
+        (motion, own)
+    }
+
+    /// The normal equations of all unknowns.
+    pub(super) fn assemble(&mut self, chain: &Chain, held: Option<&Held>) {
+        self.move_ends(chain);
+        self.list(chain);
+        let k = self.variables.len();
+        self.matrix.clear();
+        self.matrix.resize(k * k, 0.0);
+        self.right.clear();
+        self.right.resize(k, 0.0);
+        let mut effects = Vec::with_capacity(k);
+        let mut product = vec![];
+        for g in 0..chain.pieces.len() {
+            effects.clear();
+            // Unknowns of what follows do nothing here.
+            effects.extend((0..k).map(|v| self.effect(chain, self.variables[v], g)).enumerate());
+            effects.retain(|(_, (m, own))| own.is_some() || *m != [0.0; 3]);
+            let block = &self.blocks[g];
+            let n = block.size;
+            let entry = |i: usize, j: usize| block.products[i.max(j) * n + i.min(j)];
+            for (at, (v, (motion, own))) in effects.iter().enumerate() {
+                product.clear();
+                product.extend((0..n).map(|i| {
+                    let own = own.map_or(0.0, |(index, factor)| factor * entry(i, index));
+                    own + motion[0] * entry(i, 0) + motion[1] * entry(i, 1) + motion[2] * entry(i, 2)
+                }));
+                let value = |list: &[f64], (m, own): &([f64; 3], Option<(usize, f64)>)| {
+                    let own = own.map_or(0.0, |(index, factor)| factor * list[index]);
+                    own + m[0] * list[0] + m[1] * list[1] + m[2] * list[2]
+                };
+                self.right[*v] += value(&block.right, &(*motion, *own));
+                for (u, effect) in &effects[..=at] {
+                    self.matrix[v * k + u] += value(&product, effect);
+                }
+            }
+        }
+        for (row, off) in self.conditions(chain, held).iter().zip(self.off(chain, held)) {
+            for v in 0..k {
+                self.right[v] += self.stiff * row[v] * off;
+                for u in 0..=v {
+                    self.matrix[v * k + u] += self.stiff * row[v] * row[u];
+                }
+            }
+        }
+    }
+
+    /// What must vanish: minus its value.
+    pub(super) fn off(&self, chain: &Chain, held: Option<&Held>) -> Vec<f64> {
+        let mut all = vec![];
+        if chain.closed {
+            let (start, end) = (self.layout.poses[0], self.layout.poses[chain.pieces.len()]);
+            let turn = end.heading - start.heading;
+            let whole = std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
+            all.extend([start.at[0] - end.at[0], start.at[1] - end.at[1], size(chain) * (whole - turn)]);
+        }
+        all.extend(bends(chain).map(|(before, after, scale)| {
+            scale
+                * (before.map_or(0.0, |(g, i)| chain.pieces[g].coefficients[i])
+                    - after.map_or(0.0, |(g, i)| chain.pieces[g].coefficients[i]))
+        }));
+        if let Some(held) = held {
+            let at = self.layout.poses[held.join].at;
+            all.push(held.value - at[0] * held.along[0] - at[1] * held.along[1]);
+        }
+        all
+    }
+
+    /// How each unknown changes it.
+    pub(super) fn conditions(&self, chain: &Chain, held: Option<&Held>) -> Vec<Vec<f64>> {
+        let mut all = vec![];
+        let of = |g: usize, f: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
+            self.variables.iter().map(|v| f(self.effect(chain, *v, g).0)).collect()
+        };
+        let moved = |m: [f64; 3], at: [f64; 2]| [m[0] - m[2] * at[1], m[1] + m[2] * at[0]];
+        if chain.closed {
+            let end = self.layout.poses[chain.pieces.len()];
+            let pose = |v: &Variable| matches!(v, Variable::Left | Variable::Turn | Variable::Forward);
+            let free = |mut row: Vec<f64>| {
+                // The start moves with the end.
+                row.iter_mut().zip(&self.variables).filter(|(_, v)| pose(v)).for_each(|(x, _)| *x = 0.0);
+                row
+            };
+            for k in 0..2 {
+                all.push(free(of(chain.pieces.len(), &|m| moved(m, end.at)[k])));
+            }
+            all.push(free(of(chain.pieces.len(), &|m| size(chain) * m[2])));
+        }
+        for (before, after, scale) in bends(chain) {
+            let is = |v: &Variable, end: Option<(usize, usize)>| {
+                f64::from(end.is_some_and(|(piece, index)| *v == Variable::Coefficient { piece, index }))
+            };
+            all.push(self.variables.iter().map(|v| scale * (is(v, after) - is(v, before))).collect());
+        }
+        if let Some(held) = held {
+            let at = self.layout.poses[held.join].at;
+            all.push(of(held.join, &|m| {
+                let d = moved(m, at);
+                d[0] * held.along[0] + d[1] * held.along[1]
+            }));
+        }
+        all
+    }
+}
+
+/// A length that makes a turn as long as what it moves.
+fn size(chain: &Chain) -> f64 {
+    chain.pieces.iter().map(|p| p.length).sum::<f64>() / 8.0
+}
+
+/// Piece and coefficient that is the curvature at an end of a piece; `None` on a line.
+pub(super) fn end_coefficient(chain: &Chain, piece: usize, at_end: bool) -> Option<(usize, usize)> {
+    let last = chain.pieces[piece].coefficients.len().checked_sub(1)?;
+    Some((piece, if at_end { last } else { 0 }))
+}
+
+/// Coefficients before and after a join, and a scale.
+type Bend = (Option<(usize, usize)>, Option<(usize, usize)>, f64);
+
+/// The joins of free pieces at which the curvature must not jump: coefficients on either side, and what makes their
+/// difference a length.
+fn bends(chain: &Chain) -> impl Iterator<Item = Bend> + '_ {
+    let n = chain.pieces.len();
+    let first = usize::from(!chain.closed);
+    let joins = if chain.even { first..n } else { 0..0 };
+    let scale = size(chain) * size(chain);
+    joins.filter_map(move |after| {
+        let before = (after + n - 1) % n;
+        let free = [before, after].iter().any(|g| chain.pieces[*g].kind == Kind::Spline);
+        free.then(|| (end_coefficient(chain, before, true), end_coefficient(chain, after, false), scale))
+    })
+}

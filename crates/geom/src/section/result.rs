@@ -1,0 +1,192 @@
+//! What is known about a contour.
+
+use super::chain::Kind;
+use crate::spline::curve::Curve;
+
+/// The line, arc or curve of a segment.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// From the segment's start to its end.
+    Line,
+    /// Part of a circle; a whole one where the sweep is a whole turn.
+    Arc {
+        /// Center of the circle.
+        center: [f64; 2],
+        /// Its radius.
+        radius: f64,
+        /// Angle of the start, seen from the center.
+        start: f64,
+        /// Angle run through, positive counter-clockwise.
+        sweep: f64,
+    },
+    /// A cubic B-spline that keeps within `deviation` of the curve found.
+    Spline {
+        /// The curve; its parameter runs from 0 to 1.
+        curve: Curve<[f64; 2]>,
+        /// Greatest distance from the curve whose curvature was fitted.
+        deviation: f64,
+    },
+}
+
+impl Geometry {
+    /// Line, arc or spline.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Geometry::Line => Kind::Line,
+            Geometry::Arc { .. } => Kind::Arc,
+            Geometry::Spline { .. } => Kind::Spline,
+        }
+    }
+}
+
+/// A segment of a contour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Its line, arc or curve.
+    pub geometry: Geometry,
+    /// Where it starts: at a join, or at the foot of the first point.
+    pub start: [f64; 2],
+    /// Where it ends.
+    pub end: [f64; 2],
+    /// Length along it.
+    pub length: f64,
+    /// Number of points that belong to it.
+    pub count: usize,
+    /// Root mean square of their distances.
+    pub rms: f64,
+    /// Greatest magnitude of their distances.
+    pub max: f64,
+    /// Curvature at its start and end, positive where it turns to the left.
+    pub curvature: [f64; 2],
+}
+
+impl Segment {
+    /// Angle of the direction from start to end with the first axis, radians.
+    pub fn angle(&self) -> f64 {
+        libm::atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+    }
+}
+
+/// How smoothly two segments join.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Continuity {
+    /// At a corner.
+    G0,
+    /// With a common tangent.
+    G1,
+    /// With a common tangent and, as far as the data can tell, curvature.
+    G2,
+}
+
+impl Continuity {
+    /// The word for it: `g0`, `g1`, `g2`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Continuity::G0 => "g0",
+            Continuity::G1 => "g1",
+            Continuity::G2 => "g2",
+        }
+    }
+}
+
+/// Where two segments join.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Join {
+    /// The place.
+    pub point: [f64; 2],
+    /// How smoothly.
+    pub continuity: Continuity,
+    /// The join may lie between these two places, at the confidence asked for; of a corner, across its greatest uncertainty.
+    pub interval: [[f64; 2]; 2],
+    /// Standard uncertainty along the contour; of a corner, the greatest of any direction.
+    pub uncertainty: f64,
+    /// Whether the data allow the join beyond the interval's ends, which were not followed farther.
+    pub open: [bool; 2],
+    /// Angle of the corner, positive to the left; 0 of a tangent join.
+    pub turn: f64,
+}
+
+/// A contour as lines, arcs and curves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contour {
+    /// Whether the end is the start.
+    pub closed: bool,
+    /// Segments in the order of the points. Of a closed contour the first is the one that the first point belongs to.
+    pub segments: Vec<Segment>,
+    /// The joins: number `i` between segments `i` and `i + 1`; of a closed contour the last between the last and the first.
+    pub joins: Vec<Join>,
+    /// Standard deviation of the points about the contour.
+    pub noise: f64,
+    /// Mean distance between neighboring points.
+    pub spacing: f64,
+    /// Segment that each point belongs to.
+    pub labels: Vec<u32>,
+    /// Signed distance of each point, positive to the left.
+    pub residuals: Vec<f64>,
+    /// Length along the contour from the start of the first segment to the foot of each point.
+    pub stations: Vec<f64>,
+    /// Points that were left out as outliers, by their numbers.
+    pub outliers: Vec<usize>,
+    /// Points that repeat the one before, by their numbers; they were left out.
+    pub repeated: Vec<usize>,
+    /// Gaps between neighboring points of more than five times the median distance: the number of the point before.
+    pub gaps: Vec<usize>,
+}
+
+/// What is asked about a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Standard deviation of the points across the contour; found from the data where it is not given.
+    pub noise: Option<f64>,
+    /// Continuity of all joins; told from the data where it is not given.
+    pub continuity: Option<Continuity>,
+    /// Whether the contour is closed; told from the gap between the last and the first point where it is not given.
+    pub closed: Option<bool>,
+    /// Confidence of the intervals.
+    pub level: f64,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options { noise: None, continuity: None, closed: None, level: 0.95 }
+    }
+}
+
+/// Why there is no contour.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SectionError {
+    /// Fewer than four different points.
+    #[error("a section needs at least 4 different points, there are {found}")]
+    TooFewPoints {
+        /// Different points given.
+        found: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is not a finite number; remove it")]
+    NotFinite {
+        /// Index of the first such point.
+        index: usize,
+    },
+    /// The points do not follow each other along a contour.
+    #[error(
+        "the points are not in order along a contour: each is {ratio:.0} times as far from the next in the row as from \
+         the nearest; sort them"
+    )]
+    Unordered {
+        /// Median distance of neighbors in the row over that of nearest points.
+        ratio: f64,
+    },
+    /// An option has no meaning.
+    #[error("{name} {value}: it must be {allowed}")]
+    WrongOption {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// Stopped through the progress argument.
+    #[error(transparent)]
+    Cancelled(#[from] crate::progress::Cancelled),
+}

@@ -1,0 +1,155 @@
+//! Rows of points as they come: what is wrong with them, and what is passed over.
+
+use super::result::{Options, SectionError};
+
+/// A row made fit for the search.
+#[derive(Clone, Debug)]
+pub(super) struct Clean {
+    /// Points seen from `middle`, without repeated ones.
+    pub points: Vec<[f64; 2]>,
+    /// Their numbers in the row given.
+    pub numbers: Vec<usize>,
+    pub middle: [f64; 2],
+    pub repeated: Vec<usize>,
+    pub gaps: Vec<usize>,
+    pub closed: bool,
+    /// Median distance between neighbors.
+    pub spacing: f64,
+}
+
+/// Median step over median distance of nearest points from which on a row is no row.
+const UNORDERED: f64 = 12.0;
+/// Steps of so many medians are gaps.
+const GAP: f64 = 5.0;
+/// A contour closes over a gap of so many medians.
+const CLOSING: f64 = 3.0;
+
+fn median(mut all: Vec<f64>) -> f64 {
+    if all.is_empty() {
+        return 0.0;
+    }
+    let middle = all.len() / 2;
+    *all.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(b[0] - a[0], b[1] - a[1])
+}
+
+impl Clean {
+    /// Checks and cleans a row.
+    pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
+        if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+            return Err(SectionError::NotFinite { index });
+        }
+        check(options)?;
+        let mut numbers: Vec<usize> = vec![];
+        let mut repeated = vec![];
+        for (i, p) in points.iter().enumerate() {
+            match numbers.last() {
+                Some(last) if points[*last] == *p => repeated.push(i),
+                _ => numbers.push(i),
+            }
+        }
+        let mut ends_meet = false;
+        while numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
+            ends_meet = true;
+            repeated.extend(numbers.pop());
+        }
+        repeated.sort_unstable();
+        let mut all: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
+        let mut different = all.clone();
+        different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        different.dedup();
+        if different.len() < 4 {
+            return Err(SectionError::TooFewPoints { found: different.len() });
+        }
+        let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
+        let spacing = median(steps.clone());
+        let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
+        if ratio > UNORDERED && all.len() > 8 {
+            return Err(SectionError::Unordered { ratio });
+        }
+        let found = ends_meet || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
+        let closed = options.closed.unwrap_or(found);
+        let gaps =
+            steps.iter().enumerate().filter(|(_, s)| **s > GAP * spacing).map(|(i, _)| numbers[i]).collect();
+        let n = all.len() as f64;
+        let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());
+        all.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= middle[k]));
+        Ok(Clean { points: all, numbers, middle, repeated, gaps, closed, spacing })
+    }
+
+    /// Points that lie far off what their neighbors on both sides tell, where these agree: eight times the noise. Neighbors are
+    /// taken `step` points apart.
+    pub fn outliers(&self, noise: f64, step: usize) -> Vec<usize> {
+        let n = self.points.len();
+        let limit = 8.0 * noise;
+        if n < 12 * step || limit == 0.0 {
+            return vec![];
+        }
+        let mut all: Vec<usize> = vec![];
+        for i in 0..n {
+            let around = |k: usize| -> Option<[f64; 2]> {
+                let j = (i + 4 * n + k * step).checked_sub(4 * step)?;
+                (self.closed || (4 * n..5 * n).contains(&j)).then(|| self.points[j % n])
+            };
+            let near: Vec<[f64; 2]> = (0..9).filter(|k| *k != 4).filter_map(around).collect();
+            let Some((own, rest)) = off_parabola(&near, self.points[i]) else { continue };
+            if own > limit && rest < 3.0 * noise {
+                all.push(i);
+            }
+        }
+        all
+    }
+}
+
+fn check(options: &Options) -> Result<(), SectionError> {
+    let wrong = |name, value, allowed| Err(SectionError::WrongOption { name, value, allowed });
+    if let Some(value) = options.noise.filter(|x| !(x.is_finite() && *x > 0.0)) {
+        return wrong("noise", value, "a length above 0");
+    }
+    match options.level > 0.0 && options.level < 1.0 {
+        true => Ok(()),
+        false => wrong("level", options.level, "between 0 and 1"),
+    }
+}
+
+/// Median distance from a point to the nearest other, of up to 200 points.
+fn nearest(points: &[[f64; 2]]) -> f64 {
+    let stride = points.len().div_ceil(200);
+    let of = |i: usize| {
+        let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+        others
+            .map(|(_, p)| (p[0] - points[i][0]).powi(2) + (p[1] - points[i][1]).powi(2))
+            .fold(f64::INFINITY, f64::min)
+    };
+    median((0..points.len()).step_by(stride).map(of).collect()).sqrt()
+}
+
+/// Distance of `point` from the parabola through `near`, across their chord, and the root mean square of theirs.
+fn off_parabola(near: &[[f64; 2]], point: [f64; 2]) -> Option<(f64, f64)> {
+    let (first, last) = (near.first()?, near.last()?);
+    let length = distance(*first, *last);
+    if near.len() < 6 || length == 0.0 {
+        return None;
+    }
+    let (c, s) = ((last[0] - first[0]) / length, (last[1] - first[1]) / length);
+    let local = |p: &[f64; 2]| {
+        let (x, y) = (p[0] - point[0], p[1] - point[1]);
+        ((c * x + s * y) / length, c * y - s * x)
+    };
+    let all: Vec<(f64, f64)> = near.iter().map(local).collect();
+    let mut a = vec![vec![0.0; 3]; 3];
+    let mut b = vec![0.0; 3];
+    for (t, y) in &all {
+        let row = [1.0, *t, t * t];
+        for i in 0..3 {
+            (0..3).for_each(|j| a[i][j] += row[i] * row[j]);
+            b[i] += row[i] * y;
+        }
+    }
+    let x = crate::fit::solve(a, b)?;
+    let sum: f64 = all.iter().map(|(t, y)| (y - x[0] - x[1] * t - x[2] * t * t).powi(2)).sum();
+    Some((x[0].abs(), (sum / (all.len() - 3) as f64).sqrt()))
+}

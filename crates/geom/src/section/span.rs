@@ -1,0 +1,201 @@
+//! A part of a row between two corners, or a whole closed row without any: one chain.
+
+use super::chain::{Layout, Piece, Pose, arc_end};
+use super::least::{Row, Spread, State, Work};
+use super::profile::Interval;
+use super::search::{Criterion, Model, Search};
+use super::start::Part;
+use crate::progress::{Cancelled, Progress};
+
+/// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
+/// its own shape for certain, and intervals come out too short.
+const LOOSER: usize = 2;
+
+/// More points than this are thinned while pieces are looked for.
+const SEARCHED: usize = 1500;
+
+/// Points of one chain, in a row of their own.
+#[derive(Clone, Debug)]
+pub(super) struct Span {
+    /// Their numbers in the cleaned row.
+    pub numbers: Vec<usize>,
+    pub points: Vec<[f64; 2]>,
+    pub weights: Vec<f64>,
+}
+
+/// How the chain of a span is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Task {
+    pub criterion: Criterion,
+    pub spacing: f64,
+    /// Step at which points are followed.
+    pub step: usize,
+    pub closed: bool,
+    /// At joins of free pieces the curvature must not jump.
+    pub even: bool,
+    pub level: f64,
+}
+
+/// A chain found.
+pub(super) struct Found {
+    pub span: Span,
+    /// One arc that is a whole circle.
+    pub circle: bool,
+    pub state: State,
+    pub layout: Layout,
+    pub intervals: Vec<Interval>,
+    pub spread: Option<Spread>,
+    /// Standard deviation of the noise.
+    pub noise: f64,
+    pub residuals: Vec<f64>,
+    pub stations: Vec<f64>,
+}
+
+impl Span {
+    pub fn new(all: &[[f64; 2]], weights: &[f64], numbers: Vec<usize>) -> Span {
+        let points = numbers.iter().map(|i| all[*i]).collect();
+        let weights = numbers.iter().map(|i| weights[*i]).collect();
+        Span { numbers, points, weights }
+    }
+
+    fn search(&self, task: &Task) -> Search<'_> {
+        let row = Row { points: &self.points, weights: &self.weights };
+        let criterion = Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion };
+        let (work, kinds) = (Work::default(), [true, true]);
+        Search {
+            row,
+            criterion,
+            work,
+            spacing: task.spacing,
+            kinds,
+            even: task.even,
+            shortest: 2.0 * task.step as f64,
+        }
+    }
+
+    /// Sum of squares of the chain of these parts.
+    pub fn sum(&self, parts: &[Part], task: &Task) -> f64 {
+        let mut search = self.search(task);
+        let first = search.first(parts, false);
+        search.settle(&first).state.sum
+    }
+
+    /// Finds the pieces and the intervals of the joins.
+    pub fn find(self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Found, Cancelled> {
+        let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
+        let best = match thin {
+            1 => {
+                let mut search = self.search(task);
+                let first = search.first(parts, task.closed);
+                search.run(first, progress)?
+            }
+            _ => self.find_thinned(parts, task, thin, progress)?,
+        };
+        let mut search = self.search(task);
+        let found = settle(&mut search, best, task, progress)?;
+        Ok(self.found(found))
+    }
+
+    /// The pieces by every `step`-th point alone, then refined by all.
+    fn find_thinned(
+        &self,
+        parts: &[Part],
+        task: &Task,
+        step: usize,
+        progress: &dyn Progress,
+    ) -> Result<Model, Cancelled> {
+        let numbers: Vec<usize> = (0..self.points.len()).step_by(step).collect();
+        let mut kept: Vec<Part> = vec![];
+        for part in parts {
+            let [from, to] = [part.from, part.to].map(|i| i.div_ceil(step));
+            if to > from {
+                kept.push(Part { from, to, ..*part });
+            }
+        }
+        let own = Span::new(&self.points, &self.weights, numbers);
+        let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
+        let mut search = own.search(&thinned);
+        let first = search.first(&kept, task.closed);
+        let found = search.run(first, progress)?.state;
+        let n = self.points.len();
+        let few = own.points.len();
+        // Round and round a closed row, the place of a point among all.
+        let place = |i: usize| (i / few * n + i % few * step).min(i / few * n + n);
+        let mut breaks: Vec<usize> = found.breaks.iter().map(|i| place(*i)).collect();
+        let last = breaks.len() - 1;
+        breaks[last] = breaks[0] + n;
+        let feet = (0..n).map(|i| found.feet[(i / step).min(few - 1)]).collect();
+        let mut search = self.search(task);
+        let model = Model { state: State { chain: found.chain, breaks, feet, sum: 0.0 }, cost: 0.0 };
+        Ok(search.settle(&model))
+    }
+
+    fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {
+        let row = Row { points: &self.points, weights: &self.weights };
+        let mut state = state;
+        let spread = work.spread(&row, &mut state);
+        let residuals = work.residuals(&row, &mut state).to_vec();
+        let stations = work.stations(&row, &mut state);
+        Found {
+            circle: false,
+            state,
+            layout: std::mem::take(&mut work.layout),
+            intervals,
+            spread,
+            noise,
+            residuals,
+            stations,
+            span: self,
+        }
+    }
+}
+
+/// The best model once more, with the intervals of its joins; where the profile of a join finds a better place, from there.
+fn settle(
+    search: &mut Search,
+    mut best: Model,
+    task: &Task,
+    progress: &dyn Progress,
+) -> Result<(State, Vec<Interval>, f64, Work), Cancelled> {
+    let mut intervals = vec![];
+    for _ in 0..3 {
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        if best.state.chain.joins() == 0 || single(&best.state) {
+            break;
+        }
+        let looser = search.looser(&best, LOOSER);
+        let own = looser.state.chain == best.state.chain;
+        let (found, mut better) = search.intervals(&looser, task.level);
+        intervals = found;
+        if !own {
+            better = search.intervals(&best, task.level).1;
+        }
+        let Some(state) = better else { break };
+        best = search.settle(&Model { state, cost: 0.0 });
+    }
+    let noise = search.variance(&best.state).0.sqrt();
+    Ok((best.state, intervals, noise, std::mem::take(&mut search.work)))
+}
+
+/// A closed chain of one piece joins itself where it happens to start.
+pub(super) fn single(state: &State) -> bool {
+    state.chain.closed && state.chain.pieces.len() == 1
+}
+
+impl Found {
+    pub fn pieces(&self) -> &[Piece] {
+        &self.state.chain.pieces
+    }
+    /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
+    pub fn beyond(&self, at_end: bool, length: f64) -> Pose {
+        let n = self.pieces().len();
+        let (pose, piece, t) = match at_end {
+            true => (self.layout.poses[n], &self.pieces()[n - 1], 1.0),
+            false => (self.layout.poses[0], &self.pieces()[0], 0.0),
+        };
+        let turn = piece.curvature(t) * length;
+        Pose::new(pose.place(arc_end(length, turn)), pose.heading + turn)
+    }
+}

@@ -1,0 +1,289 @@
+//! Where the search starts: noise, and independent lines and arcs by dynamic programming.
+
+use super::chain::Kind;
+
+/// Half the number of points of a local fit of the noise.
+const HALF: usize = 4;
+
+/// Standard deviation of the noise across the row, and the step at which its points are followed: the least power of 2 at
+/// which neighbors are four times as far apart as they scatter.
+///
+/// From local cubics through nine points each, by their median, so that corners and outliers do not count. 0 for rows of
+/// fewer than nine points.
+pub(super) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
+    let mut step = 1;
+    loop {
+        let few: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
+        let found = noise_of(&few, closed);
+        let far = |w: &[[f64; 2]]| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1]);
+        let mut steps: Vec<f64> = few.windows(2).map(far).collect();
+        let middle = steps.len() / 2;
+        let apart = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+        if 4.0 * found <= apart || few.len() < 60 {
+            return (found, step);
+        }
+        step *= 2;
+    }
+}
+
+/// The same of a row whose points follow each other.
+fn noise_of(points: &[[f64; 2]], closed: bool) -> f64 {
+    let n = points.len();
+    let width = 2 * HALF + 1;
+    if n < width + usize::from(closed) {
+        return 0.0;
+    }
+    let starts = if closed { n } else { n - width + 1 };
+    let mut all: Vec<f64> =
+        (0..starts).filter_map(|i| cubic_residual(&std::array::from_fn(|k| points[(i + k) % n]))).collect();
+    if all.is_empty() {
+        return 0.0;
+    }
+    let middle = all.len() / 2;
+    let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // Median of a chi-squared variable of five degrees over their number: Wilson and Hilferty.
+    let share: f64 = 1.0 - 2.0 / 45.0;
+    (median / (share * share * share)).sqrt()
+}
+
+/// Mean square of the residuals of a cubic through nine points, across the line through the first and last.
+fn cubic_residual(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
+    let (first, last, middle) = (points[0], points[2 * HALF], points[HALF]);
+    let (dx, dy) = (last[0] - first[0], last[1] - first[1]);
+    let length = libm::hypot(dx, dy);
+    if length == 0.0 || !length.is_finite() {
+        return None;
+    }
+    let (c, s) = (dx / length, dy / length);
+    let mut columns = [[0.0; 2 * HALF + 1]; 4];
+    let mut rest = [0.0; 2 * HALF + 1];
+    for (i, p) in points.iter().enumerate() {
+        let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
+        let t = 2.0 * (c * x + s * y) / length;
+        columns[0][i] = 1.0;
+        (1..4).for_each(|k| columns[k][i] = columns[k - 1][i] * t);
+        rest[i] = c * y - s * x;
+    }
+    // Gram and Schmidt.
+    for k in 0..4 {
+        for j in 0..k {
+            let dot: f64 = (0..rest.len()).map(|i| columns[k][i] * columns[j][i]).sum();
+            (0..rest.len()).for_each(|i| columns[k][i] -= dot * columns[j][i]);
+        }
+        let norm = columns[k].iter().map(|x| x * x).sum::<f64>().sqrt();
+        if norm < 1e-9 {
+            return None;
+        }
+        columns[k].iter_mut().for_each(|x| *x /= norm);
+        let dot: f64 = (0..rest.len()).map(|i| columns[k][i] * rest[i]).sum();
+        (0..rest.len()).for_each(|i| rest[i] -= dot * columns[k][i]);
+    }
+    Some(rest.iter().map(|r| r * r).sum::<f64>() / (rest.len() - 4) as f64)
+}
+
+/// Part of a row that one line or arc fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    pub kind: Kind,
+    /// First point, and the one after the last.
+    pub from: usize,
+    pub to: usize,
+    /// Curvature of the arc, left turns positive.
+    pub curvature: f64,
+    /// Direction of the line or of the arc's middle.
+    pub along: [f64; 2],
+    /// Middle of its points.
+    pub center: [f64; 2],
+}
+
+/// Costs of the parts, in units of the noise's variance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Penalty {
+    pub line: f64,
+    pub arc: f64,
+    pub noise: f64,
+    /// Fewest points of a part.
+    pub fewest: usize,
+    /// Most places that a part may start at.
+    pub places: usize,
+}
+
+/// Sums over the points before each: x, y, xx, xy, yy, z, xz, yz, zz with z = xx + yy, from the middle of the row,
+/// and the sum of the weights.
+struct Sums {
+    before: Vec<[f64; 10]>,
+    middle: [f64; 2],
+}
+
+impl Sums {
+    fn new(points: &[[f64; 2]], weights: &[f64]) -> Sums {
+        let n = points.len() as f64;
+        let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
+        let mut before = Vec::with_capacity(points.len() + 1);
+        let mut sum = [0.0; 10];
+        before.push(sum);
+        for (p, w) in points.iter().zip(weights) {
+            let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
+            let z = x * x + y * y;
+            let terms = [x, y, x * x, x * y, y * y, z, x * z, y * z, z * z, 1.0];
+            (0..10).for_each(|k| sum[k] += w * terms[k]);
+            before.push(sum);
+        }
+        Sums { before, middle }
+    }
+
+    /// Line and arc through a part: their sums of squares, the arc's `None` where there is none.
+    fn fit(&self, from: usize, to: usize) -> (f64, Option<(f64, [f64; 2], f64)>) {
+        let (a, b) = (&self.before[from], &self.before[to]);
+        let d: [f64; 10] = std::array::from_fn(|k| b[k] - a[k]);
+        let n = d[9].max(1.0);
+        let (mx, my, mz) = (d[0] / n, d[1] / n, d[5] / n);
+        let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);
+        let half = 0.5 * (xx - yy);
+        let line = (0.5 * (xx + yy) - (half * half + xy * xy).sqrt()).max(0.0);
+        // About the part's own middle: z' = z − 2 m·p + |m|².
+        let mm = mx * mx + my * my;
+        let (xz0, yz0) = (d[6] - mx * d[5], d[7] - my * d[5]);
+        let (xz, yz) = (xz0 - 2.0 * (mx * xx + my * xy), yz0 - 2.0 * (mx * xy + my * yy));
+        let z = mz - mm;
+        let zz0 = d[8] - n * mz * mz;
+        let cross = mx * xz0 + my * yz0;
+        let square = mx * mx * xx + 2.0 * mx * my * xy + my * my * yy;
+        let zz = zz0 - 4.0 * cross + 4.0 * square;
+        (
+            line,
+            circle(n, [xx, xy, yy, xz, yz, zz, z]).map(|(eta, [p, q], radius)| {
+                (n * eta, [p + mx + self.middle[0], q + my + self.middle[1]], radius)
+            }),
+        )
+    }
+
+    fn part(&self, points: &[[f64; 2]], kind: Kind, from: usize, to: usize) -> Part {
+        let (a, b) = (&self.before[from], &self.before[to]);
+        let d: [f64; 10] = std::array::from_fn(|k| b[k] - a[k]);
+        let n = d[9].max(1.0);
+        let (mx, my) = (d[0] / n, d[1] / n);
+        let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);
+        let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+        let (sin, cos) = libm::sincos(angle);
+        let (first, last) = (points[from], points[to - 1]);
+        let chord = [last[0] - first[0], last[1] - first[1]];
+        let turned = if chord[0] * cos + chord[1] * sin < 0.0 { -1.0 } else { 1.0 };
+        let mut part = Part {
+            kind,
+            from,
+            to,
+            curvature: 0.0,
+            along: [turned * cos, turned * sin],
+            center: [mx + self.middle[0], my + self.middle[1]],
+        };
+        if let (Kind::Arc, (_, Some((_, center, radius)))) = (kind, self.fit(from, to)) {
+            // The sense of the turn by the area swept about the center.
+            let area: f64 = points[from..to]
+                .windows(2)
+                .map(|w| {
+                    (w[0][0] - center[0]) * (w[1][1] - center[1])
+                        - (w[0][1] - center[1]) * (w[1][0] - center[0])
+                })
+                .sum();
+            part.curvature = area.signum() / radius;
+            let out = points[(from + to) / 2];
+            let out = [out[0] - center[0], out[1] - center[1]];
+            let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE);
+            let sense = area.signum();
+            part.along = [-sense * out[1] / length, sense * out[0] / length];
+            part.center = [center[0] + radius * out[0] / length, center[1] + radius * out[1] / length];
+        }
+        part
+    }
+}
+
+/// Mean squared distance, center and radius of the circle by Taubin's method, from sums about the middle: xx, xy, yy, xz, yz,
+/// zz (of deviations from the mean) and the mean of z. `None` where it is straight or has no area.
+///
+/// Chernov, Circular and Linear Regression, 2010, section 5.8: the least root of the characteristic polynomial by Newton's
+/// method from 0. Unlike that of Kåsa, the circle of a short arc is not drawn in, and never fits worse than the line.
+fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f64, [f64; 2], f64)> {
+    let [xx, xy, yy, xz, yz, zz] = [xx, xy, yy, xz, yz, zz].map(|s| s / n);
+    let cov = xx * yy - xy * xy;
+    let (a3, a2) = (4.0 * z, -3.0 * z * z - (zz + z * z));
+    let a1 = zz * z + 4.0 * cov * z - xz * xz - yz * yz;
+    let a0 = xz * (xz * yy - yz * xy) + yz * (yz * xx - xz * xy) - zz * cov;
+    let (mut x, mut y) = (0.0, a0);
+    for _ in 0..20 {
+        let slope = a1 + x * (2.0 * a2 + 3.0 * a3 * x);
+        let next = x - y / slope;
+        if next == x || !next.is_finite() {
+            break;
+        }
+        let value = a0 + next * (a1 + next * (a2 + next * a3));
+        if value.abs() >= y.abs() {
+            break;
+        }
+        (x, y) = (next, value);
+    }
+    let det = x * x - x * z + cov;
+    let center = [0.5 * (xz * (yy - x) - yz * xy) / det, 0.5 * (yz * (xx - x) - xz * xy) / det];
+    let radius = (center[0] * center[0] + center[1] * center[1] + z).sqrt();
+    (radius.is_finite() && cov > 1e-12 * z * z).then_some((x.max(0.0), center, radius))
+}
+
+/// The cheapest row of lines and arcs, each fitted by itself: sum of squares over the noise's variance, and a penalty for
+/// each. Jackson et al., An Algorithm for Optimal Partitioning of Data on an Interval, 2005; starts that can never win any more
+/// are dropped (Killick, Fearnhead and Eckley, 2012). Time grows with the square of `places` at worst.
+pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty) -> Vec<Part> {
+    let n = points.len();
+    let sums = Sums::new(points, weights);
+    let stride = n.div_ceil(penalty.places.max(1)).max(1);
+    let last = n / stride;
+    let index = |k: usize| if k == last { n } else { k * stride };
+    let variance = penalty.noise * penalty.noise;
+    let fewest = penalty.fewest.max(2);
+    let mut best = vec![f64::INFINITY; last + 1];
+    let mut from = vec![(0, Kind::Line); last + 1];
+    best[0] = 0.0;
+    let mut starts: Vec<usize> = vec![];
+    let mut costs: Vec<f64> = vec![];
+    for j in 1..=last {
+        if best[j - 1].is_finite() {
+            starts.push(j - 1);
+        }
+        costs.clear();
+        for &i in &starts {
+            let count = index(j) - index(i);
+            let mut least = f64::NEG_INFINITY;
+            if best[i].is_finite() && (count >= fewest || last < 2) {
+                let (line, arc) = sums.fit(index(i), index(j));
+                least = line / variance;
+                let cost = best[i] + least + penalty.line;
+                if cost < best[j] {
+                    (best[j], from[j]) = (cost, (i, Kind::Line));
+                }
+                if let Some((arc, _, _)) = arc.filter(|_| count > fewest) {
+                    least = least.min(arc / variance);
+                    let cost = best[i] + arc / variance + penalty.arc;
+                    if cost < best[j] {
+                        (best[j], from[j]) = (cost, (i, Kind::Arc));
+                    }
+                }
+            }
+            costs.push(best[i] + least);
+        }
+        // A start dearer than the best end, without any penalty, stays dearer: sums of squares only grow.
+        let limit = best[j];
+        let mut k = 0;
+        starts.retain(|_| {
+            k += 1;
+            costs[k - 1] <= limit
+        });
+    }
+    let mut parts = vec![];
+    let mut j = last;
+    while j > 0 {
+        let (i, kind) = from[j];
+        parts.push(sums.part(points, kind, index(i), index(j)));
+        j = i;
+    }
+    parts.reverse();
+    parts
+}

@@ -1,0 +1,204 @@
+//! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
+
+use super::*;
+use crate::num::random::Random;
+use crate::progress::Silent;
+
+/// Normal by the sum of twelve uniform numbers.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
+}
+
+/// A line of length 8, a quarter of a circle of radius 5, a line of length 6.
+fn bend(s: f64) -> [f64; 2] {
+    let quarter = 2.5 * std::f64::consts::PI;
+    if s < 8.0 {
+        [s, 0.0]
+    } else if s < 8.0 + quarter {
+        let (sin, cos) = libm::sincos((s - 8.0) / 5.0);
+        [8.0 + 5.0 * sin, 5.0 - 5.0 * cos]
+    } else {
+        [13.0, 5.0 + s - 8.0 - quarter]
+    }
+}
+
+fn bends(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
+    let random = &mut Random::new(seed);
+    let length = 14.0 + 2.5 * std::f64::consts::PI;
+    (0..count)
+        .map(|i| bend(length * i as f64 / (count - 1) as f64))
+        .map(|p| [p[0] + noise * normal(random), p[1] + noise * normal(random)])
+        .collect()
+}
+
+fn kinds(contour: &Contour) -> Vec<Kind> {
+    contour.segments.iter().map(|s| s.geometry.kind()).collect()
+}
+
+fn found(points: &[[f64; 2]]) -> Contour {
+    contour(points, &Options::default(), &Silent).unwrap()
+}
+
+fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(a[0] - b[0], a[1] - b[1])
+}
+
+#[test]
+fn exact_points_give_the_exact_joins() {
+    let contour = found(&bends(150, 0.0, 0));
+    assert_eq!(kinds(&contour), [Kind::Line, Kind::Arc, Kind::Line]);
+    for (join, truth) in contour.joins.iter().zip([[8.0, 0.0], [13.0, 5.0]]) {
+        assert!(far(join.point, truth) < 1e-6, "{join:?}");
+        assert_eq!(join.continuity, Continuity::G1);
+    }
+    let Geometry::Arc { center, radius, sweep, .. } = contour.segments[1].geometry else { panic!() };
+    assert!(far(center, [8.0, 5.0]) < 1e-6 && (radius - 5.0).abs() < 1e-6);
+    assert!((sweep - 0.5 * std::f64::consts::PI).abs() < 1e-6);
+    assert_eq!(contour.labels.iter().filter(|l| **l == 1).count(), contour.segments[1].count);
+}
+
+/// The stated intervals hold the true joins as often as they say, over fresh noise.
+#[test]
+fn intervals_cover_over_fresh_noise() {
+    let (mut inside, mut all, mut z, mut other) = (0, 0, 0.0, 0);
+    for seed in 0..150 {
+        let contour = found(&bends(120, 0.01, 1000 + seed));
+        if kinds(&contour) != [Kind::Line, Kind::Arc, Kind::Line] {
+            other += 1;
+            continue;
+        }
+        for (join, truth) in contour.joins.iter().zip([[8.0, 0.0], [13.0, 5.0]]) {
+            let [a, b] = join.interval;
+            let d = [b[0] - a[0], b[1] - a[1]];
+            let t = ((truth[0] - a[0]) * d[0] + (truth[1] - a[1]) * d[1]) / (d[0] * d[0] + d[1] * d[1]);
+            inside += i32::from((0.0..=1.0).contains(&t));
+            all += 1;
+            let along = (join.point[0] - truth[0]) * d[0] + (join.point[1] - truth[1]) * d[1];
+            z += (along / libm::hypot(d[0], d[1]) / join.uncertainty).powi(2);
+        }
+    }
+    // Noise that looks like another kind: at most 3 in 100.
+    assert!(other <= 4, "{other}");
+    let share = f64::from(inside) / f64::from(all);
+    // 300 trials at 95 %: four standard deviations are 5 %.
+    assert!((0.90..=0.99).contains(&share), "{share}");
+    assert!((z / f64::from(all) - 1.0).abs() < 0.35, "{}", z / f64::from(all));
+}
+
+#[test]
+fn a_rigid_motion_moves_the_answer_and_reversing_turns_it_round() {
+    let points = bends(120, 0.005, 3);
+    let before = found(&points);
+    let (sin, cos) = libm::sincos(2.1);
+    let moved = |p: [f64; 2]| [1e3 + cos * p[0] - sin * p[1], -500.0 + sin * p[0] + cos * p[1]];
+    let after = found(&points.iter().map(|p| moved(*p)).collect::<Vec<_>>());
+    let reversed = found(&points.iter().rev().copied().collect::<Vec<_>>());
+    assert_eq!((kinds(&before), kinds(&before)), (kinds(&after), kinds(&reversed)));
+    for (i, join) in before.joins.iter().enumerate() {
+        assert!(far(moved(join.point), after.joins[i].point) < 1e-6);
+        assert!((join.uncertainty - after.joins[i].uncertainty).abs() < 0.02 * join.uncertainty);
+        assert!(far(join.point, reversed.joins[1 - i].point) < 0.1 * join.uncertainty);
+    }
+}
+
+/// A square with rounded corners, one of them sharp: closed, with a corner.
+#[test]
+fn corners_are_told_from_tangent_joins() {
+    let random = &mut Random::new(5);
+    let mut points = vec![];
+    let mut push = |p: [f64; 2]| points.push([p[0] + 0.002 * normal(random), p[1] + 0.002 * normal(random)]);
+    (0..80).for_each(|i| push([0.1 * f64::from(i) + 0.05, 0.0]));
+    for i in 0..31 {
+        let (sin, cos) = libm::sincos(f64::from(i) * 0.05 + 0.02);
+        push([8.0 + 2.0 * sin, 2.0 - 2.0 * cos]);
+    }
+    (0..80).for_each(|i| push([10.0, 2.0 + 0.1 * f64::from(i) + 0.05]));
+    (0..100).for_each(|i| push([9.95 - 0.1 * f64::from(i), 10.0]));
+    (0..100).for_each(|i| push([0.0, 9.95 - 0.1 * f64::from(i)]));
+    let contour = found(&points);
+    assert!(contour.closed);
+    let mut sorted: Vec<(Continuity, [f64; 2])> =
+        contour.joins.iter().map(|j| (j.continuity, j.point)).collect();
+    sorted.sort_by_key(|a| a.0);
+    assert_eq!(contour.segments.len(), 5, "{:?}", kinds(&contour));
+    for corner in [[10.0, 10.0], [0.0, 10.0], [0.0, 0.0]] {
+        let join = contour.joins.iter().find(|j| far(j.point, corner) < 0.01).unwrap();
+        assert_eq!(join.continuity, Continuity::G0);
+        assert!((join.turn - 0.5 * std::f64::consts::PI).abs() < 0.01);
+        assert!(far(join.point, corner) < 5.0 * join.uncertainty && join.uncertainty < 0.002);
+    }
+    for tangent in [[8.0, 0.0], [10.0, 2.0]] {
+        let join = contour.joins.iter().find(|j| far(j.point, tangent) < 0.1).unwrap();
+        assert_eq!(join.continuity, Continuity::G1);
+    }
+}
+
+#[test]
+fn wrong_rows_are_refused_and_odd_ones_answered() {
+    let options = Options::default();
+    let refused = |points: &[[f64; 2]]| contour(points, &options, &Silent).unwrap_err();
+    assert_eq!(refused(&[[0.0, 0.0], [1.0, 0.0], [2.0, 1.0]]), SectionError::TooFewPoints { found: 3 });
+    assert_eq!(refused(&[[0.0, 0.0]; 9]), SectionError::TooFewPoints { found: 1 });
+    let mut points = bends(90, 0.01, 1);
+    points[7][1] = f64::NAN;
+    assert_eq!(refused(&points), SectionError::NotFinite { index: 7 });
+    let mut points = bends(150, 0.001, 1);
+    let mut random = Random::new(2);
+    (0..150).rev().for_each(|i| points.swap(i, random.below(i as u64 + 1) as usize));
+    assert!(matches!(refused(&points), SectionError::Unordered { .. }));
+    let noise = Options { noise: Some(-1.0), ..options };
+    assert!(matches!(contour(&bends(90, 0.01, 1), &noise, &Silent), Err(SectionError::WrongOption { .. })));
+    // Points doubled, one far off: left out, listed, and the joins stay where they are.
+    let plain = found(&bends(120, 0.005, 9));
+    let mut points = bends(120, 0.005, 9);
+    points[30][1] += 1.0;
+    points.insert(60, points[59]);
+    let odd = found(&points);
+    assert_eq!((&odd.repeated[..], &odd.outliers[..]), (&[60][..], &[30][..]));
+    assert_eq!(kinds(&plain), kinds(&odd));
+    for (a, b) in plain.joins.iter().zip(&odd.joins) {
+        assert!(far(a.point, b.point) < a.uncertainty);
+    }
+    // Noise of ten spacings: a line still, or at least nothing sharper than the data allow.
+    let random = &mut Random::new(4);
+    let wild: Vec<[f64; 2]> = (0..2000).map(|i| [f64::from(i) * 0.01, 0.1 * normal(random)]).collect();
+    let line = found(&wild);
+    assert_eq!(kinds(&line), [Kind::Line]);
+    assert!((line.noise - 0.1).abs() < 0.01);
+}
+
+#[test]
+fn a_circle_has_no_join_and_a_slot_has_four() {
+    let random = &mut Random::new(6);
+    let circle: Vec<[f64; 2]> = (0..200)
+        .map(|i| libm::sincos(f64::from(i) * std::f64::consts::TAU / 200.0))
+        .map(|(s, c)| [3.0 + 7.0 * c + 0.001 * normal(random), 7.0 * s + 0.001 * normal(random)])
+        .collect();
+    let contour = found(&circle);
+    assert!(contour.closed && contour.joins.is_empty(), "{:?}", kinds(&contour));
+    let Geometry::Arc { center, radius, sweep, .. } = contour.segments[0].geometry else { panic!() };
+    assert!(far(center, [3.0, 0.0]) < 1e-3 && (radius - 7.0).abs() < 1e-3);
+    assert!((sweep - std::f64::consts::TAU).abs() < 1e-6, "{sweep}");
+    let mut slot = vec![];
+    (0..100).for_each(|i| slot.push([0.2 * f64::from(i) - 10.0, -4.0]));
+    (0..63)
+        .map(|i| libm::sincos(0.05 * f64::from(i)))
+        .for_each(|(s, c)| slot.push([10.0 + 4.0 * s, -4.0 * c]));
+    (0..100).for_each(|i| slot.push([9.97 - 0.2 * f64::from(i), 4.0]));
+    (0..63)
+        .map(|i| libm::sincos(0.05 * f64::from(i)))
+        .for_each(|(s, c)| slot.push([-10.0 - 4.0 * s, 4.0 * c]));
+    let slot: Vec<[f64; 2]> =
+        slot.iter().map(|p| [p[0] + 0.002 * normal(random), p[1] + 0.002 * normal(random)]).collect();
+    let contour = found(&slot);
+    assert_eq!(contour.joins.len(), 4);
+    // The contour closes: each segment starts where the one before ends.
+    for (i, segment) in contour.segments.iter().enumerate() {
+        let next = &contour.segments[(i + 1) % 4];
+        assert!(far(segment.end, next.start) < 1e-9, "{i}");
+        assert!(far(segment.end, contour.joins[i].point) < 1e-9, "{i}");
+    }
+    for truth in [[-10.0, -4.0], [10.0, -4.0], [10.0, 4.0], [-10.0, 4.0]] {
+        assert!(contour.joins.iter().any(|j| far(j.point, truth) < 0.05));
+    }
+}

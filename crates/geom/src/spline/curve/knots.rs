@@ -1,0 +1,103 @@
+//! Knots in and out, and degrees up, without changing the curve.
+//!
+//! Every control point is the blossom of the curve at the knots it belongs to (Ramshaw 1987; Goldman and Lyche, Knot
+//! Insertion and Deletion Algorithms, 1993), so the points of new knots are blossoms at the new knots.
+
+use super::super::basis::{KnotError, Knots};
+use super::super::pyramid::blossom;
+use super::super::value::Value;
+use super::Curve;
+
+impl<V: Value> Curve<V> {
+    /// The same curve with the knot `t` once more.
+    ///
+    /// # Errors
+    /// [`KnotError`] where `t` is outside of the domain or then stands too often.
+    pub fn insert(&self, t: f64) -> Result<Curve<V>, KnotError> {
+        Ok(self.over(&self.knots.with(t)?))
+    }
+
+    /// The same curve over knots that hold all of its own.
+    fn over(&self, knots: &Knots) -> Curve<V> {
+        let p = knots.degree();
+        let point = |i: usize| {
+            let span = self.inner_span(knots.values(), i, p + 1);
+            blossom(self.knots.values(), &self.points, span, &knots.values()[i + 1..=i + p])
+        };
+        Curve { knots: knots.clone(), points: (0..knots.count()).map(point).collect() }
+    }
+
+    /// The widest span inside the support of function `i` over finer knots, as a span of this curve. All of them give the same
+    /// point; beside a narrow one more digits are lost.
+    fn inner_span(&self, knots: &[f64], i: usize, width: usize) -> usize {
+        let (from, to) = self.domain();
+        let support = knots[i..=i + width].windows(2).filter(|w| w[0] < w[1] && w[0] >= from && w[1] <= to);
+        let widest = support.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        let middle = widest.map_or(knots[i], |w| 0.5 * (w[0] + w[1]));
+        self.knots.span(middle)
+    }
+
+    /// The same curve with degree one higher.
+    ///
+    /// The blossom of the higher degree is the mean of those of the lower with one argument left out.
+    pub fn elevated(&self) -> Curve<V> {
+        let knots = self.knots.elevated();
+        let (p, u) = (knots.degree(), knots.values());
+        let point = |i: usize| {
+            let span = self.inner_span(u, i, p + 1);
+            let all = &u[i + 1..=i + p];
+            (0..p).fold(V::ZERO, |sum, left_out| {
+                let rest: Vec<f64> =
+                    all.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, x)| *x).collect();
+                sum.plus(1.0 / p as f64, blossom(self.knots.values(), &self.points, span, &rest))
+            })
+        };
+        let points = (0..knots.count()).map(point).collect();
+        Curve { knots, points }
+    }
+
+    /// The curve without the inner knot number `index`, if it then moves by no more than `tolerance` (greatest change of a
+    /// coordinate of a control point, which bounds that of the curve), and by how much that is.
+    ///
+    /// The new control points are computed from either side and meet in the middle: Piegl and Tiller, algorithm A5.8.
+    pub fn remove(&self, index: usize, tolerance: f64) -> Option<(Curve<V>, f64)> {
+        let knots = self.knots.without(index)?;
+        let (p, u) = (self.knots.degree(), self.knots.values());
+        let t = *u.get(index)?;
+        // Functions whose support holds the knot.
+        let last = u.partition_point(|k| *k <= t) - 1;
+        let first = last.checked_sub(p)?;
+        let (mut low, mut high) = (first, last - self.knots.multiplicity(t));
+        let replaced = low..=high;
+        let at = |i: usize| (t - u[i]) / (u[i + p + 1] - u[i]);
+        let (mut left, mut right) = (self.points[low.checked_sub(1)?], *self.points.get(high + 1)?);
+        let (mut new_low, mut new_high) = (vec![], vec![]);
+        while high > low {
+            let a = at(low);
+            left = self.points[low].minus(left.times(1.0 - a)).times(1.0 / a);
+            let b = at(high);
+            right = self.points[high].minus(right.times(b)).times(1.0 / (1.0 - b));
+            new_low.push(left);
+            new_high.push(right);
+            low += 1;
+            high -= 1;
+        }
+        let moved = if high < low {
+            // The two last ones stand for the same point.
+            let middle = left.between(0.5, right);
+            let (l, r) = (new_low.pop(), new_high.pop());
+            new_low.push(middle);
+            l.zip(r).map_or(0.0, |(l, r)| l.minus(r).size())
+        } else {
+            let a = at(low);
+            self.points[low].minus(left.between(a, right)).size()
+        };
+        if moved.is_nan() || moved > tolerance {
+            return None;
+        }
+        let mut points = self.points.clone();
+        new_high.reverse();
+        points.splice(replaced, new_low.into_iter().chain(new_high));
+        Some((Curve::new(knots, points).ok()?, moved))
+    }
+}

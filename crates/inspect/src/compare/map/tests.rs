@@ -1,0 +1,194 @@
+//! The map against brute force over every displayed place.
+
+use super::*;
+use trueness_geom::closest::Tree;
+use trueness_geom::num::random::Random;
+use trueness_geom::space::dot;
+
+/// A cube from the origin, in 12 facets.
+pub fn cube(side: f64) -> Mesh {
+    let positions = (0..8u32).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|b| side * f64::from(b))).collect();
+    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
+    let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    Mesh { positions, faces }
+}
+
+/// Points on the faces of the cube with 0.01 mm of noise, a dent of 0.5 mm in the top; nothing measured where `skip` says so.
+fn measured(n: usize, side: f64, skip: impl Fn(&Point) -> bool) -> Vec<Point> {
+    let mut random = Random::new(7);
+    let mut points = vec![];
+    while points.len() < n {
+        let axis = random.below(3) as usize;
+        let mut p = [0.0; 3].map(|_: f64| side * random.unit());
+        p[axis] = if random.below(2) == 0 { 0.0 } else { side } + 0.02 * (random.unit() - 0.5);
+        let out = axis == 2 && p[2] > 0.5 * side;
+        if out {
+            let away = (p[0] - 0.5 * side).powi(2) + (p[1] - 0.5 * side).powi(2);
+            p[2] -= 0.5 * (-away / 4.0).exp();
+        }
+        if !skip(&p) {
+            points.push(p);
+        }
+    }
+    points
+}
+
+/// What brute force knows of a point: its nearest place, deviation, and the outward normal of the facet there.
+struct Known {
+    foot: Point,
+    deviation: f64,
+    normal: Point,
+}
+
+fn compare(mesh: &Mesh, points: &[Point]) -> (Vec<Known>, Vec<(u32, [f64; 3])>) {
+    let tree = Tree::build(mesh).unwrap();
+    let mut known = vec![];
+    let mut places = vec![];
+    for p in points {
+        let c = tree.closest(p, f64::INFINITY).unwrap().unwrap();
+        let [a, b, d] = mesh.faces[c.face as usize].map(|v| mesh.positions[v as usize]);
+        let n = cross(minus(b, a), minus(d, a));
+        let normal = n.map(|x| x / norm(n));
+        let deviation = c.distance.copysign(dot(minus(*p, c.point), normal));
+        known.push(Known { foot: c.point, deviation, normal });
+        places.push((c.face, c.barycentric));
+    }
+    (known, places)
+}
+
+fn drawn(
+    mesh: &Mesh,
+    points: &[Point],
+    tolerance: Option<Tolerance>,
+) -> (Vec<Known>, MapSurface, Vec<usize>) {
+    let (known, places) = compare(mesh, points);
+    let mut map = PointMap::new(mesh, tolerance);
+    for (k, (face, weights)) in known.iter().zip(&places) {
+        map.add(map.foot(*face, *weights), k.deviation);
+    }
+    let mut order: Vec<usize> = (0..known.len()).collect();
+    order.sort_by(|a, b| known[*a].deviation.total_cmp(&known[*b].deviation));
+    let flags = vec![order[0], order[1], order[order.len() - 1]];
+    let flagged: Vec<Flagged> = flags
+        .iter()
+        .map(|i| Flagged { face: places[*i].0, weights: places[*i].1, deviation: known[*i].deviation })
+        .collect();
+    let surface = MapSurface::of(mesh, &map, &flagged);
+    (known, surface, flags)
+}
+
+/// Vertices with the normals of the faces they belong to.
+fn vertex_normals(mesh: &Mesh) -> Vec<Vec<Point>> {
+    let mut normals = vec![vec![]; mesh.positions.len()];
+    for f in &mesh.faces {
+        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let n = cross(minus(b, a), minus(c, a));
+        if norm(n) > 1e-12 {
+            f.iter().for_each(|v| normals[*v as usize].push(n.map(|x| x / norm(n))));
+        }
+    }
+    normals
+}
+
+fn check(mesh: &Mesh, points: &[Point], tolerance: Option<Tolerance>) -> MapSurface {
+    let (known, surface, flags) = drawn(mesh, points, tolerance);
+    let shown = surface.mesh.as_ref().unwrap_or(mesh);
+    let normals = vertex_normals(shown);
+    let away = |v: usize, k: &Known| norm(minus(shown.positions[v], k.foot));
+    let same_face = |v: usize, k: &Known| normals[v].iter().any(|n| dot(*n, k.normal) > 0.8);
+    let badness = |d: f64| tolerance.map_or(d.abs(), |t| (d - t.upper).max(t.lower - d));
+    for (v, value) in surface.values.iter().enumerate().filter(|(v, _)| !normals[*v].is_empty()) {
+        let near = || known.iter().filter(|k| same_face(v, k) && away(v, k) <= surface.reach);
+        if value.is_nan() {
+            // Grey: no point within what every place looks through at least.
+            let least =
+                known.iter().filter(|k| same_face(v, k)).map(|k| away(v, k)).fold(f64::INFINITY, f64::min);
+            assert!(least > 0.2 * surface.reach, "grey at {:?}, a point {least} away", shown.positions[v]);
+        } else {
+            let real = near().any(|k| k.deviation.to_bits() == value.to_bits());
+            assert!(real, "{value} at {:?} is no point's within {}", shown.positions[v], surface.reach);
+        }
+    }
+    // No point is hidden: near each one is a place at least as bad.
+    for k in &known {
+        let seen = (0..surface.values.len()).any(|v| {
+            same_face(v, k)
+                && away(v, k) <= surface.reach
+                && badness(surface.values[v]) >= badness(k.deviation)
+        });
+        assert!(seen, "{} at {:?} is shown nowhere", k.deviation, k.foot);
+    }
+    assert_eq!(surface.keep.len(), flags.len());
+    for i in flags {
+        let there = |v: &&u32| {
+            surface.values[**v as usize] == known[i].deviation && away(**v as usize, &known[i]) < 1e-6
+        };
+        assert!(surface.keep.iter().any(|v| there(&v)));
+    }
+    surface
+}
+
+#[test]
+fn a_dent_between_the_vertices_of_a_coarse_cube() {
+    let mesh = cube(20.0);
+    let points = measured(6000, 20.0, |_| false);
+    let surface = check(&mesh, &points, Some(Tolerance { lower: -0.1, upper: 0.1 }));
+    let shown = surface.mesh.as_ref().unwrap();
+    assert!((3000..12_000).contains(&shown.positions.len()), "{}", shown.positions.len());
+    // Four times as far as the points are apart.
+    assert!(surface.reach < 4.0 * (6.0 * 400.0f64 / 6000.0).sqrt(), "{}", surface.reach);
+    // The dent is seen where it is, and the other faces stay within tolerance up to their edges.
+    let normals = vertex_normals(shown);
+    for (v, value) in surface.values.iter().enumerate().filter(|(v, _)| !normals[*v].is_empty()) {
+        let p = shown.positions[v];
+        let top = normals[v].iter().any(|n| n[2] > 0.9);
+        assert!(!value.is_nan());
+        assert!(top || value.abs() <= 0.011, "{value} at {p:?}");
+        let centre = (p[0] - 10.0).hypot(p[1] - 10.0);
+        assert!(!top || centre > 1.0 || *value < -0.3, "{value} in the dent at {p:?}");
+        assert!(!top || centre < 5.0 || value.abs() <= 0.03, "{value} beside the dent at {p:?}");
+    }
+}
+
+#[test]
+fn what_was_not_measured_is_grey() {
+    let mesh = cube(20.0);
+    let points = measured(4000, 20.0, |p| p[0] < 8.0);
+    let surface = check(&mesh, &points, None);
+    let shown = surface.mesh.as_ref().unwrap();
+    let grey = |v: usize| surface.values[v].is_nan();
+    for (v, p) in shown.positions.iter().enumerate() {
+        assert!(p[0] > 8.0 - surface.reach || grey(v), "{p:?}");
+        assert!(p[0] < 9.0 || !grey(v), "{p:?}");
+    }
+}
+
+#[test]
+fn an_asymmetric_zone_decides_what_is_worst() {
+    let mesh = cube(20.0);
+    // Everywhere +0.4, which is allowed, and among it -0.2, which is not.
+    let mut random = Random::new(3);
+    let points: Vec<Point> = (0..3000)
+        .map(|i| [20.0 * random.unit(), 20.0 * random.unit(), if i % 2 == 0 { 20.4 } else { 19.8 }])
+        .filter(|p| p[0].min(p[1]) > 1.0 && p[0].max(p[1]) < 19.0)
+        .collect();
+    let surface = check(&mesh, &points, Some(Tolerance { lower: -0.1, upper: 0.5 }));
+    let shown = surface.values.iter().filter(|v| !v.is_nan()).count();
+    let low = surface.values.iter().filter(|v| **v < -0.1).count();
+    assert!(low > shown / 2, "{low} of {shown}");
+}
+
+#[test]
+fn a_fine_reference_keeps_its_facets_and_few_points_leave_most_grey() {
+    let mut mesh = cube(20.0);
+    let refined = {
+        let points = measured(6000, 20.0, |_| false);
+        drawn(&mesh, &points, None).1.mesh.unwrap()
+    };
+    mesh = refined;
+    let surface = check(&mesh, &measured(3000, 20.0, |_| false), None);
+    assert!(surface.keep.len() == 3 && surface.values.iter().filter(|v| v.is_nan()).count() < 200);
+    let few = drawn(&cube(20.0), &measured(40, 20.0, |_| false), None).1;
+    let grey = few.values.iter().filter(|v| v.is_nan()).count();
+    assert!(2 * grey > few.values.len(), "{grey} of {}", few.values.len());
+}

@@ -1,0 +1,53 @@
+//! Whether what a repair left is still the same part.
+
+use crate::results::repair::Effect;
+use trueness_geom::repair::{Deviation, NotEnclosed, Repaired};
+
+/// Compares volume and surface with their limits; `volume` is that after the repair.
+pub(super) fn record(
+    repaired: &Repaired,
+    volume: Option<f64>,
+    deviation: Option<&Deviation>,
+    limit: f64,
+) -> Effect {
+    let effect = &repaired.effect;
+    let surface = surface(repaired, deviation);
+    let surface_limit = limit * repaired.before.properties.bounds.diagonal();
+    let enclosed = effect.enclosed.as_ref().ok();
+    // What still crosses itself has a signed volume only. A body that looked inwards may have been turned or not.
+    let sound = volume.filter(|_| repaired.after.sound);
+    let change = enclosed.zip(sound).map(|(e, after)| {
+        let [alone, with] = [after - e.volume, after - e.volume - e.inverted];
+        if with.abs() < alone.abs() { with } else { alone }
+    });
+    let volume_limit = enclosed.map(|e| limit * (e.volume + e.inverted));
+    let error = enclosed.map_or(0.0, |e| e.error);
+    let beyond = |(change, limit): (f64, f64)| change.abs() + error > limit;
+    let changed = change.zip(volume_limit).is_some_and(beyond) || surface.is_some_and(|x| x > surface_limit);
+    Effect {
+        changed: changed && !repaired.changes.is_empty(),
+        bodies_before: effect.bodies[0] as u64,
+        bodies_after: effect.bodies[1] as u64,
+        volume_error: enclosed.map(|e| e.error),
+        volume_inverted: enclosed.map(|e| e.inverted),
+        volume_change: change,
+        surface,
+        limit,
+        surface_limit,
+        volume_limit,
+    }
+}
+
+/// The largest distance that counts. Surface inside a body bounds nothing and may go. A hole has no surface: what fills it is
+/// far from the old one, and what hung at its rim may go; but what was torn out because it crossed counts.
+fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
+    let deviation = deviation?;
+    match repaired.effect.enclosed {
+        Ok(_) => repaired.effect.surface.map(|x| x.max(deviation.back.max)),
+        Err(NotEnclosed::Open) => {
+            let torn = repaired.changes.iter().any(|c| c.step == "self_intersections");
+            torn.then_some(deviation.there.max)
+        }
+        Err(_) => Some(deviation.there.max.max(deviation.back.max)),
+    }
+}

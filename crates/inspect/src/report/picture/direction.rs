@@ -1,0 +1,296 @@
+//! Where the first view looks from: the side that shows most of the places that matter, the most important first.
+//!
+//! A place is seen from a direction when nothing that is drawn lies on the way from it to the eye. That is decided exactly,
+//! facet by facet, for a short list of directions; the usual one is kept when it shows everything.
+
+use super::super::documents::Pick;
+use super::super::marks::{Mark, Marks};
+use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
+use super::camera::vertical_and_front;
+use super::shown_objects;
+use rayon::prelude::*;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
+
+/// Places that the view is chosen for, at most.
+const PLACES: usize = 8;
+/// Places of a mark that are looked at.
+const SAMPLES: usize = 3;
+/// A place farther than this from where it was measured, as a share of the diagonal, is not on the part.
+const OFF: f64 = 0.02;
+/// What is nearer to a place than this share of the diagonal does not hide it: it is the surface itself.
+const NEAR: f64 = 0.002;
+/// A way through a surface, seen obliquely, is up to this much longer than straight.
+const OBLIQUE: f64 = 3.0;
+/// Cosine of the angle beyond which a surface is too oblique to be seen well.
+const SEEN: f64 = 0.35;
+
+/// The first view and what it shows.
+pub struct Direction {
+    /// From the part to the eye, of length 1.
+    pub toward: Vector,
+    /// The picks that it was chosen for, most important first, and whether each is hidden.
+    pub places: Vec<(usize, bool)>,
+    /// For each pick, whether it lies so far off that it is not on the part.
+    pub off: Vec<bool>,
+}
+
+/// Chooses the direction for a report.
+pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
+    let subject = input.result.subject();
+    let shown = shown_objects(input.objects);
+    let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
+    let bounds = Aabb::of(shown.iter().flat_map(|o| o.places()).filter(finite));
+    let diagonal = if bounds.is_empty() { 0.0 } else { norm(bounds.sides()) };
+    let off: Vec<bool> = picks.iter().map(|p| distance(p) > OFF * diagonal).collect();
+    let mut important = subject.important(picks);
+    // What lies off the part is seen from nearly everywhere: the worst on the part decides.
+    important.sort_by_key(|n| off[*n]);
+    important.truncate(PLACES);
+    let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
+    let places: Vec<Place> =
+        important.iter().map(|n| Place::of(&picks[*n], off[*n], input.marks, measured, diagonal)).collect();
+    let all = candidates(input.options.up, subject.facing(), &places);
+    let usual = View::of(&places, &all[..1], &shown).remove(0);
+    let best = if usual.shows_all_well() {
+        usual
+    } else {
+        // The first of the best: the order of the candidates decides between equals.
+        let views = View::of(&places, &all, &shown);
+        views.into_iter().fold(usual, |best, v| if v.rank() > best.rank() { v } else { best })
+    };
+    let hidden = best.seen.iter().map(|s| s.is_none());
+    Direction { toward: best.toward, places: important.into_iter().zip(hidden).collect(), off }
+}
+
+/// How far a pick lies from where it was measured.
+fn distance(pick: &Pick) -> f64 {
+    pick.surface.map_or(0.0, |s| norm(minus(pick.position, s)))
+}
+
+/// A place that ought to be seen.
+struct Place {
+    samples: Vec<Point>,
+    normal: Option<Vector>,
+    /// What is nearer to it does not hide it, millimetres.
+    near: f64,
+}
+
+impl Place {
+    fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> Place {
+        let mark = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
+        let places: Vec<Point> = mark.map_or(vec![], |m| m.places().copied().collect());
+        let anchor = pick.surface.filter(|_| !off && !measured).unwrap_or(pick.position);
+        let step = (places.len() / SAMPLES).max(1);
+        let samples = if places.is_empty() {
+            vec![anchor]
+        } else {
+            places.into_iter().step_by(step).take(SAMPLES).collect()
+        };
+        let under = if off { 0.0 } else { OBLIQUE * distance(pick) };
+        let normal = pick.normal.or(mark.and_then(|m: &Mark| m.normal));
+        Place {
+            samples,
+            normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),
+            near: under.max(NEAR * diagonal),
+        }
+    }
+}
+
+/// Directions to look from, the usual one first: corners, sides, then what faces each place obliquely.
+fn candidates(up: Up, facing: Option<Vector>, places: &[Place]) -> Vec<Vector> {
+    let (vertical, front) = vertical_and_front(up);
+    let right = cross(front, times(-1.0, vertical));
+    let of = |[x, y, z]: [f64; 3]| plus(plus(times(x, right), times(y, front)), times(z, vertical));
+    const SIDES: [[f64; 3]; 14] = [
+        [1.0, 1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+        [1.0, -1.0, 1.0],
+        [-1.0, -1.0, 1.0],
+        [1.0, 1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [-1.0, -1.0, -1.0],
+        [0.25, 1.0, 0.3],
+        [0.25, -1.0, 0.3],
+        [1.0, 0.25, 0.3],
+        [-1.0, 0.25, 0.3],
+        [0.15, 0.25, 1.0],
+        [0.15, 0.25, -1.0],
+    ];
+    let along = |v: Vector| unit(v).map(|(v, _)| v).filter(|v| v.iter().all(|x| x.is_finite()));
+    let across = [vertical[1], vertical[2], vertical[0]];
+    let oblique = |n: Vector| along(plus(plus(times(1.6, n), vertical), times(0.4, across)));
+    let corner = along(of(SIDES[0])).unwrap_or(vertical);
+    let first = facing.filter(|n| dot(corner, *n) <= SEEN).and_then(oblique);
+    let sides = SIDES.iter().filter_map(|s| along(of(*s)));
+    first.into_iter().chain(sides).chain(places.iter().filter_map(|p| oblique(p.normal?))).collect()
+}
+
+/// What a direction shows.
+struct View {
+    toward: Vector,
+    /// For each place how squarely it is seen, 0 to 1; `None` where it is hidden.
+    seen: Vec<Option<f64>>,
+}
+
+impl View {
+    fn of(places: &[Place], directions: &[Vector], shown: &[&ViewObject]) -> Vec<View> {
+        let probes: Vec<(Point, f64)> =
+            places.iter().flat_map(|p| p.samples.iter().map(|s| (*s, p.near))).collect();
+        let blocked = blocked(&probes, directions, shown);
+        let view = |(d, toward): (usize, &Vector)| {
+            let mut first = 0;
+            let seen = places.iter().map(|p| {
+                let mine = &blocked[first..first + p.samples.len()];
+                first += p.samples.len();
+                let free = mine.iter().filter(|b| *b & (1 << d) == 0).count();
+                let square = p.normal.map_or(1.0, |n| (dot(n, *toward) / SEEN).clamp(0.0, 1.0));
+                (2 * free > mine.len()).then_some(square)
+            });
+            View { toward: *toward, seen: seen.collect() }
+        };
+        directions.iter().enumerate().map(view).collect()
+    }
+
+    fn shows_all_well(&self) -> bool {
+        self.seen.iter().all(|s| s.is_some_and(|s| s >= 0.5))
+    }
+
+    /// The most important place first, then how many, then how squarely by and large.
+    fn rank(&self) -> (bool, usize, u32) {
+        let seen = || self.seen.iter().flatten();
+        let squarely = 2.0 * seen().sum::<f64>() / seen().count().max(1) as f64;
+        (self.seen.first().is_some_and(Option::is_some), seen().count(), squarely.round() as u32)
+    }
+}
+
+/// For each probe (a place, and how near to it nothing counts) the directions that something lies in, as bits.
+fn blocked(probes: &[(Point, f64)], directions: &[Vector], shown: &[&ViewObject]) -> Vec<u64> {
+    let none = || vec![0u64; probes.len()];
+    let join = |mut a: Vec<u64>, b: Vec<u64>| {
+        a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
+        a
+    };
+    let by_triangle = |mesh: &Mesh| {
+        let part = |mut bits: Vec<u64>, face: &[u32; 3]| {
+            let corners = face.map(|v| mesh.positions.get(v as usize).copied());
+            if let [Some(a), Some(b), Some(c)] = corners {
+                triangle_blocks(&mut bits, probes, directions, [a, b, c]);
+            }
+            bits
+        };
+        mesh.faces.par_iter().fold(none, part).reduce(none, join)
+    };
+    let by_point = |points: &[Point]| {
+        let bounds = Aabb::of(points.iter().filter(|p| p.iter().all(|x| x.is_finite())));
+        let wide = if bounds.is_empty() { 0.0 } else { bounds.sides().into_iter().fold(0.0, f64::max) };
+        // As wide as points of a closed surface of this size are apart when they lie evenly.
+        let radius = 0.75 * wide / (points.len().max(1) as f64).sqrt();
+        let part = |mut bits: Vec<u64>, p: &Point| {
+            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + 2.0 * radius);
+            bits
+        };
+        points.par_iter().fold(none, part).reduce(none, join)
+    };
+    let opaque = shown.iter().filter(|o| o.role != ViewRole::Element);
+    opaque.fold(none(), |bits, o| {
+        let more = match o.geometry {
+            Geometry::Mesh(mesh) => by_triangle(mesh),
+            Geometry::Points(points) => by_point(points),
+        };
+        join(bits, more)
+    })
+}
+
+fn triangle_blocks(bits: &mut [u64], probes: &[(Point, f64)], directions: &[Vector], [a, b, c]: [Point; 3]) {
+    let middle = times(1.0 / 3.0, plus(plus(a, b), c));
+    let radius = [a, b, c].iter().map(|p| norm(minus(*p, middle))).fold(0.0, f64::max);
+    each_near(bits, probes, directions, middle, radius, |from, toward, near, _| {
+        crossing(from, toward, a, b, c).is_some_and(|t| t > near)
+    });
+}
+
+/// Sets the bits of the directions whose line passes a ball, where `blocks` (place, direction, how near nothing counts, way
+/// to the ball's middle) agrees.
+fn each_near(
+    bits: &mut [u64],
+    probes: &[(Point, f64)],
+    directions: &[Vector],
+    middle: Point,
+    radius: f64,
+    blocks: impl Fn(Point, Vector, f64, f64) -> bool,
+) {
+    for ((from, near), bits) in probes.iter().zip(bits) {
+        let way = minus(middle, *from);
+        let beside = dot(way, way) - radius * radius;
+        for (n, toward) in directions.iter().enumerate() {
+            let t = dot(way, *toward);
+            if t * t >= beside
+                && t > near - radius
+                && *bits & (1 << n) == 0
+                && blocks(*from, *toward, *near, t)
+            {
+                *bits |= 1 << n;
+            }
+        }
+    }
+}
+
+/// How far along a line a triangle lies (Möller and Trumbore 1997); `None` beside it and along it.
+fn crossing(from: Point, toward: Vector, a: Point, b: Point, c: Point) -> Option<f64> {
+    let (ab, ac, way) = (minus(b, a), minus(c, a), minus(from, a));
+    let across = cross(toward, ac);
+    let determinant = dot(ab, across);
+    if determinant == 0.0 {
+        return None;
+    }
+    let u = dot(way, across) / determinant;
+    let other = cross(way, ab);
+    let v = dot(toward, other) / determinant;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| dot(ac, other) / determinant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_meets_a_triangle_where_it_lies() {
+        let [a, b, c] = [[0.0, 0.0, 5.0], [4.0, 0.0, 5.0], [0.0, 4.0, 7.0]];
+        let up = [0.0, 0.0, 1.0];
+        assert_eq!(crossing([1.0, 2.0, 0.0], up, a, b, c), Some(6.0));
+        assert_eq!(crossing([1.0, 2.0, 9.0], up, a, b, c), Some(-3.0));
+        assert_eq!(crossing([3.0, 2.0, 0.0], up, a, b, c), None);
+        assert_eq!(crossing([1.0, 2.0, 0.0], [1.0, 0.0, 0.0], a, b, [0.0, 4.0, 5.0]), None);
+    }
+
+    /// Every candidate against every place of a cube's faces, by what is known of a convex body.
+    #[test]
+    fn a_convex_body_hides_what_looks_away() {
+        let corner = |i: u32| [0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 });
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+        let mesh = Mesh { positions: (0..8).map(corner).collect(), faces };
+        let object = ViewObject {
+            role: ViewRole::Part,
+            name: "",
+            color: None,
+            comparison: None,
+            geometry: Geometry::Mesh(&mesh),
+            fields: vec![],
+            keep: &[],
+            gathered: None,
+        };
+        let axes =
+            (0..3).flat_map(|k| [1.0, -1.0].map(|s| std::array::from_fn(|i| if i == k { s } else { 0.0 })));
+        let places: Vec<Place> =
+            axes.map(|n| Place { samples: vec![n], normal: Some(n), near: 0.01 }).collect();
+        for view in View::of(&places, &candidates(Up::Z, None, &places), &[&object]) {
+            for (place, seen) in places.iter().zip(&view.seen) {
+                let looks = place.normal.map_or(0.0, |n| dot(n, view.toward));
+                assert_eq!(seen.is_some(), looks > 0.0, "{:?} from {:?}", place.normal, view.toward);
+            }
+        }
+    }
+}

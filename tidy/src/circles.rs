@@ -1,0 +1,135 @@
+//! Circles of files that name each other's items.
+
+use super::{modules, paths};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// From a file to those it takes names from, with the names.
+type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
+
+/// One line for each circle among the files of a crate, with the arrows that make it.
+///
+/// # Errors
+/// A file that cannot be read or is not Rust.
+pub fn of_crate(source: &Path) -> io::Result<Vec<String>> {
+    let arrows = arrows(source)?;
+    Ok(rings(&arrows).iter().map(|ring| told(source, ring, &arrows)).collect())
+}
+
+fn arrows(source: &Path) -> io::Result<Arrows> {
+    let modules = modules::of_crate(source)?;
+    let mut arrows = Arrows::new();
+    for (number, module) in modules.iter().enumerate() {
+        let mut paths: Vec<Vec<String>> = module.imports.values().cloned().collect();
+        module.tokens.iter().for_each(|tokens| paths::written_in(tokens, &mut paths));
+        let from = arrows.entry(module.file.clone()).or_default();
+        for path in paths {
+            if let Some(to) = paths::definition(&modules, number, &path)
+                && modules[to].file != module.file
+            {
+                let name = path.last().cloned().unwrap_or_default();
+                from.entry(modules[to].file.clone()).or_default().insert(name);
+            }
+        }
+    }
+    Ok(arrows)
+}
+
+/// Groups of files that reach one another, of two and more; a file is in one group at most.
+fn rings(arrows: &Arrows) -> Vec<Vec<PathBuf>> {
+    let reached: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> =
+        arrows.keys().map(|file| (file, reach(arrows, file))).collect();
+    let mut rings: BTreeSet<Vec<PathBuf>> = BTreeSet::new();
+    for (file, all) in &reached {
+        if all.contains(*file) {
+            let mutual =
+                all.iter().filter(|other| reached.get(**other).is_some_and(|back| back.contains(*file)));
+            rings.insert(mutual.map(|path| (*path).clone()).collect());
+        }
+    }
+    rings.into_iter().collect()
+}
+
+/// Files that can be reached from `file` by one arrow or more.
+fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
+    let mut reached = BTreeSet::new();
+    let mut open = vec![file];
+    while let Some(at) = open.pop() {
+        open.extend(arrows.get(at).into_iter().flat_map(|to| to.keys()).filter(|to| reached.insert(*to)));
+    }
+    reached
+}
+
+fn told(source: &Path, ring: &[PathBuf], arrows: &Arrows) -> String {
+    let mut text = format!("{}: a circle of {} files", source.display(), ring.len());
+    for from in ring {
+        for (to, names) in arrows.get(from).into_iter().flatten().filter(|(to, _)| ring.contains(to)) {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            text += &format!("\n    {} -> {}: {}", from.display(), to.display(), names.join(", "));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Files of a crate in a folder of their own, and what is found in them.
+    fn found(name: &str, files: &[(&str, &str)]) -> Vec<String> {
+        let folder = std::env::temp_dir().join(format!("tidy-{}-{name}", std::process::id()));
+        for (file, text) in files {
+            let path = folder.join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, text).unwrap();
+        }
+        let found = of_crate(&folder).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        found
+    }
+
+    #[test]
+    fn two_files_that_use_each_other_are_a_circle() {
+        let circle = found(
+            "pair",
+            &[
+                ("lib.rs", "mod a; mod b;"),
+                ("a.rs", "use crate::b::B; pub struct A;"),
+                ("b.rs", "pub struct B; fn f() { g!(super::a::A) }"),
+            ],
+        );
+        assert_eq!(circle.len(), 1);
+        assert!(circle[0].contains("a.rs -> b.rs: B") && circle[0].contains("b.rs -> a.rs: A"), "{circle:?}");
+    }
+
+    #[test]
+    fn re_exports_are_followed_to_the_definition() {
+        let lib = "mod room;";
+        let fine = [
+            ("lib.rs", lib),
+            ("room/mod.rs", "mod x; mod y; pub use x::X; pub use y::*;"),
+            ("room/x.rs", "pub struct X;"),
+            ("room/y.rs", "use super::X; pub struct Y;"),
+        ];
+        assert!(found("list", &fine).is_empty());
+        // The index defines what its entries use, and uses them.
+        let ring = [
+            ("lib.rs", lib),
+            ("room/mod.rs", "mod x; pub struct Low; pub fn all() { x::run() }"),
+            ("room/x.rs", "use super::Low; pub fn run() {}"),
+        ];
+        assert_eq!(found("index", &ring).len(), 1);
+    }
+
+    #[test]
+    fn tests_and_other_crates_draw_no_arrow() {
+        let files = [
+            ("lib.rs", "mod a; mod b;"),
+            ("a.rs", "use std::fmt; use crate::b::B; pub struct A; #[cfg(test)] mod tests { use super::A; }"),
+            ("b.rs", "pub struct B; #[cfg(test)] mod tests { use crate::a::A; }"),
+        ];
+        assert!(found("tests", &files).is_empty());
+    }
+}
