@@ -17,6 +17,7 @@
 //! | meshes cut where facets meet, unions of shells | [`arrange`] |
 //! | lines, arcs and curves of a section, and their joins | [`section`] |
 //! | B-splines and NURBS | [`spline`] |
+//! | B-spline surfaces through scattered points | [`surface`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
@@ -42,4 +43,5 @@ pub mod space;
 pub mod spatial;
 pub mod spline;
 pub mod stats;
+pub mod surface;
 pub mod topology;

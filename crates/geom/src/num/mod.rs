@@ -1,5 +1,6 @@
 //! Numerical tools: sums, random numbers, special functions.
 
+pub mod banded;
 pub mod big;
 pub mod cholesky;
 pub(crate) mod double;

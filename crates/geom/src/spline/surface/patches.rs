@@ -1,0 +1,141 @@
+//! A surface as polynomials, one patch for each pair of spans: many places of it are evaluated so.
+
+use super::super::spans::Spans;
+use super::super::value::Value;
+use super::{Bend, Surface};
+use crate::space::{Point, Vector};
+
+/// The polynomials of a surface.
+///
+/// Memory: 24 bytes times `(p + 1)(q + 1)` for each pair of spans. Evaluation needs no memory and no search for the functions;
+/// it agrees with [`Surface::at`] but for rounding.
+/// ```
+/// use trueness_geom::spline::{basis::Knots, surface::{Patches, Surface}};
+/// let knots = || Knots::uniform(3, 2, 0.0, 1.0);
+/// let points = (0..25).map(|k| [f64::from(k / 5), f64::from(k % 5), f64::from(k * k % 7)]).collect();
+/// let surface = Surface::new([knots(), knots()], points).unwrap();
+/// let (a, b) = (surface.at(0.3, 0.7), Patches::new(&surface).at(0.3, 0.7));
+/// assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-14));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Patches {
+    spans: [Spans; 2],
+    /// `(p + 1)(q + 1)` numbers of three for each patch, patches row after row: powers of `v` within powers of `u`.
+    coefficients: Vec<Point>,
+}
+
+/// A place of a surface with its derivatives by `u` and `v`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Jet {
+    pub place: Point,
+    /// By `u` and by `v`.
+    pub first: [Vector; 2],
+    /// By `uu`, `uv` and `vv`.
+    pub second: [Vector; 3],
+}
+
+impl Patches {
+    /// The polynomials of `surface`.
+    pub fn new(surface: &Surface<Point>) -> Patches {
+        Patches::of([Spans::new(&surface.knots[0]), Spans::new(&surface.knots[1])], &surface.points, surface.counts()[1])
+    }
+
+    /// Of control points over spans, `n` to a row.
+    pub(crate) fn of(spans: [Spans; 2], points: &[Point], n: usize) -> Patches {
+        let [p, q] = [spans[0].degree() + 1, spans[1].degree() + 1];
+        let mut coefficients = Vec::with_capacity(spans[0].count() * spans[1].count() * p * q);
+        let mut rows = vec![[0.0; 3]; p * q];
+        for i in 0..spans[0].count() {
+            let a = spans[0].polynomials(i);
+            for j in 0..spans[1].count() {
+                let b = spans[1].polynomials(j);
+                let corner = spans[0].first(i) * n + spans[1].first(j);
+                for r in 0..p {
+                    let own = &points[corner + r * n..][..q];
+                    for l in 0..q {
+                        rows[r * q + l] =
+                            own.iter().enumerate().fold([0.0; 3], |sum, (c, x)| sum.plus(b[c * q + l], *x));
+                    }
+                }
+                for k in 0..p {
+                    for l in 0..q {
+                        let sum = (0..p).fold([0.0; 3], |sum, r| sum.plus(a[r * p + k], rows[r * q + l]));
+                        coefficients.push(sum);
+                    }
+                }
+            }
+        }
+        Patches { spans, coefficients }
+    }
+
+    /// First and last parameter of both directions.
+    pub fn domain(&self) -> [(f64, f64); 2] {
+        self.spans.each_ref().map(|s| (s.limits(0).0, s.limits(s.count() - 1).1))
+    }
+
+    /// The coefficients of patch number `cell`.
+    fn patch(&self, cell: usize) -> (&[Point], usize) {
+        let [p, q] = [self.spans[0].degree() + 1, self.spans[1].degree() + 1];
+        (&self.coefficients[cell * p * q..(cell + 1) * p * q], q)
+    }
+
+    /// The place at the coordinates `s`, `t` of a patch.
+    #[inline]
+    pub(crate) fn place(&self, cell: usize, s: f64, t: f64) -> Point {
+        let (own, q) = self.patch(cell);
+        let mut sum = [0.0f64; 3];
+        for row in own.chunks_exact(q).rev() {
+            let mut inner = [0.0f64; 3];
+            for c in row.iter().rev() {
+                (0..3).for_each(|d| inner[d] = inner[d] * t + c[d]);
+            }
+            (0..3).for_each(|d| sum[d] = sum[d] * s + inner[d]);
+        }
+        sum
+    }
+
+    /// The place at `u`, `v`; outside of the domain that of the nearest place of it.
+    pub fn at(&self, u: f64, v: f64) -> Point {
+        let ((i, s), (j, t)) = (self.spans[0].locate(u), self.spans[1].locate(v));
+        self.place(i * self.spans[1].count() + j, s, t)
+    }
+
+    /// Place and derivatives at `u`, `v`.
+    pub(crate) fn jet(&self, u: f64, v: f64) -> Jet {
+        let ((i, s), (j, t)) = (self.spans[0].locate(u), self.spans[1].locate(v));
+        let (own, q) = self.patch(i * self.spans[1].count() + j);
+        // Horner's rule for value, derivative and half the second derivative, in both directions.
+        let mut sum = [[0.0f64; 3]; 6];
+        for row in own.chunks_exact(q).rev() {
+            let mut inner = [[0.0f64; 3]; 3];
+            for c in row.iter().rev() {
+                for d in 0..3 {
+                    inner[2][d] = inner[2][d] * t + inner[1][d];
+                    inner[1][d] = inner[1][d] * t + inner[0][d];
+                    inner[0][d] = inner[0][d] * t + c[d];
+                }
+            }
+            for d in 0..3 {
+                sum[3][d] = sum[3][d] * s + sum[1][d];
+                sum[1][d] = sum[1][d] * s + sum[0][d];
+                sum[4][d] = sum[4][d] * s + sum[2][d];
+                sum[0][d] = sum[0][d] * s + inner[0][d];
+                sum[2][d] = sum[2][d] * s + inner[1][d];
+                sum[5][d] = sum[5][d] * s + inner[2][d];
+            }
+        }
+        let (a, b) = (1.0 / self.spans[0].half(i), 1.0 / self.spans[1].half(j));
+        let [place, su, sv, suu, suv, svv] = sum;
+        Jet {
+            place,
+            first: [su.map(|x| x * a), sv.map(|x| x * b)],
+            second: [suu.map(|x| 2.0 * x * a * a), suv.map(|x| x * a * b), svv.map(|x| 2.0 * x * b * b)],
+        }
+    }
+
+    /// Normal and curvatures at `u`, `v`; `None` where the derivatives span no plane.
+    pub fn bend(&self, u: f64, v: f64) -> Option<Bend> {
+        let jet = self.jet(u, v);
+        Bend::new(jet.first, jet.second)
+    }
+}

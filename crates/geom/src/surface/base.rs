@@ -1,0 +1,194 @@
+//! Parameters of points from a simple surface near them.
+
+use super::fold;
+use super::rectangle::minimum_rectangle;
+use super::{SurfaceError, range};
+use crate::fit::{self, FitError, Kind, Shape};
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use std::f64::consts::TAU;
+
+/// What the parameters are taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BaseKind {
+    /// The least-squares plane: lengths along the sides of the minimum bounding rectangle.
+    Plane,
+    /// x and y themselves.
+    Xy,
+    /// The least-squares cylinder: lengths around and along it.
+    Cylinder,
+    /// The least-squares sphere: lengths along its equator and its meridians, whose cross lies amid the points.
+    Sphere,
+}
+
+impl BaseKind {
+    /// The word for it: `plane`, `xy`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            BaseKind::Plane => "plane",
+            BaseKind::Xy => "xy",
+            BaseKind::Cylinder => "cylinder",
+            BaseKind::Sphere => "sphere",
+        }
+    }
+}
+
+/// The base of a surface, and how the points lie over it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Base {
+    /// What it is.
+    pub kind: BaseKind,
+    /// Of a plane the corner of the rectangle, of a cylinder a place of its axis, of a sphere its center.
+    pub origin: Point,
+    /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
+    /// first where its angle is 0; of a sphere the first points amid the points and the third to the pole.
+    pub axes: [Vector; 3],
+    /// Of a cylinder or a sphere.
+    pub radius: Option<f64>,
+    /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
+    /// surface then has a seam there.
+    pub around: bool,
+    /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
+    /// between them.
+    pub folded_share: f64,
+}
+
+/// Where a point lies over the base: two lengths along it and the height.
+type Seen = ([f64; 2], f64);
+
+/// The parameters of all points.
+pub(super) fn parameters(
+    points: &[Point],
+    kind: BaseKind,
+    progress: &dyn Progress,
+) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
+    let shape = |kind| {
+        fit::fit(points, kind, &fit::Options::default(), progress).map(|f| f.shape).map_err(|e| match e {
+            FitError::Cancelled => Cancelled.into(),
+            FitError::Collinear { .. } | FitError::AllEqual => SurfaceError::Line,
+            e => SurfaceError::Base(e),
+        })
+    };
+    let (mut base, seen) = match kind {
+        BaseKind::Xy => (xy(), points.iter().map(|p| ([p[0], p[1]], p[2])).collect()),
+        BaseKind::Plane => match shape(Kind::Plane)? {
+            Shape::Plane { point, normal } => plane(points, point, normal)?,
+            _ => return Err(SurfaceError::Line),
+        },
+        BaseKind::Cylinder => match shape(Kind::Cylinder)? {
+            Shape::Cylinder { point, direction, radius } => cylinder(points, point, direction, radius),
+            _ => return Err(SurfaceError::Line),
+        },
+        BaseKind::Sphere => match shape(Kind::Sphere)? {
+            Shape::Sphere { center, radius } => sphere(points, center, radius),
+            _ => return Err(SurfaceError::Line),
+        },
+    };
+    let found: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
+    let [u, v] = [range(&found, 0), range(&found, 1)];
+    let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
+    // Also what lies aslant on one line.
+    if short <= 1e-12 * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= 1e-12 * r.sides[0]) {
+        return Err(SurfaceError::Line);
+    }
+    base.folded_share = fold::share(&seen, [u, v]);
+    Ok((base, found))
+}
+
+fn xy() -> Base {
+    Base {
+        kind: BaseKind::Xy,
+        origin: [0.0; 3],
+        axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        radius: None,
+        around: false,
+        folded_share: 0.0,
+    }
+}
+
+/// A unit vector at right angles to `w`: the first coordinate's direction as far as it goes.
+fn across(w: Vector) -> Vector {
+    let axis = if w[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    unit(minus(axis, times(dot(axis, w), w))).map_or([0.0, 0.0, 1.0], |(d, _)| d)
+}
+
+fn plane(points: &[Point], point: Point, normal: Vector) -> Result<(Base, Vec<Seen>), SurfaceError> {
+    let x = across(normal);
+    let y = cross(normal, x);
+    let flat: Vec<[f64; 2]> =
+        points.iter().map(|p| minus(*p, point)).map(|d| [dot(d, x), dot(d, y)]).collect();
+    let rectangle = minimum_rectangle(&flat).ok_or(SurfaceError::Line)?;
+    let [a, b] = rectangle.along;
+    let u = plus(times(a, x), times(b, y));
+    let origin = plus(point, plus(times(rectangle.corner[0], x), times(rectangle.corner[1], y)));
+    let axes = [u, cross(normal, u), normal];
+    let seen = points
+        .iter()
+        .map(|p| minus(*p, origin))
+        .map(|d| ([dot(d, axes[0]), dot(d, axes[1])], dot(d, normal)))
+        .collect();
+    Ok((Base { kind: BaseKind::Plane, origin, axes, ..xy() }, seen))
+}
+
+/// Turns angles so that the widest gap between them is where they start and end. The second answer is whether there is none.
+fn unrolled(angles: &mut [f64]) -> bool {
+    let mut sorted = angles.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (sorted.first().copied(), sorted.last().copied()) else { return false };
+    let (mut start, mut widest) = (first, first + TAU - last);
+    for w in sorted.windows(2) {
+        if w[1] - w[0] > widest {
+            (start, widest) = (w[1], w[1] - w[0]);
+        }
+    }
+    for a in angles {
+        *a -= start;
+        if *a < 0.0 {
+            *a += TAU;
+        }
+    }
+    widest < 0.1
+}
+
+/// The longer direction as the first parameter, with the same side outside.
+fn longer_first(seen: &mut [Seen]) {
+    let parameters: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
+    let [u, v] = [range(&parameters, 0), range(&parameters, 1)];
+    let turned = v.1 - v.0 > u.1 - u.0;
+    for ([a, b], _) in seen {
+        let own = [*a - u.0, *b - v.0];
+        [*a, *b] = if turned { [own[1], u.1 - u.0 - own[0]] } else { own };
+    }
+}
+
+fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base, Vec<Seen>) {
+    let x = across(axis);
+    let axes = [x, cross(axis, x), axis];
+    let local: Vec<Vector> = points.iter().map(|p| minus(*p, origin)).map(|d| axes.map(|a| dot(d, a))).collect();
+    let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
+    let around = unrolled(&mut angles);
+    let mut seen: Vec<Seen> = local
+        .iter()
+        .zip(&angles)
+        .map(|(d, a)| ([radius * a, d[2]], libm::hypot(d[0], d[1]) - radius))
+        .collect();
+    longer_first(&mut seen);
+    (Base { kind: BaseKind::Cylinder, origin, axes, radius: Some(radius), around, folded_share: 0.0 }, seen)
+}
+
+fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
+    let middle = points.iter().fold([0.0; 3], |sum, p| plus(sum, minus(*p, center)));
+    let x = unit(middle).map_or([1.0, 0.0, 0.0], |(d, _)| d);
+    let z = across(x);
+    let axes = [x, cross(z, x), z];
+    let local: Vec<Vector> = points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();
+    let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
+    let around = unrolled(&mut angles);
+    let mut seen: Vec<Seen> = local
+        .iter()
+        .zip(&angles)
+        .map(|(d, a)| ([radius * a, radius * libm::atan2(d[2], libm::hypot(d[0], d[1]))], norm(*d) - radius))
+        .collect();
+    longer_first(&mut seen);
+    (Base { kind: BaseKind::Sphere, origin: center, axes, radius: Some(radius), around, folded_share: 0.0 }, seen)
+}

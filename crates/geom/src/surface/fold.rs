@@ -1,0 +1,63 @@
+//! Layers: where several parts of a surface lie over the same place of the base.
+
+/// Points to a cell in the mean.
+const PER_CELL: f64 = 16.0;
+
+/// Share of the points in cells where two layers lie over one another.
+///
+/// The points of a cell fall into two groups at the widest gap of their heights. Where it is wider than the cell, and the groups
+/// cannot be told apart by where they lie in the cell, as those of a step can, there are two layers.
+pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
+    let sides = domain.map(|d| d.1 - d.0);
+    let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
+    let counts = sides.map(|s| (s / cell).ceil().clamp(1.0, 4096.0) as usize);
+    let cell_of = |p: [f64; 2]| {
+        let at = |k: usize| (((p[k] - domain[k].0) / sides[k] * counts[k] as f64) as usize).min(counts[k] - 1);
+        (at(0) * counts[1] + at(1)) as u32
+    };
+    let mut order: Vec<(u32, u32)> = seen.iter().enumerate().map(|(i, s)| (cell_of(s.0), i as u32)).collect();
+    order.sort_unstable();
+    let folded: usize = order
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|own| {
+            let mut own: Vec<([f64; 2], f64)> = own.iter().map(|(_, i)| seen[*i as usize]).collect();
+            layered(&mut own, cell)
+        })
+        .map(<[(u32, u32)]>::len)
+        .sum();
+    folded as f64 / seen.len() as f64
+}
+
+fn layered(own: &mut [([f64; 2], f64)], cell: f64) -> bool {
+    own.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
+    let gap = |i: &usize| own[*i].1 - own[*i - 1].1;
+    let Some(at) = (1..own.len()).max_by(|a, b| gap(a).total_cmp(&gap(b))) else { return false };
+    if gap(&at) <= cell {
+        return false;
+    }
+    let (low, high) = own.split_at(at);
+    if low.len().min(high.len()) < 2 {
+        return false;
+    }
+    let middle = |part: &[([f64; 2], f64)]| {
+        let n = part.len() as f64;
+        [0, 1].map(|k| part.iter().map(|p| p.0[k]).sum::<f64>() / n)
+    };
+    let (a, b) = (middle(low), middle(high));
+    // Fisher's discriminant: the direction in which the groups lie farthest apart for their own spread.
+    let mut spread = [[0.0; 2]; 2];
+    for (part, m) in [(low, a), (high, b)] {
+        for (p, _) in part {
+            let d = [p[0] - m[0], p[1] - m[1]];
+            (0..2).for_each(|i| (0..2).for_each(|j| spread[i][j] += d[i] * d[j]));
+        }
+    }
+    let [[xx, xy], [_, yy]] = spread;
+    let apart = [b[0] - a[0], b[1] - a[1]];
+    let direction = [yy * apart[0] - xy * apart[1], xx * apart[1] - xy * apart[0]];
+    let along = |p: &[f64; 2]| p[0] * direction[0] + p[1] * direction[1];
+    let half = along(&[0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+    let wrong_low = low.iter().filter(|p| along(&p.0) > half).count();
+    let wrong_high = high.iter().filter(|p| along(&p.0) < half).count();
+    10 * (wrong_low + wrong_high) > own.len() && wrong_low.min(wrong_high) > 0
+}

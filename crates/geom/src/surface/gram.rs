@@ -1,0 +1,335 @@
+//! Normal equations, summed cell by cell.
+//!
+//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So what a cell adds to the
+//! matrix follows from its moments `Σ sⁱ tʲ`, `(2p + 1)(2q + 1)` of them, and what it adds to the right side from `Σ sⁱ tʲ x`: fewer
+//! products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted by cell; sums run over blocks
+//! of fixed size, and blocks are added in their order.
+
+use super::stencil::Stencil;
+use crate::progress::{Cancelled, Progress};
+use crate::space::Point;
+use crate::spline::basis::Knots;
+use crate::spline::spans::Spans;
+use crate::spline::surface::Patches;
+use rayon::prelude::*;
+
+/// Points that are summed in one go by a thread.
+const ITEM: usize = 2048;
+/// Points whose powers are at hand at a time.
+const LANE: usize = 64;
+/// Goes whose sums wait to be added up.
+const WAITING: usize = 256;
+
+/// Points sorted by knot cell.
+pub(super) struct Binned {
+    pub spans: [Spans; 2],
+    /// Control points in both directions.
+    pub counts: [usize; 2],
+    /// Where each cell starts, and the end.
+    starts: Vec<u32>,
+    /// Numbers of the points.
+    order: Vec<u32>,
+    /// Coordinates in the cell, from −1 to 1.
+    local: Vec<[f64; 2]>,
+    /// The points less the center.
+    points: Vec<Point>,
+    weights: Option<Vec<f64>>,
+}
+
+/// The sums of one run over all points.
+pub(super) struct Sums {
+    /// `Σ w N Nᵀ`, if it was asked for.
+    pub normal: Option<Stencil>,
+    /// `Σ w N r`.
+    pub right: Vec<Point>,
+    /// `Σ w |r|²`.
+    pub square: f64,
+}
+
+impl Binned {
+    pub(super) fn new(
+        knots: &[Knots; 2],
+        points: &[Point],
+        parameters: &[[f64; 2]],
+        weights: Option<&[f64]>,
+        center: Point,
+    ) -> Binned {
+        let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
+        let columns = spans[1].count();
+        let place = |p: &[f64; 2]| {
+            let ((i, s), (j, t)) = (spans[0].locate(p[0]), spans[1].locate(p[1]));
+            ((i * columns + j) as u32, [s, t])
+        };
+        let places: Vec<(u32, [f64; 2])> = parameters.par_iter().map(place).collect();
+        let mut starts = vec![0u32; spans[0].count() * columns + 1];
+        places.iter().for_each(|(cell, _)| starts[*cell as usize + 1] += 1);
+        for k in 1..starts.len() {
+            starts[k] += starts[k - 1];
+        }
+        let mut next = starts.clone();
+        let mut order = vec![0u32; points.len()];
+        for (i, (cell, _)) in places.iter().enumerate() {
+            let at = &mut next[*cell as usize];
+            order[*at as usize] = i as u32;
+            *at += 1;
+        }
+        let local = order.par_iter().map(|i| places[*i as usize].1).collect();
+        let own = |i: &u32| std::array::from_fn(|d| points[*i as usize][d] - center[d]);
+        let sorted = order.par_iter().map(own).collect();
+        let weights = weights.map(|w| order.iter().map(|i| w[*i as usize]).collect());
+        let counts = [knots[0].count(), knots[1].count()];
+        Binned { spans, counts, starts, order, local, points: sorted, weights }
+    }
+
+    /// Number of points.
+    pub(super) fn len(&self) -> usize {
+        self.order.len()
+    }
+    /// Cells, and how many of them hold no point.
+    pub(super) fn cells(&self) -> (usize, usize) {
+        (self.starts.len() - 1, self.starts.windows(2).filter(|w| w[0] == w[1]).count())
+    }
+    /// `Σ w |x|²` over the points less the center, and `Σ w`.
+    pub(super) fn size(&self) -> (f64, f64) {
+        let weight = |k: usize| self.weights.as_ref().map_or(1.0, |w| w[k]);
+        let square = self.points.iter().enumerate().map(|(k, p)| weight(k) * p.iter().map(|x| x * x).sum::<f64>());
+        (square.sum(), (0..self.len()).map(weight).sum())
+    }
+
+    /// The pieces of work: cell, first point, end.
+    fn items(&self) -> Vec<(u32, u32, u32)> {
+        let mut items = vec![];
+        for (cell, w) in self.starts.windows(2).enumerate() {
+            for from in (w[0]..w[1]).step_by(ITEM) {
+                items.push((cell as u32, from, w[1].min(from + ITEM as u32)));
+            }
+        }
+        items
+    }
+
+    /// Distance of each point, in the order of the file, from its place on the surface; unweighted.
+    pub(super) fn residuals(&self, surface: &Patches) -> Vec<f64> {
+        let mut out = vec![0.0; self.len()];
+        let items = self.items();
+        let found: Vec<Vec<f64>> = items
+            .par_iter()
+            .map(|(cell, from, to)| {
+                let one = |k: usize| {
+                    let place = surface.place(*cell as usize, self.local[k][0], self.local[k][1]);
+                    (0..3).map(|d| (self.points[k][d] - place[d]) * (self.points[k][d] - place[d])).sum::<f64>().sqrt()
+                };
+                (*from as usize..*to as usize).map(one).collect()
+            })
+            .collect();
+        for ((_, from, _), own) in items.iter().zip(found) {
+            own.into_iter().enumerate().for_each(|(n, d)| out[self.order[*from as usize + n] as usize] = d);
+        }
+        out
+    }
+
+    /// Sums over all points of what the `surface` (of points less the center) leaves of them; without one, of the points themselves.
+    pub(super) fn sums(
+        &self,
+        surface: Option<&Patches>,
+        normal: bool,
+        progress: &dyn Progress,
+    ) -> Result<Sums, Cancelled> {
+        self.sums_of(normal, progress, |k, cell, [s, t]| {
+            let p = self.points[k];
+            match surface {
+                Some(surface) => {
+                    let place = surface.place(cell, s, t);
+                    std::array::from_fn(|d| p[d] - place[d])
+                }
+                None => p,
+            }
+        })
+    }
+
+    /// The sums with other values in place of the points: `value` has the number of a point.
+    pub(super) fn sums_with(
+        &self,
+        progress: &dyn Progress,
+        value: impl Fn(u32) -> Point + Sync,
+    ) -> Result<Vec<Point>, Cancelled> {
+        Ok(self.sums_of(false, progress, |k, _, _| value(self.order[k]))?.right)
+    }
+
+    fn sums_of(
+        &self,
+        normal: bool,
+        progress: &dyn Progress,
+        value: impl Fn(usize, usize, [f64; 2]) -> Point + Sync,
+    ) -> Result<Sums, Cancelled> {
+        let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
+        let mut sums = Sums {
+            normal: normal.then(|| Stencil::new(self.counts, [p, q])),
+            right: vec![[0.0; 3]; self.counts[0] * self.counts[1]],
+            square: 0.0,
+        };
+        let products = [Products::new(&self.spans[0]), Products::new(&self.spans[1])];
+        let moments = if normal { (2 * p + 1) * (2 * q + 1) } else { 0 };
+        let size = moments + 3 * (p + 1) * (q + 1) + 1;
+        let items = self.items();
+        let mut cell = vec![0.0; size];
+        let mut current = items.first().map_or(0, |i| i.0);
+        for batch in items.chunks(WAITING) {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let found: Vec<Vec<f64>> = batch.par_iter().map(|item| self.item(*item, size, normal, &value)).collect();
+            for (item, own) in batch.iter().zip(found) {
+                if item.0 != current {
+                    self.flush(current as usize, &mut cell, &products, &mut sums);
+                    current = item.0;
+                }
+                cell.iter_mut().zip(own).for_each(|(a, b)| *a += b);
+            }
+        }
+        self.flush(current as usize, &mut cell, &products, &mut sums);
+        Ok(sums)
+    }
+
+    /// The moments of one piece of work: those of the matrix, those of the values, the square.
+    fn item(
+        &self,
+        (cell, from, to): (u32, u32, u32),
+        size: usize,
+        normal: bool,
+        value: &(impl Fn(usize, usize, [f64; 2]) -> Point + Sync),
+    ) -> Vec<f64> {
+        let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
+        let mut out = vec![0.0; size];
+        let mut powers = [vec![[0.0f64; LANE]; 2 * p + 1], vec![[0.0f64; LANE]; 2 * q + 1]];
+        let mut values = [[0.0f64; LANE]; 3];
+        for start in (from as usize..to as usize).step_by(LANE) {
+            let count = LANE.min(to as usize - start);
+            // Lanes beyond the last point have no weight.
+            let padded = count.next_multiple_of(8);
+            let (mut s, mut t) = ([0.0; LANE], [0.0; LANE]);
+            for n in 0..count {
+                let k = start + n;
+                [s[n], t[n]] = self.local[k];
+                let r = value(k, cell as usize, self.local[k]);
+                (0..3).for_each(|d| values[d][n] = r[d]);
+                powers[0][0][n] = self.weights.as_ref().map_or(1.0, |w| w[k]);
+            }
+            powers[0][0][count..padded].fill(0.0);
+            values.iter_mut().for_each(|v| v[count..padded].fill(0.0));
+            powers[1][0][..padded].fill(1.0);
+            raise(&mut powers[0], &s);
+            raise(&mut powers[1], &t);
+            let mut at = 0;
+            if normal {
+                for a in &powers[0] {
+                    for b in &powers[1] {
+                        out[at] += dot(&a[..padded], &b[..padded]);
+                        at += 1;
+                    }
+                }
+            }
+            for v in &values {
+                for a in &powers[0][..=p] {
+                    let weighted: [f64; LANE] = std::array::from_fn(|n| a[n] * v[n]);
+                    for b in &powers[1][..=q] {
+                        out[at] += dot(&weighted[..padded], &b[..padded]);
+                        at += 1;
+                    }
+                }
+                let weighted: [f64; LANE] = std::array::from_fn(|n| powers[0][0][n] * v[n]);
+                out[size - 1] += dot(&weighted[..padded], &v[..padded]);
+            }
+        }
+        out
+    }
+
+    /// Adds what the moments of a cell come to, and clears them.
+    fn flush(&self, cell: usize, moments: &mut [f64], products: &[Products; 2], sums: &mut Sums) {
+        let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
+        let (i, j) = (cell / self.spans[1].count(), cell % self.spans[1].count());
+        let corner = self.spans[0].first(i) * self.counts[1] + self.spans[1].first(j);
+        let mut at = 0;
+        if let Some(normal) = &mut sums.normal {
+            let wide = 2 * q + 1;
+            at = (2 * p + 1) * wide;
+            for a in 0..=p {
+                for b in a..=p {
+                    let own = products[0].of(i, a, b);
+                    let mut row = vec![0.0; wide];
+                    for (k, x) in own.iter().enumerate() {
+                        row.iter_mut().zip(&moments[k * wide..]).for_each(|(r, m)| *r += x * m);
+                    }
+                    for c in 0..=q {
+                        for d in 0..=q {
+                            let sum = dot(products[1].of(j, c.min(d), c.max(d)), &row);
+                            normal.row(corner + a * self.counts[1] + c, b - a)[d + q - c] += sum;
+                        }
+                    }
+                }
+            }
+        }
+        let (f, g) = (self.spans[0].polynomials(i), self.spans[1].polynomials(j));
+        for d in 0..3 {
+            for a in 0..=p {
+                for c in 0..=q {
+                    let row = |k: usize| dot(&g[c * (q + 1)..][..=q], &moments[at + k * (q + 1)..][..=q]);
+                    let sum: f64 = (0..=p).map(|k| f[a * (p + 1) + k] * row(k)).sum();
+                    sums.right[corner + a * self.counts[1] + c][d] += sum;
+                }
+            }
+            at += (p + 1) * (q + 1);
+        }
+        sums.square += moments[at];
+        moments.fill(0.0);
+    }
+}
+
+/// Fills in the powers above the lowest one.
+fn raise(powers: &mut [[f64; LANE]], x: &[f64; LANE]) {
+    for k in 1..powers.len() {
+        let (low, high) = powers.split_at_mut(k);
+        (0..LANE).for_each(|n| high[0][n] = low[k - 1][n] * x[n]);
+    }
+}
+
+/// Sum of products, in lanes that the compiler keeps side by side.
+#[inline]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0f64; 8];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    for (a, b) in a.iter().zip(b) {
+        (0..8).for_each(|k| sums[k] += a[k] * b[k]);
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Products of two basis functions on each span, as polynomials.
+struct Products {
+    degree: usize,
+    coefficients: Vec<f64>,
+}
+
+impl Products {
+    fn new(spans: &Spans) -> Products {
+        let p = spans.degree();
+        let mut coefficients = vec![];
+        for span in 0..spans.count() {
+            let own: Vec<&[f64]> = spans.polynomials(span).chunks_exact(p + 1).collect();
+            for a in &own {
+                for b in &own {
+                    let start = coefficients.len();
+                    coefficients.resize(start + 2 * p + 1, 0.0);
+                    for (k, x) in a.iter().enumerate() {
+                        b.iter().enumerate().for_each(|(l, y)| coefficients[start + k + l] += x * y);
+                    }
+                }
+            }
+        }
+        Products { degree: p, coefficients }
+    }
+    fn of(&self, span: usize, a: usize, b: usize) -> &[f64] {
+        let (n, wide) = (self.degree + 1, 2 * self.degree + 1);
+        &self.coefficients[((span * n + a) * n + b) * wide..][..wide]
+    }
+}

@@ -1,0 +1,156 @@
+//! One fit after the other: parameters of the nearest places, weights against outliers.
+
+use super::gram::Binned;
+use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Aabb, Point, plus, times};
+use crate::spline::basis::Knots;
+use crate::spline::surface::{Patches, Surface, SurfaceFoot};
+use rayon::prelude::*;
+
+/// Corrections go on while they take away this share of the root mean square.
+const GAIN: f64 = 0.01;
+/// Times that weights against outliers are found anew.
+const REWEIGHTED: usize = 8;
+/// Standard deviations beyond which a point has no weight: 95 % efficient for normal deviations.
+const TUKEY: f64 = 4.685;
+/// Points between two questions whether to stop.
+const CHUNK: usize = 4096;
+
+/// The fit over these knots, with parameters corrected and outliers weighed as the options say.
+pub(super) fn corrected(
+    points: &[Point],
+    mut parameters: Vec<[f64; 2]>,
+    base: Base,
+    knots: [Knots; 2],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let corrections = if options.base == BaseKind::Xy { 0 } else { options.corrections };
+    let mut best = weighed(points, &parameters, base, &knots, None, options, progress)?;
+    let mut known = None;
+    for n in 1..=corrections {
+        parameters.clone_from(&best.feet);
+        let next = weighed(points, &parameters, base, &knots, known, options, progress)?;
+        // The weight of the thin plate settles with the first correction.
+        known = next.degrees_of_freedom.map(|dof| (next.fairness, dof));
+        let (before, after) = (rms(&best.deviations), rms(&next.deviations));
+        if !(after < before) {
+            break;
+        }
+        best = SurfaceFit { corrections: n, ..next };
+        if after > (1.0 - GAIN) * before {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// Root mean square.
+pub(super) fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|d| d * d).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+/// The fit at these parameters; of a robust one, until the weights have settled.
+fn weighed(
+    points: &[Point],
+    parameters: &[[f64; 2]],
+    base: Base,
+    knots: &[Knots; 2],
+    known: Option<(f64, f64)>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let mut found = once(points, parameters, base, knots, None, known, options, progress)?;
+    if !options.robust {
+        return Ok(found);
+    }
+    let mut weights: Vec<f64> = vec![];
+    for _ in 0..REWEIGHTED {
+        let mut sizes: Vec<f64> = found.deviations.iter().map(|d| d.abs()).collect();
+        let middle = sizes.len() / 2;
+        // The median of the sizes, to a standard deviation.
+        let sigma = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+        if sigma <= 0.0 {
+            break;
+        }
+        let weight = |d: &f64| {
+            let x = d / (TUKEY * sigma);
+            if x.abs() < 1.0 { (1.0 - x * x) * (1.0 - x * x) } else { 0.0 }
+        };
+        let next: Vec<f64> = found.deviations.iter().map(weight).collect();
+        let settled = weights.len() == next.len() && weights.iter().zip(&next).all(|(a, b)| (a - b).abs() < 1e-3);
+        if settled {
+            break;
+        }
+        weights = next;
+        found = once(points, parameters, base, knots, Some(&weights), known, options, progress)?;
+        found.outliers = weights.iter().filter(|w| **w == 0.0).count();
+    }
+    Ok(found)
+}
+
+#[expect(clippy::too_many_arguments, reason = "the steps of one pass, each with a name")]
+fn once(
+    points: &[Point],
+    parameters: &[[f64; 2]],
+    base: Base,
+    knots: &[Knots; 2],
+    weights: Option<&[f64]>,
+    known: Option<(f64, f64)>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let hull = Aabb::of(points);
+    let center = times(0.5, plus(hull.min, hull.max));
+    let data = Binned::new(knots, points, parameters, weights, center);
+    let solved = solve::solve(&data, known, options, progress)?;
+    let counts = data.counts;
+    let residuals = data.residuals(&Patches::of(data.spans.clone(), &solved.points, counts[1]));
+    let control: Vec<Point> = solved.points.iter().map(|p| plus(*p, center)).collect();
+    let surface = Surface::new(knots.clone(), control).map_err(|_| SurfaceError::Undetermined {
+        total: counts[0] * counts[1],
+        points: points.len(),
+        unsupported: solved.support.unsupported,
+    })?;
+    let feet = feet(&Patches::new(&surface), points, parameters, progress)?;
+    let sides = hull.sides();
+    let far = |p: &&Point| (0..3).any(|k| (p[k] - center[k]).abs() > sides[k].max(0.5 * hull.diagonal()));
+    Ok(SurfaceFit {
+        far_control_points: surface.points().iter().filter(far).count(),
+        deviations: feet.iter().zip(points).map(|(f, p)| f.signed(*p)).collect(),
+        unsettled: feet.iter().filter(|f| !f.settled).count(),
+        feet: feet.iter().map(|f| f.parameters).collect(),
+        sum_of_squares: residuals.iter().map(|d| d * d).sum(),
+        max_residual: residuals.iter().fold(0.0, |m, d| m.max(*d)),
+        fairness: solved.fairness,
+        degrees_of_freedom: solved.degrees_of_freedom.filter(|_| options.fairness == Fairness::Auto),
+        support: solved.support,
+        surface,
+        base,
+        corrections: 0,
+        outliers: 0,
+        reached: None,
+    })
+}
+
+/// The nearest places of all points, from those of their parameters on.
+fn feet(
+    surface: &Patches,
+    points: &[Point],
+    parameters: &[[f64; 2]],
+    progress: &dyn Progress,
+) -> Result<Vec<SurfaceFoot>, Cancelled> {
+    let chunks = points.par_chunks(CHUNK).zip(parameters.par_chunks(CHUNK));
+    let found: Result<Vec<Vec<SurfaceFoot>>, Cancelled> = chunks
+        .map(|(points, parameters)| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let found = points.iter().zip(parameters).map(|(p, at)| surface.foot_from(*p, *at)).collect();
+            progress.advance(points.len() as u64);
+            Ok(found)
+        })
+        .collect();
+    Ok(found?.concat())
+}

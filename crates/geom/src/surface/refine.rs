@@ -1,0 +1,107 @@
+//! Knots where a tolerance asks for them.
+
+use super::pass::{corrected, rms};
+use super::{Base, Options, Reached, SurfaceError, SurfaceFit, solve};
+use crate::progress::Progress;
+use crate::space::Point;
+use crate::spline::basis::Knots;
+use crate::spline::spans::Spans;
+
+/// Times that knots are set.
+const ROUNDS: usize = 24;
+/// A round that takes away less than this share of the standard deviation follows the noise.
+const GAIN: f64 = 0.03;
+/// So many such rounds, one after the other, end it.
+const PATIENCE: usize = 2;
+
+/// Spans of the first surface: four along the shorter side, about square ones.
+pub(super) fn first_spans(domain: [(f64, f64); 2]) -> [usize; 2] {
+    let sides = domain.map(|d| d.1 - d.0);
+    let shorter = sides[0].min(sides[1]);
+    sides.map(|s| (4.0 * s / shorter).round().clamp(4.0, 32.0) as usize)
+}
+
+/// Fits, sets knots where points are beyond the tolerance, and fits again.
+///
+/// It ends where all points are within, where more knots lower the standard deviation of the points no more (the answer
+/// is then the surface before they were set), or where there are no points left to set knots by.
+pub(super) fn to_tolerance(
+    points: &[Point],
+    mut parameters: Vec<[f64; 2]>,
+    base: Base,
+    mut knots: [Knots; 2],
+    tolerance: f64,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let own = Options { corrections: options.corrections.min(2), ..options.clone() };
+    let mut best: Option<(f64, SurfaceFit)> = None;
+    let mut idle = 0;
+    for _ in 0..ROUNDS {
+        let found = corrected(points, parameters.clone(), base, knots.clone(), &own, progress)?;
+        if found.deviations.iter().all(|d| d.abs() <= tolerance) {
+            return Ok(SurfaceFit { reached: Some(Reached::Tolerance), ..found });
+        }
+        if options.base != super::BaseKind::Xy {
+            parameters.clone_from(&found.feet);
+        }
+        let used = found.degrees_of_freedom.unwrap_or(found.support.control_points as f64);
+        let free = points.len() as f64 - used;
+        let spread = if free > 0.0 { rms(&found.deviations) * (points.len() as f64 / free).sqrt() } else { f64::INFINITY };
+        let next = finer(&knots, &found, tolerance);
+        match &best {
+            Some((least, _)) if spread > (1.0 - GAIN) * least => idle += 1,
+            _ => {
+                idle = 0;
+                best = Some((spread, found));
+            }
+        }
+        let stop = |reached| best.as_ref().map(|(_, f)| SurfaceFit { reached: Some(reached), ..f.clone() });
+        let counts = [next[0].count(), next[1].count()];
+        let end = if idle >= PATIENCE {
+            stop(Reached::Noise)
+        } else if next == knots || counts[0].saturating_mul(counts[1]) > points.len() {
+            stop(Reached::Points)
+        } else if solve::allowed(counts, [next[0].degree(), next[1].degree()], options.memory).is_err() {
+            stop(Reached::Memory)
+        } else {
+            None
+        };
+        if let Some(found) = end {
+            return Ok(found);
+        }
+        knots = next;
+    }
+    match best {
+        Some((_, found)) => Ok(SurfaceFit { reached: Some(Reached::Noise), ..found }),
+        None => corrected(points, parameters, base, knots, &own, progress),
+    }
+}
+
+/// Halves the spans that hold points beyond the tolerance, if they hold more points than the halves have functions.
+fn finer(knots: &[Knots; 2], found: &SurfaceFit, tolerance: f64) -> [Knots; 2] {
+    let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
+    let mut beyond = [vec![0usize; spans[0].count()], vec![0usize; spans[1].count()]];
+    let mut held = beyond.clone();
+    for (foot, deviation) in found.feet.iter().zip(&found.deviations) {
+        for k in 0..2 {
+            let span = spans[k].locate(foot[k]).0;
+            held[k][span] += 1;
+            beyond[k][span] += usize::from(deviation.abs() > tolerance);
+        }
+    }
+    [0, 1].map(|k| {
+        let p = knots[k].degree();
+        let others = knots[1 - k].count();
+        let mut inner: Vec<f64> = knots[k].values()[p + 1..knots[k].count()].to_vec();
+        for span in 0..spans[k].count() {
+            if beyond[k][span] > 0 && held[k][span] >= 2 * others {
+                let (from, to) = spans[k].limits(span);
+                inner.push(0.5 * (from + to));
+            }
+        }
+        inner.sort_unstable_by(f64::total_cmp);
+        let (from, to) = knots[k].domain();
+        Knots::clamped(p, from, &inner, to).unwrap_or_else(|_| knots[k].clone())
+    })
+}

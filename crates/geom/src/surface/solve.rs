@@ -1,0 +1,249 @@
+//! Control points from the normal equations, and the weight of the thin-plate term.
+
+use super::energy::thin_plate;
+use super::gram::{Binned, Sums};
+use super::stencil::{Order, Stencil};
+use super::{Fairness, Options, SurfaceError, Support};
+use crate::num::banded::{Banded, BandedError, Factor};
+use crate::num::random::Random;
+use crate::progress::Progress;
+use crate::space::Point;
+use crate::spline::surface::Patches;
+
+/// Control points of least squares.
+pub(super) struct Solved {
+    /// Less the center.
+    pub points: Vec<Point>,
+    pub fairness: f64,
+    pub degrees_of_freedom: Option<f64>,
+    pub support: Support,
+}
+
+/// Least sum of the squares of a basis function over all points that holds a control point.
+const SUPPORT: f64 = 1e-4;
+
+/// Solves for the control points; `known` is a weight that was found before.
+pub(super) fn solve(
+    data: &Binned,
+    known: Option<(f64, f64)>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Solved, SurfaceError> {
+    let sums = data.sums(None, true, progress)?;
+    let Sums { normal: Some(normal), right, .. } = sums else {
+        return Err(SurfaceError::Undetermined { total: 0, points: 0, unsupported: 0 });
+    };
+    let total = data.counts[0] * data.counts[1];
+    let (cells, empty_cells) = data.cells();
+    let unsupported = (0..total).filter(|k| normal.diagonal(*k) < SUPPORT).count();
+    let support = Support { unsupported, control_points: total, empty_cells, cells };
+    let energy = match options.fairness {
+        Fairness::Weight(0.0) => Stencil::new([0, 0], [0, 0]),
+        _ => thin_plate(&data.spans, data.counts),
+    };
+    let system = System { data, normal, energy, right, support };
+    let (fairness, degrees_of_freedom) = match (options.fairness, known) {
+        (Fairness::Weight(w), _) => (w, None),
+        (Fairness::Auto, Some((w, dof))) => (w, Some(dof)),
+        (Fairness::Auto, None) => {
+            let (w, dof) = system.automatic(progress)?;
+            (w, Some(dof))
+        }
+    };
+    let factor = system.factor(fairness, progress)?;
+    let points = system.refined(&factor, fairness, progress)?;
+    Ok(Solved { points, fairness, degrees_of_freedom, support })
+}
+
+/// Refuses a matrix larger than allowed.
+pub(super) fn allowed(counts: [usize; 2], reach: [usize; 2], memory: usize) -> Result<(), SurfaceError> {
+    match bytes(counts, reach) {
+        Some(bytes) if bytes <= memory => Ok(()),
+        bytes => Err(SurfaceError::TooLarge { counts, bytes, memory }),
+    }
+}
+
+/// What the matrix of so many control points takes; `None` where no number holds it.
+fn bytes(counts: [usize; 2], reach: [usize; 2]) -> Option<usize> {
+    // The product bounds every other one here.
+    let total = counts[0].checked_mul(counts[1])?.checked_mul(reach[0].max(reach[1]) + 1)?;
+    Banded::bytes(total / (reach[0].max(reach[1]) + 1), Order::new(counts).width(reach))
+}
+
+struct System<'a> {
+    data: &'a Binned,
+    normal: Stencil,
+    energy: Stencil,
+    right: Vec<Point>,
+    support: Support,
+}
+
+/// Control points up to which the degrees of freedom are counted one by one.
+const EXACT: usize = 300;
+/// Random vectors that they are estimated by beyond.
+const PROBES: usize = 12;
+/// How many times a degree of freedom counts: plain cross-validation takes noise for shape now and then.
+const COUNTED: f64 = 1.4;
+
+impl System<'_> {
+    fn factor(&self, weight: f64, progress: &dyn Progress) -> Result<Factor, SurfaceError> {
+        self.normal.with(weight, &self.energy).factor(progress).map_err(|e| match e {
+            BandedError::Cancelled(e) => e.into(),
+            BandedError::NotDefinite { .. } => SurfaceError::Undetermined {
+                total: self.support.control_points,
+                points: self.data.len(),
+                unsupported: self.support.unsupported,
+            },
+        })
+    }
+
+    /// The solution for a right side over the net.
+    fn solved<const D: usize>(&self, factor: &Factor, right: &[[f64; D]]) -> Vec<[f64; D]> {
+        let order = Order::new(self.data.counts);
+        let mut own = vec![[0.0; D]; right.len()];
+        right.iter().enumerate().for_each(|(k, r)| own[order.of(k)] = *r);
+        factor.solve(&mut own);
+        (0..right.len()).map(|k| own[order.of(k)]).collect()
+    }
+
+    /// The control points, corrected by what they leave of the points until that changes nothing: the equations square the
+    /// condition of the problem, the corrections take most of it back (Björck, Stability analysis of the method of
+    /// semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89, 1987).
+    fn refined(&self, factor: &Factor, weight: f64, progress: &dyn Progress) -> Result<Vec<Point>, SurfaceError> {
+        let mut points = self.solved(factor, &self.right);
+        let mut before = f64::INFINITY;
+        for _ in 0..8 {
+            let gradient = self.gradient(&points, weight, progress)?.0;
+            let step = self.solved(factor, &gradient);
+            let size = largest(&step) / largest(&points).max(f64::MIN_POSITIVE);
+            if !(size < before) {
+                break;
+            }
+            points.iter_mut().zip(&step).for_each(|(p, s)| (0..3).for_each(|d| p[d] += s[d]));
+            // A correction of this size has one of its square after it.
+            if size < 1e-9 {
+                break;
+            }
+            before = size;
+        }
+        Ok(points)
+    }
+
+    /// `Σ w N r − weight · E p` at control points, and `Σ w |r|²`.
+    fn gradient(&self, points: &[Point], weight: f64, progress: &dyn Progress) -> Result<(Vec<Point>, f64), SurfaceError> {
+        let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
+        let Sums { mut right, square, .. } = self.data.sums(Some(&patches), false, progress)?;
+        if weight > 0.0 {
+            let pull = self.energy.times(points);
+            right.iter_mut().zip(&pull).for_each(|(r, e)| (0..3).for_each(|d| r[d] -= weight * e[d]));
+        }
+        Ok((right, square))
+    }
+
+    /// The weight of least cross-validation, and the degrees of freedom with it.
+    ///
+    /// Weights are tried in steps of ten, then finer about the best. Sums of squares are those of one first surface
+    /// plus what the weight changes, so that points without noise lose no digits.
+    fn automatic(&self, progress: &dyn Progress) -> Result<(f64, f64), SurfaceError> {
+        let unit = self.normal.trace() / self.energy.trace();
+        let mut start = -10;
+        let factor = loop {
+            match self.factor(unit * power(f64::from(start)), progress) {
+                Err(SurfaceError::Undetermined { .. }) if start < -4 => start += 1,
+                other => break other?,
+            }
+        };
+        let first = unit * power(f64::from(start));
+        let base = self.refined(&factor, first, progress)?;
+        let (gradient, square) = self.gradient(&base, 0.0, progress)?;
+        let pull = self.energy.times(&base);
+        let (size, count) = self.data.size();
+        let probes = self.probes(progress)?;
+        let score = |weight: f64| -> Result<(f64, f64), SurfaceError> {
+            let factor = self.factor(weight, progress)?;
+            let right: Vec<Point> = gradient
+                .iter()
+                .zip(&pull)
+                .map(|(g, e)| std::array::from_fn(|d| g[d] - weight * e[d]))
+                .collect();
+            let change = self.solved(&factor, &right);
+            let bent = self.normal.times(&change);
+            let product = |a: &[Point], b: &[Point]| {
+                a.iter().zip(b).map(|(a, b)| (0..3).map(|d| a[d] * b[d]).sum::<f64>()).sum::<f64>()
+            };
+            let left = square - 2.0 * product(&change, &gradient) + product(&change, &bent);
+            // Rounding of the points themselves.
+            let left = left.max(size * f64::EPSILON * f64::EPSILON);
+            let dof = self.degrees_of_freedom(&factor, &probes);
+            let free = count - COUNTED * dof;
+            Ok((if free > 0.0 { left / (free * free) } else { f64::INFINITY }, dof))
+        };
+        let mut best = (f64::INFINITY, f64::from(4), 0.0);
+        let try_at = |exponent: f64, best: &mut (f64, f64, f64)| -> Result<(), SurfaceError> {
+            let (value, dof) = score(unit * power(exponent))?;
+            if value < best.0 {
+                *best = (value, exponent, dof);
+            }
+            Ok(())
+        };
+        for k in start..=4 {
+            try_at(f64::from(k), &mut best)?;
+        }
+        if best.0.is_infinite() {
+            // No weight leaves freedom enough: the stiffest one.
+            return Ok((unit * power(4.0), score(unit * power(4.0))?.1));
+        }
+        for step in [0.5, 0.25] {
+            let middle = best.1;
+            for side in [-step, step] {
+                if middle + side >= f64::from(start) {
+                    try_at(middle + side, &mut best)?;
+                }
+            }
+        }
+        Ok((unit * power(best.1), best.2))
+    }
+
+    /// What the trace is told by: unit vectors of all control points, or the sums of random signs of the points.
+    fn probes(&self, progress: &dyn Progress) -> Result<Vec<Vec<Point>>, SurfaceError> {
+        let total = self.right.len();
+        if total <= EXACT {
+            let unit = |first: usize| (0..total).map(|k| std::array::from_fn(|d| f64::from(k == first + d))).collect();
+            return Ok((0..total).step_by(3).map(unit).collect());
+        }
+        let signs = |probe: usize| {
+            self.data.sums_with(progress, move |i| {
+                let bits = Random::stream(probe as u64, u64::from(i)).next_u64();
+                std::array::from_fn(|d| if bits >> (20 * d + 3) & 1 == 0 { 1.0 } else { -1.0 })
+            })
+        };
+        (0..PROBES / 3).map(|probe| Ok(signs(probe)?)).collect()
+    }
+
+    /// The trace of the matrix from points to fitted points; beyond [`EXACT`] control points the mean over random signs
+    /// (Girard, A fast Monte-Carlo cross-validation procedure for large least squares problems with noisy data, Numerische
+    /// Mathematik 56, 1989).
+    fn degrees_of_freedom(&self, factor: &Factor, probes: &[Vec<Point>]) -> f64 {
+        let exact = self.right.len() <= EXACT;
+        let mut sum = 0.0;
+        for (n, probe) in probes.iter().enumerate() {
+            let answer = self.solved(factor, probe);
+            if exact {
+                let applied = self.normal.times(&answer);
+                sum += (0..3).filter_map(|d| applied.get(3 * n + d).map(|row| row[d])).sum::<f64>();
+            } else {
+                let products = probe.iter().zip(&answer).map(|(a, b)| (0..3).map(|d| a[d] * b[d]).sum::<f64>());
+                sum += products.sum::<f64>() / PROBES as f64;
+            }
+        }
+        sum
+    }
+}
+
+fn power(exponent: f64) -> f64 {
+    libm::pow(10.0, exponent)
+}
+
+fn largest(points: &[Point]) -> f64 {
+    points.iter().flatten().fold(0.0, |m, x| m.max(x.abs()))
+}
