@@ -6,6 +6,7 @@ use crate::commands::fit::FitArgs;
 use crate::commands::repair::RepairArgs;
 use crate::commands::section::SectionArgs;
 use crate::commands::segment::SegmentArgs;
+use crate::commands::surface::SurfaceArgs;
 use crate::exit::Outcome;
 use crate::options::Common;
 use crate::run_files::RunFiles;
@@ -34,6 +35,7 @@ pub enum Command {
     Repair(RepairArgs),
     Section(Box<SectionArgs>),
     Segment(SegmentArgs),
+    Surface(Box<SurfaceArgs>),
 }
 
 /// A command with its words.
@@ -54,6 +56,7 @@ impl Command {
             Command::Repair(args) => args,
             Command::Section(args) => args.as_ref(),
             Command::Segment(args) => args,
+            Command::Surface(args) => args.as_ref(),
         }
     }
 }

@@ -6,6 +6,7 @@
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
 //! | elements through points | [`fit`] |
+//! | surfaces through points | [`surface`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
@@ -19,4 +20,5 @@ pub mod report;
 pub mod results;
 pub mod scale;
 pub mod segment;
+pub mod surface;
 pub mod tolerance;

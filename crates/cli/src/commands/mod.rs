@@ -6,3 +6,4 @@ pub mod fit;
 pub mod repair;
 pub mod section;
 pub mod segment;
+pub mod surface;

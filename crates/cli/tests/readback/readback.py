@@ -7,6 +7,7 @@ and for distances, where NumPy sums in another order.
 """
 
 import csv
+import json
 import re
 import subprocess
 import sys
@@ -18,6 +19,16 @@ import numpy as np
 import pyarrow.parquet
 import trimesh
 import vtk
+from OCP.BRep import BRep_Tool
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepGProp import BRepGProp
+from OCP.GProp import GProp_GProps
+from OCP.Geom import Geom_BSplineSurface
+from OCP.IGESControl import IGESControl_Reader
+from OCP.STEPControl import STEPControl_Reader
+from OCP.TopAbs import TopAbs_FACE
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopoDS import TopoDS
 from vtk.util.numpy_support import vtk_to_numpy
 
 PROGRAM, CORPUS = sys.argv[1], Path(sys.argv[2])
@@ -167,7 +178,61 @@ def regions(folder):
     assert len(ends) == 2 and len(sides) == 1 and not ends & sides, (ends, sides)
 
 
+def basis(knots, degree, t):
+    """All basis functions at a parameter, by the recursion of Cox and de Boor in its plain form."""
+    last = np.flatnonzero(np.asarray(knots) < t).max() if t > knots[0] else degree
+    n = np.zeros(len(knots) - 1)
+    n[last] = 1
+    for p in range(1, degree + 1):
+        for i in range(len(knots) - p - 1):
+            left, right = knots[i + p] - knots[i], knots[i + p + 1] - knots[i + 1]
+            a = (t - knots[i]) / left * n[i] if left > 0 else 0
+            n[i] = a + ((knots[i + p + 1] - t) / right * n[i + 1] if right > 0 else 0)
+    return n[: len(knots) - degree - 1]
+
+
+def surfaces(folder):
+    """STEP and IGES files of `surface` are a valid face of the same surface in millimetres for Open CASCADE."""
+    random = np.random.default_rng(4)
+    x, y = 80 * random.random(3000) + 500, 50 * random.random(3000) - 20
+    points = np.stack([x, y, 4 * np.sin(x / 15) * np.cos(y / 12)], axis=1)
+    np.savetxt(folder / "s.asc", points, fmt="%.17g")
+    for options in (("--spans", "9x6"), ("--degree", "2x4", "--spans", "3x7", "--base", "xy"), ("--tolerance", "0.02")):
+        files = {"step": folder / "s.stp", "iges": folder / "s.igs"}
+        run("surface", folder / "s.asc", *options, "--json", folder / "s.json", "--step", files["step"], "--iges", files["iges"])
+        answer = json.loads((folder / "s.json").read_text())
+        control = np.array(answer["control_points"])
+        (p, q), knots = answer["degree"], answer["knots"]
+        places = [(knots[k][0], knots[k][-1]) for k in "uv"]
+        parameters = [[a + (b - a) * t for (a, b), t in zip(places, row)] for row in random.random((10000, 2))]
+        parameters += [[a, b] for a in places[0] for b in places[1]]
+        us, vs = ([basis(knots[k], d, row[i]) for row in parameters] for i, (k, d) in enumerate((("u", p), ("v", q))))
+        ours = np.einsum("ni,nj,ijd->nd", np.array(us), np.array(vs), control)
+        for name, reader in (("step", STEPControl_Reader()), ("iges", IGESControl_Reader())):
+            reader.ReadFile(str(files[name]))
+            reader.TransferRoots()
+            shape = reader.OneShape()
+            assert BRepCheck_Analyzer(shape).IsValid(), f"{name}: valid"
+            explorer = TopExp_Explorer(shape, TopAbs_FACE)
+            face = TopoDS.Face(explorer.Current())
+            explorer.Next()
+            assert not explorer.More(), f"{name}: one face"
+            area = GProp_GProps()
+            BRepGProp.SurfaceProperties_s(face, area) if hasattr(BRepGProp, "SurfaceProperties_s") else BRepGProp.SurfaceProperties(face, area)
+            assert 3900 < area.Mass() < 5000, f"{name}: millimetres: {area.Mass()}"
+            tool = BRep_Tool.Surface_s if hasattr(BRep_Tool, "Surface_s") else BRep_Tool.Surface
+            found = tool(face)
+            assert isinstance(found, Geom_BSplineSurface), f"{name}: {found}"
+            assert [found.UDegree(), found.VDegree()] == [p, q], f"{name}: degrees"
+            assert [found.NbUPoles(), found.NbVPoles()] == list(control.shape[:2]), f"{name}: poles"
+            seen = [found.Value(u, v) for u, v in parameters]
+            theirs = np.array([[c.X(), c.Y(), c.Z()] for c in seen])
+            worst = np.abs(ours - theirs).max()
+            assert worst < 1e-9, f"{name} {options}: {worst} mm"
+            print(f"      {name} {' '.join(options)}: {worst:.1e} mm at {len(parameters)} places")
+
+
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (deviations, meshes, regions):
+    for check in (deviations, meshes, regions, surfaces):
         check(Path(scratch))
         print(f"ok    {check.__name__}: {check.__doc__}")

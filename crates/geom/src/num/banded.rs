@@ -95,7 +95,12 @@ fn eliminate(four: &mut [f64], stride: usize, done: &[f64], width: usize, first:
         let mut rows = four.chunks_exact_mut(stride);
         match (rows.next(), rows.next(), rows.next(), rows.next()) {
             (Some(a), Some(b), Some(c), Some(d)) => {
-                let parts = [&a[start..start + length], &b[start..start + length], &c[start..start + length], &d[start..start + length]];
+                let parts = [
+                    &a[start..start + length],
+                    &b[start..start + length],
+                    &c[start..start + length],
+                    &d[start..start + length],
+                ];
                 let sums = dots(parts, known);
                 for (row, sum) in [a, b, c, d].into_iter().zip(sums) {
                     row[start + length] = (row[start + length] - sum) * pivot;
@@ -113,7 +118,13 @@ fn eliminate(four: &mut [f64], stride: usize, done: &[f64], width: usize, first:
 }
 
 /// The entries of a block right of its first row's column; `from` is where the columns before it start.
-fn triangle(block: &mut [f64], stride: usize, width: usize, from: usize, first: usize) -> Result<(), BandedError> {
+fn triangle(
+    block: &mut [f64],
+    stride: usize,
+    width: usize,
+    from: usize,
+    first: usize,
+) -> Result<(), BandedError> {
     let count = block.len() / stride;
     for i in 0..count {
         let (above, rest) = block.split_at_mut(i * stride);
@@ -139,7 +150,13 @@ fn dots(rows: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
     let whole = x.len() / 4 * 4;
     let [a, b, c, d] = rows.map(|r| &r[..whole]);
     let lanes = x[..whole].as_chunks::<4>().0.iter();
-    let four = a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0).zip(c.as_chunks::<4>().0).zip(d.as_chunks::<4>().0);
+    let four = a
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .zip(b.as_chunks::<4>().0)
+        .zip(c.as_chunks::<4>().0)
+        .zip(d.as_chunks::<4>().0);
     for (x, (((a, b), c), d)) in lanes.zip(four) {
         for k in 0..4 {
             sums[0][k] += a[k] * x[k];

@@ -164,7 +164,8 @@ fn longer_first(seen: &mut [Seen]) {
 fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base, Vec<Seen>) {
     let x = across(axis);
     let axes = [x, cross(axis, x), axis];
-    let local: Vec<Vector> = points.iter().map(|p| minus(*p, origin)).map(|d| axes.map(|a| dot(d, a))).collect();
+    let local: Vec<Vector> =
+        points.iter().map(|p| minus(*p, origin)).map(|d| axes.map(|a| dot(d, a))).collect();
     let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
     let around = unrolled(&mut angles);
     let mut seen: Vec<Seen> = local
@@ -181,7 +182,8 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
     let x = unit(middle).map_or([1.0, 0.0, 0.0], |(d, _)| d);
     let z = across(x);
     let axes = [x, cross(z, x), z];
-    let local: Vec<Vector> = points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();
+    let local: Vec<Vector> =
+        points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();
     let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
     let around = unrolled(&mut angles);
     let mut seen: Vec<Seen> = local
@@ -190,5 +192,15 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
         .map(|(d, a)| ([radius * a, radius * libm::atan2(d[2], libm::hypot(d[0], d[1]))], norm(*d) - radius))
         .collect();
     longer_first(&mut seen);
-    (Base { kind: BaseKind::Sphere, origin: center, axes, radius: Some(radius), around, folded_share: 0.0 }, seen)
+    (
+        Base {
+            kind: BaseKind::Sphere,
+            origin: center,
+            axes,
+            radius: Some(radius),
+            around,
+            folded_share: 0.0,
+        },
+        seen,
+    )
 }

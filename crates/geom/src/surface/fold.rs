@@ -12,7 +12,8 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
     let counts = sides.map(|s| (s / cell).ceil().clamp(1.0, 4096.0) as usize);
     let cell_of = |p: [f64; 2]| {
-        let at = |k: usize| (((p[k] - domain[k].0) / sides[k] * counts[k] as f64) as usize).min(counts[k] - 1);
+        let at =
+            |k: usize| (((p[k] - domain[k].0) / sides[k] * counts[k] as f64) as usize).min(counts[k] - 1);
         (at(0) * counts[1] + at(1)) as u32
     };
     let mut order: Vec<(u32, u32)> = seen.iter().enumerate().map(|(i, s)| (cell_of(s.0), i as u32)).collect();

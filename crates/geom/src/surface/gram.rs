@@ -92,7 +92,8 @@ impl Binned {
     /// `Σ w |x|²` over the points less the center, and `Σ w`.
     pub(super) fn size(&self) -> (f64, f64) {
         let weight = |k: usize| self.weights.as_ref().map_or(1.0, |w| w[k]);
-        let square = self.points.iter().enumerate().map(|(k, p)| weight(k) * p.iter().map(|x| x * x).sum::<f64>());
+        let square =
+            self.points.iter().enumerate().map(|(k, p)| weight(k) * p.iter().map(|x| x * x).sum::<f64>());
         (square.sum(), (0..self.len()).map(weight).sum())
     }
 
@@ -116,7 +117,10 @@ impl Binned {
             .map(|(cell, from, to)| {
                 let one = |k: usize| {
                     let place = surface.place(*cell as usize, self.local[k][0], self.local[k][1]);
-                    (0..3).map(|d| (self.points[k][d] - place[d]) * (self.points[k][d] - place[d])).sum::<f64>().sqrt()
+                    (0..3)
+                        .map(|d| (self.points[k][d] - place[d]) * (self.points[k][d] - place[d]))
+                        .sum::<f64>()
+                        .sqrt()
                 };
                 (*from as usize..*to as usize).map(one).collect()
             })
@@ -177,7 +181,8 @@ impl Binned {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            let found: Vec<Vec<f64>> = batch.par_iter().map(|item| self.item(*item, size, normal, &value)).collect();
+            let found: Vec<Vec<f64>> =
+                batch.par_iter().map(|item| self.item(*item, size, normal, &value)).collect();
             for (item, own) in batch.iter().zip(found) {
                 if item.0 != current {
                     self.flush(current as usize, &mut cell, &products, &mut sums);

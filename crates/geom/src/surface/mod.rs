@@ -161,7 +161,9 @@ pub enum SurfaceError {
     #[error("no base: {0}")]
     Base(FitError),
     /// Some control points are near no data.
-    #[error("the points determine only some of the {total} control points ({points} points, {unsupported} control points without any near them): ask for fewer spans or a fairness above 0")]
+    #[error(
+        "the points determine only some of the {total} control points ({points} points, {unsupported} control points without any near them): ask for fewer spans or a fairness above 0"
+    )]
     Undetermined {
         /// Control points sought.
         total: usize,
@@ -274,10 +276,16 @@ pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Resu
                 return Err(SurfaceError::OutsideKnots { index, value: parameters[index][k], domain });
             }
         }
-        let uniform = |spans: [usize; 2]| [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1));
+        let uniform = |spans: [usize; 2]| {
+            [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
+        };
         match &options.layout {
-            Layout::Spans(spans) => pass::corrected(points, parameters, base, uniform(*spans), options, progress),
-            Layout::Knots(knots) => pass::corrected(points, parameters, base, knots.clone(), options, progress),
+            Layout::Spans(spans) => {
+                pass::corrected(points, parameters, base, uniform(*spans), options, progress)
+            }
+            Layout::Knots(knots) => {
+                pass::corrected(points, parameters, base, knots.clone(), options, progress)
+            }
             Layout::Tolerance(t) => {
                 let start = refine::first_spans(domain);
                 refine::to_tolerance(points, parameters, base, uniform(start), *t, options, progress)

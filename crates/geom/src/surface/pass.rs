@@ -79,7 +79,8 @@ fn weighed(
             if x.abs() < 1.0 { (1.0 - x * x) * (1.0 - x * x) } else { 0.0 }
         };
         let next: Vec<f64> = found.deviations.iter().map(weight).collect();
-        let settled = weights.len() == next.len() && weights.iter().zip(&next).all(|(a, b)| (a - b).abs() < 1e-3);
+        let settled =
+            weights.len() == next.len() && weights.iter().zip(&next).all(|(a, b)| (a - b).abs() < 1e-3);
         if settled {
             break;
         }

@@ -47,7 +47,11 @@ pub(super) fn to_tolerance(
         }
         let used = found.degrees_of_freedom.unwrap_or(found.support.control_points as f64);
         let free = points.len() as f64 - used;
-        let spread = if free > 0.0 { rms(&found.deviations) * (points.len() as f64 / free).sqrt() } else { f64::INFINITY };
+        let spread = if free > 0.0 {
+            rms(&found.deviations) * (points.len() as f64 / free).sqrt()
+        } else {
+            f64::INFINITY
+        };
         let next = finer(&knots, &found, tolerance);
         match &best {
             Some((least, _)) if spread > (1.0 - GAIN) * least => idle += 1,

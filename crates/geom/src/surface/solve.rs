@@ -3,7 +3,7 @@
 use super::energy::thin_plate;
 use super::gram::{Binned, Sums};
 use super::stencil::{Order, Stencil};
-use super::{Fairness, Options, SurfaceError, Support};
+use super::{Fairness, Options, Support, SurfaceError};
 use crate::num::banded::{Banded, BandedError, Factor};
 use crate::num::random::Random;
 use crate::progress::Progress;
@@ -109,7 +109,12 @@ impl System<'_> {
     /// The control points, corrected by what they leave of the points until that changes nothing: the equations square the
     /// condition of the problem, the corrections take most of it back (Björck, Stability analysis of the method of
     /// semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89, 1987).
-    fn refined(&self, factor: &Factor, weight: f64, progress: &dyn Progress) -> Result<Vec<Point>, SurfaceError> {
+    fn refined(
+        &self,
+        factor: &Factor,
+        weight: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Point>, SurfaceError> {
         let mut points = self.solved(factor, &self.right);
         let mut before = f64::INFINITY;
         for _ in 0..8 {
@@ -130,7 +135,12 @@ impl System<'_> {
     }
 
     /// `Σ w N r − weight · E p` at control points, and `Σ w |r|²`.
-    fn gradient(&self, points: &[Point], weight: f64, progress: &dyn Progress) -> Result<(Vec<Point>, f64), SurfaceError> {
+    fn gradient(
+        &self,
+        points: &[Point],
+        weight: f64,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Point>, f64), SurfaceError> {
         let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
         let Sums { mut right, square, .. } = self.data.sums(Some(&patches), false, progress)?;
         if weight > 0.0 {
@@ -208,7 +218,9 @@ impl System<'_> {
     fn probes(&self, progress: &dyn Progress) -> Result<Vec<Vec<Point>>, SurfaceError> {
         let total = self.right.len();
         if total <= EXACT {
-            let unit = |first: usize| (0..total).map(|k| std::array::from_fn(|d| f64::from(k == first + d))).collect();
+            let unit = |first: usize| {
+                (0..total).map(|k| std::array::from_fn(|d| f64::from(k == first + d))).collect()
+            };
             return Ok((0..total).step_by(3).map(unit).collect());
         }
         let signs = |probe: usize| {
@@ -232,7 +244,8 @@ impl System<'_> {
                 let applied = self.normal.times(&answer);
                 sum += (0..3).filter_map(|d| applied.get(3 * n + d).map(|row| row[d])).sum::<f64>();
             } else {
-                let products = probe.iter().zip(&answer).map(|(a, b)| (0..3).map(|d| a[d] * b[d]).sum::<f64>());
+                let products =
+                    probe.iter().zip(&answer).map(|(a, b)| (0..3).map(|d| a[d] * b[d]).sum::<f64>());
                 sum += products.sum::<f64>() / PROBES as f64;
             }
         }

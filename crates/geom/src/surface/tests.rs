@@ -34,8 +34,9 @@ fn spans(n: usize) -> Options {
 
 #[test]
 fn nine_points_have_the_surface_of_the_paper() {
-    let points: Vec<Point> =
-        (0..9).map(|k| [f64::from(1 + k / 3), f64::from(1 + k % 3), if k == 4 { 0.3 } else { 0.0 }]).collect();
+    let points: Vec<Point> = (0..9)
+        .map(|k| [f64::from(1 + k / 3), f64::from(1 + k % 3), if k == 4 { 0.3 } else { 0.0 }])
+        .collect();
     for base in [BaseKind::Plane, BaseKind::Xy] {
         let options = Options {
             degree: [2, 2],
@@ -67,7 +68,8 @@ fn the_rectangle_is_the_least_one_of_all_angles() {
             let area = |angle: f64| {
                 let (s, c) = angle.sin_cos();
                 let along = |f: &dyn Fn(&[f64; 2]) -> f64| {
-                    let (a, b) = points.iter().map(f).fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+                    let (a, b) =
+                        points.iter().map(f).fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
                     b - a
                 };
                 along(&|p| c * p[0] + s * p[1]) * along(&|p| c * p[1] - s * p[0])
@@ -98,7 +100,8 @@ fn a_surface_of_the_space_is_found_again_and_the_same_on_any_threads() {
     let (a, b) = (knots[0].greville(), knots[1].greville());
     let control = (0..m * n).map(|k| [a[k / n], b[k % n], 5.0 * random.unit()]).collect();
     let truth = Surface::new(knots.clone(), control).unwrap();
-    let points: Vec<Point> = (0..4000).map(|_| truth.at(50.0 * random.unit(), 30.0 * random.unit())).collect();
+    let points: Vec<Point> =
+        (0..4000).map(|_| truth.at(50.0 * random.unit(), 30.0 * random.unit())).collect();
     let options = Options {
         layout: Layout::Knots(knots),
         base: BaseKind::Xy,
@@ -198,15 +201,24 @@ fn holes_and_l_shapes_keep_their_control_points_near() {
 fn points_that_determine_nothing_are_refused() {
     let line: Vec<Point> = (0..50).map(|k| [f64::from(k), 2.0 * f64::from(k), 3.0]).collect();
     for base in [BaseKind::Plane, BaseKind::Xy] {
-        assert_eq!(fit(&line, &Options { base, ..Options::default() }, &Silent).unwrap_err(), SurfaceError::Line);
+        assert_eq!(
+            fit(&line, &Options { base, ..Options::default() }, &Silent).unwrap_err(),
+            SurfaceError::Line
+        );
     }
     let same = vec![[1.0, 2.0, 3.0]; 20];
     assert_eq!(fit(&same, &Options::default(), &Silent).unwrap_err(), SurfaceError::Line);
     let mut points = scan(100, 0.0, 1);
-    assert_eq!(fit(&points[..3], &Options::default(), &Silent).unwrap_err(), SurfaceError::TooFewPoints { found: 3 });
+    assert_eq!(
+        fit(&points[..3], &Options::default(), &Silent).unwrap_err(),
+        SurfaceError::TooFewPoints { found: 3 }
+    );
     // Fewer points than control points: refused without a thin plate, bounded with one.
     let strict = Options { fairness: Fairness::Weight(0.0), ..spans(20) };
-    assert!(matches!(fit(&points, &strict, &Silent), Err(SurfaceError::Undetermined { total: 529, points: 100, .. })));
+    assert!(matches!(
+        fit(&points, &strict, &Silent),
+        Err(SurfaceError::Undetermined { total: 529, points: 100, .. })
+    ));
     let found = fit(&points, &spans(20), &Silent).unwrap();
     assert!(found.degrees_of_freedom.unwrap() < 100.0 / 1.4);
     assert_eq!(found.far_control_points, 0);
@@ -215,7 +227,13 @@ fn points_that_determine_nothing_are_refused() {
     let weight = Options { fairness: Fairness::Weight(1.0), ..spans(5) };
     let doubled = Options { fairness: Fairness::Weight(2.0), ..spans(5) };
     let (a, b) = (fit(&points, &weight, &Silent).unwrap(), fit(&twice, &doubled, &Silent).unwrap());
-    assert!(a.surface.points().iter().zip(b.surface.points()).all(|(a, b)| norm(crate::space::minus(*a, *b)) < 1e-9));
+    assert!(
+        a.surface
+            .points()
+            .iter()
+            .zip(b.surface.points())
+            .all(|(a, b)| norm(crate::space::minus(*a, *b)) < 1e-9)
+    );
     points[7][1] = f64::NAN;
     assert_eq!(fit(&points, &Options::default(), &Silent).unwrap_err(), SurfaceError::NotFinite { index: 7 });
 }
@@ -225,16 +243,23 @@ fn wrong_options_are_refused() {
     let points = scan(200, 0.0, 1);
     let refused = |options: Options| fit(&points, &options, &Silent).unwrap_err();
     assert_eq!(refused(Options { degree: [3, 0], ..Options::default() }), SurfaceError::Degree { degree: 0 });
-    assert_eq!(refused(Options { degree: [10, 3], ..Options::default() }), SurfaceError::Degree { degree: 10 });
+    assert_eq!(
+        refused(Options { degree: [10, 3], ..Options::default() }),
+        SurfaceError::Degree { degree: 10 }
+    );
     let none = Options { layout: Layout::Spans([3, 0]), ..Options::default() };
     assert_eq!(refused(none), SurfaceError::Spans { spans: [3, 0] });
     let zero = Options { layout: Layout::Tolerance(0.0), ..Options::default() };
     assert_eq!(refused(zero), SurfaceError::Tolerance(0.0));
-    assert_eq!(refused(Options { fairness: Fairness::Weight(-1.0), ..Options::default() }), SurfaceError::Fairness(-1.0));
+    assert_eq!(
+        refused(Options { fairness: Fairness::Weight(-1.0), ..Options::default() }),
+        SurfaceError::Fairness(-1.0)
+    );
     assert!(matches!(refused(spans(100_000)), SurfaceError::TooLarge { .. }));
     assert!(matches!(refused(spans(usize::MAX / 2)), SurfaceError::TooLarge { .. }));
     let knots = || Knots::uniform(3, 2, 0.0, 50.0);
-    let short = Options { layout: Layout::Knots([knots(), knots()]), base: BaseKind::Xy, ..Options::default() };
+    let short =
+        Options { layout: Layout::Knots([knots(), knots()]), base: BaseKind::Xy, ..Options::default() };
     assert!(matches!(refused(short), SurfaceError::OutsideKnots { value, .. } if value > 50.0));
 }
 
@@ -253,8 +278,10 @@ fn layers_are_told() {
     let cap: Vec<Point> = ball.iter().filter(|p| p[2] > 4.0).copied().collect();
     assert_eq!(fit(&cap, &spans(6), &Silent).unwrap().base.folded_share, 0.0);
     // A step is no layer, even a high one along a slant.
-    let step: Vec<Point> =
-        scan(5000, 0.01, 5).iter().map(|p| [p[0], p[1], if p[0] + 0.7 * p[1] > 80.0 { 40.0 } else { 0.0 }]).collect();
+    let step: Vec<Point> = scan(5000, 0.01, 5)
+        .iter()
+        .map(|p| [p[0], p[1], if p[0] + 0.7 * p[1] > 80.0 { 40.0 } else { 0.0 }])
+        .collect();
     let share = fit(&step, &spans(6), &Silent).unwrap().base.folded_share;
     assert!(share < 0.01, "{share}");
 }
@@ -272,7 +299,9 @@ fn corrected_parameters_fit_round_bodies_better() {
         .map(|(a, b)| [20.0 * b.cos() * a.cos(), 20.0 * b.cos() * a.sin(), 20.0 * b.sin()])
         .collect();
     for (points, base, radius) in [(&cylinder, BaseKind::Cylinder, 15.0), (&ball, BaseKind::Sphere, 20.0)] {
-        let found = fit(points, &Options { base, layout: Layout::Spans([12, 12]), ..Options::default() }, &Silent).unwrap();
+        let found =
+            fit(points, &Options { base, layout: Layout::Spans([12, 12]), ..Options::default() }, &Silent)
+                .unwrap();
         assert!((found.base.radius.unwrap() - radius).abs() < 1e-9 && !found.base.around);
         let worst = found.deviations.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         assert!(worst < 5e-3, "{base:?} {worst}");
@@ -291,7 +320,6 @@ fn corrected_parameters_fit_round_bodies_better() {
         (pass::rms(&found.deviations), own, found.corrections)
     };
     let ((before, loose, _), (after, tight, made)) = (with(0), with(5));
-    eprintln!("{before} {loose} {after} {tight} {made}");
     assert!(made > 0 && after < before, "{before} {after}");
     // Distances at the parameters are distances to the nearest places.
     assert!(loose > 1.2 * before && tight < 1.01 * after, "{before} {loose} {after} {tight}");

@@ -10,6 +10,7 @@ pub mod repair;
 pub mod research;
 pub mod section;
 pub mod segment;
+pub mod surface;
 
 use compare::Bounds;
 use schemars::JsonSchema;
@@ -164,5 +165,6 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
         ("section", text(schemars::schema_for!(section::SectionDocument))),
         ("segment", text(schemars::schema_for!(segment::SegmentDocument))),
+        ("surface", text(schemars::schema_for!(surface::SurfaceDocument))),
     ]
 }

@@ -29,6 +29,8 @@ impl SurfaceFoot {
 
 /// Steps of Newton's method at most.
 const STEPS: usize = 30;
+/// Length of a step, relative to the place, after which the next one is rounding.
+const NEARLY: f64 = 1e-9;
 
 impl Patches {
     /// The place nearest to `point` that a descent from the parameters `start` comes to.
@@ -37,14 +39,15 @@ impl Patches {
     /// and Newton; steps that do not lead nearer are halved. Cost: some evaluations.
     pub fn foot_from(&self, point: Point, start: [f64; 2]) -> SurfaceFoot {
         let domain = self.domain();
-        let clamp = |p: [f64; 2]| [p[0].clamp(domain[0].0, domain[0].1), p[1].clamp(domain[1].0, domain[1].1)];
+        let clamp =
+            |p: [f64; 2]| [p[0].clamp(domain[0].0, domain[0].1), p[1].clamp(domain[1].0, domain[1].1)];
         let mut at = clamp(start);
         let mut jet = self.jet(at[0], at[1]);
         let mut away = minus(jet.place, point);
         let mut square = dot(away, away);
         let mut settled = false;
         for _ in 0..STEPS {
-            let step = step(&jet, away, at, domain);
+            let (step, newton) = step(&jet, away, at, domain);
             let scale = [norm(jet.first[0]), norm(jet.first[1])];
             // A move below the rounding of the place itself.
             let rounding = 4.0 * f64::EPSILON * (norm(jet.place) + norm(away));
@@ -59,12 +62,18 @@ impl Patches {
                 }
                 let new = self.jet(tried[0], tried[1]);
                 let to = minus(new.place, point);
+                // A step of Newton's that moves so little has one of its square after it: it is the last one.
+                let last = newton && factor == 1.0 && moved <= NEARLY * (norm(jet.place) + norm(away));
+                if last && dot(to, to) <= square * (1.0 + 1e-9) {
+                    (at, jet, away) = (tried, new, to);
+                    square = dot(away, away);
+                    settled = true;
+                    break;
+                }
                 if dot(to, to) < square {
                     next = Some((tried, new, to));
                     break;
                 }
-                // The last digits of the distance say no more where the place still moves by rounding.
-                settled = moved <= 1e-7 * (norm(away) + rounding) || moved <= 16.0 * rounding;
                 factor *= 0.25;
             }
             let Some((tried, new, to)) = next else { break };
@@ -81,13 +90,15 @@ impl Patches {
     }
 }
 
-/// The step to the least of a quadratic model, along an edge of the domain where it would leave it there.
-fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> [f64; 2] {
+/// The step to the least of a quadratic model, along an edge of the domain where it would leave it there, and whether the
+/// model is Newton's.
+fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> ([f64; 2], bool) {
     let [su, sv] = jet.first;
     let gradient = [dot(away, su), dot(away, sv)];
     let gauss = [dot(su, su), dot(su, sv), dot(sv, sv)];
     let newton: [f64; 3] = std::array::from_fn(|k| gauss[k] + dot(away, jet.second[k]));
-    let convex = newton[0] > 0.0 && newton[0] * newton[2] - newton[1] * newton[1] > 1e-6 * newton[0] * newton[2].abs();
+    let convex =
+        newton[0] > 0.0 && newton[0] * newton[2] - newton[1] * newton[1] > 1e-6 * newton[0] * newton[2].abs();
     let [a, b, c] = if convex { newton } else { gauss };
     let held = |k: usize| {
         let (from, to) = domain[k];
@@ -97,7 +108,7 @@ fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> [f64;
         let by = if curvature > 0.0 { curvature } else { fallback };
         if by > 0.0 { -g / by } else { 0.0 }
     };
-    match (held(0), held(1)) {
+    let found = match (held(0), held(1)) {
         (true, true) => [0.0, 0.0],
         (true, false) => [0.0, single(gradient[1], newton[2], gauss[2])],
         (false, true) => [single(gradient[0], newton[0], gauss[0]), 0.0],
@@ -121,7 +132,8 @@ fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> [f64;
                 [single(gradient[0], gauss[0], 1.0), single(gradient[1], gauss[2], 1.0)]
             }
         }
-    }
+    };
+    (found, convex)
 }
 
 /// A part of a surface over which all control points are known.
@@ -162,8 +174,12 @@ impl Surface<Point> {
                 }
             }
             if cell.depth < DEPTH {
-                let mut parts: Vec<Cell> =
-                    cell.surface.quarters().into_iter().map(|s| Cell::new(s, point, cell.depth + 1)).collect();
+                let mut parts: Vec<Cell> = cell
+                    .surface
+                    .quarters()
+                    .into_iter()
+                    .map(|s| Cell::new(s, point, cell.depth + 1))
+                    .collect();
                 parts.sort_by(|a, b| b.bound.total_cmp(&a.bound));
                 stack.extend(parts);
             }
@@ -197,14 +213,18 @@ impl Surface<Point> {
     fn quarters(&self) -> Vec<Surface<Point>> {
         let [(a, b), (c, d)] = self.domain();
         let halves = self.split(super::Direction::U, 0.5 * (a + b)).map_or(vec![], Vec::from);
-        halves.iter().flat_map(|h| h.split(super::Direction::V, 0.5 * (c + d)).map_or(vec![], Vec::from)).collect()
+        halves
+            .iter()
+            .flat_map(|h| h.split(super::Direction::V, 0.5 * (c + d)).map_or(vec![], Vec::from))
+            .collect()
     }
 }
 
 impl Cell {
     fn new(surface: Surface<Point>, point: Point, depth: u32) -> Cell {
         let hull = Aabb::of(&surface.points);
-        let away: Vector = std::array::from_fn(|k| (hull.min[k] - point[k]).max(point[k] - hull.max[k]).max(0.0));
+        let away: Vector =
+            std::array::from_fn(|k| (hull.min[k] - point[k]).max(point[k] - hull.max[k]).max(0.0));
         Cell { bound: norm(away), surface, depth }
     }
 }

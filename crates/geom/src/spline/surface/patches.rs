@@ -37,7 +37,11 @@ pub(crate) struct Jet {
 impl Patches {
     /// The polynomials of `surface`.
     pub fn new(surface: &Surface<Point>) -> Patches {
-        Patches::of([Spans::new(&surface.knots[0]), Spans::new(&surface.knots[1])], &surface.points, surface.counts()[1])
+        Patches::of(
+            [Spans::new(&surface.knots[0]), Spans::new(&surface.knots[1])],
+            &surface.points,
+            surface.counts()[1],
+        )
     }
 
     /// Of control points over spans, `n` to a row.
@@ -83,15 +87,13 @@ impl Patches {
     #[inline]
     pub(crate) fn place(&self, cell: usize, s: f64, t: f64) -> Point {
         let (own, q) = self.patch(cell);
-        let mut sum = [0.0f64; 3];
-        for row in own.chunks_exact(q).rev() {
-            let mut inner = [0.0f64; 3];
-            for c in row.iter().rev() {
-                (0..3).for_each(|d| inner[d] = inner[d] * t + c[d]);
-            }
-            (0..3).for_each(|d| sum[d] = sum[d] * s + inner[d]);
+        // The degrees in use have loops of known length.
+        match q {
+            3 => horner(own.as_chunks::<3>().0.iter(), s, t),
+            4 => horner(own.as_chunks::<4>().0.iter(), s, t),
+            5 => horner(own.as_chunks::<5>().0.iter(), s, t),
+            _ => horner(own.chunks_exact(q), s, t),
         }
-        sum
     }
 
     /// The place at `u`, `v`; outside of the domain that of the nearest place of it.
@@ -138,4 +140,21 @@ impl Patches {
         let jet = self.jet(u, v);
         Bend::new(jet.first, jet.second)
     }
+}
+
+/// The value of a polynomial whose rows are polynomials of `t`, for powers of `s`.
+#[inline(always)]
+fn horner<'a, R>(rows: impl DoubleEndedIterator<Item = &'a R>, s: f64, t: f64) -> Point
+where
+    R: AsRef<[Point]> + ?Sized + 'a,
+{
+    let mut sum = [0.0f64; 3];
+    for row in rows.rev() {
+        let mut inner = [0.0f64; 3];
+        for c in row.as_ref().iter().rev() {
+            (0..3).for_each(|d| inner[d] = inner[d] * t + c[d]);
+        }
+        (0..3).for_each(|d| sum[d] = sum[d] * s + inner[d]);
+    }
+    sum
 }

@@ -40,7 +40,11 @@ impl Surface<Point> {
         }
         let patches = Patches::new(self);
         let row = |u: &f64| -> Result<Vec<Point>, Cancelled> {
-            if progress.cancelled() { Err(Cancelled) } else { Ok(vs.iter().map(|v| patches.at(*u, *v)).collect()) }
+            if progress.cancelled() {
+                Err(Cancelled)
+            } else {
+                Ok(vs.iter().map(|v| patches.at(*u, *v)).collect())
+            }
         };
         let rows: Result<Vec<Vec<Point>>, Cancelled> = us.par_iter().map(row).collect();
         let positions = rows?.concat();
@@ -68,7 +72,8 @@ impl Surface<Point> {
                     // Functions of the lowered degree that act there.
                     let last = knots.span(0.5 * (w[0] + w[1])) - orders[k];
                     let acting = last - (p - orders[k])..=last;
-                    let inside = |i: &usize| acting.contains(&if k == 0 { i / counts[1] } else { i % counts[1] });
+                    let inside =
+                        |i: &usize| acting.contains(&if k == 0 { i / counts[1] } else { i % counts[1] });
                     rows[span][which] =
                         (0..points.len()).filter(inside).map(|i| norm(points[i])).fold(0.0, f64::max);
                 }
@@ -83,7 +88,8 @@ impl Surface<Point> {
         let mut points = self.points.clone();
         for k in 0..2 {
             for order in 0..orders[k] {
-                let (p, u) = (self.knots[k].degree().checked_sub(order).filter(|p| *p > 0)?, self.knots[k].values());
+                let (p, u) =
+                    (self.knots[k].degree().checked_sub(order).filter(|p| *p > 0)?, self.knots[k].values());
                 let mut fewer = counts;
                 fewer[k] = fewer[k].checked_sub(1).filter(|n| *n > 0)?;
                 let step = if k == 0 { counts[1] } else { 1 };

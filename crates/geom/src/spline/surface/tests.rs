@@ -77,7 +77,8 @@ fn derivatives_are_slopes() {
         let d = surface.derivatives(u, v, 4);
         for (i, j) in [(1, 0), (2, 0), (3, 0), (1, 1), (2, 1), (1, 2)] {
             let before = |a: f64, b: f64| surface.derivatives(u + a, v + b, 4);
-            let (low, high) = if i > 0 { (before(-h, 0.0), before(h, 0.0)) } else { (before(0.0, -h), before(0.0, h)) };
+            let (low, high) =
+                if i > 0 { (before(-h, 0.0), before(h, 0.0)) } else { (before(0.0, -h), before(0.0, h)) };
             let k = if i > 0 { (i - 1, j) } else { (i, j - 1) };
             let slope = times(0.5 / h, minus(high[k.0][k.1], low[k.0][k.1]));
             assert!(near(slope, d[i][j], 1e-6 * (1.0 + norm(d[i][j]))), "{i} {j}");
@@ -90,7 +91,8 @@ fn derivatives_are_slopes() {
 fn knots_degrees_and_parts_keep_the_surface() {
     let surface = wild(3);
     let mut finer = surface.clone();
-    for (direction, t) in [(Direction::U, 0.7), (Direction::U, 0.2), (Direction::V, 5.5), (Direction::V, 6.0)] {
+    for (direction, t) in [(Direction::U, 0.7), (Direction::U, 0.2), (Direction::V, 5.5), (Direction::V, 6.0)]
+    {
         finer = finer.insert(direction, t).unwrap();
     }
     let higher = surface.elevated(Direction::U).elevated(Direction::V);
@@ -137,7 +139,9 @@ fn rational_patches_have_the_curvature_of_sphere_cylinder_and_torus() {
             let (low, high) = (expected[0].min(expected[1]), expected[0].max(expected[1]));
             assert!((bend.principal[0].curvature - high).abs() < 1e-10, "{bend:?} {high}");
             assert!((bend.principal[1].curvature - low).abs() < 1e-10);
-            assert!((bend.mean - 0.5 * (low + high)).abs() < 1e-10 && (bend.gaussian - low * high).abs() < 1e-10);
+            assert!(
+                (bend.mean - 0.5 * (low + high)).abs() < 1e-10 && (bend.gaussian - low * high).abs() < 1e-10
+            );
             // Along the circles of latitude lies the curvature of the turn.
             let around = [-y / r, x / r, 0.0];
             let of_turn = if (expected[1] - high).abs() < 1e-12 { 0 } else { 1 };
@@ -176,7 +180,9 @@ fn principal_directions_of_a_saddle() {
     let (square, own) = ([1.0, -1.0, 1.0], [-1.0, 0.0, 1.0]);
     let points: Vec<Point> = (0..9)
         .map(|k| (k / 3, k % 3))
-        .map(|(i, j)| [own[i] + 0.5 * own[j], own[j], square[i] + own[i] * own[j] + 0.25 * square[j] - square[j]])
+        .map(|(i, j)| {
+            [own[i] + 0.5 * own[j], own[j], square[i] + own[i] * own[j] + 0.25 * square[j] - square[j]]
+        })
         .collect();
     let bend = Surface::new([knots(), knots()], points).unwrap().bend(0.0, 0.0).unwrap();
     assert!((bend.gaussian + 4.0).abs() < 1e-12 && bend.mean.abs() < 1e-12);
@@ -200,7 +206,8 @@ fn the_closest_place_is_no_farther_than_any_of_a_dense_search() {
             let mut least = f64::INFINITY;
             for i in 0..=150 {
                 for j in 0..=150 {
-                    let place = patches.at(a + (b - a) * f64::from(i) / 150.0, c + (d - c) * f64::from(j) / 150.0);
+                    let place =
+                        patches.at(a + (b - a) * f64::from(i) / 150.0, c + (d - c) * f64::from(j) / 150.0);
                     least = least.min(norm(minus(place, point)));
                 }
             }

@@ -1,0 +1,169 @@
+//! `trueness surface`: a B-spline surface through scattered points.
+
+mod knots;
+mod table;
+mod write;
+
+use crate::command::Run;
+use crate::exit::{Outcome, Usage};
+use crate::options::{Common, DocumentArgs, PointInputArgs};
+use crate::progress::Stage;
+use crate::read::{self, Opened};
+use crate::run_files::RunFiles;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use trueness_files::Body;
+use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
+use trueness_inspect::results::Role;
+
+/// A B-spline surface through scattered points, with its deviation and its curvature
+///
+/// By least squares: parameters from a base, uniform knots (or given ones, or as many as a tolerance asks for), a thin-plate term
+/// that bridges what was not measured, and parameters corrected to the nearest places.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness surface scan.asc --spans 12x8 --step surface.stp
+  trueness surface scan.ply --tolerance 0.02 --json result.json
+  trueness surface heights.xyz --base xy --knots knots.json --fairness 0")]
+pub struct SurfaceArgs {
+    /// The points, or a mesh (its vertices are taken); `-` reads stdin
+    points: PathBuf,
+    /// Degrees along u and v [default: 3x3, or those that the knots tell]
+    #[arg(long, value_name = "PxQ", value_parser = pair)]
+    degree: Option<[usize; 2]>,
+    /// Equal spans along u and v [default: 8x8]
+    #[arg(long, value_name = "MxN", value_parser = pair, conflicts_with_all = ["knots", "tolerance"])]
+    spans: Option<[usize; 2]>,
+    /// Whole clamped knots, a JSON file {"u": […], "v": […]}
+    #[arg(long, value_name = "FILE", conflicts_with = "tolerance")]
+    knots: Option<PathBuf>,
+    /// Set knots until all points are within this distance, mm, or until noise is all that is left
+    #[arg(long, value_name = "MM")]
+    tolerance: Option<f64>,
+    /// What the parameters are taken from
+    #[arg(long, value_enum, default_value = "plane")]
+    base: BaseArg,
+    /// Weight of the thin-plate term, mm²: auto, or a number (0 for none)
+    #[arg(long, value_name = "W", default_value = "auto", value_parser = fairness, allow_hyphen_values = true)]
+    fairness: Fairness,
+    /// Corrections of the parameters to the nearest places at most; with --base xy there are none
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(0..=50))]
+    corrections: u8,
+    /// Points far off do not count
+    #[arg(long)]
+    robust: bool,
+    #[command(flatten)]
+    input: PointInputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
+    #[command(flatten)]
+    models: write::Models,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BaseArg {
+    /// The least-squares plane and the minimum bounding rectangle in it.
+    Plane,
+    /// x and y themselves.
+    Xy,
+    /// The least-squares cylinder.
+    Cylinder,
+    /// The least-squares sphere.
+    Sphere,
+    /// A map of the mesh; not built yet.
+    Mesh,
+}
+
+fn pair(text: &str) -> Result<[usize; 2], String> {
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("{s:?} is no whole number; write 8x8"));
+    match text.split_once(['x', 'X', '×']) {
+        Some((a, b)) => Ok([number(a)?, number(b)?]),
+        None => number(text).map(|n| [n, n]),
+    }
+}
+
+fn fairness(text: &str) -> Result<Fairness, String> {
+    match (text, text.parse::<f64>()) {
+        ("auto", _) => Ok(Fairness::Auto),
+        (_, Ok(w)) if w >= 0.0 && w.is_finite() => Ok(Fairness::Weight(w)),
+        _ => Err("it is auto, or a number from 0 upwards".into()),
+    }
+}
+
+impl SurfaceArgs {
+    fn options(&self) -> anyhow::Result<Options> {
+        let base = match self.base {
+            BaseArg::Plane => BaseKind::Plane,
+            BaseArg::Xy => BaseKind::Xy,
+            BaseArg::Cylinder => BaseKind::Cylinder,
+            BaseArg::Sphere => BaseKind::Sphere,
+            BaseArg::Mesh => {
+                return Err(Usage(
+                    "--base mesh: maps of meshes are not built yet; take plane, xy, cylinder or sphere"
+                        .into(),
+                )
+                .into());
+            }
+        };
+        let layout = match (&self.knots, self.tolerance) {
+            (Some(path), _) => Layout::Knots(knots::read(path, self.degree)?),
+            (None, Some(t)) => Layout::Tolerance(t),
+            (None, None) => Layout::Spans(self.spans.unwrap_or([8, 8])),
+        };
+        Ok(Options {
+            degree: self.degree.unwrap_or([3, 3]),
+            layout,
+            base,
+            fairness: self.fairness,
+            corrections: self.corrections.into(),
+            robust: self.robust,
+            ..Options::default()
+        })
+    }
+}
+
+impl Run for SurfaceArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        self.models.check_endings()?;
+        let inputs = std::iter::once(&self.points).chain(&self.knots);
+        Ok(self.models.files(RunFiles::of(inputs).document(self.document.json.as_ref())))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options()?;
+    let Opened { mut record, body, planar, .. } =
+        read::open(&args.points, Role::Measured, &args.input.reading())?;
+    let shown = args.points.display();
+    if planar {
+        return Err(Usage(format!("{shown}: it has two columns; a surface needs x, y and z")).into());
+    }
+    let points = match body {
+        Body::Mesh(mesh) => mesh.mesh.positions,
+        Body::Points(source) => read::all_points(source)?,
+    };
+    read::describe(&mut record, &points);
+    read::hash(&mut record, &args.points)?;
+    let stage = Stage::new(common.progress, "fitting", "points", None);
+    let fit = surface::fit(&points, &options, &stage);
+    let fit = fit.map_err(|e| match e {
+        SurfaceError::Cancelled(e) => anyhow::Error::from(e),
+        e @ (SurfaceError::Degree { .. }
+        | SurfaceError::Spans { .. }
+        | SurfaceError::Tolerance(_)
+        | SurfaceError::Fairness(_)) => Usage(e.to_string()).into(),
+        e => anyhow::anyhow!("{shown}: {e}"),
+    })?;
+    let document = trueness_inspect::surface::document(&fit, &points, &options, vec![record]);
+    args.models.write(&fit.surface, &stage)?;
+    drop(stage);
+    args.document.write(&document)?;
+    args.document.table(|| table::table(&document))?;
+    let out = document.tolerance.as_ref().is_some_and(|t| !t.reached);
+    let folded = document.base.folded_share > trueness_inspect::surface::FOLDED;
+    Ok(if out || folded { Outcome::NotConforming } else { Outcome::Conforming })
+}

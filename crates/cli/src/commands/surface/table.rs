@@ -1,0 +1,94 @@
+//! Surfaces for people.
+
+use crate::number::{POINTS, counted, fixed, grouped, scientific};
+use crate::{console, read};
+use std::fmt::Write;
+use trueness_inspect::results::surface::{Range, SurfaceDocument};
+
+/// The document as text.
+pub fn table(document: &SurfaceDocument) -> String {
+    let mut out = read::notes(&document.inputs);
+    document.warnings.iter().for_each(|w| {
+        let _ = writeln!(out, "! {w}");
+    });
+    let [p, q] = document.degree;
+    let (m, n) = (document.control_points.len(), document.control_points.first().map_or(0, Vec::len));
+    let _ = writeln!(
+        out,
+        "degree {p}x{q}   control points {m}x{n}   base {}   {}   mm",
+        document.base.kind,
+        counted(document.deviation.count, POINTS)
+    );
+    let freedom = document.degrees_of_freedom.map(|d| format!(", {} degrees of freedom", fixed(d, 1)));
+    let _ = writeln!(
+        out,
+        "fairness {} ({}{})   corrections {}   without support {} %",
+        scientific(document.fairness, 2),
+        document.fairness_from,
+        freedom.unwrap_or_default(),
+        document.corrections,
+        fixed(100.0 * document.unsupported_share, 1)
+    );
+    let deviation = &document.deviation;
+    let shown = |x: Option<f64>| x.map_or_else(|| "-".to_string(), |x| fixed(x, 6));
+    let [low, high] = [deviation.percentiles.p2_5, deviation.percentiles.p97_5].map(shown);
+    let rows = [
+        ["deviation", "min", "max", "mean", "rms", "2.5 %", "97.5 %"].map(String::from),
+        [
+            "".into(),
+            shown(deviation.min),
+            shown(deviation.max),
+            shown(deviation.mean),
+            shown(deviation.rms),
+            low,
+            high,
+        ],
+    ];
+    out.push_str(&console::columns(&rows.map(Vec::from)));
+    let [x, y, z] = document.worst.position.map(|x| fixed(x, 4));
+    let _ = writeln!(
+        out,
+        "farthest is point {} at {x}  {y}  {z}: {}",
+        document.worst.point,
+        fixed(document.worst.deviation, 6)
+    );
+    if document.outliers > 0 {
+        let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
+    }
+    if let Some(tolerance) = &document.tolerance {
+        let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, &tolerance.stopped_by));
+    }
+    out.push_str(&curvature(document));
+    out
+}
+
+fn reached(value: f64, outside: u64, stopped_by: &str) -> String {
+    let why = match stopped_by {
+        "noise" => "more knots would follow the noise of the points",
+        "points" => "there are too few points for more knots",
+        "memory" => "more knots would take more memory than allowed",
+        _ => return format!("tolerance {value}: reached, all points are within"),
+    };
+    format!("tolerance {value}: not reached, {} beyond it; {why}", counted(outside, POINTS))
+}
+
+fn curvature(document: &SurfaceDocument) -> String {
+    let found = &document.curvature;
+    let mut rows = vec![["curvature", "min", "median", "max"].map(String::from).to_vec()];
+    let all: [(&str, &Option<Range>); 4] =
+        [("k1", &found.k1), ("k2", &found.k2), ("mean", &found.mean), ("gaussian", &found.gaussian)];
+    for (name, range) in all {
+        let Some(range) = range else { continue };
+        rows.push(vec![
+            name.into(),
+            scientific(range.min, 4),
+            scientific(range.median, 4),
+            scientific(range.max, 4),
+        ]);
+    }
+    let mut out = console::columns(&rows);
+    if let Some(reason) = &found.reason {
+        let _ = writeln!(out, "{} places with curvature: {reason}", grouped(found.count));
+    }
+    out
+}

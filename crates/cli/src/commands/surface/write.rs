@@ -1,0 +1,97 @@
+//! Models of a surface for CAD programs and viewers.
+
+use crate::exit::{Usage, not_negative};
+use crate::output::whole_file;
+use crate::run_files::RunFiles;
+use anyhow::bail;
+use clap::Args;
+use std::path::PathBuf;
+use trueness_files::cad::{self, SplineSurface};
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Aabb, Point};
+use trueness_geom::spline::surface::Surface;
+
+/// Facets that are written at most.
+const MOST_FACETS: usize = 20_000_000;
+
+/// Files that a surface can be written to.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct Models {
+    /// Write the surface as STEP (AP214)
+    #[arg(long, value_name = "FILE")]
+    step: Option<PathBuf>,
+    /// Write the surface as IGES (entity 128)
+    #[arg(long, value_name = "FILE")]
+    iges: Option<PathBuf>,
+    /// Write facets of the surface (.obj)
+    #[arg(long, value_name = "FILE")]
+    obj: Option<PathBuf>,
+    /// Distance that the facets keep from the surface, mm [default: a ten thousandth of its size]
+    #[arg(long, value_name = "MM", requires = "obj")]
+    chord: Option<f64>,
+}
+
+impl Models {
+    /// With these files.
+    pub fn files(&self, files: RunFiles) -> RunFiles {
+        [("--step", &self.step), ("--iges", &self.iges), ("--obj", &self.obj)]
+            .into_iter()
+            .fold(files, |files, (option, path)| files.also(option, path.as_ref()))
+    }
+
+    /// Refuses other endings than the format's, and a distance that is none.
+    pub fn check_endings(&self) -> Result<(), Usage> {
+        let all: [(&str, &Option<PathBuf>, &[&str]); 3] = [
+            ("--step", &self.step, &["stp", "step"]),
+            ("--iges", &self.iges, &["igs", "iges"]),
+            ("--obj", &self.obj, &["obj"]),
+        ];
+        for (option, path, endings) in all {
+            let Some(path) = path else { continue };
+            let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+            // `-` is refused with all other outputs.
+            if !endings.contains(&ending.as_str()) && path.as_os_str() != "-" {
+                let shown = path.display();
+                return Err(Usage(format!(
+                    "{option} {shown}: the ending must be .{}",
+                    endings.join(" or .")
+                )));
+            }
+        }
+        match self.chord {
+            Some(chord) if not_negative("chord", chord)? == 0.0 => {
+                Err(Usage("--chord 0: give a length above 0".into()))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes what was asked for.
+    pub fn write(&self, surface: &Surface<Point>, progress: &dyn Progress) -> anyhow::Result<()> {
+        let [u, v] = surface.knots();
+        let model = SplineSurface {
+            degree: [u.degree(), v.degree()],
+            knots: [u.values(), v.values()],
+            points: surface.points(),
+        };
+        if let Some(path) = &self.step {
+            whole_file(path, |file| cad::step(file, &model))?;
+        }
+        if let Some(path) = &self.iges {
+            whole_file(path, |file| cad::iges(file, &model))?;
+        }
+        if let Some(path) = &self.obj {
+            let size = Aabb::of(surface.points()).diagonal();
+            let chord = self.chord.unwrap_or(1e-4 * size).max(f64::MIN_POSITIVE);
+            let Some(facets) = surface.tessellate(chord, MOST_FACETS, progress)? else {
+                bail!(
+                    "{}: facets within {chord} mm would be more than {MOST_FACETS}; give a greater --chord",
+                    path.display()
+                );
+            };
+            trueness_files::write::mesh(path, &facets.mesh)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,180 @@
+//! `trueness surface` as users run it.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::{Folder, corpus, document, status, stderr, stdout, trueness};
+
+/// The nine points of the paper.
+const NINE: &str = "1 1 0\n1 2 0\n1 3 0\n2 1 0\n2 2 0.3\n2 3 0\n3 1 0\n3 2 0\n3 3 0\n";
+
+/// A wave of 60 by 40 mm.
+fn wave(noise: f64) -> String {
+    let mut text = String::new();
+    for i in 0..2400u32 {
+        let (x, y) = (f64::from(i % 60) + 0.3, f64::from(i / 60) + 0.1);
+        let odd = f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+        text += &format!("{x} {y} {}\n", 3.0 * (0.1 * x).sin() * (0.15 * y).cos() + noise * odd);
+    }
+    text
+}
+
+#[test]
+fn nine_points_have_the_surface_of_the_paper() {
+    let folder = Folder::new();
+    let file = folder.write("nine.asc", NINE);
+    let file = file.to_str().unwrap();
+    let answer = document(["surface", file, "--degree", "2x2", "--spans", "1x1", "--fairness", "0"]);
+    assert_eq!(answer["schema"], "trueness/surface/1");
+    assert_eq!(answer["degree"], serde_json::json!([2, 2]));
+    let control = &answer["control_points"];
+    for i in 0..3 {
+        for j in 0..3 {
+            let height = control[i][j][2].as_f64().unwrap();
+            assert!((height - if (i, j) == (1, 1) { 1.2 } else { 0.0 }).abs() < 1e-12, "{control}");
+        }
+    }
+    let middle = &answer["curvature"]["middle"];
+    let number = |name: &str| middle[name].as_f64().unwrap();
+    assert!((number("k1").abs() - 0.6).abs() < 1e-7 && (number("k2").abs() - 0.6).abs() < 1e-7);
+    assert!((number("gaussian") - 0.36).abs() < 1e-12 && (number("mean").abs() - 0.6).abs() < 1e-12);
+    assert_eq!(answer["unsupported_share"], 0.0);
+    assert_eq!(answer["knots"]["u"].as_array().unwrap().len(), 6);
+    assert!(answer["deviation"]["max"].as_f64().unwrap() < 1e-12);
+    assert_eq!(
+        (&answer["degrees_of_freedom"], &answer["fairness_from"]),
+        (&serde_json::Value::Null, &"given".into())
+    );
+    let o = trueness(["surface", file, "--degree", "2", "--spans", "1", "--fairness", "0"]);
+    assert!(stdout(&o).contains("control points 3x3   base plane   9 points"), "{}", stdout(&o));
+}
+
+#[test]
+fn given_knots_have_the_reference_coefficients() {
+    let folder = Folder::new();
+    let knots = folder.write(
+        "knots.json",
+        r#"{"u": [0,0,0,0,0.25,0.5,0.75,1,1,1,1], "v": [0,0,0,0,0.25,0.5,0.75,1,1,1,1]}"#,
+    );
+    let points = corpus("reference_surfaces/franke_400.txt");
+    let words = ["--base", "xy", "--fairness", "0", "--knots", knots.to_str().unwrap()];
+    let answer = document([&["surface", points.to_str().unwrap()][..], &words].concat());
+    let first = answer["control_points"][0][0][2].as_f64().unwrap();
+    assert!((first / 0.631455809573769637044349 - 1.0).abs() < 1e-9);
+    let sum = answer["residual"]["sum_of_squares"].as_f64().unwrap();
+    assert!((sum / 0.0934976930250052177857539403227 - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_tolerance_is_reached_or_not_and_says_so() {
+    let folder = Folder::new();
+    let (clean, noisy) = (folder.write("clean.xyz", wave(0.0)), folder.write("noisy.xyz", wave(0.2)));
+    let o = trueness(["surface", clean.to_str().unwrap(), "--tolerance", "0.01"]);
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    assert!(stdout(&o).contains("tolerance 0.01: reached, all points are within"), "{}", stdout(&o));
+    let o = trueness(["surface", noisy.to_str().unwrap(), "--tolerance", "0.01"]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    assert!(stdout(&o).contains("not reached"), "{}", stdout(&o));
+    assert!(stdout(&o).contains("more knots would follow the noise"), "{}", stdout(&o));
+}
+
+#[test]
+fn models_are_written_the_same_on_any_threads() {
+    let folder = Folder::new();
+    let file = folder.write("wave.xyz", wave(0.01));
+    let run = |threads: &str, name: &str| {
+        let [step, iges, obj, json] =
+            ["stp", "igs", "obj", "json"].map(|e| folder.file(&format!("{name}.{e}")));
+        let mut words: Vec<&std::ffi::OsStr> =
+            vec!["surface".as_ref(), file.as_ref(), "--threads".as_ref(), threads.as_ref()];
+        for (option, path) in [("--step", &step), ("--iges", &iges), ("--obj", &obj), ("--json", &json)] {
+            words.extend([option.as_ref(), path.as_os_str()]);
+        }
+        let o = trueness(words);
+        assert_eq!(status(&o), 0, "{}", stderr(&o));
+        [step, iges, obj, json].map(|p| std::fs::read_to_string(p).unwrap())
+    };
+    let one = run("1", "one");
+    assert_eq!(one, run("3", "three"));
+    let [step, iges, obj, _] = one;
+    assert!(step.starts_with("ISO-10303-21;") && step.ends_with("END-ISO-10303-21;\n"));
+    for (word, count) in
+        [("B_SPLINE_SURFACE_WITH_KNOTS", 1), ("B_SPLINE_CURVE_WITH_KNOTS", 4), ("ADVANCED_FACE", 1)]
+    {
+        assert_eq!(step.matches(word).count(), count, "{word}");
+    }
+    assert_eq!(step.matches("=CARTESIAN_POINT").count(), 11 * 11 + 1);
+    assert!(iges.lines().all(|l| l.len() == 80));
+    assert!(obj.lines().filter(|l| l.starts_with("f ")).count() > 100);
+}
+
+#[test]
+fn wrong_input_is_refused_with_a_remedy() {
+    let folder = Folder::new();
+    let good = folder.write("good.xyz", wave(0.0));
+    let line = folder.write("line.xyz", "0 0 0\n1 1 1\n2 2 2\n3 3 3\n5 5 5\n");
+    let few = folder.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+    let flat = folder.write("flat.xy", "0 0\n1 0\n0 1\n1 1\n");
+    let open = folder.write("open.json", r#"{"u": [0,1,2,3,4,5], "v": [0,0,1,1]}"#);
+    let other = folder.write("other.json", r#"{"x": [0,0,1,1], "v": [0,0,1,1]}"#);
+    let short = folder.write("short.json", r#"{"u": [0,0,9,9], "v": [0,0,9,9]}"#);
+    let [good, line, few, flat, open, other, short] =
+        [&good, &line, &few, &flat, &open, &other, &short].map(|p| p.to_str().unwrap());
+    for (words, want, reason) in [
+        (vec![line], 3, "line.xyz: all points lie on one straight line"),
+        (vec![few], 3, "few.xyz: a surface needs at least 4 points, there are 3"),
+        (vec![flat], 2, "flat.xy: it has two columns; a surface needs x, y and z"),
+        (vec![good, "--degree", "0x3"], 2, "degree 0: it must be from 1 to 9"),
+        (vec![good, "--degree", "3y3"], 2, "is no whole number; write 8x8"),
+        (vec![good, "--spans", "0x3"], 2, "there must be at least 1 in each direction"),
+        (vec![good, "--spans", "99999x99999"], 3, "are allowed: ask for fewer spans"),
+        (vec![good, "--tolerance", "0"], 2, "tolerance 0: it must be a length above 0"),
+        (vec![good, "--tolerance", "1", "--spans", "3"], 2, "cannot be used with"),
+        (vec![good, "--fairness", "-1"], 2, "it is auto, or a number from 0 upwards"),
+        (vec![good, "--base", "mesh"], 2, "maps of meshes are not built yet"),
+        (vec![good, "--spans", "80x80", "--fairness", "0"], 3, "ask for fewer spans or a fairness above 0"),
+        (vec![good, "--knots", open], 3, "open.json: the knots of u are not clamped"),
+        (vec![good, "--knots", other], 3, "other.json: no knots; it must be"),
+        (vec![good, "--knots", short, "--base", "xy"], 3, "give knots that hold all points"),
+        (vec![good, "--knots", short, "--degree", "3"], 3, "are of degree 1, --degree asks for 3"),
+        (vec![good, "--knots", short, "--json", short], 2, "would overwrite the input"),
+        (vec![good, "--step", "surface.txt"], 2, "the ending must be .stp or .step"),
+        (vec![good, "--obj", "a.obj", "--chord", "0"], 2, "give a length above 0"),
+    ] {
+        let o = trueness([&["surface"][..], &words].concat());
+        let text = stderr(&o);
+        assert_eq!(status(&o), want, "{words:?}: {text}");
+        assert!(text.contains(reason), "{words:?}: {text}");
+        assert!(stdout(&o).is_empty(), "{words:?}");
+    }
+}
+
+#[test]
+fn layers_and_holes_are_told() {
+    let folder = Folder::new();
+    let mut ball = String::new();
+    for i in 0..3000 {
+        let z = 1.0 - (f64::from(i) + 0.5) / 1500.0;
+        let (r, a) = ((1.0 - z * z).sqrt(), 2.399963229728653 * f64::from(i));
+        ball += &format!("{} {} {}\n", 20.0 * r * a.cos(), 20.0 * r * a.sin(), 20.0 * z);
+    }
+    let ball = folder.write("ball.xyz", ball);
+    let o = trueness(["surface", ball.to_str().unwrap()]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    assert!(stdout(&o).contains("in layers over one another"), "{}", stdout(&o));
+    let far = |l: &&str| {
+        let n: Vec<f64> = l.split(' ').map(|w| w.parse().unwrap()).collect();
+        (n[0] - 30.0).hypot(n[1] - 20.0) > 14.0
+    };
+    let hole: Vec<String> = wave(0.01).lines().filter(far).map(String::from).collect();
+    let hole = folder.write("hole.xyz", hole.join("\n"));
+    let answer = document(["surface", hole.to_str().unwrap(), "--spans", "24x16"]);
+    let share = answer["unsupported_share"].as_f64().unwrap();
+    assert!(share > 0.02 && share < 0.5, "{share}");
+    assert_eq!(answer["far_control_points"], 0);
+    assert!(
+        answer["warnings"][0].as_str().unwrap().contains("a thin plate, not data"),
+        "{}",
+        answer["warnings"]
+    );
+}

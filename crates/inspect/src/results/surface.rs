@@ -1,0 +1,199 @@
+//! `trueness/surface/1`: a B-spline surface fitted to points.
+
+use super::InputRecord;
+use super::compare::Statistics;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/surface/1";
+
+/// The whole document. Lengths in millimetres, curvatures in their reciprocal.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SurfaceDocument {
+    /// `trueness/surface/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The file read.
+    pub inputs: Vec<InputRecord>,
+    /// Degrees along `u` and `v`.
+    pub degree: [u64; 2],
+    /// The knots.
+    pub knots: KnotsRecord,
+    /// Control points: rows along `u`, each ordered by `v`.
+    pub control_points: Vec<Vec<[f64; 3]>>,
+    /// Where the parameters of the points came from.
+    pub base: BaseRecord,
+    /// Weight of the thin-plate term, mm².
+    pub fairness: f64,
+    /// `auto` (generalized cross-validation) or `given`.
+    pub fairness_from: String,
+    /// Degrees of freedom that the surface uses.
+    pub degrees_of_freedom: Option<f64>,
+    /// Why they are not known.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub degrees_of_freedom_reason: Option<String>,
+    /// Signed distances of all points from the surface, at their nearest places; positive on the side of the normal, which is the
+    /// derivative by `u` times the derivative by `v`.
+    pub deviation: Statistics,
+    /// Point farthest from the surface.
+    pub worst: WorstPoint,
+    /// Differences between the points and the surface at the parameters that the control points were found with.
+    pub residual: Residual,
+    /// What came of the tolerance; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tolerance: Option<ToleranceRecord>,
+    /// Curvatures at the places nearest to the points.
+    pub curvature: CurvatureRecord,
+    /// Share of the control points that hardly any point holds: the thin-plate term made them (0 to 1).
+    pub unsupported_share: f64,
+    /// The same in numbers.
+    pub support: SupportRecord,
+    /// Control points outside of twice the box of the points.
+    pub far_control_points: u64,
+    /// Parameter corrections made.
+    pub corrections: u64,
+    /// Points left out by `--robust`.
+    pub outliers: u64,
+    /// Points whose nearest place was not found to the last digit.
+    pub unsettled: u64,
+    /// What makes the surface doubtful.
+    pub warnings: Vec<String>,
+}
+
+/// Whole knots, ends as often as the degree and one.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct KnotsRecord {
+    /// Along `u`.
+    pub u: Vec<f64>,
+    /// Along `v`.
+    pub v: Vec<f64>,
+}
+
+/// Where parameters came from.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct BaseRecord {
+    /// `plane`, `xy`, `cylinder` or `sphere`.
+    pub kind: String,
+    /// Of a plane the corner of the minimum bounding rectangle, of a cylinder a place of its axis, of a sphere its center.
+    pub origin: [f64; 3],
+    /// Right-handed unit axes: of a plane the longer side, the shorter side and the normal; of a cylinder the third is its axis; of a
+    /// sphere the first points amid the points.
+    pub axes: [[f64; 3]; 3],
+    /// Of a cylinder or a sphere.
+    pub radius: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub radius_reason: Option<String>,
+    /// Whether the points go all around, so that the surface has a seam.
+    pub around: bool,
+    /// Share of the points where layers lie over one another as seen on the base (0 to 1).
+    pub folded_share: f64,
+}
+
+/// A point and its deviation.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct WorstPoint {
+    /// Number of the point in the file, from 0.
+    pub point: u64,
+    /// Where it lies.
+    pub position: [f64; 3],
+    /// Its signed distance.
+    pub deviation: f64,
+    /// Parameters of the nearest place.
+    pub parameters: [f64; 2],
+}
+
+/// What is left at the parameters of the last fit.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Residual {
+    /// Sum of the squares.
+    pub sum_of_squares: f64,
+    /// Root mean square.
+    pub rms: f64,
+    /// Greatest.
+    pub max: f64,
+}
+
+/// What came of a tolerance.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ToleranceRecord {
+    /// The tolerance.
+    pub value: f64,
+    /// Whether all points are within.
+    pub reached: bool,
+    /// Points beyond it.
+    pub outside: u64,
+    /// Why no more knots were set: `tolerance`, `noise`, `points` or `memory`.
+    pub stopped_by: String,
+}
+
+/// Range of a quantity.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Range {
+    /// Least.
+    pub min: f64,
+    /// Half of the values are below.
+    pub median: f64,
+    /// Greatest.
+    pub max: f64,
+}
+
+/// Curvatures, positive where the surface bends towards its normal; `null` where no place has any.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct CurvatureRecord {
+    /// Places that have curvatures.
+    pub count: u64,
+    /// Why numbers are missing.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub reason: Option<String>,
+    /// Greater principal curvature.
+    pub k1: Option<Range>,
+    /// Lesser principal curvature.
+    pub k2: Option<Range>,
+    /// Mean curvature.
+    pub mean: Option<Range>,
+    /// Gaussian curvature, 1/mm².
+    pub gaussian: Option<Range>,
+    /// In the middle of the domain.
+    pub middle: Option<PlaceCurvature>,
+}
+
+/// Curvatures at a place.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct PlaceCurvature {
+    /// Its parameters.
+    pub parameters: [f64; 2],
+    /// Where it lies.
+    pub position: [f64; 3],
+    /// Unit normal.
+    pub normal: [f64; 3],
+    /// Greater principal curvature and its direction.
+    pub k1: f64,
+    /// Lesser principal curvature.
+    pub k2: f64,
+    /// Direction of the greater one.
+    pub k1_direction: [f64; 3],
+    /// Direction of the lesser one.
+    pub k2_direction: [f64; 3],
+    /// Mean curvature.
+    pub mean: f64,
+    /// Gaussian curvature, 1/mm².
+    pub gaussian: f64,
+}
+
+/// How well the points hold the control points.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SupportRecord {
+    /// Control points.
+    pub control_points: u64,
+    /// Of those, without support.
+    pub unsupported: u64,
+    /// Knot cells.
+    pub cells: u64,
+    /// Of those, without a point.
+    pub empty_cells: u64,
+}

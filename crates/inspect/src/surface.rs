@@ -1,0 +1,169 @@
+//! From a surface fitted to points to its result document.
+
+use crate::compare::statistics;
+use crate::results::surface::{
+    BaseRecord, CurvatureRecord, KnotsRecord, PlaceCurvature, Range, Residual, SCHEMA, SupportRecord,
+    SurfaceDocument, ToleranceRecord, WorstPoint,
+};
+use crate::results::{InputRecord, UNITS, VERSION};
+use rayon::prelude::*;
+use trueness_geom::deviation::statistics::Summary;
+use trueness_geom::space::Point;
+use trueness_geom::spline::surface::{Bend, Patches};
+use trueness_geom::surface::{Base, Fairness, Layout, Options, Reached, SurfaceFit};
+
+/// Share of points in layers beyond which the surface is doubtful.
+pub const FOLDED: f64 = 0.01;
+
+/// The document of a fit to `points`, which are those of `inputs` in their order.
+///
+/// Cost: some passes over the points.
+pub fn document(
+    fit: &SurfaceFit,
+    points: &[Point],
+    options: &Options,
+    inputs: Vec<InputRecord>,
+) -> SurfaceDocument {
+    let surface = &fit.surface;
+    let [_, n] = surface.counts();
+    let [u, v] = surface.knots();
+    let total = fit.support.control_points;
+    SurfaceDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs,
+        degree: [u.degree() as u64, v.degree() as u64],
+        knots: KnotsRecord { u: u.values().to_vec(), v: v.values().to_vec() },
+        control_points: surface.points().chunks(n).map(<[Point]>::to_vec).collect(),
+        base: base(&fit.base),
+        fairness: fit.fairness,
+        fairness_from: if options.fairness == Fairness::Auto { "auto" } else { "given" }.into(),
+        degrees_of_freedom: fit.degrees_of_freedom,
+        degrees_of_freedom_reason: fit.degrees_of_freedom.is_none().then(|| "the fairness was given".into()),
+        deviation: statistics(&Summary::of(&fit.deviations).all, 0.0),
+        worst: worst(fit, points),
+        residual: Residual {
+            sum_of_squares: fit.sum_of_squares,
+            rms: (fit.sum_of_squares / points.len() as f64).sqrt(),
+            max: fit.max_residual,
+        },
+        tolerance: tolerance(fit, options),
+        curvature: curvature(fit),
+        unsupported_share: fit.support.unsupported as f64 / total as f64,
+        support: SupportRecord {
+            control_points: total as u64,
+            unsupported: fit.support.unsupported as u64,
+            cells: fit.support.cells as u64,
+            empty_cells: fit.support.empty_cells as u64,
+        },
+        far_control_points: fit.far_control_points as u64,
+        corrections: fit.corrections as u64,
+        outliers: fit.outliers as u64,
+        unsettled: fit.unsettled as u64,
+        warnings: warnings(fit),
+    }
+}
+
+fn base(found: &Base) -> BaseRecord {
+    BaseRecord {
+        kind: found.kind.name().into(),
+        origin: found.origin,
+        axes: found.axes,
+        radius: found.radius,
+        radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
+        around: found.around,
+        folded_share: found.folded_share,
+    }
+}
+
+fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
+    let size = |k: usize| fit.deviations[k].abs();
+    let worst = (0..points.len()).fold(0, |best, k| if size(k) > size(best) { k } else { best });
+    WorstPoint {
+        point: worst as u64,
+        position: points[worst],
+        deviation: fit.deviations[worst],
+        parameters: fit.feet[worst],
+    }
+}
+
+fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
+    let (Layout::Tolerance(value), Some(reached)) = (&options.layout, fit.reached) else { return None };
+    let outside = fit.deviations.iter().filter(|d| d.abs() > *value).count() as u64;
+    let stopped_by = match reached {
+        Reached::Tolerance => "tolerance",
+        Reached::Noise => "noise",
+        Reached::Points => "points",
+        Reached::Memory => "memory",
+    };
+    Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: stopped_by.into() })
+}
+
+fn curvature(fit: &SurfaceFit) -> CurvatureRecord {
+    let patches = Patches::new(&fit.surface);
+    let found: Vec<Bend> = fit.feet.par_iter().filter_map(|p| patches.bend(p[0], p[1])).collect();
+    let range = |value: &dyn Fn(&Bend) -> f64| {
+        let mut all: Vec<f64> = found.iter().map(value).collect();
+        let (min, max) =
+            all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+        let middle = all.len() / 2;
+        (!all.is_empty()).then(|| Range {
+            min,
+            median: *all.select_nth_unstable_by(middle, f64::total_cmp).1,
+            max,
+        })
+    };
+    let [(a, b), (c, d)] = fit.surface.domain();
+    let parameters = [0.5 * (a + b), 0.5 * (c + d)];
+    let middle = fit.surface.bend(parameters[0], parameters[1]).map(|bend| PlaceCurvature {
+        parameters,
+        position: fit.surface.at(parameters[0], parameters[1]),
+        normal: bend.normal,
+        k1: bend.principal[0].curvature,
+        k2: bend.principal[1].curvature,
+        k1_direction: bend.principal[0].direction,
+        k2_direction: bend.principal[1].direction,
+        mean: bend.mean,
+        gaussian: bend.gaussian,
+    });
+    let missing = found.is_empty() || middle.is_none();
+    CurvatureRecord {
+        count: found.len() as u64,
+        reason: missing.then(|| "the surface has no normal there: its derivatives span no plane".into()),
+        k1: range(&|b| b.principal[0].curvature),
+        k2: range(&|b| b.principal[1].curvature),
+        mean: range(&|b| b.mean),
+        gaussian: range(&|b| b.gaussian),
+        middle,
+    }
+}
+
+/// What makes the surface doubtful, in words.
+fn warnings(fit: &SurfaceFit) -> Vec<String> {
+    let mut all = vec![];
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    if fit.base.folded_share > FOLDED {
+        all.push(format!(
+            "{} of the points lie in layers over one another as seen on the base ({}): the surface lies between the layers; take another base, or the layers one by one",
+            percent(fit.base.folded_share),
+            fit.base.kind.name()
+        ));
+    }
+    if fit.base.around {
+        all.push("the points go all around the base: the surface has a seam, where it is not smooth".into());
+    }
+    if fit.far_control_points > 0 {
+        all.push(format!(
+            "{} control points lie outside of twice the box of the points: the points hold them badly",
+            fit.far_control_points
+        ));
+    }
+    if fit.support.unsupported > 0 {
+        all.push(format!(
+            "{} of the control points have no points near them: there the surface is a thin plate, not data",
+            percent(fit.support.unsupported as f64 / fit.support.control_points as f64)
+        ));
+    }
+    all
+}
