@@ -6,7 +6,7 @@ use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::Clean;
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
-use super::start::{Part, Penalty, noise, partition};
+use super::start::{Part, Penalty, halves, noise, partition, scatter};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 
@@ -18,6 +18,8 @@ const FEWEST: usize = 4;
 const CORNER: (f64, f64) = (0.12, 8.0);
 /// A turn of more than this is a corner without further test, radians.
 const SHARP: f64 = 0.6;
+/// Noise of a first partition below this share of that of local fits: these are not fits of noise.
+const POLLUTED: f64 = 0.3;
 /// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
 const RESOLUTION: f64 = 1e-4;
 
@@ -49,26 +51,36 @@ pub fn contour(
 ) -> Result<Contour, SectionError> {
     let mut clean = Clean::new(points, options)?;
     let n = clean.points.len();
-    let (own, step) = noise(&clean.points, clean.closed);
-    let size = size(&clean.points);
-    let sigma = options.noise.unwrap_or(own).max(1e-6 * size);
+    let (mut own, step) = noise(&clean.points, clean.closed);
+    let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
+    let mut sigma = options.noise.unwrap_or(own).max(least);
     let outliers = clean.outliers(sigma, step);
     let mut weights = vec![1.0; n];
     outliers.iter().for_each(|i| weights[*i] = 0.0);
     let log = libm::log(n as f64);
     let penalty =
-        Penalty { line: 3.0 * log, arc: 4.0 * log, noise: sigma, fewest: FEWEST * step, places: PLACES };
+        |noise: f64| Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest: FEWEST * step, places: PLACES };
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let mut parts = partition(&clean.points, &weights, &penalty);
     let mut turned = 0;
-    if clean.closed && parts.len() > 1 {
-        // The row is turned so that it starts where a part does.
-        turned = parts[parts.len() / 2].from;
-        clean.points.rotate_left(turned);
-        weights.rotate_left(turned);
-        parts = partition(&clean.points, &weights, &penalty);
+    let mut parts = vec![];
+    for _ in 0..6 {
+        parts = partition(&clean.points, &weights, &penalty(sigma));
+        if clean.closed && parts.len() > 1 {
+            // The row is turned so that it starts where a part does.
+            let by = parts[parts.len() / 2].from;
+            turned = (turned + by) % n;
+            clean.points.rotate_left(by);
+            weights.rotate_left(by);
+            parts = partition(&clean.points, &weights, &penalty(sigma));
+        }
+        // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
+        let found = scatter(&clean.points, &weights, &parts).max(least);
+        if options.noise.is_some() || found > POLLUTED * sigma {
+            break;
+        }
+        (own, sigma) = (own.min(found), found);
     }
     let spacing = spacing(&clean, step);
     let mut plan =
@@ -140,12 +152,16 @@ impl Plan<'_> {
         let mut founds = vec![];
         let mut corners: Vec<Corner> = vec![];
         if closed && ends.is_empty() && !seam {
-            // A whole circle joins itself anywhere: it is an arc whose ends happen to meet.
-            let task = self.task(parts.len() > 1, true, n);
-            let span = Span::new(&self.clean.points, self.weights, (0..n).collect());
-            let mut found = span.find(parts, &task, progress)?;
-            found.circle =
-                parts.len() == 1 && found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc;
+            let span = || Span::new(&self.clean.points, self.weights, (0..n).collect());
+            let mut found = span().find(parts, &self.task(parts.len() > 1, true, n), progress)?;
+            if parts.len() == 1 {
+                // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
+                found.circle = found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc;
+                if !found.circle {
+                    let halves = halves(&self.clean.points, self.weights);
+                    found = span().find(&halves, &self.task(true, true, n), progress)?;
+                }
+            }
             founds.push(found);
             return Ok((founds, corners));
         }
@@ -184,6 +200,10 @@ impl Plan<'_> {
         Ok((founds, corners))
     }
 
+    fn resolution(&self) -> f64 {
+        self.options.resolution.unwrap_or(RESOLUTION * self.spacing)
+    }
+
     fn task(&self, closed: bool, whole: bool, count: usize) -> Task {
         let n = self.clean.points.len();
         // What the rest of the row tells about the noise; next to all if it was given.
@@ -195,7 +215,7 @@ impl Plan<'_> {
         let noise = self.given.unwrap_or(self.own);
         let even = self.options.continuity == Some(Continuity::G2);
         let criterion =
-            Criterion { noise, degrees, resolution: RESOLUTION * self.spacing, count: count as f64 };
+            Criterion { noise, degrees, resolution: self.resolution(), count: count as f64 };
         let closed = closed && whole;
         Task { criterion, spacing: self.spacing, step: self.step, closed, even, level: self.options.level }
     }
@@ -234,7 +254,7 @@ impl Plan<'_> {
         };
         let both: Vec<usize> = first.iter().chain(&second).copied().collect();
         let count = both.len() as f64;
-        let floor = count * (RESOLUTION * self.spacing).powi(2);
+        let floor = count * self.resolution().powi(2);
         let apart = sum(first, &[alone(before, cut)]) + sum(second, &[alone(after, end - cut)]);
         let tangent = sum(both, &local);
         count * libm::log((tangent + floor) / (apart + floor)) > 3.0 * libm::log(count)

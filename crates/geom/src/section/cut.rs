@@ -105,6 +105,8 @@ impl PlaneFrame {
 pub struct Chain {
     /// Its points in space, neighbors different; the first is not repeated at the end.
     pub points: Vec<Point>,
+    /// The edge of the mesh that each point lies on: its vertices, the lower first.
+    pub edges: Vec<[u32; 2]>,
     /// Whether the last point joins the first.
     pub closed: bool,
 }
@@ -166,13 +168,15 @@ pub fn cut(mesh: &Mesh, plane: &Plane, progress: &dyn Progress) -> Result<Vec<Ch
             }
             while next.get(start).is_some_and(|list| !list.is_empty()) {
                 let (edges, ends) = follow(*start, &mut next);
-                let mut points: Vec<Point> = edges.iter().map(|e| place(mesh, plane, *e)).collect();
-                points.dedup();
-                while ends && points.len() > 1 && points.first() == points.last() {
-                    points.pop();
+                let mut places: Vec<(Point, [u32; 2])> =
+                    edges.into_iter().map(|e| (place(mesh, plane, e), e)).collect();
+                places.dedup_by_key(|(point, _)| *point);
+                while ends && places.len() > 1 && places[0].0 == places[places.len() - 1].0 {
+                    places.pop();
                 }
-                if points.len() > 1 {
-                    chains.push(Chain { points, closed: ends });
+                if places.len() > 1 {
+                    let (points, edges) = places.into_iter().unzip();
+                    chains.push(Chain { points, edges, closed: ends });
                 }
             }
         }

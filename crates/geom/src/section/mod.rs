@@ -8,7 +8,10 @@
 //! | `least` | their least-squares fit |
 //! | `search` | number and kinds of pieces |
 //! | `profile` | intervals of the joins |
+//! | `paper` | one line and one curve by the steps of a paper |
+//! | `slab` | points of a cloud near a plane, put in order |
 //! | `cut` | where a plane cuts a mesh |
+//! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -17,18 +20,26 @@ mod chain;
 mod contour;
 mod convert;
 mod cut;
+mod facets;
+mod foot;
 mod free;
 mod least;
+mod paper;
 mod profile;
 mod result;
 mod row;
 mod search;
+mod slab;
 mod span;
 mod start;
+mod tessellated;
 #[cfg(test)]
 mod tests;
 
 pub use chain::Kind;
 pub use contour::contour;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut};
-pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment};
+pub use paper::{Method, Search, line_and_curve, method_contour};
+pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken};
+pub use slab::{Ordered, order, slab};
+pub use tessellated::{chain_contour, rounding};

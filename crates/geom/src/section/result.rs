@@ -106,9 +106,34 @@ pub struct Join {
     pub turn: f64,
 }
 
+/// What the points of a contour were taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Taken {
+    /// Measured points in order.
+    #[default]
+    Row,
+    /// Where a plane cuts the exact facets of a drawing.
+    Facets,
+    /// Where a plane cuts the facets of a scan.
+    Scan,
+}
+
+impl Taken {
+    /// The word for it: `row`, `facets`, `scan`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Taken::Row => "row",
+            Taken::Facets => "facets",
+            Taken::Scan => "scan",
+        }
+    }
+}
+
 /// A contour as lines, arcs and curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contour {
+    /// What its points were taken for.
+    pub taken: Taken,
     /// Whether the end is the start.
     pub closed: bool,
     /// Segments in the order of the points. Of a closed contour the first is the one that the first point belongs to.
@@ -144,11 +169,22 @@ pub struct Options {
     pub closed: Option<bool>,
     /// Confidence of the intervals.
     pub level: f64,
+    /// Distances below this are not told from 0, whatever the noise; a ten-thousandth of the spacing where it is not given.
+    pub resolution: Option<f64>,
+    /// The points are known to be in order: rows that do not look so are taken all the same.
+    pub ordered: bool,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { noise: None, continuity: None, closed: None, level: 0.95 }
+        Options {
+            noise: None,
+            continuity: None,
+            closed: None,
+            level: 0.95,
+            resolution: None,
+            ordered: false,
+        }
     }
 }
 
@@ -176,6 +212,9 @@ pub enum SectionError {
         /// Median distance of neighbors in the row over that of nearest points.
         ratio: f64,
     },
+    /// Neither end of the row is a line that a curve follows.
+    #[error("no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out")]
+    NoLine,
     /// An option has no meaning.
     #[error("{name} {value}: it must be {allowed}")]
     WrongOption {

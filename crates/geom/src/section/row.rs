@@ -67,7 +67,7 @@ impl Clean {
         let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
         let spacing = median(steps.clone());
         let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
-        if ratio > UNORDERED && all.len() > 8 {
+        if ratio > UNORDERED && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }
         let found = ends_meet || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
@@ -104,7 +104,7 @@ impl Clean {
     }
 }
 
-fn check(options: &Options) -> Result<(), SectionError> {
+pub(super) fn check(options: &Options) -> Result<(), SectionError> {
     let wrong = |name, value, allowed| Err(SectionError::WrongOption { name, value, allowed });
     if let Some(value) = options.noise.filter(|x| !(x.is_finite() && *x > 0.0)) {
         return wrong("noise", value, "a length above 0");

@@ -29,6 +29,10 @@ impl Criterion {
     /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
     /// for each unknown; a join counts twice, as its place was chosen among many.
     pub fn cost(&self, state: &State) -> f64 {
+        // A piece without points is made up.
+        if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
+            return f64::INFINITY;
+        }
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
         let sum = state.sum + self.degrees * self.noise * self.noise;

@@ -203,7 +203,7 @@ impl Sums {
 ///
 /// Chernov, Circular and Linear Regression, 2010, section 5.8: the least root of the characteristic polynomial by Newton's
 /// method from 0. Unlike that of Kåsa, the circle of a short arc is not drawn in, and never fits worse than the line.
-fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f64, [f64; 2], f64)> {
+pub(super) fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f64, [f64; 2], f64)> {
     let [xx, xy, yy, xz, yz, zz] = [xx, xy, yy, xz, yz, zz].map(|s| s / n);
     let cov = xx * yy - xy * xy;
     let (a3, a2) = (4.0 * z, -3.0 * z * z - (zz + z * z));
@@ -226,6 +226,27 @@ fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f64, [f64; 2
     let center = [0.5 * (xz * (yy - x) - yz * xy) / det, 0.5 * (yz * (xx - x) - xz * xy) / det];
     let radius = (center[0] * center[0] + center[1] * center[1] + z).sqrt();
     (radius.is_finite() && cov > 1e-12 * z * z).then_some((x.max(0.0), center, radius))
+}
+
+/// A row as two arcs of as many points.
+pub(super) fn halves(points: &[[f64; 2]], weights: &[f64]) -> Vec<Part> {
+    let (sums, n) = (Sums::new(points, weights), points.len());
+    [(0, n / 2), (n / 2, n)].map(|(from, to)| sums.part(points, Kind::Arc, from, to)).to_vec()
+}
+
+/// Standard deviation of the points about the parts of a partition.
+pub(super) fn scatter(points: &[[f64; 2]], weights: &[f64], parts: &[Part]) -> f64 {
+    let sums = Sums::new(points, weights);
+    let mut all = (0.0, 0.0);
+    for part in parts {
+        let (line, arc) = sums.fit(part.from, part.to);
+        let (sum, unknowns) = match (part.kind, arc) {
+            (Kind::Line, _) | (_, None) => (line, 3.0),
+            (_, Some((arc, _, _))) => (arc, 4.0),
+        };
+        all = (all.0 + sum, all.1 + weights[part.from..part.to].iter().sum::<f64>() - unknowns);
+    }
+    (all.0.max(0.0) / all.1.max(1.0)).sqrt()
 }
 
 /// The cheapest row of lines and arcs, each fitted by itself: sum of squares over the noise's variance, and a penalty for

@@ -3,7 +3,7 @@
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Contour, Geometry, Options, Segment};
+use trueness_geom::section::{Contour, Geometry, Method, Options, Search, Segment};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
@@ -25,10 +25,56 @@ pub struct SectionDocument {
     pub noise_given: Option<f64>,
     /// Continuity of all joins, where it was asked for: `g0`, `g1` or `g2`.
     pub continuity_given: Option<String>,
-    /// Where the plane of the section lies in space.
+    /// Where the plane of the section lies in space; of several, the first.
     pub frame: FrameRecord,
+    /// The planes that a mesh or cloud was cut by; of points in order none.
+    pub planes: Vec<PlaneRecord>,
     /// The contours.
     pub contours: Vec<ContourRecord>,
+    /// The three methods of the paper, side by side, where one was asked for; the contour is that of the one chosen.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub methods: Option<MethodsRecord>,
+}
+
+/// The paper's methods of finding the join of one line and one curve.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct MethodsRecord {
+    /// The one that the contour is of: `stepwise`, `improved` or `golden`.
+    pub chosen: String,
+    /// How the interval of `golden` was found: `paper` or `profile`.
+    pub interval: String,
+    /// What each found.
+    pub table: Vec<MethodRecord>,
+}
+
+/// What one method found.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct MethodRecord {
+    /// `stepwise`, `improved` or `golden`.
+    pub method: String,
+    /// Where it looked for the join, from the line to the curve.
+    pub interval: [[f64; 2]; 2],
+    /// Length of that.
+    pub interval_length: f64,
+    /// The join.
+    pub join: [f64; 2],
+    /// Points of the line, and their distances from it.
+    pub line: ResidualsRecord,
+    /// Points of the curve, and their distances from it.
+    pub curve: ResidualsRecord,
+    /// Control points of the curve.
+    pub control_points: u64,
+}
+
+/// Distances of points from a segment.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ResidualsRecord {
+    /// Number of points.
+    pub points: u64,
+    /// Root mean square.
+    pub rms: f64,
+    /// Greatest magnitude.
+    pub max: f64,
 }
 
 /// The plane of a section: a place of it and the directions of its two axes.
@@ -44,9 +90,33 @@ pub struct FrameRecord {
     pub flatness: f64,
 }
 
+/// A plane that a mesh or cloud was cut by: all places `p` with `normal · p = offset`.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct PlaneRecord {
+    /// Its normal, of length 1.
+    pub normal: [f64; 3],
+    /// Its distance from the origin along the normal.
+    pub offset: f64,
+    /// Its axes.
+    pub frame: FrameRecord,
+    /// Contours found in it.
+    pub contours: u64,
+    /// Area inside closed contours of a mesh, holes taken off, of the facets themselves.
+    pub area: Option<f64>,
+    /// Why there is no area.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub area_reason: Option<String>,
+    /// Points of a cloud in its slab that belong to no contour.
+    pub loose: u64,
+}
+
 /// A contour.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ContourRecord {
+    /// Number of its plane in `planes`, from 0; of points in order `null`.
+    pub plane: Option<u64>,
+    /// What its points were taken for: `row` (measured points), `facets` (exact ones, of a drawing), `scan` (facets of a scan).
+    pub taken: String,
     /// Whether its end is its start.
     pub closed: bool,
     /// Length of all segments.
@@ -157,14 +227,30 @@ impl FrameRecord {
     }
 }
 
+/// Contours of one plane, or of a row of points.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Where its plane lies.
+    pub frame: FrameRecord,
+    /// The plane, unless it is that of a row of points: its normal of length 1 and its offset.
+    pub plane: Option<([f64; 3], f64)>,
+    /// Area inside closed chains of a mesh, or why there is none.
+    pub area: Result<f64, &'static str>,
+    /// Points of a cloud that belong to no contour.
+    pub loose: usize,
+    /// The contours.
+    pub contours: Vec<Contour>,
+}
+
 impl SectionDocument {
-    /// The document of the contours found in the file of `inputs`.
-    pub fn new(
-        contours: &[Contour],
-        frame: FrameRecord,
-        inputs: Vec<InputRecord>,
-        options: &Options,
-    ) -> SectionDocument {
+    /// The document of what was found in the file of `inputs`.
+    pub fn new(sections: &[Section], inputs: Vec<InputRecord>, options: &Options) -> SectionDocument {
+        let planes = sections.iter().filter_map(plane).collect();
+        let none = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
+        let contours = sections.iter().enumerate().flat_map(|(n, section)| {
+            let number = section.plane.map(|_| n as u64);
+            section.contours.iter().map(move |c| contour(c, &section.frame, number))
+        });
         SectionDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -173,13 +259,50 @@ impl SectionDocument {
             level: options.level,
             noise_given: options.noise,
             continuity_given: options.continuity.map(|c| c.name().into()),
-            frame,
-            contours: contours.iter().map(|c| contour(c, &frame)).collect(),
+            frame: sections.first().map_or(none, |s| s.frame),
+            planes,
+            contours: contours.collect(),
+            methods: None,
         }
+    }
+
+    /// The same with what the paper's methods found: each with its number of points of the curve.
+    pub fn with_methods(self, chosen: Search, interval: &str, methods: &[(Method, usize)]) -> SectionDocument {
+        let table = methods.iter().map(|(m, on_curve)| method(m, *on_curve)).collect();
+        let methods =
+            Some(MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table });
+        SectionDocument { methods, ..self }
     }
 }
 
-fn contour(found: &Contour, frame: &FrameRecord) -> ContourRecord {
+fn method(found: &Method, on_curve: usize) -> MethodRecord {
+    let [a, b] = found.interval;
+    let told = |points: usize, [rms, max]: [f64; 2]| ResidualsRecord { points: points as u64, rms, max };
+    MethodRecord {
+        method: found.search.name().into(),
+        interval: found.interval,
+        interval_length: ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt(),
+        join: found.join,
+        line: told(found.on_line, found.line_residuals),
+        curve: told(on_curve, found.curve_residuals),
+        control_points: found.curve.points().len() as u64,
+    }
+}
+
+fn plane(section: &Section) -> Option<PlaneRecord> {
+    let (normal, offset) = section.plane?;
+    Some(PlaneRecord {
+        normal,
+        offset,
+        frame: section.frame,
+        contours: section.contours.len() as u64,
+        area: section.area.ok(),
+        area_reason: section.area.err().map(Into::into),
+        loose: section.loose as u64,
+    })
+}
+
+fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourRecord {
     let numbers = |list: &[usize]| list.iter().map(|i| *i as u64).collect();
     let joins: Vec<JoinRecord> = found
         .joins
@@ -202,6 +325,8 @@ fn contour(found: &Contour, frame: &FrameRecord) -> ContourRecord {
         _ => None,
     };
     ContourRecord {
+        plane,
+        taken: found.taken.name().into(),
         closed: found.closed,
         length: found.length(),
         noise: found.noise,

@@ -1,5 +1,7 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
+mod method;
+mod planes;
 mod table;
 mod write;
 
@@ -12,23 +14,28 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_files::Body;
-use trueness_geom::section::{self, Continuity, Contour, Options, PlaneFrame, SectionError};
+use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::results::Role;
-use trueness_inspect::results::section::{FrameRecord, SectionDocument};
+use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
-/// Of points in the order in which they follow each other along a contour. Finds number and kinds of the segments, refines
-/// all together and tells every join with its uncertainty.
+/// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
+/// number and kinds of the segments, refines all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   trueness section profile.txt
-  trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json")]
+  trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
+  trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
+  trueness section part.stl --stack 0,0,1,0,40,5
+  trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4")]
 pub struct SectionArgs {
-    /// Points in order, of two or three columns; `-` reads stdin
+    /// Points in order, of two or three columns, or with planes a mesh or a cloud; `-` reads stdin
     input: PathBuf,
+    #[command(flatten)]
+    planes: planes::PlaneArgs,
     /// Standard deviation of the points across the contour, mm [default: found from the data]
     #[arg(long, value_name = "MM")]
     noise: Option<f64>,
@@ -44,6 +51,8 @@ pub struct SectionArgs {
     /// Confidence of the intervals, percent
     #[arg(long, value_name = "PERCENT", default_value = "95")]
     level: f64,
+    #[command(flatten)]
+    method: method::MethodArgs,
     #[command(flatten)]
     file: PointInputArgs,
     #[command(flatten)]
@@ -73,14 +82,9 @@ impl SectionArgs {
             }),
             closed: (self.closed || self.open).then_some(self.closed),
             level: self.level / 100.0,
+            ..Options::default()
         }
     }
-}
-
-/// Rows of points in a plane of space.
-struct Rows {
-    rows: Vec<(Vec<[f64; 2]>, Option<bool>)>,
-    frame: FrameRecord,
 }
 
 impl Run for SectionArgs {
@@ -97,51 +101,68 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let Opened { mut record, body, planar, .. } =
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
+    let planes = args.planes.planes()?;
     let stage = Stage::new(common.progress, "finding segments", "points", None);
-    let rows = match body {
-        Body::Mesh(_) => {
-            return Err(Usage(format!(
-                "{shown}: it is a mesh; give the points of its section in their order, two or three columns of numbers"
-            ))
-            .into());
+    let mut methods = None;
+    let found = match body {
+        Body::Mesh(source) => {
+            args.planes.fit_a_mesh(&shown.to_string())?;
+            args.method.only_for_rows()?;
+            planes::mesh(&source.mesh, &planes, &options, &stage)
         }
         Body::Points(source) => {
             let points = read::all_points(source)?;
             read::describe(&mut record, &points);
-            flattened(&points, planar)
+            match planes.is_empty() {
+                true => row(&points, planar, &options, &stage).and_then(|found| {
+                    let (found, table) = args.method.apply(found, &options, &stage)?;
+                    methods = table;
+                    Ok(found)
+                }),
+                false => {
+                    args.method.only_for_rows()?;
+                    let slab = args.planes.slab(&shown.to_string(), planar)?;
+                    planes::cloud(&points, &planes, &slab, &options, &stage)
+                }
+            }
         }
     };
-    read::hash(&mut record, &args.input)?;
-    let contours = rows
-        .rows
-        .iter()
-        .map(|(row, closed)| {
-            let own = Options { closed: options.closed.or(*closed), ..options };
-            section::contour(row, &own, &stage)
-        })
-        .collect::<Result<Vec<Contour>, SectionError>>();
     drop(stage);
-    let contours = contours.map_err(|e| match e {
+    read::hash(&mut record, &args.input)?;
+    let (sections, rows) = found.map_err(|e| match e {
         SectionError::Cancelled(e) => e.into(),
         e @ SectionError::WrongOption { .. } => Usage(e.to_string()).into(),
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
-    let document = SectionDocument::new(&contours, rows.frame, vec![record], &options);
-    args.drawings.write(&contours, &rows.rows)?;
+    if !planes.is_empty() && rows.is_empty() {
+        anyhow::bail!("{shown}: {}", planes::nothing_met(&planes, &record));
+    }
+    let mut document = SectionDocument::new(&sections, vec![record], &options);
+    if let Some((chosen, interval, table)) = methods {
+        document = document.with_methods(chosen, interval, &table);
+    }
+    args.drawings.write(&sections, &rows)?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     Ok(Outcome::Conforming)
 }
 
+/// What was found: contours by section, and the points of each contour.
+type Sections = (Vec<Section>, Vec<Vec<[f64; 2]>>);
+
+/// The same, or why not.
+type Found = Result<Sections, SectionError>;
+
 /// A row in space in the plane nearest to it; a row of two columns as it is.
-fn flattened(points: &[Point], planar: bool) -> Rows {
-    let found = if planar { None } else { PlaneFrame::through(points) };
+fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Found {
     let own = PlaneFrame { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
-    let flat = |frame: &PlaneFrame| points.iter().map(|p| frame.flat(*p)).collect();
-    match found {
-        Some((frame, off)) => Rows { rows: vec![(flat(&frame), None)], frame: described(&frame, off) },
-        None => Rows { rows: vec![(flat(&own), None)], frame: described(&own, 0.0) },
-    }
+    let through = if planar { None } else { PlaneFrame::through(points) };
+    let (frame, flatness) = through.unwrap_or((own, 0.0));
+    let flat: Vec<[f64; 2]> = points.iter().map(|p| frame.flat(*p)).collect();
+    let contours = vec![section::contour(&flat, options, stage)?];
+    let area = Err("points in order have no facets");
+    let frame = described(&frame, flatness);
+    Ok((vec![Section { frame, plane: None, area, loose: 0, contours }], vec![flat]))
 }
 
 fn described(frame: &PlaneFrame, flatness: f64) -> FrameRecord {

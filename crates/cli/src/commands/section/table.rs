@@ -3,20 +3,31 @@
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
-use trueness_inspect::results::section::{ContourRecord, GeometryRecord, SectionDocument, SegmentRecord};
+use trueness_inspect::results::section::{
+    ContourRecord, GeometryRecord, MethodsRecord, SectionDocument, SegmentRecord,
+};
 
 /// Rows of a contour that are shown.
 const ROWS: usize = 60;
 
+/// Contours that are shown.
+const CONTOURS: usize = 40;
+
 /// The document as text.
 pub fn table(document: &SectionDocument) -> String {
     let mut out = read::notes(&document.inputs);
-    for (n, contour) in document.contours.iter().enumerate() {
+    let mut plane = None;
+    for (n, contour) in document.contours.iter().take(CONTOURS).enumerate() {
+        if contour.plane != plane {
+            plane = contour.plane;
+            out.push_str(&plane_line(document, plane));
+        }
         let closed = if contour.closed { "closed" } else { "open" };
         let _ = writeln!(
             out,
-            "contour {}   {closed}   {} points   length {}   noise {}   mm and degrees",
+            "contour {}   {closed}   {}{} points   length {}   noise {}   mm and degrees",
             n + 1,
+            if contour.taken == "row" { String::new() } else { format!("{}   ", contour.taken) },
             grouped(contour.points),
             fixed(contour.length, 6),
             scientific(contour.noise, 2)
@@ -37,7 +48,54 @@ pub fn table(document: &SectionDocument) -> String {
             let _ = writeln!(out, "{word}: {} (first after point {})", list.len(), list[0]);
         }
     }
+    if document.contours.len() > CONTOURS {
+        let _ = writeln!(out, "… and {} more contours", document.contours.len() - CONTOURS);
+    }
+    if let Some(methods) = &document.methods {
+        out.push_str(&methods_table(methods));
+    }
+    let empty = document.planes.iter().filter(|p| p.contours == 0).count();
+    if empty > 0 {
+        let _ = writeln!(out, "planes that meet nothing: {empty} of {}", document.planes.len());
+    }
     out
+}
+
+/// The paper's table of its methods.
+fn methods_table(methods: &MethodsRecord) -> String {
+    let head = ["method", "interval", "x", "y", "rms of line", "max", "rms of curve", "max", "control points"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for m in &methods.table {
+        let chosen = if m.method == methods.chosen { " *" } else { "" };
+        rows.push(vec![
+            format!("{}{chosen}", m.method),
+            fixed(m.interval_length, 6),
+            fixed(m.join[0], 6),
+            fixed(m.join[1], 6),
+            scientific(m.line.rms, 2),
+            scientific(m.line.max, 2),
+            scientific(m.curve.rms, 2),
+            scientific(m.curve.max, 2),
+            m.control_points.to_string(),
+        ]);
+    }
+    format!("{}* the contour above; interval of golden: {}\n", console::columns(&rows), methods.interval)
+}
+
+/// A line about a plane.
+fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
+    let Some((number, plane)) = number.and_then(|n| Some((n, document.planes.get(n as usize)?))) else {
+        return String::new();
+    };
+    let [x, y, z] = plane.normal.map(|n| fixed(n, 6));
+    let mut line = format!("plane {}   {x} {y} {z}, {}", number + 1, fixed(plane.offset, 6));
+    if let Some(area) = plane.area {
+        let _ = write!(line, "   area {}", fixed(area, 6));
+    }
+    if plane.loose > 0 {
+        let _ = write!(line, "   {} points of no contour", grouped(plane.loose));
+    }
+    line + "\n"
 }
 
 fn segments(contour: &ContourRecord) -> String {

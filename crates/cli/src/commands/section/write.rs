@@ -6,12 +6,13 @@ use clap::Args;
 use std::path::PathBuf;
 use trueness_files::drawing::{self, Entity, Layer};
 use trueness_geom::section::{Contour, Geometry, Segment};
+use trueness_inspect::results::section::Section;
 
 /// Files that a section can write.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Output")]
 pub struct Drawings {
-    /// Write a DXF drawing, a layer for each contour
+    /// Write a DXF drawing, a layer for each plane
     #[arg(long, value_name = "FILE")]
     dxf: Option<PathBuf>,
     /// Write an SVG drawing, 1 to 1
@@ -30,9 +31,9 @@ impl Drawings {
             .fold(files, |files, (option, path)| files.also(option, path.as_ref()))
     }
 
-    /// Writes what was asked for.
-    pub fn write(&self, contours: &[Contour], rows: &[(Vec<[f64; 2]>, Option<bool>)]) -> anyhow::Result<()> {
-        let layers: Vec<Layer> = contours.iter().enumerate().map(|(n, c)| layer(n, c)).collect();
+    /// Writes what was asked for: of each section its contours, and `rows`, the points of each contour.
+    pub fn write(&self, sections: &[Section], rows: &[Vec<[f64; 2]>]) -> anyhow::Result<()> {
+        let layers: Vec<Layer> = sections.iter().enumerate().map(|(n, s)| layer(n, &s.contours)).collect();
         if let Some(path) = &self.dxf {
             whole_file(path, |file| drawing::dxf(file, &layers))?;
         }
@@ -42,7 +43,8 @@ impl Drawings {
         if let Some(path) = &self.out {
             whole_file(path, |file| {
                 writeln!(file, "x,y,contour,segment,length,distance")?;
-                for (n, (contour, (row, _))) in contours.iter().zip(rows).enumerate() {
+                let contours = sections.iter().flat_map(|s| &s.contours);
+                for (n, (contour, row)) in contours.zip(rows).enumerate() {
                     for (i, [x, y]) in row.iter().enumerate() {
                         let (segment, length) = (contour.labels[i] + 1, contour.stations[i]);
                         let distance = contour.residuals[i];
@@ -56,7 +58,7 @@ impl Drawings {
     }
 }
 
-fn layer(number: usize, contour: &Contour) -> Layer {
+fn layer(number: usize, contours: &[Contour]) -> Layer {
     let entity = |segment: &Segment| match &segment.geometry {
         Geometry::Line => Entity::Line { start: segment.start, end: segment.end },
         Geometry::Arc { center, radius, start, sweep } => {
@@ -68,5 +70,6 @@ fn layer(number: usize, contour: &Contour) -> Layer {
             points: curve.points().to_vec(),
         },
     };
-    Layer { name: format!("section-{}", number + 1), entities: contour.segments.iter().map(entity).collect() }
+    let entities = contours.iter().flat_map(|c| &c.segments).map(entity).collect();
+    Layer { name: format!("section-{}", number + 1), entities }
 }

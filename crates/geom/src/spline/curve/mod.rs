@@ -9,6 +9,7 @@ mod length;
 mod tests;
 
 pub use closest::Foot;
+pub(crate) use fit::corrected;
 pub use fit::{End, Ends, FitCurveError, Fitted, approximate, chord_parameters, fit, spread_knots};
 
 use super::basis::{KnotError, Knots};

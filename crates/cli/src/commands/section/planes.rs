@@ -1,0 +1,195 @@
+//! Planes that cut a mesh or a cloud.
+
+use super::{Found, described};
+use crate::exit::Usage;
+use crate::progress::Stage;
+use clap::Args;
+use rayon::prelude::*;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::section::{self, Chain, Contour, Options, Plane, PlaneFrame, SectionError};
+use trueness_geom::space::Point;
+use trueness_inspect::results::InputRecord;
+use trueness_inspect::results::section::Section;
+
+/// Where a mesh or cloud is cut.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Planes")]
+pub struct PlaneArgs {
+    /// Cut a mesh or cloud by the plane at right angles to nx,ny,nz at the distance d from the origin; may be repeated
+    #[arg(long, value_name = "NX,NY,NZ,D", allow_hyphen_values = true, value_parser = numbers::<4>)]
+    plane: Vec<[f64; 4]>,
+    /// Cut by parallel planes: normal, first and last distance from the origin, step
+    #[arg(long, value_name = "NX,NY,NZ,FROM,TO,STEP", allow_hyphen_values = true, value_parser = numbers::<6>)]
+    stack: Vec<[f64; 6]>,
+    /// Thickness of the slab of a cloud whose points count as on the plane, mm
+    #[arg(long, value_name = "MM")]
+    thickness: Option<f64>,
+    /// Contours of a cloud go on over gaps up to this, mm [default: told from the density]
+    #[arg(long, value_name = "MM")]
+    gap: Option<f64>,
+}
+
+/// Most planes of a stack.
+const MOST: f64 = 100_000.0;
+
+/// How points are taken to lie on a plane.
+pub struct Slab {
+    thickness: f64,
+    gap: Option<f64>,
+}
+
+/// A plane with a normal of length 1, and its frame.
+pub struct Cut {
+    plane: Plane,
+    frame: PlaneFrame,
+}
+
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let all: Option<Vec<f64>> =
+        text.split(',').map(|w| w.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let all = all.ok_or_else(|| format!("give {N} numbers with commas between them"))?;
+    <[f64; N]>::try_from(all).map_err(|all| format!("give {N} numbers, not {}", all.len()))
+}
+
+impl PlaneArgs {
+    /// The planes in the order of the options: each `--plane`, then each `--stack`.
+    pub fn planes(&self) -> Result<Vec<Cut>, Usage> {
+        let mut all = vec![];
+        for [x, y, z, d] in &self.plane {
+            all.push(cut([*x, *y, *z], *d, "plane")?);
+        }
+        for [x, y, z, from, to, step] in &self.stack {
+            let count = ((to - from) / step + 1e-9).floor();
+            if !(0.0..MOST).contains(&count) {
+                return Err(Usage(format!(
+                    "--stack …,{from},{to},{step}: the step must lead from the first distance to the last in less than {MOST} steps"
+                )));
+            }
+            for k in 0..=count as u32 {
+                all.push(cut([*x, *y, *z], from + f64::from(k) * step, "stack")?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Refuses what makes no sense for a mesh.
+    pub fn fit_a_mesh(&self, shown: &str) -> Result<(), Usage> {
+        if self.plane.is_empty() && self.stack.is_empty() {
+            return Err(Usage(format!(
+                "{shown}: it is a mesh; say where to cut it: --plane nx,ny,nz,d or --stack nx,ny,nz,from,to,step"
+            )));
+        }
+        for (name, given) in [("thickness", self.thickness), ("gap", self.gap)] {
+            if given.is_some() {
+                return Err(Usage(format!("{shown}: it is a mesh; --{name} is for clouds of points")));
+            }
+        }
+        Ok(())
+    }
+
+    /// How the points of a cloud are taken.
+    pub fn slab(&self, shown: &str, planar: bool) -> Result<Slab, Usage> {
+        if planar {
+            return Err(Usage(format!("{shown}: its points have two coordinates; leave --plane and --stack out")));
+        }
+        let positive = |name: &str, x: f64| match x.is_finite() && x > 0.0 {
+            true => Ok(x),
+            false => Err(Usage(format!("--{name} {x}: give a length above 0"))),
+        };
+        let Some(thickness) = self.thickness else {
+            return Err(Usage(format!(
+                "{shown}: it holds points without facets; say with --thickness how far from the plane they count"
+            )));
+        };
+        let gap = self.gap.map(|g| positive("gap", g)).transpose()?;
+        Ok(Slab { thickness: positive("thickness", thickness)?, gap })
+    }
+}
+
+fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, Usage> {
+    let unit = trueness_geom::space::unit(normal);
+    let plane = unit.map(|(normal, _)| Plane { normal, offset: distance });
+    let found = plane.and_then(|plane| Some(Cut { plane, frame: plane.frame()? }));
+    found.ok_or_else(|| Usage(format!("--{option}: the normal {normal:?} has no direction")))
+}
+
+/// What a mesh's facets are where planes cut it.
+pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
+    let rounding = section::rounding(mesh);
+    let of = |cut: &Cut| -> Result<(Section, Vec<Vec<[f64; 2]>>), SectionError> {
+        let chains = section::cut(mesh, &cut.plane, stage)?;
+        let contours = chains
+            .par_iter()
+            .map(|chain| section::chain_contour(chain, &cut.frame, rounding, options, stage))
+            .collect::<Result<Vec<Contour>, SectionError>>()?;
+        let closed = chains.iter().all(|c| c.closed);
+        let area = match closed {
+            true => Ok(section::area(&chains, &cut.frame)),
+            false => Err("a contour is open"),
+        };
+        let rows = chains.iter().map(|c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect());
+        Ok((cut.section(contours, area, 0), rows.collect()))
+    };
+    gather(planes.par_iter().map(of).collect())
+}
+
+/// Contours of a cloud's points near planes.
+pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, stage: &Stage) -> Found {
+    let of = |cut: &Cut| -> Result<(Section, Vec<Vec<[f64; 2]>>), SectionError> {
+        let (numbers, flat) = section::slab(points, &cut.plane, &cut.frame, slab.thickness);
+        let rows = section::order(&flat, slab.gap, stage)?;
+        let own: Vec<Vec<[f64; 2]>> =
+            rows.iter().map(|row| row.numbers.iter().map(|i| flat[*i]).collect()).collect();
+        let contours = (own.par_iter().zip(&rows))
+            .map(|(points, row)| {
+                let closed = options.closed.unwrap_or(row.closed);
+                let options = Options { closed: Some(closed), ordered: true, ..*options };
+                section::contour(points, &options, stage)
+            })
+            .collect::<Result<Vec<Contour>, SectionError>>()?;
+        let loose = numbers.len() - rows.iter().map(|r| r.numbers.len()).sum::<usize>();
+        Ok((cut.section(contours, Err("points have no facets"), loose), own))
+    };
+    gather(planes.par_iter().map(of).collect())
+}
+
+/// Sections of one plane each, with the points of their contours.
+type Each = Vec<Result<(Section, Vec<Vec<[f64; 2]>>), SectionError>>;
+
+fn gather(each: Each) -> Found {
+    let (mut sections, mut rows) = (vec![], vec![]);
+    for one in each {
+        let (section, own) = one?;
+        sections.push(section);
+        rows.extend(own);
+    }
+    Ok((sections, rows))
+}
+
+impl Cut {
+    fn section(&self, contours: Vec<Contour>, area: Result<f64, &'static str>, loose: usize) -> Section {
+        let plane = Some((self.plane.normal, self.plane.offset));
+        Section { frame: described(&self.frame, 0.0), plane, area, loose, contours }
+    }
+}
+
+/// Why there is no contour: where the planes are, and where the part is.
+pub fn nothing_met(planes: &[Cut], record: &InputRecord) -> String {
+    let range = |normal: Point| {
+        let bounds = record.bounds.as_ref()?;
+        let mut range = [0.0; 2];
+        for k in 0..3 {
+            let ends = [normal[k] * bounds.min[k], normal[k] * bounds.max[k]];
+            range[0] += ends[0].min(ends[1]);
+            range[1] += ends[0].max(ends[1]);
+        }
+        Some(range)
+    };
+    let (normal, offset) = (planes[0].plane.normal, planes[0].plane.offset);
+    let Some([low, high]) = range(normal) else { return "no plane meets it".into() };
+    let which = if planes.len() == 1 { "the plane meets" } else { "no plane meets" };
+    format!(
+        "{which} {}; along the first normal it reaches from {low} to {high} mm, the first plane lies at {offset}",
+        if planes.len() == 1 { "nothing" } else { "it" }
+    )
+}

@@ -1,0 +1,421 @@
+//! Contours of sections of meshes: exact lines and arcs where the facets are those of a drawing, a row of points where they
+//! are those of a scan.
+
+use super::contour::contour;
+use super::cut::{Chain, PlaneFrame};
+use super::facets::{Item, Polygon, SHARP, Shape, angle, length};
+use super::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken};
+use super::row::check;
+use crate::mesh::Mesh;
+use crate::num::special::student_quantile;
+use crate::progress::Progress;
+
+/// A polyline of fewer vertices is taken as it is: points so few tell no noise.
+const FEW: usize = 9;
+/// Facets are those of a drawing where this share of the points lies on straight runs or between the chords of arcs.
+const EXACT: f64 = 0.3;
+/// So many facets and arcs that meet in a turn, but no sharp one, or so many arcs in succession, are chords of a curve.
+const CURVE: (usize, usize) = (8, 3);
+
+/// The distance up to which coordinates of a mesh are uncertain by the rounding of files: four roundings of the greatest in
+/// single precision, as STL holds it.
+pub fn rounding(mesh: &Mesh) -> f64 {
+    let greatest =
+        mesh.positions.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
+    4.0 * f64::from(f32::EPSILON) * 0.5 * greatest
+}
+
+/// The lines, arcs and curves of a chain in which a plane cuts a mesh.
+///
+/// `frame` is that of the plane; `rounding` the distance that the coordinates are uncertain by. The chain's points carry no
+/// random noise where the facets are those of a drawing: then the edges of flat faces are lines, exactly, chords whose ends
+/// lie on a circle are an arc, and only what is neither is looked at as a row of points, with the distance between chords and
+/// curve as what cannot be told from 0. A chain of many facets of which hardly two follow each other straight or around a
+/// circle is that of a scan. Then points whose edges share no vertex are independent, and are a row as [`contour`] takes it;
+/// so too where `options` give the noise or a continuity. [`Contour::taken`] tells which it was.
+///
+/// Labels, residuals and stations are those of the chain's points. Intervals of joins of exact lines and arcs are where
+/// the two are no farther apart than `rounding`.
+///
+/// # Errors
+/// Those of [`contour`]; a chain of at least two points has at least a line.
+pub fn chain_contour(
+    chain: &Chain,
+    frame: &PlaneFrame,
+    rounding: f64,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    check(options)?;
+    let points: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
+    if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(SectionError::NotFinite { index });
+    }
+    if points.len() < 2 {
+        return Err(SectionError::TooFewPoints { found: points.len() });
+    }
+    let closed = options.closed.unwrap_or(chain.closed);
+    let polygon = Polygon::new(&points, closed, rounding);
+    let forced = options.noise.is_some() || options.continuity.is_some();
+    if polygon.at.len() >= 2 && !forced {
+        let items = polygon.items(rounding);
+        if is_exact(&points, &polygon, &items) {
+            return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
+        }
+    }
+    let independent = independent(chain);
+    let kept = if independent.len() < 3 * FEW { (0..points.len()).collect() } else { independent };
+    let row: Vec<[f64; 2]> = kept.iter().map(|i| points[*i]).collect();
+    let own = Options { closed: Some(closed), ordered: true, ..*options };
+    Ok(spread(contour(&row, &own, progress)?, &kept, &points, Taken::Scan))
+}
+
+fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
+    let straight = points.len() - polygon.at.len();
+    let chords: usize = items.iter().filter(|i| i.shape != Shape::Line).map(|i| i.to - i.from - 1).sum();
+    polygon.at.len() < FEW || (straight + chords) as f64 >= EXACT * points.len() as f64
+}
+
+/// Points whose edges share no vertex with that of the one before: their noise is independent.
+fn independent(chain: &Chain) -> Vec<usize> {
+    let shares = |i: usize, j: usize| {
+        let (a, b) = (chain.edges[i], chain.edges[j]);
+        a.iter().any(|v| b.contains(v))
+    };
+    let mut kept: Vec<usize> = vec![];
+    for i in 0..chain.edges.len() {
+        if kept.last().is_none_or(|last| !shares(*last, i)) {
+            kept.push(i);
+        }
+    }
+    while chain.closed && kept.len() > 1 && shares(kept[0], kept[kept.len() - 1]) {
+        kept.pop();
+    }
+    kept
+}
+
+/// A contour found from some of the points, for all of them.
+fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> Contour {
+    let starts: Vec<f64> = starts(&found.segments);
+    let n = kept.len();
+    let mut all = Contour { taken, ..found };
+    let row = [
+        std::mem::take(&mut all.outliers),
+        std::mem::take(&mut all.repeated),
+        std::mem::take(&mut all.gaps),
+    ];
+    [all.outliers, all.repeated, all.gaps] = row.map(|list| list.into_iter().map(|i| kept[i]).collect());
+    let own = (all.labels.clone(), all.residuals.clone(), all.stations.clone());
+    all.labels = vec![0; points.len()];
+    all.residuals = vec![0.0; points.len()];
+    all.stations = vec![0.0; points.len()];
+    let mut next = 0;
+    for i in 0..points.len() {
+        if next < n && kept[next] == i {
+            (all.labels[i], all.residuals[i], all.stations[i]) = (own.0[next], own.1[next], own.2[next]);
+            next += 1;
+            continue;
+        }
+        let around = [own.0[(next + n - 1) % n], own.0[next % n]];
+        (all.labels[i], all.stations[i], all.residuals[i]) =
+            nearest(&all.segments, &starts, around.into_iter(), points[i]);
+    }
+    all
+}
+
+/// Lengths before each segment.
+fn starts(segments: &[Segment]) -> Vec<f64> {
+    segments
+        .iter()
+        .scan(0.0, |sum, s| {
+            *sum += s.length;
+            Some(*sum - s.length)
+        })
+        .collect()
+}
+
+/// Of these segments the nearest to a point: its number, the station and the distance.
+fn nearest(
+    segments: &[Segment],
+    starts: &[f64],
+    among: impl Iterator<Item = u32>,
+    point: [f64; 2],
+) -> (u32, f64, f64) {
+    let mut best = (0, 0.0, f64::INFINITY);
+    for label in among {
+        let (station, off) = segments[label as usize].foot(point);
+        if off.abs() < best.2.abs() {
+            best = (label, starts[label as usize] + station, off);
+        }
+    }
+    best
+}
+
+/// Consecutive items of one treatment: exact, or a curve of segments found from its points.
+struct Run {
+    items: Vec<Item>,
+    curve: Option<Contour>,
+}
+
+/// A polyline of exact facets.
+struct Sheet<'a> {
+    points: &'a [[f64; 2]],
+    polygon: Polygon,
+    rounding: f64,
+    options: &'a Options,
+}
+
+impl Sheet<'_> {
+    fn contour(&self, items: &[Item], progress: &dyn Progress) -> Result<Contour, SectionError> {
+        if items.len() == 1 && self.polygon.closed {
+            return Ok(self.finish(vec![self.segment(&items[0])], vec![], &[(items[0], 0..1)]));
+        }
+        let mut runs = self.smooth_runs(items);
+        let closed = self.polygon.closed;
+        let whole = closed && runs.len() == 1 && self.is_smooth(&items[items.len() - 1], &items[0]);
+        for run in &mut runs {
+            if self.is_curve(&run.items) {
+                run.curve = Some(self.fit(&run.items, whole, progress)?);
+            }
+        }
+        if let ([run], true) = (&mut runs[..], whole) {
+            if let Some(found) = run.curve.take() {
+                let range = 0..found.segments.len();
+                let item = Item { from: 0, to: self.polygon.facets(), ..run.items[0] };
+                let mut all = self.finish(found.segments, found.joins, &[(item, range)]);
+                (all.noise, all.spacing) = (found.noise, found.spacing);
+                return Ok(all);
+            }
+        }
+        let mut segments: Vec<Segment> = vec![];
+        let mut joins: Vec<Option<Join>> = vec![];
+        let mut owners: Vec<(Item, std::ops::Range<usize>)> = vec![];
+        // The vertex at which each segment ends, and the slack of its direction there.
+        let mut ends: Vec<(usize, f64)> = vec![];
+        for run in &runs {
+            let first = segments.len();
+            let (from, to) = (run.items[0].from, run.items[run.items.len() - 1].to);
+            let Some(found) = &run.curve else {
+                for item in &run.items {
+                    owners.push((*item, segments.len()..segments.len() + 1));
+                    segments.push(self.segment(item));
+                    joins.push(None);
+                    ends.push((item.to, 0.0));
+                }
+                continue;
+            };
+            segments.extend(found.segments.iter().cloned());
+            (segments[first].start, segments[first].end) = (self.polygon.vertex(from), segments[first].end);
+            let last = segments.len() - 1;
+            segments[last].end = self.polygon.vertex(to);
+            joins.extend(found.joins.iter().cloned().map(Some));
+            joins.push(None);
+            let slack = self.chord_turn(&run.items);
+            ends.extend((first..=last).map(|_| (to, slack)));
+            owners.push((Item { from, to, ..run.items[0] }, first..last + 1));
+        }
+        let count = if self.polygon.closed { segments.len() } else { segments.len() - 1 };
+        let joins = (0..count)
+            .map(|k| {
+                let after = (k + 1) % segments.len();
+                let slack = ends[k].1.max(ends[after].1);
+                joins[k]
+                    .clone()
+                    .unwrap_or_else(|| self.join(&segments[k], &segments[after], ends[k].0, slack))
+            })
+            .collect();
+        Ok(self.finish(segments, joins, &owners))
+    }
+
+    fn is_smooth(&self, before: &Item, after: &Item) -> bool {
+        debug_assert_eq!(before.to % self.polygon.at.len(), after.from % self.polygon.at.len());
+        let at = after.from % self.polygon.at.len();
+        self.polygon.turn(at).abs() <= SHARP
+    }
+
+    /// Items between corners. Those of a closed polygon start at one, if there is any.
+    fn smooth_runs(&self, items: &[Item]) -> Vec<Run> {
+        let n = items.len();
+        let mut items = items.to_vec();
+        if self.polygon.closed {
+            let corner = (0..n).find(|k| !self.is_smooth(&items[(k + n - 1) % n], &items[*k]));
+            items.rotate_left(corner.unwrap_or(0));
+            // Numbers go on over the start.
+            let mut at = items[0].from;
+            for item in &mut items {
+                (item.from, item.to) = (at, at + item.to - item.from);
+                at = item.to;
+            }
+        }
+        let mut runs: Vec<Run> = vec![];
+        for (k, item) in items.iter().enumerate() {
+            match runs.last_mut() {
+                Some(run) if self.is_smooth(&items[k - 1], item) => run.items.push(*item),
+                _ => runs.push(Run { items: vec![*item], curve: None }),
+            }
+        }
+        runs
+    }
+
+    /// Whether items without a corner are chords of a curve.
+    fn is_curve(&self, items: &[Item]) -> bool {
+        let segments: Vec<Segment> = items.iter().map(|i| self.segment(i)).collect();
+        let bent = |w: &[usize]| !self.is_tangent(&segments[w[0]], &segments[w[1]], items[w[1]].from, 0.0);
+        let numbers: Vec<usize> = (0..items.len()).collect();
+        let turns = numbers.windows(2).filter(|w| bent(w)).count();
+        let arcs = items.split(|i| i.shape == Shape::Line).map(<[Item]>::len).max();
+        turns >= CURVE.0 || arcs.unwrap_or(0) >= CURVE.1
+    }
+
+    /// Whether two segments have a common tangent at a vertex, where their directions are uncertain by `slack` at least.
+    fn is_tangent(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> bool {
+        let turn = angle(before.directions()[1], after.directions()[0]);
+        turn.abs() <= slack.max(self.polygon.slack(self.beside(vertex), self.rounding))
+    }
+
+    /// Length of the shorter facet beside a vertex.
+    fn beside(&self, vertex: usize) -> f64 {
+        let n = self.polygon.at.len();
+        self.polygon.facet_length((vertex + n - 1) % n).min(self.polygon.facet_length(vertex % n))
+    }
+
+    /// Median turn between the facets of a curve.
+    fn chord_turn(&self, items: &[Item]) -> f64 {
+        let (from, to) = (items[0].from, items[items.len() - 1].to);
+        let n = self.polygon.at.len();
+        let mut turns: Vec<f64> = (from + 1..to).map(|i| self.polygon.turn(i % n).abs()).collect();
+        turns.sort_by(f64::total_cmp);
+        turns.get(turns.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// A curve as a row of points: its vertices, and on long facets places between them.
+    fn fit(&self, items: &[Item], closed: bool, progress: &dyn Progress) -> Result<Contour, SectionError> {
+        let (from, to) = (items[0].from, items[items.len() - 1].to);
+        let n = self.polygon.at.len();
+        let mut lengths: Vec<f64> = (from..to).map(|i| self.polygon.facet_length(i)).collect();
+        lengths.sort_by(f64::total_cmp);
+        let spacing = lengths[lengths.len() / 2];
+        let mut off: Vec<f64> = (from + 1..to)
+            .map(|i| {
+                let shorter = self.polygon.facet_length(i - 1).min(self.polygon.facet_length(i));
+                0.125 * shorter * self.polygon.turn(i % n).abs()
+            })
+            .collect();
+        off.sort_by(f64::total_cmp);
+        let chordal = off[off.len() / 2].max(self.rounding);
+        let mut row = vec![];
+        for i in from..to {
+            let (a, b) = (self.polygon.vertex(i), self.polygon.vertex(i + 1));
+            let parts = (length(a, b) / spacing).round().clamp(1.0, 1000.0) as usize;
+            for k in 0..parts {
+                let t = k as f64 / parts as f64;
+                row.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
+            }
+        }
+        if !closed {
+            row.push(self.polygon.vertex(to));
+        }
+        let options =
+            Options { closed: Some(closed), ordered: true, resolution: Some(chordal), ..*self.options };
+        contour(&row, &options, progress)
+    }
+
+    fn segment(&self, item: &Item) -> Segment {
+        let (start, end) = (self.polygon.vertex(item.from), self.polygon.vertex(item.to));
+        let base = Segment {
+            geometry: Geometry::Line,
+            start,
+            end,
+            length: length(start, end),
+            count: 0,
+            rms: 0.0,
+            max: 0.0,
+            curvature: [0.0; 2],
+        };
+        let Shape::Arc(center, curvature) = item.shape else { return base };
+        let out = |i: usize| {
+            let p = self.polygon.vertex(i);
+            [p[0] - center[0], p[1] - center[1]]
+        };
+        let whole = self.polygon.closed && item.to - item.from == self.polygon.facets();
+        let turned: f64 = (item.from..item.to).map(|i| angle(out(i), out(i + 1))).sum();
+        let sweep = if whole { std::f64::consts::TAU * turned.signum() } else { turned };
+        let radius = 1.0 / curvature.abs();
+        let at = libm::atan2(out(item.from)[1], out(item.from)[0]);
+        let geometry = Geometry::Arc { center, radius, start: at, sweep };
+        Segment { geometry, length: radius * sweep.abs(), curvature: [curvature; 2], ..base }
+    }
+
+    /// The join of two exact segments at a vertex, or of one with a curve whose direction there is uncertain by `slack`.
+    fn join(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> Join {
+        let turn = angle(before.directions()[1], after.directions()[0]);
+        let beside = self.beside(vertex);
+        let smooth = self.is_tangent(before, after, vertex, slack);
+        // Where the two are no farther apart than what rounding loses.
+        let uncertainty = match smooth {
+            true => {
+                let jump = (before.curvature[1] - after.curvature[0]).abs();
+                (2.0 * self.rounding / jump.max(f64::MIN_POSITIVE)).sqrt().min(beside)
+            }
+            false => self.rounding / libm::sin(0.5 * turn.abs()).max(1e-3),
+        };
+        let [along, next] = [before.directions()[1], after.directions()[0]].map(|v| {
+            let size = libm::hypot(v[0], v[1]).max(f64::MIN_POSITIVE);
+            [v[0] / size, v[1] / size]
+        });
+        let along = if smooth { along } else { [along[0] - next[0], along[1] - next[1]] };
+        let size = libm::hypot(along[0], along[1]).max(f64::MIN_POSITIVE);
+        let reach = student_quantile(1.0 - self.options.level, 1e6) * uncertainty / size;
+        let point = self.polygon.vertex(vertex);
+        Join {
+            point,
+            continuity: if smooth { Continuity::G1 } else { Continuity::G0 },
+            interval: [-reach, reach].map(|x| [point[0] + x * along[0], point[1] + x * along[1]]),
+            uncertainty,
+            open: [false; 2],
+            turn: if smooth { 0.0 } else { turn },
+        }
+    }
+
+    /// Puts the contour together: what the points say of each segment.
+    fn finish(
+        &self,
+        segments: Vec<Segment>,
+        joins: Vec<Join>,
+        owners: &[(Item, std::ops::Range<usize>)],
+    ) -> Contour {
+        let count = self.points.len();
+        let mut all = Contour { closed: self.polygon.closed, segments, joins, ..Contour::default() };
+        all.taken = Taken::Facets;
+        (all.labels, all.residuals, all.stations) = (vec![0; count], vec![0.0; count], vec![0.0; count]);
+        let starts = starts(&all.segments);
+        for (item, range) in owners {
+            let number = |i: usize| self.polygon.numbers[i % self.polygon.at.len()];
+            let (from, to) = (number(item.from), number(item.to));
+            let whole = self.polygon.closed && item.to - item.from == self.polygon.facets();
+            let steps = if whole { count } else { (to + count - from) % count };
+            // The last point of all belongs to the last segment, that of others to the next.
+            let steps = steps + usize::from(!self.polygon.closed && to + 1 == count);
+            for i in (from..from + steps).map(|i| i % count) {
+                let among = range.clone().map(|l| l as u32);
+                (all.labels[i], all.stations[i], all.residuals[i]) =
+                    nearest(&all.segments, &starts, among, self.points[i]);
+            }
+        }
+        all.segments.iter_mut().for_each(|s| (s.count, s.rms, s.max) = (0, 0.0, 0.0));
+        for (label, off) in all.labels.iter().zip(&all.residuals) {
+            let segment = &mut all.segments[*label as usize];
+            segment.count += 1;
+            segment.rms += off * off;
+            segment.max = segment.max.max(off.abs());
+        }
+        all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
+        let sum: f64 = all.residuals.iter().map(|r| r * r).sum();
+        all.noise = (sum / count as f64).sqrt();
+        all.spacing = all.length() / count as f64;
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,213 @@
+//! Sections of prisms whose outlines are known, of scans of them, and of what has few facets.
+
+use super::*;
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::section::{Kind, Plane, cut};
+
+/// The walls of prisms over closed outlines, each quad in two facets, rounded to single precision.
+fn prisms(outlines: &[Vec<[f64; 2]>], noise: f64) -> Mesh {
+    let random = &mut Random::new(11);
+    let mut mesh = Mesh::default();
+    for outline in outlines {
+        let first = mesh.positions.len() as u32;
+        let n = outline.len() as u32;
+        for p in outline {
+            for z in [0.0, 10.0] {
+                let off: [f64; 3] = std::array::from_fn(|_| noise * (random.unit() - 0.5));
+                let p = [p[0] + off[0], p[1] + off[1], z + off[2]];
+                mesh.positions.push(p.map(|x| f64::from(x as f32)));
+            }
+        }
+        for i in 0..n {
+            let (a, b) = (first + 2 * i, first + 2 * ((i + 1) % n));
+            mesh.faces.push([a, b, b + 1]);
+            mesh.faces.push([a, b + 1, a + 1]);
+        }
+    }
+    mesh
+}
+
+/// The chords of an arc, its last point left out.
+fn arc(center: [f64; 2], radius: f64, from: f64, to: f64, chords: usize) -> Vec<[f64; 2]> {
+    (0..chords)
+        .map(|i| libm::sincos((from + (to - from) * i as f64 / chords as f64).to_radians()))
+        .map(|(s, c)| [center[0] + radius * c, center[1] + radius * s])
+        .collect()
+}
+
+fn sections(outlines: &[Vec<[f64; 2]>]) -> Vec<Contour> {
+    let mesh = prisms(outlines, 0.0);
+    let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 3.7 };
+    let frame = PlaneFrame { origin: [0.0, 0.0, 3.7], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
+    let own = rounding(&mesh);
+    cut(&mesh, &plane, &Silent)
+        .unwrap()
+        .iter()
+        .map(|chain| chain_contour(chain, &frame, own, &Options::default(), &Silent).unwrap())
+        .collect()
+}
+
+/// Kinds in order around, from the longest line on.
+fn kinds(contour: &Contour) -> Vec<Kind> {
+    let mut all: Vec<Kind> = contour.segments.iter().map(|s| s.geometry.kind()).collect();
+    let size = |s: &Segment| if s.geometry.kind() == Kind::Line { s.length } else { 0.0 };
+    let first = contour.segments.iter().enumerate().max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
+    all.rotate_left(first.unwrap().0);
+    all
+}
+
+/// Each segment ends where the next starts, and every point has its segment.
+fn holds_together(contour: &Contour) {
+    let n = contour.segments.len();
+    for (i, join) in contour.joins.iter().enumerate() {
+        assert!(length(contour.segments[i].end, join.point) < 1e-5, "{i}");
+        assert!(length(contour.segments[(i + 1) % n].start, join.point) < 1e-5, "{i}");
+    }
+    let count: usize = contour.segments.iter().map(|s| s.count).sum();
+    assert_eq!((count, contour.labels.len()), (contour.residuals.len(), contour.stations.len()));
+    assert!(contour.segments.iter().all(|s| s.count > 0));
+}
+
+#[test]
+fn polygons_are_lines_with_corners() {
+    let square = vec![[0.0, 0.0], [40.0, 0.0], [40.0, 40.0], [0.0, 40.0]];
+    let hexagon = arc([100.0, 0.0], 8.0, 10.0, 370.0, 6);
+    let bracket: Vec<[f64; 2]> =
+        vec![[0.0, 60.0], [70.0, 60.0], [70.0, 65.0], [30.0, 80.0], [5.0, 80.0], [5.0, 120.0], [0.0, 120.0]];
+    for (contour, corners) in sections(&[square, hexagon, bracket]).iter().zip([4, 6, 7]) {
+        assert_eq!(kinds(contour), vec![Kind::Line; corners]);
+        assert!(contour.closed && contour.joins.iter().all(|j| j.continuity == Continuity::G0));
+        assert!(contour.joins.iter().all(|j| j.uncertainty < 1e-3));
+        holds_together(contour);
+    }
+}
+
+#[test]
+fn bores_are_circles_and_slots_and_fillets_have_arcs() {
+    let bore = arc([12.0, 7.0], 3.25, 0.0, 360.0, 12);
+    let fine = arc([-40.0, 7.0], 20.0, 3.0, 363.0, 720);
+    let [right, left] = [arc([100.0, 0.0], 6.0, -90.0, 90.0, 9), arc([80.0, 0.0], 6.0, 90.0, 270.0, 9)];
+    let slot = [right, vec![[100.0, 6.0]], left, vec![[80.0, -6.0]]].concat();
+    // A plate with one corner rounded by five chords, one by two, and two sharp ones.
+    let plate = [
+        vec![[0.0, -50.0]],
+        arc([55.0, -45.0], 5.0, -90.0, 0.0, 5),
+        vec![[60.0, -45.0]],
+        arc([58.0, -12.0], 2.0, 0.0, 90.0, 2)[..].to_vec(),
+        vec![[58.0, -10.0], [0.0, -10.0]],
+    ]
+    .concat();
+    let found = sections(&[bore, fine, slot, plate]);
+    for (contour, (center, radius)) in found.iter().zip([([12.0, 7.0], 3.25), ([-40.0, 7.0], 20.0)]) {
+        assert!(contour.joins.is_empty() && contour.segments.len() == 1);
+        let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else { panic!() };
+        assert!(length(c, center) < 1e-5 && (r - radius).abs() < 1e-5, "{c:?} {r}");
+        assert!((sweep.abs() - std::f64::consts::TAU).abs() < 1e-9);
+        holds_together(contour);
+    }
+    use Kind::{Arc, Line};
+    assert_eq!(kinds(&found[2]), [Line, Arc, Line, Arc]);
+    for join in &found[2].joins {
+        assert_eq!(join.continuity, Continuity::G1);
+        let at = [80.0, 100.0].map(|x| length([x, join.point[1].signum() * 6.0], join.point));
+        assert!(at[0].min(at[1]) < 1e-5, "{join:?}");
+    }
+    assert_eq!(kinds(&found[3]), [Line, Line, Line, Arc, Line, Arc]);
+    let g0 = found[3].joins.iter().filter(|j| j.continuity == Continuity::G0).count();
+    assert_eq!(g0, 2);
+    let radii: Vec<f64> = found[3]
+        .segments
+        .iter()
+        .filter_map(|s| match s.geometry {
+            Geometry::Arc { radius, .. } => Some(radius),
+            _ => None,
+        })
+        .collect();
+    assert!(radii.iter().any(|r| (r - 5.0).abs() < 1e-4) && radii.iter().any(|r| (r - 2.0).abs() < 1e-3));
+    found[2..].iter().for_each(holds_together);
+}
+
+/// A line goes on as half a wave of a cosine and a line again: the free curve is no row of lines.
+#[test]
+fn a_free_curve_between_lines_is_a_spline() {
+    let wave = |x: f64| 6.0 * (1.0 - libm::cos(x * std::f64::consts::PI / 40.0)) / 2.0;
+    let mut outline = vec![[-30.0, -20.0], [70.0, -20.0], [70.0, 6.0]];
+    outline.extend((0..=40).rev().map(|i| f64::from(i)).map(|x| [x, wave(x)]));
+    outline.push([-30.0, 0.0]);
+    let found = &sections(&[outline.clone()])[0];
+    use Kind::{Line, Spline};
+    assert_eq!(kinds(found), [Line, Line, Line, Spline, Line, Line]);
+    let spline = found.segments.iter().find(|s| s.geometry.kind() == Spline).unwrap();
+    for p in outline.iter().filter(|p| p[0] > 3.0 && p[0] < 37.0 && p[1] > -1.0) {
+        // Chords of 1 mm and a radius of 54 mm or more are 0.0023 mm off.
+        assert!(spline.foot(*p).1.abs() < 0.003, "{p:?} {:?}", spline.foot(*p));
+    }
+    holds_together(found);
+}
+
+/// The same outline scanned: uneven points, noise of 0.005 mm.
+#[test]
+fn a_scan_is_a_row_of_independent_points() {
+    let mut outline = vec![];
+    let random = &mut Random::new(3);
+    let mut s = 0.0;
+    while s < 100.0 + 20.0 * std::f64::consts::PI {
+        outline.push(stadium(s));
+        s += 0.3 + 0.4 * random.unit();
+    }
+    let mesh = prisms(&[outline], 0.02);
+    let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 5.0 };
+    let frame = PlaneFrame { origin: [0.0, 0.0, 5.0], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
+    let chains = cut(&mesh, &plane, &Silent).unwrap();
+    let found = chain_contour(&chains[0], &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
+    assert_eq!(found.taken, Taken::Scan);
+    use Kind::{Arc, Line};
+    assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
+    for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
+        let join = found.joins.iter().find(|j| length(j.point, truth) < 0.5).unwrap();
+        // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle; that moves a join by no more than twice as much.
+        assert!(length(join.point, truth) < 5.0 * join.uncertainty + 0.012, "{join:?}");
+    }
+    assert_eq!(found.labels.len(), chains[0].points.len());
+    assert!(found.residuals.iter().all(|r| r.abs() < 0.03));
+}
+
+/// Two lines of length 50 and two half circles of radius 10.
+fn stadium(s: f64) -> [f64; 2] {
+    let half = 10.0 * std::f64::consts::PI;
+    let around = |x: f64, a: f64| {
+        let (sin, cos) = libm::sincos(a);
+        [x + 10.0 * sin, 10.0 - 10.0 * cos]
+    };
+    match s {
+        s if s < 50.0 => [s, 0.0],
+        s if s < 50.0 + half => around(50.0, (s - 50.0) / 10.0),
+        s if s < 100.0 + half => [100.0 + half - s, 20.0],
+        s => around(0.0, std::f64::consts::PI + (s - 100.0 - half) / 10.0),
+    }
+}
+
+#[test]
+fn few_points_and_wrong_options() {
+    let frame = PlaneFrame { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
+    let chain = |points: Vec<[f64; 3]>| Chain {
+        edges: (0..points.len() as u32).map(|i| [i, i + 1]).collect(),
+        points,
+        closed: false,
+    };
+    let options = Options::default();
+    let two = chain(vec![[0.0; 3], [2.0, 0.0, 0.0]]);
+    let line = chain_contour(&two, &frame, 1e-6, &options, &Silent).unwrap();
+    assert!(line.segments.len() == 1 && line.joins.is_empty() && !line.closed);
+    let one = chain(vec![[0.0; 3]]);
+    assert!(matches!(
+        chain_contour(&one, &frame, 1e-6, &options, &Silent),
+        Err(SectionError::TooFewPoints { found: 1 })
+    ));
+    let wrong = Options { level: 2.0, ..options };
+    assert!(matches!(
+        chain_contour(&two, &frame, 1e-6, &wrong, &Silent),
+        Err(SectionError::WrongOption { .. })
+    ));
+}
