@@ -62,7 +62,7 @@ fn check(name: &str, facets: &[Facet]) -> usize {
 #[test]
 fn whole_numbers_touch_overlap_and_degenerate() {
     let random = &mut Random::new(1);
-    for (n, side) in [(0, 2), (1, 2), (9, 2), (40, 3), (300, 4), (500, 9), (700, 40)] {
+    for (n, side) in [(0, 2), (1, 2), (9, 2), (40, 3), (150, 4), (220, 9), (300, 40)] {
         let mut corner = || std::array::from_fn(|_| random.below(side) as f64 - 1.0);
         let facets: Vec<Facet> = (0..n).map(|_| std::array::from_fn(|_| corner())).collect();
         check(&format!("whole numbers {side}"), &facets);
