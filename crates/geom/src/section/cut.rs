@@ -321,6 +321,59 @@ mod tests {
         }
     }
 
+    /// A ring of square section on whole numbers, and a staircase of boxes: planes through their vertices, edges and facets.
+    #[test]
+    fn planes_through_vertices_edges_and_facets_close_too() {
+        let mut ring = Mesh::default();
+        let corners = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]];
+        let inner = [[3.0, 3.0], [6.0, 3.0], [6.0, 6.0], [3.0, 6.0]];
+        for (z, outline) in [(0.0, corners), (0.0, inner), (4.0, corners), (4.0, inner)] {
+            outline.iter().for_each(|p| ring.positions.push([p[0], p[1], z]));
+        }
+        let mut quad = |a: u32, b: u32, c: u32, d: u32| ring.faces.extend([[a, b, c], [a, c, d]]);
+        for i in 0..4 {
+            let j = (i + 1) % 4;
+            quad(i, j, j + 8, i + 8);
+            quad(j + 4, i + 4, i + 12, j + 12);
+            quad(j, i, i + 4, j + 4);
+            quad(i + 8, j + 8, j + 12, i + 12);
+        }
+        let random = &mut Random::new(21);
+        let mut planes = vec![];
+        for axis in 0..3 {
+            for at in 0..10 {
+                let mut normal = [0.0; 3];
+                normal[axis] = 1.0;
+                planes.push(Plane { normal, offset: f64::from(at) });
+                normal[axis] = -1.0;
+                planes.push(Plane { normal, offset: -f64::from(at) });
+            }
+        }
+        for _ in 0..300 {
+            // Whole numbers: the plane of three vertices passes through them exactly.
+            let [a, b, c] = [0, 1, 2].map(|_| ring.positions[random.below(16) as usize]);
+            let normal = cross(minus(b, a), minus(c, a));
+            if norm(normal) > 0.0 {
+                planes.push(Plane { normal, offset: dot(normal, a) });
+            }
+        }
+        for plane in planes {
+            let chains = cut(&ring, &plane, &Silent).unwrap();
+            for chain in &chains {
+                let n = chain.points.len();
+                assert!(chain.closed && chain.edges.len() == n, "{plane:?}");
+                assert!((0..n).all(|i| chain.points[i] != chain.points[(i + 1) % n]), "{plane:?}");
+            }
+            let frame = plane.frame().unwrap();
+            let (a, b) = (area(&chains, &frame), brute(&ring, &plane, &frame));
+            assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{plane:?}: {a} {b}");
+        }
+        // Between the planes of its faces: the ring's area.
+        let flat = Plane { normal: [0.0, 0.0, 1.0], offset: 2.5 };
+        let chains = cut(&ring, &flat, &Silent).unwrap();
+        assert!(chains.len() == 2 && (area(&chains, &flat.frame().unwrap()) - 72.0).abs() < 1e-12);
+    }
+
     /// A pyramid of five vertices at two heights that broke loops elsewhere; its tip; a plane beside it.
     #[test]
     fn heights_at_and_near_vertices() {

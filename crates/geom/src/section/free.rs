@@ -205,6 +205,10 @@ impl Table {
             let step = tangential / (1.0 - place.curvature * normal).max(0.3);
             t = (t + step.clamp(-2.0 * width, 2.0 * width) / self.length).clamp(-0.5, 1.5);
             place = self.place(t);
+            // Newton's method squares a small error: the next step would be below what counts.
+            if tangential.abs() < 1e-3 * width {
+                break;
+            }
         }
         (t, place)
     }

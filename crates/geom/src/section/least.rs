@@ -64,6 +64,9 @@ pub(super) struct Stop {
     pub shortest: f64,
     /// Weight of what must vanish.
     pub stiff: f64,
+    /// Sum of squares that is asked for: where a step gains less than a tenth of what is missing, it will not be reached.
+    /// Infinite where none is.
+    pub target: f64,
 }
 
 /// An unknown of the chain.
@@ -264,7 +267,7 @@ impl Work {
         self.stiff = stop.stiff;
         self.measure(row, state, true);
         let mut cost = self.cost(state, held);
-        let (mut lambda, mut stalled) = (1e-4, 0);
+        let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
         let mut fresh = true;
         for _ in 0..stop.steps {
             if fresh {
@@ -292,7 +295,9 @@ impl Work {
             self.measure(row, &mut next, true);
             let after = self.cost(&next, held);
             if after <= cost {
-                stalled = if cost - after <= stop.gain * cost { stalled + 1 } else { 0 };
+                taken += 1;
+                let missed = taken > 1 && cost - after < 0.1 * (after - stop.target);
+                stalled = if cost - after <= stop.gain * cost || missed { stalled + 1 } else { 0 };
                 (cost, lambda, fresh) = (after, (lambda * 0.1).max(1e-12), true);
                 *state = next;
                 if stalled >= 1 {

@@ -8,10 +8,9 @@
 //! methods that the paper compares with: `stepwise` takes the measured point at which the curvature leaves that of the line,
 //! `improved` searches an interval about that point, where the paper has one picked by hand.
 //!
-//! The straight part is told by the likelihood of [`contour`](super::contour), less a tenth of it, where the paper has it
-//! marked by hand. See docs/section.md for what is weak in the rules of the interval.
+//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](super::contour) allows,
+//! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
 
-use super::chain::Kind;
 use super::result::{Contour, Geometry, Options, SectionError, Segment};
 use crate::progress::{Cancelled, Progress};
 use crate::spline::curve::{self, Curve, End, Ends};
@@ -66,6 +65,8 @@ const SMOOTHING: usize = 2;
 /// Standard deviations that the straight part keeps within, and the correlation that a window of it has: the paper's.
 const BAND: f64 = 3.0;
 const CORRELATION: f64 = 0.5;
+/// Fewest points of the straight part.
+const FEWEST: usize = 8;
 /// Share of the straight part that is left out before the join supposed.
 const MARGIN: f64 = 0.1;
 /// The search ends at this share of the spacing.
@@ -89,22 +90,22 @@ pub fn line_and_curve(
     interval: Option<[[f64; 2]; 2]>,
     progress: &dyn Progress,
 ) -> Result<(Vec<Method>, bool), SectionError> {
-    let is_line = |s: Option<&Segment>| s.is_some_and(|s| s.geometry.kind() == Kind::Line);
-    let several = found.segments.len() > 1 && !found.closed;
-    let reversed = several && !is_line(found.segments.first());
-    if !several || reversed && !is_line(found.segments.last()) {
-        return Err(SectionError::NoLine);
-    }
-    let label = if reversed { found.segments.len() as u32 - 1 } else { 0 };
-    let mut kept: Vec<usize> = (0..points.len())
+    let kept: Vec<usize> = (0..points.len())
         .filter(|i| found.outliers.binary_search(i).is_err() && found.repeated.binary_search(i).is_err())
         .collect();
-    if reversed {
-        kept.reverse();
+    let mut row: Vec<[f64; 2]> = kept.iter().map(|i| points[*i]).collect();
+    let noise = found.noise.max(1e-4 * found.spacing);
+    let lines = [straight(&row, noise), {
+        row.reverse();
+        straight(&row, noise)
+    }];
+    // The longer of two straight ends is the line.
+    let reversed = lines[1] > lines[0];
+    if !reversed {
+        row.reverse();
     }
-    let row: Vec<[f64; 2]> = kept.iter().map(|i| points[*i]).collect();
-    let on_line = kept.iter().take_while(|i| found.labels[**i] == label).count();
-    if on_line < 6 || row.len() < on_line + 4 {
+    let on_line = lines[0].max(lines[1]);
+    if found.closed || on_line < FEWEST || row.len() < on_line + 4 {
         return Err(SectionError::NoLine);
     }
     let sure = on_line - ((on_line as f64 * MARGIN).ceil() as usize).max(1);
@@ -146,6 +147,31 @@ struct Work {
     direction: [f64; 2],
     /// Heights over it, smoothed.
     heights: Vec<f64>,
+}
+
+/// How many points from the first on are straight: their root mean square distance from a line is no greater than the
+/// noise of the row, by more than chance.
+fn straight(row: &[[f64; 2]], noise: f64) -> usize {
+    let mut sums = [0.0; 5];
+    let mut longest = 0;
+    for (i, p) in row.iter().enumerate() {
+        let (x, y) = (p[0] - row[0][0], p[1] - row[0][1]);
+        let terms = [x, y, x * x, x * y, y * y];
+        (0..5).for_each(|k| sums[k] += terms[k]);
+        let n = (i + 1) as f64;
+        let (xx, xy) = (sums[2] - sums[0] * sums[0] / n, sums[3] - sums[0] * sums[1] / n);
+        let yy = sums[4] - sums[1] * sums[1] / n;
+        let half = 0.5 * (xx - yy);
+        let least = 0.5 * (xx + yy) - (half * half + xy * xy).sqrt();
+        // Two standard deviations of a variance of so many degrees of freedom.
+        let degrees = (n - 2.0).max(1.0);
+        if least <= degrees * noise * noise * (1.0 + 2.0 * (2.0 / degrees).sqrt()) {
+            longest = i + 1;
+        } else if i >= 2 * FEWEST.max(longest) {
+            break;
+        }
+    }
+    longest
 }
 
 /// The line of least squared distances through points, in their order.
@@ -276,10 +302,12 @@ impl Work {
         )
     }
 
-    /// The sum of squares of a join.
-    fn cost(&self, s: f64, count: usize) -> Result<f64, SectionError> {
-        let (on, off) = self.distances(s, &self.curve(s, count)?);
-        Ok(on.iter().chain(&off).map(|d| d * d).sum())
+    /// The sum of squares of a join; where there is no curve from it, infinite.
+    fn cost(&self, s: f64, count: usize) -> f64 {
+        self.curve(s, count).map_or(f64::INFINITY, |curve| {
+            let (on, off) = self.distances(s, &curve);
+            on.iter().chain(&off).map(|d| d * d).sum()
+        })
     }
 
     /// The join of least squares between two places, by golden sections.
@@ -296,7 +324,7 @@ impl Work {
         if to - from <= SHORTEST * self.spacing {
             return Ok(0.5 * (from + to));
         }
-        let (mut at_a, mut at_b) = (self.cost(a, count)?, self.cost(b, count)?);
+        let (mut at_a, mut at_b) = (self.cost(a, count), self.cost(b, count));
         while to - from > SHORTEST * self.spacing {
             if progress.cancelled() {
                 return Err(Cancelled.into());
@@ -304,11 +332,11 @@ impl Work {
             if at_a <= at_b {
                 (to, b, at_b) = (b, a, at_a);
                 a = at(from, to)[0];
-                at_a = self.cost(a, count)?;
+                at_a = self.cost(a, count);
             } else {
                 (from, a, at_a) = (a, b, at_b);
                 b = at(from, to)[1];
-                at_b = self.cost(b, count)?;
+                at_b = self.cost(b, count);
             }
         }
         Ok(0.5 * (from + to))
@@ -404,99 +432,4 @@ pub fn method_contour(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::num::random::Random;
-    use crate::progress::Silent;
-    use crate::section::contour;
-
-    /// The paper's example: a line at 45° to the join (5, 1), then a curve whose curvature starts with a jump; points 0.5 apart.
-    fn example(noise: f64, seed: u64) -> Vec<[f64; 2]> {
-        let random = &mut Random::new(seed);
-        let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
-        let eighth = std::f64::consts::FRAC_PI_4;
-        let (sin, cos) = libm::sincos(eighth);
-        let mut at = [5.0, 1.0];
-        let mut points = vec![];
-        for i in (0..30).rev() {
-            points.push([5.0 - (0.5 * f64::from(i) + 0.2) * cos, 1.0 - (0.5 * f64::from(i) + 0.2) * sin]);
-        }
-        // Curvature −0.25 and rising by 0.02 a millimetre: by small steps of the middle's direction.
-        let (step, mut s) = (1e-3, 0.0);
-        while points.len() < 62 {
-            let heading = |s: f64| eighth - 0.25 * s + 0.01 * s * s;
-            let (sin, cos) = libm::sincos(heading(s + 0.5 * step));
-            at = [at[0] + step * cos, at[1] + step * sin];
-            s += step;
-            if ((s - 0.3) / 0.5 + 1e-9).floor() > ((s - step - 0.3) / 0.5 + 1e-9).floor() {
-                points.push(at);
-            }
-        }
-        points.iter().map(|p| [p[0] + noise * normal(), p[1] + noise * normal()]).collect()
-    }
-
-    fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
-        libm::hypot(b[0] - a[0], b[1] - a[1])
-    }
-
-    fn methods(points: &[[f64; 2]]) -> (Vec<Method>, bool, Contour) {
-        let found = contour(points, &Options::default(), &Silent).unwrap();
-        let (all, reversed) = line_and_curve(points, &found, None, &Silent).unwrap();
-        (all, reversed, found)
-    }
-
-    /// The paper's table: the search between points beats the best measured point, and the line is that of the points.
-    #[test]
-    fn the_three_methods_on_the_example() {
-        let (mut stepwise, mut improved, mut golden) = (0.0, 0.0, 0.0);
-        for seed in 0..10 {
-            let points = example(0.002, seed);
-            let (all, reversed, _) = methods(&points);
-            assert!(!reversed && all.len() == 3);
-            let off: Vec<f64> = all.iter().map(|m| far(m.join, [5.0, 1.0])).collect();
-            (stepwise, improved, golden) = (stepwise + off[0], improved + off[1], golden + off[2]);
-            for method in &all {
-                let (middle, u) = method.line;
-                let d = [method.join[0] - middle[0], method.join[1] - middle[1]];
-                assert!((d[0] * u[1] - d[1] * u[0]).abs() < 1e-12, "the join is on the line");
-                let start = method.curve.derivative(method.curve.domain().0, 1);
-                assert!((start[0] * u[1] - start[1] * u[0]).abs() < 1e-9 * libm::hypot(start[0], start[1]));
-                assert!(far(method.curve.at(method.curve.domain().0), method.join) < 1e-12);
-                assert!(method.line_residuals[0] < 0.004 && method.curve_residuals[0] < 0.02, "{method:?}");
-            }
-            let inside = |m: &Method| far(m.interval[0], m.join) + far(m.join, m.interval[1]);
-            assert!(all[1..].iter().all(|m| inside(m) < far(m.interval[0], m.interval[1]) + 0.02));
-        }
-        assert!(golden <= stepwise && improved <= stepwise, "{stepwise} {improved} {golden}");
-    }
-
-    #[test]
-    fn a_row_run_through_from_its_end_has_the_same_joins() {
-        let points = example(0.002, 3);
-        let (forward, _, found) = methods(&points);
-        let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
-        let (backward, reversed, other) = methods(&turned);
-        assert!(reversed);
-        for (a, b) in forward.iter().zip(&backward) {
-            assert!(far(a.join, b.join) < 1e-6, "{a:?} {b:?}");
-        }
-        let options = Options::default();
-        let one = method_contour(&points, &found, &forward[2], false, &options);
-        let two = method_contour(&turned, &other, &backward[2], true, &options);
-        assert_eq!(one.segments[0].geometry.kind(), Kind::Line);
-        assert_eq!(two.segments[1].geometry.kind(), Kind::Line);
-        assert!(far(one.segments[0].end, one.segments[1].start) < 1e-12);
-        assert!(far(two.segments[0].end, two.segments[1].start) < 1e-9);
-        for (a, b) in one.residuals.iter().zip(two.residuals.iter().rev()) {
-            assert!((a + b).abs() < 1e-6, "{a} {b}");
-        }
-    }
-
-    #[test]
-    fn without_a_line_there_is_no_join() {
-        let ring: Vec<[f64; 2]> =
-            (0..80).map(|i| libm::sincos(f64::from(i) * 0.05)).map(|(s, c)| [9.0 * c, 9.0 * s]).collect();
-        let found = contour(&ring, &Options::default(), &Silent).unwrap();
-        assert_eq!(line_and_curve(&ring, &found, None, &Silent).unwrap_err(), SectionError::NoLine);
-    }
-}
+mod tests;

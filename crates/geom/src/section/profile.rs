@@ -74,7 +74,8 @@ impl Search<'_> {
     /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
     /// where the likelihood is normal.
     fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
-        let stop = Stop { steps: 14, gain: 1e-5, shortest: 0.5 * self.spacing, stiff: STIFF };
+        let stop =
+            Stop { steps: 14, gain: 1e-5, shortest: 0.5 * self.spacing, stiff: STIFF, target: f64::INFINITY };
         let farthest = FARTHEST * self.spacing;
         let origin = self.place_of(best, seek);
         let wanted = (seek.limit - best.sum).max(f64::MIN_POSITIVE).sqrt();

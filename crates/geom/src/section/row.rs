@@ -24,6 +24,9 @@ const GAP: f64 = 5.0;
 /// A contour closes over a gap of so many medians.
 const CLOSING: f64 = 3.0;
 
+/// Outliers are looked for so many times.
+const PASSES: usize = 4;
+
 fn median(mut all: Vec<f64>) -> f64 {
     if all.is_empty() {
         return 0.0;
@@ -88,26 +91,61 @@ impl Clean {
         if n < 12 * step || limit == 0.0 {
             return vec![];
         }
-        let mut all: Vec<usize> = vec![];
-        for i in 0..n {
-            let around = |k: usize| -> Option<[f64; 2]> {
-                let j = (i + 4 * n + k * step).checked_sub(4 * step)?;
-                (self.closed || (4 * n..5 * n).contains(&j)).then(|| self.points[j % n])
-            };
-            let near: Vec<[f64; 2]> = (0..9).filter(|k| *k != 4).filter_map(around).collect();
-            let Some((own, rest)) = off_parabola(&near, self.points[i]) else { continue };
-            if own > limit && rest < 3.0 * noise {
-                all.push(i);
+        let mut out = vec![false; n];
+        // Of outliers near each other the outer ones are found first; then they are no neighbors any more.
+        for _ in 0..PASSES {
+            let before = out.clone();
+            for i in (0..n).filter(|i| !before[*i]) {
+                let near = self.around(i, step, &before);
+                let Some((own, rest)) = off_parabola(&near, self.points[i]) else { continue };
+                let agreed = 3.0 * noise;
+                out[i] = own > limit && (rest < agreed || without_two(&near, self.points[i], limit, agreed));
+            }
+            if out == before {
+                break;
             }
         }
-        all
+        (0..n).filter(|i| out[*i]).collect()
     }
+
+    /// Up to four points on either side of one, in order, `step` apart, without those that are `out`.
+    fn around(&self, i: usize, step: usize, out: &[bool]) -> Vec<[f64; 2]> {
+        let n = self.points.len();
+        let side = |forward: bool| {
+            let place = move |k: usize| {
+                let j = if forward { i + 4 * n + k * step } else { (i + 4 * n).checked_sub(k * step)? };
+                (self.closed || (4 * n..5 * n).contains(&j)).then_some(j % n)
+            };
+            (1..=8).map_while(place).filter(|j| !out[*j]).take(4).map(|j| self.points[j])
+        };
+        let mut near: Vec<[f64; 2]> = side(false).collect();
+        near.reverse();
+        near.extend(side(true));
+        near
+    }
+}
+
+/// Whether a point lies farther than `limit` off its neighbors where one or two of these, outliers themselves, are left out:
+/// those without which the others agree best. They must agree to within `agreed`.
+fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> bool {
+    let n = near.len();
+    let without = |(a, b): (usize, usize)| {
+        let rest = near.iter().enumerate().filter(|(i, _)| *i != a && *i != b);
+        off_parabola(&rest.map(|(_, p)| *p).collect::<Vec<_>>(), point)
+    };
+    let pairs = (0..n).flat_map(|a| (a..n).map(move |b| (a, b)));
+    let enough = pairs.filter(|(a, b)| n - 1 - usize::from(a != b) >= 6);
+    let best = enough.filter_map(without).min_by(|x, y| x.1.total_cmp(&y.1));
+    best.is_some_and(|(own, rest)| own > limit && rest < agreed)
 }
 
 pub(super) fn check(options: &Options) -> Result<(), SectionError> {
     let wrong = |name, value, allowed| Err(SectionError::WrongOption { name, value, allowed });
     if let Some(value) = options.noise.filter(|x| !(x.is_finite() && *x > 0.0)) {
         return wrong("noise", value, "a length above 0");
+    }
+    if let Some(value) = options.resolution.filter(|x| !(x.is_finite() && *x >= 0.0)) {
+        return wrong("resolution", value, "a length, or 0");
     }
     match options.level > 0.0 && options.level < 1.0 {
         true => Ok(()),

@@ -38,6 +38,12 @@ impl Criterion {
         let sum = state.sum + self.degrees * self.noise * self.noise;
         total * libm::log(sum / total + floor) + self.penalty(&state.chain) * libm::log(self.count)
     }
+    /// The sum of squares at which a chain would cost so much.
+    fn sum_at(&self, cost: f64, chain: &Chain) -> f64 {
+        let total = self.count + self.degrees;
+        let mean = libm::exp((cost - self.penalty(chain) * libm::log(self.count)) / total);
+        (mean - self.resolution * self.resolution) * total - self.degrees * self.noise * self.noise
+    }
     fn penalty(&self, chain: &Chain) -> f64 {
         let each = |p: &Piece| match p.kind {
             Kind::Line => 0.0,
@@ -82,7 +88,7 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     fn stop(&self, steps: usize, gain: f64) -> Stop {
-        Stop { steps, gain, shortest: self.shortest * self.spacing, stiff: SOFT }
+        Stop { steps, gain, shortest: self.shortest * self.spacing, stiff: SOFT, target: f64::INFINITY }
     }
 
     /// The model of the parts that dynamic programming found.
@@ -178,14 +184,15 @@ impl Search<'_> {
         }
         let chain = Chain { start: chain.start, heading: chain.heading, pieces, ..*chain };
         let mut state = State { chain, breaks, feet, sum: 0.0 };
-        let stop = self.stop(4, 1e-4);
+        let target = self.criterion.sum_at(bar, &state.chain);
+        let stop = Stop { target, ..self.stop(4, 1e-4) };
         self.work.improve(&self.row, &mut state, None, &stop);
         let model = self.model(state);
         if model.cost > bar + HOPELESS {
             return model;
         }
         let mut state = model.state;
-        let stop = self.stop(8, 1e-4);
+        let stop = Stop { target, ..self.stop(8, 1e-4) };
         self.work.improve(&self.row, &mut state, None, &stop);
         self.model(state)
     }

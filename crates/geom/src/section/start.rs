@@ -109,10 +109,19 @@ pub(super) struct Penalty {
 }
 
 /// Sums over the points before each: x, y, xx, xy, yy, z, xz, yz, zz with z = xx + yy, from the middle of the row,
-/// and the sum of the weights.
+/// and the sum of the weights. Each with what rounding lost of it: a short part of a long row is a small difference of large
+/// sums.
 struct Sums {
-    before: Vec<[f64; 10]>,
+    before: Vec<[[f64; 2]; 10]>,
     middle: [f64; 2],
+}
+
+/// Adds to a sum in two parts: the rounded one, and what rounding lost (Knuth).
+fn add(sum: &mut [f64; 2], term: f64) {
+    let next = sum[0] + term;
+    let part = next - sum[0];
+    sum[1] += (sum[0] - (next - part)) + (term - part);
+    sum[0] = next;
 }
 
 impl Sums {
@@ -120,22 +129,27 @@ impl Sums {
         let n = points.len() as f64;
         let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
         let mut before = Vec::with_capacity(points.len() + 1);
-        let mut sum = [0.0; 10];
+        let mut sum = [[0.0; 2]; 10];
         before.push(sum);
         for (p, w) in points.iter().zip(weights) {
             let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
             let z = x * x + y * y;
             let terms = [x, y, x * x, x * y, y * y, z, x * z, y * z, z * z, 1.0];
-            (0..10).for_each(|k| sum[k] += w * terms[k]);
+            (0..10).for_each(|k| add(&mut sum[k], w * terms[k]));
             before.push(sum);
         }
         Sums { before, middle }
     }
 
+    /// The sums over a part.
+    fn between(&self, from: usize, to: usize) -> [f64; 10] {
+        let (a, b) = (&self.before[from], &self.before[to]);
+        std::array::from_fn(|k| (b[k][0] - a[k][0]) + (b[k][1] - a[k][1]))
+    }
+
     /// Line and arc through a part: their sums of squares, the arc's `None` where there is none.
     fn fit(&self, from: usize, to: usize) -> (f64, Option<(f64, [f64; 2], f64)>) {
-        let (a, b) = (&self.before[from], &self.before[to]);
-        let d: [f64; 10] = std::array::from_fn(|k| b[k] - a[k]);
+        let d = self.between(from, to);
         let n = d[9].max(1.0);
         let (mx, my, mz) = (d[0] / n, d[1] / n, d[5] / n);
         let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);
@@ -159,8 +173,7 @@ impl Sums {
     }
 
     fn part(&self, points: &[[f64; 2]], kind: Kind, from: usize, to: usize) -> Part {
-        let (a, b) = (&self.before[from], &self.before[to]);
-        let d: [f64; 10] = std::array::from_fn(|k| b[k] - a[k]);
+        let d = self.between(from, to);
         let n = d[9].max(1.0);
         let (mx, my) = (d[0] / n, d[1] / n);
         let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);

@@ -202,3 +202,62 @@ fn a_circle_has_no_join_and_a_slot_has_four() {
         assert!(contour.joins.iter().any(|j| far(j.point, truth) < 0.05));
     }
 }
+
+/// A stadium of long lines and half circles of radius 10, `count` points, closed.
+fn stadium(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
+    let random = &mut Random::new(seed);
+    let half = 10.0 * std::f64::consts::PI;
+    let around = |x: f64, a: f64| {
+        let (sin, cos) = libm::sincos(a);
+        [x + 10.0 * sin, 10.0 - 10.0 * cos]
+    };
+    (0..count)
+        .map(|i| (100.0 + 2.0 * half) * i as f64 / count as f64)
+        .map(|s| match s {
+            s if s < 50.0 => [s, 0.0],
+            s if s < 50.0 + half => around(50.0, (s - 50.0) / 10.0),
+            s if s < 100.0 + half => [100.0 + half - s, 20.0],
+            s => around(0.0, std::f64::consts::PI + (s - 100.0 - half) / 10.0),
+        })
+        .map(|p| [p[0] + noise * normal(random), p[1] + noise * normal(random)])
+        .collect()
+}
+
+fn has_the_joins_of_the_stadium(contour: &Contour) {
+    assert_eq!(contour.segments.len(), 4, "{:?}", kinds(contour));
+    for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
+        let join = contour.joins.iter().find(|j| far(j.point, truth) < 0.1);
+        assert!(
+            join.is_some_and(|j| far(j.point, truth) < 5.0 * j.uncertainty),
+            "{truth:?} {:?}",
+            contour.joins
+        );
+    }
+}
+
+/// Sums over 100,000 points leave no digits for a part of a hundred, unless what rounding loses is kept.
+#[test]
+fn a_long_row_has_no_more_segments_than_a_short_one() {
+    has_the_joins_of_the_stadium(&found(&stadium(100_000, 0.005, 5)));
+}
+
+/// One point in fifty is up to 3 mm off, some of them next to each other: all are left out.
+#[test]
+fn many_outliers_are_left_out() {
+    let mut points = stadium(3000, 0.005, 6);
+    let random = &mut Random::new(12);
+    let mut wrong: Vec<usize> = (0..60).map(|_| random.below(3000) as usize).collect();
+    wrong.sort_unstable();
+    wrong.dedup();
+    let exact = stadium(3000, 0.0, 0);
+    for i in &wrong {
+        let (a, b) = (exact[(i + 2999) % 3000], exact[(i + 1) % 3000]);
+        let off = (0.5 + 2.5 * random.unit()) * if random.unit() < 0.5 { -1.0 } else { 1.0 } / far(a, b);
+        points[*i] = [points[*i][0] + off * (b[1] - a[1]), points[*i][1] - off * (b[0] - a[0])];
+    }
+    let contour = found(&points);
+    has_the_joins_of_the_stadium(&contour);
+    assert!(wrong.iter().all(|i| contour.outliers.contains(i)), "{wrong:?} {:?}", contour.outliers);
+    let more: Vec<&usize> = contour.outliers.iter().filter(|i| !wrong.contains(i)).collect();
+    assert!(more.len() <= 3 && (contour.noise - 0.005).abs() < 0.0005, "{more:?} {}", contour.noise);
+}

@@ -101,7 +101,9 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
     let found = sections(&[bore, fine, slot, plate]);
     for (contour, (center, radius)) in found.iter().zip([([12.0, 7.0], 3.25), ([-40.0, 7.0], 20.0)]) {
         assert!(contour.joins.is_empty() && contour.segments.len() == 1);
-        let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else { panic!() };
+        let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else {
+            panic!()
+        };
         assert!(length(c, center) < 1e-5 && (r - radius).abs() < 1e-5, "{c:?} {r}");
         assert!((sweep.abs() - std::f64::consts::TAU).abs() < 1e-9);
         holds_together(contour);
@@ -205,9 +207,10 @@ fn few_points_and_wrong_options() {
         chain_contour(&one, &frame, 1e-6, &options, &Silent),
         Err(SectionError::TooFewPoints { found: 1 })
     ));
-    let wrong = Options { level: 2.0, ..options };
-    assert!(matches!(
-        chain_contour(&two, &frame, 1e-6, &wrong, &Silent),
-        Err(SectionError::WrongOption { .. })
-    ));
+    for wrong in [Options { level: 2.0, ..options }, Options { resolution: Some(f64::NAN), ..options }] {
+        assert!(matches!(
+            chain_contour(&two, &frame, 1e-6, &wrong, &Silent),
+            Err(SectionError::WrongOption { .. })
+        ));
+    }
 }
