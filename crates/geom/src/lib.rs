@@ -21,6 +21,7 @@
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
+//! | rigid motions | [`rigid`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod arrange;
@@ -35,6 +36,7 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
+pub mod rigid;
 pub mod section;
 pub mod segment;
 pub mod shape;
