@@ -2,6 +2,7 @@
 //!
 //! | task | where |
 //! |---|---|
+//! | a scan brought onto its reference | [`align`] |
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
@@ -24,6 +25,7 @@
 //! | rigid motions | [`rigid`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod align;
 pub mod arrange;
 pub mod check;
 pub mod closest;

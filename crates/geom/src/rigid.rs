@@ -175,6 +175,12 @@ impl Rigid {
         Some(Rigid { rows, translation: rows.map(|r| -dot(r, origin)) })
     }
 
+    /// The motion with these rows, which are a rotation but for roundings, that takes `from` to `to`.
+    #[inline(always)]
+    pub(crate) fn of_rotation(rows: [Vector; 3], from: Point, to: Point) -> Rigid {
+        Rigid { rows, translation: minus(to, rows.map(|r| dot(r, from))) }
+    }
+
     /// The rows of the rotation.
     pub fn rotation(&self) -> [Vector; 3] {
         self.rows

@@ -1,0 +1,4 @@
+//! What an alignment must do, against closed forms, brute force and properties.
+
+mod parts;
+mod poses;
