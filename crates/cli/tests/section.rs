@@ -66,7 +66,11 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![cube, "--plane", "0,0,1"], 2, "give 4 numbers, not 3"),
         (vec![cube, "--stack", "0,0,1,0,1,-1"], 2, "the step must lead from the first distance to the last"),
         (vec![cube, "--plane", "0,0,1,0", "--thickness", "1"], 2, "it is a mesh; --thickness is for clouds"),
-        (vec![cube, "--plane", "0,0,1,77"], 3, "the plane meets nothing; along the first normal it reaches from"),
+        (
+            vec![cube, "--plane", "0,0,1,77"],
+            3,
+            "the plane meets nothing; along the first normal it reaches from",
+        ),
         (vec![good, "--plane", "0,0,1,0"], 2, "its points have two coordinates; leave --plane"),
         (vec![cloud, "--plane", "0,0,1,0"], 2, "say with --thickness how far from the plane they count"),
         (vec![good, "--dxf", &twice, "--svg", &twice], 2, "are the same file; give each its own"),
@@ -96,7 +100,10 @@ fn a_cube_has_square_sections() {
         let plane = &answer["planes"][n];
         assert!((plane["area"].as_f64().unwrap() - (high - low).powi(2)).abs() < 1e-12, "{plane}");
         let contour = &answer["contours"][n];
-        assert_eq!((&contour["plane"], &contour["taken"]), (&serde_json::json!(n), &serde_json::json!("facets")));
+        assert_eq!(
+            (&contour["plane"], &contour["taken"]),
+            (&serde_json::json!(n), &serde_json::json!("facets"))
+        );
         let segments = contour["segments"].as_array().unwrap();
         assert!(segments.len() == 4 && segments.iter().all(|s| s["kind"] == "line"), "{segments:?}");
         for join in contour["joins"].as_array().unwrap() {
@@ -122,7 +129,11 @@ fn a_cloud_of_a_tube_has_a_circle() {
     let file = folder.write("tube.xyz", text);
     let answer = document(["section", file.to_str().unwrap(), "--plane", "0,0,1,4.95", "--thickness", "1.2"]);
     let contour = &answer["contours"][0];
-    assert_eq!((&contour["closed"], contour["segments"].as_array().unwrap().len()), (&true.into(), 1), "{contour}");
+    assert_eq!(
+        (&contour["closed"], contour["segments"].as_array().unwrap().len()),
+        (&true.into(), 1),
+        "{contour}"
+    );
     assert!((contour["segments"][0]["radius"].as_f64().unwrap() - 12.5).abs() < 0.001);
     assert_eq!(answer["planes"][0]["loose"], 0);
     assert!(answer["planes"][0]["area"].is_null() && answer["planes"][0]["area_reason"].is_string());
@@ -156,9 +167,14 @@ fn the_methods_of_the_paper_stand_side_by_side() {
     assert!(off(&methods[2]) < off(&methods[0]) && off(&methods[2]) < 0.05, "{methods:?}");
     assert_eq!(answer["contours"][0]["joins"][0]["point"], methods[2]["join"]);
     let profile = document(["section", file, "--search", "stepwise", "--interval", "profile"]);
-    assert_eq!((&profile["methods"]["chosen"], &profile["methods"]["interval"]), (&"stepwise".into(), &"profile".into()));
+    assert_eq!(
+        (&profile["methods"]["chosen"], &profile["methods"]["interval"]),
+        (&"stepwise".into(), &"profile".into())
+    );
     let mut ring = String::new();
-    (0..90).for_each(|i| ring += &format!("{} {}\n", 9.0 * (0.05 * f64::from(i)).cos(), 9.0 * (0.05 * f64::from(i)).sin()));
+    (0..90).for_each(|i| {
+        ring += &format!("{} {}\n", 9.0 * (0.05 * f64::from(i)).cos(), 9.0 * (0.05 * f64::from(i)).sin())
+    });
     let ring = folder.write("ring.txt", ring);
     let answer = trueness(["section", ring.to_str().unwrap(), "--interval", "paper"]);
     assert_eq!(status(&answer), 3);

@@ -3,11 +3,11 @@
 //! A vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one place and thin
 //! in another is not drawn towards the dense place. A point of a cloud stands for itself.
 
-use crate::deviation::neighbours::PointTree;
 use crate::fit::eigen;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::spatial::neighbours::PointTree;
 use rayon::prelude::*;
 
 /// What is brought to the reference, millimetres, in a frame of its own.

@@ -58,8 +58,13 @@ pub fn contour(
     let mut weights = vec![1.0; n];
     outliers.iter().for_each(|i| weights[*i] = 0.0);
     let log = libm::log(n as f64);
-    let penalty =
-        |noise: f64| Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest: FEWEST * step, places: PLACES };
+    let penalty = |noise: f64| Penalty {
+        line: 3.0 * log,
+        arc: 4.0 * log,
+        noise,
+        fewest: FEWEST * step,
+        places: PLACES,
+    };
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
@@ -214,8 +219,7 @@ impl Plan<'_> {
         };
         let noise = self.given.unwrap_or(self.own);
         let even = self.options.continuity == Some(Continuity::G2);
-        let criterion =
-            Criterion { noise, degrees, resolution: self.resolution(), count: count as f64 };
+        let criterion = Criterion { noise, degrees, resolution: self.resolution(), count: count as f64 };
         let closed = closed && whole;
         Task { criterion, spacing: self.spacing, step: self.step, closed, even, level: self.options.level }
     }

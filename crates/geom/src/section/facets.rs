@@ -149,7 +149,8 @@ impl Polygon {
     /// The facets as lines and arcs.
     pub fn items(&self, tolerance: f64) -> Vec<Item> {
         let m = self.facets();
-        let turns: Vec<f64> = (0..m).map(|i| if i == 0 && !self.closed { 0.0 } else { self.turn(i) }).collect();
+        let turns: Vec<f64> =
+            (0..m).map(|i| if i == 0 && !self.closed { 0.0 } else { self.turn(i) }).collect();
         // Last vertex up to which the turns have one sense and are no corners.
         let mut reach = vec![m; m + 1];
         for i in (0..m).rev() {
@@ -221,7 +222,8 @@ impl Polygon {
         }
         let (first, last) = (items[0], items[items.len() - 1]);
         let arcs = [first, last].iter().all(|i| i.shape != Shape::Line);
-        if let Some(whole) = self.arc(last.from, first.to + self.facets(), SHARP, tolerance).filter(|_| arcs) {
+        if let Some(whole) = self.arc(last.from, first.to + self.facets(), SHARP, tolerance).filter(|_| arcs)
+        {
             items.pop();
             items[0] = whole;
             items.rotate_left(1);

@@ -177,14 +177,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Options {
-        Options {
-            noise: None,
-            continuity: None,
-            closed: None,
-            level: 0.95,
-            resolution: None,
-            ordered: false,
-        }
+        Options { noise: None, continuity: None, closed: None, level: 0.95, resolution: None, ordered: false }
     }
 }
 
@@ -213,7 +206,9 @@ pub enum SectionError {
         ratio: f64,
     },
     /// Neither end of the row is a line that a curve follows.
-    #[error("no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out")]
+    #[error(
+        "no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out"
+    )]
     NoLine,
     /// An option has no meaning.
     #[error("{name} {value}: it must be {allowed}")]

@@ -122,8 +122,7 @@ fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 impl Cells {
     fn new(points: &[[f64; 2]], width: f64) -> Cells {
-        let mut cells =
-            Cells { width, middles: vec![], members: vec![], at: HashMap::new(), keys: vec![] };
+        let mut cells = Cells { width, middles: vec![], members: vec![], at: HashMap::new(), keys: vec![] };
         for (i, p) in points.iter().enumerate() {
             let key = p.map(|x| (x / width).floor() as i64);
             let next = cells.members.len();
@@ -295,7 +294,10 @@ mod tests {
         (1..points.len()).rev().for_each(|i| points.swap(i, random.below(i as u64 + 1) as usize));
         let flat: Vec<[f64; 2]> = points.iter().map(|p| p.0).collect();
         let rows = order(&flat, None, &Silent).unwrap();
-        assert_eq!(rows.iter().map(|r| (r.numbers.len(), r.closed)).collect::<Vec<_>>(), [(1500, true), (600, false)]);
+        assert_eq!(
+            rows.iter().map(|r| (r.numbers.len(), r.closed)).collect::<Vec<_>>(),
+            [(1500, true), (600, false)]
+        );
         for row in &rows {
             let along: Vec<f64> = row.numbers.iter().map(|i| points[*i].1).collect();
             let period = if row.closed { std::f64::consts::TAU } else { f64::INFINITY };
@@ -315,7 +317,8 @@ mod tests {
         assert!(order(&[], None, &Silent).unwrap().is_empty());
         assert!(order(&[[1.0, 2.0]; 50], None, &Silent).unwrap().is_empty());
         // A gap divides, or not, as told.
-        let line: Vec<[f64; 2]> = (0..200).map(|i| [f64::from(i) + if i < 100 { 0.0 } else { 20.0 }, 0.0]).collect();
+        let line: Vec<[f64; 2]> =
+            (0..200).map(|i| [f64::from(i) + if i < 100 { 0.0 } else { 20.0 }, 0.0]).collect();
         assert_eq!(order(&line, Some(3.0), &Silent).unwrap().len(), 2);
         assert_eq!(order(&line, Some(30.0), &Silent).unwrap().len(), 1);
     }

@@ -99,11 +99,8 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
     let mut all = Contour { taken, ..found };
-    let row = [
-        std::mem::take(&mut all.outliers),
-        std::mem::take(&mut all.repeated),
-        std::mem::take(&mut all.gaps),
-    ];
+    let row =
+        [std::mem::take(&mut all.outliers), std::mem::take(&mut all.repeated), std::mem::take(&mut all.gaps)];
     [all.outliers, all.repeated, all.gaps] = row.map(|list| list.into_iter().map(|i| kept[i]).collect());
     let own = (all.labels.clone(), all.residuals.clone(), all.stations.clone());
     all.labels = vec![0; points.len()];

@@ -267,10 +267,14 @@ impl SectionDocument {
     }
 
     /// The same with what the paper's methods found: each with its number of points of the curve.
-    pub fn with_methods(self, chosen: Search, interval: &str, methods: &[(Method, usize)]) -> SectionDocument {
+    pub fn with_methods(
+        self,
+        chosen: Search,
+        interval: &str,
+        methods: &[(Method, usize)],
+    ) -> SectionDocument {
         let table = methods.iter().map(|(m, on_curve)| method(m, *on_curve)).collect();
-        let methods =
-            Some(MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table });
+        let methods = Some(MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table });
         SectionDocument { methods, ..self }
     }
 }

@@ -90,7 +90,9 @@ impl PlaneArgs {
     /// How the points of a cloud are taken.
     pub fn slab(&self, shown: &str, planar: bool) -> Result<Slab, Usage> {
         if planar {
-            return Err(Usage(format!("{shown}: its points have two coordinates; leave --plane and --stack out")));
+            return Err(Usage(format!(
+                "{shown}: its points have two coordinates; leave --plane and --stack out"
+            )));
         }
         let positive = |name: &str, x: f64| match x.is_finite() && x > 0.0 {
             true => Ok(x),

@@ -63,7 +63,8 @@ pub fn table(document: &SectionDocument) -> String {
 
 /// The paper's table of its methods.
 fn methods_table(methods: &MethodsRecord) -> String {
-    let head = ["method", "interval", "x", "y", "rms of line", "max", "rms of curve", "max", "control points"];
+    let head =
+        ["method", "interval", "x", "y", "rms of line", "max", "rms of curve", "max", "control points"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for m in &methods.table {
         let chosen = if m.method == methods.chosen { " *" } else { "" };

@@ -2,3 +2,4 @@
 
 mod parts;
 mod poses;
+mod rows;

@@ -101,7 +101,9 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
     let found = sections(&[bore, fine, slot, plate]);
     for (contour, (center, radius)) in found.iter().zip([([12.0, 7.0], 3.25), ([-40.0, 7.0], 20.0)]) {
         assert!(contour.joins.is_empty() && contour.segments.len() == 1);
-        let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else { panic!() };
+        let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else {
+            panic!()
+        };
         assert!(length(c, center) < 1e-5 && (r - radius).abs() < 1e-5, "{c:?} {r}");
         assert!((sweep.abs() - std::f64::consts::TAU).abs() < 1e-9);
         holds_together(contour);
