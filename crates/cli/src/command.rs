@@ -1,5 +1,6 @@
 //! The words of the command line: the list of commands, and what each of them is to the program.
 
+use crate::commands::align::AlignArgs;
 use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use crate::commands::fit::FitArgs;
@@ -29,6 +30,7 @@ pub struct Arguments {
 /// What the program can do: one file each in `commands/`.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    Align(AlignArgs),
     Check(CheckArgs),
     Compare(Box<CompareArgs>),
     Fit(FitArgs),
@@ -50,6 +52,7 @@ impl Command {
     /// The command chosen.
     pub fn get(&self) -> &dyn Run {
         match self {
+            Command::Align(args) => args,
             Command::Check(args) => args,
             Command::Compare(args) => args.as_ref(),
             Command::Fit(args) => args,

@@ -2,6 +2,7 @@
 //!
 //! | task | where |
 //! |---|---|
+//! | a scan brought onto its reference | [`align`] |
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
@@ -21,8 +22,10 @@
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
+//! | rigid motions | [`rigid`] |
 //! | progress and cancellation | [`progress`] |
 
+pub mod align;
 pub mod arrange;
 pub mod check;
 pub mod closest;
@@ -35,6 +38,7 @@ pub mod mesh;
 pub mod num;
 pub mod progress;
 pub mod repair;
+pub mod rigid;
 pub mod section;
 pub mod segment;
 pub mod shape;

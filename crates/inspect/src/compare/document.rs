@@ -70,6 +70,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
             count: found.count,
             bounds: plausibility::bounds(&found.bounds),
         },
+        alignment: None,
         method: options.method.name().into(),
         sign: overall_sign(&comparisons, options),
         max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),

@@ -1,5 +1,6 @@
 //! `trueness/compare/1`: deviations of measured points from one or several references.
 
+use super::align::AlignedTo;
 use super::check::Defects;
 use super::research::Research;
 use super::{InputRecord, Verdict};
@@ -24,6 +25,9 @@ pub struct CompareDocument {
     pub inputs: Vec<InputRecord>,
     /// What was compared.
     pub measured: Measured,
+    /// How the measured was brought to the first reference; absent where it was compared as it lies.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub alignment: Option<AlignedTo>,
     /// How distances were computed: `exact` or `paper`.
     pub method: String,
     /// The sign method; with several references, what holds for all of them (see each comparison for its own).

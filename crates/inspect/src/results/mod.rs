@@ -3,6 +3,7 @@
 //! Every document starts with the same header and names its inputs. A number that does not exist is `null`
 //! beside a reason; NaN and infinity never appear.
 
+pub mod align;
 pub mod check;
 pub mod compare;
 pub mod fit;
@@ -159,6 +160,7 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         text
     };
     vec![
+        ("align", text(schemars::schema_for!(align::AlignDocument))),
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),

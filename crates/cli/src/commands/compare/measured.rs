@@ -6,9 +6,12 @@ use crate::read::{self, Opened};
 use anyhow::Context;
 use std::path::Path;
 use trueness_files::{Body, PointSource, ReadError, ReadOptions, Weld};
+use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
+use trueness_geom::closest::Tree;
 use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
 use trueness_geom::space::Point;
 use trueness_geom::topology::weld;
 use trueness_inspect::results::{InputRecord, Role};
@@ -59,6 +62,36 @@ impl Measured {
             None => (mesh.positions.clone(), "vertices"),
         };
         Ok(Measured { points: Box::new(Once(Some(points))), mesh: Some(mesh), kind, record })
+    }
+}
+
+impl Measured {
+    /// Brings it to `reference` by the best fit, and says how. All points are held in memory for it.
+    pub fn align(
+        &mut self,
+        path: &Path,
+        reference: &Mesh,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> anyhow::Result<Alignment> {
+        let stream = std::mem::replace(&mut self.points, Box::new(Once(None)));
+        let mut points = read::all_points(stream)?;
+        let tree = Tree::build_watched(reference, progress)?;
+        let scan = match &self.mesh {
+            Some(mesh) => align::Measured::Mesh(mesh),
+            None => align::Measured::Points { points: &points, normals: None },
+        };
+        let options = BestFit { seed, ..BestFit::default() };
+        let found = align::best_fit(&scan, &Target::new(reference, &tree), &options, progress);
+        let found = found.map_err(|e| match e {
+            AlignError::Cancelled(e) => e.into(),
+            e => anyhow::anyhow!("{}: {e}", path.display()),
+        })?;
+        let motion = &found.reference_from_measured;
+        let own = self.mesh.iter_mut().flat_map(|m| &mut m.positions);
+        own.chain(&mut points).for_each(|p| *p = motion.point(*p));
+        self.points = Box::new(Once(Some(points)));
+        Ok(found)
     }
 }
 

@@ -21,6 +21,7 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{self, Inputs, Method, Options, Reference, View};
+use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::{Reverse, Sampling};
 use trueness_inspect::results::{Role, Verdict};
 use trueness_inspect::scale::Scale;
@@ -34,6 +35,7 @@ use trueness_inspect::scale::Scale;
 Examples:
   trueness compare scan.ply nominal.stl
   trueness compare scan.xyz nominal.stl --tolerance -0.1,+0.2 --html report.html
+  trueness compare scan.stl nominal.stl --align --tolerance 0.1
   trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
   trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5")]
 pub struct CompareArgs {
@@ -42,6 +44,9 @@ pub struct CompareArgs {
     /// The nominal, or the mesh under test; several are ranked side by side
     #[arg(required = true)]
     references: Vec<PathBuf>,
+    /// Bring the measured to the first reference first, by the best fit from any pose (see `trueness align`)
+    #[arg(long)]
+    align: bool,
     /// How distances are computed
     #[arg(long, value_enum, default_value = "exact")]
     method: MethodArg,
@@ -179,6 +184,10 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         meshes.push(mesh.mesh);
         files.push(record);
     }
+    let alignment = match args.align {
+        true => Some(aligned(args, &mut measured, &meshes[0], &files[1].path, common)?),
+        false => None,
+    };
     let references: Vec<Reference> =
         files[1..].iter().zip(&meshes).map(|(f, mesh)| Reference { name: f.path.clone(), mesh }).collect();
     let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
@@ -211,6 +220,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     };
     let inputs = Inputs { files, kind: measured.kind, scale, reverse };
     let mut document = compare::document(&found, inputs, &options);
+    document.alignment = alignment;
     if args.output.report.html.is_some() {
         let shown = if measured.kind == "vertices" { found.count } else { found.shown.points.len() as u64 };
         document.sampling = Some(Sampling { shown, total: found.count });
@@ -223,10 +233,24 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let view = View::new(&document.inputs[0].path, drawn, &references, &found);
     args.output.write_html(&document, &view, common.progress)?;
     args.output.document.table(|| table::text(&document))?;
+    let aligned = document.alignment.as_ref().is_none_or(AlignedTo::sound);
     Ok(match document.verdict {
-        None | Some(Verdict::Pass) => Outcome::Conforming,
-        Some(_) => Outcome::NotConforming,
+        None | Some(Verdict::Pass) if aligned => Outcome::Conforming,
+        _ => Outcome::NotConforming,
     })
+}
+
+/// Brings the measured to the first reference.
+fn aligned(
+    args: &CompareArgs,
+    measured: &mut Measured,
+    reference: &Mesh,
+    name: &str,
+    common: &Common,
+) -> anyhow::Result<AlignedTo> {
+    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let found = measured.align(&args.measured, reference, common.seed, &stage)?;
+    Ok(AlignedTo::new(&found, name.into()))
 }
 
 /// Points times references, where the number of points is known.

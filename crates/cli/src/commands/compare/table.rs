@@ -29,6 +29,16 @@ fn head(d: &CompareDocument) -> String {
         rows.extend(input.reading().map(|r| (String::new(), r)));
         rows.extend(input.warnings.iter().map(|w| (String::new(), format!("! {w}"))));
     }
+    if let Some(a) = &d.alignment {
+        let what = format!(
+            "best fit to {}: rms {} mm, {} left out",
+            short(&a.reference),
+            number(a.rms),
+            grouped(a.left_out)
+        );
+        rows.push(("aligned".into(), what));
+        rows.extend(a.warnings.iter().map(|w| ("!".into(), w.text.clone())));
+    }
     rows.push(("method".into(), d.method.clone()));
     for c in &d.comparisons {
         let of = if d.comparisons.len() > 1 { format!("{}: ", short(&c.reference)) } else { String::new() };

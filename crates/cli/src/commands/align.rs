@@ -1,0 +1,306 @@
+//! `trueness align`: the motion that brings a measured part onto its reference.
+
+use crate::command::Run;
+use crate::console;
+use crate::exit::{Outcome, Usage};
+use crate::number::{POINTS, counted, fixed, scientific, six_digits};
+use crate::options::{Common, DocumentArgs, PointInputArgs, format_named};
+use crate::progress::Stage;
+use crate::read::{self, Opened};
+use crate::run_files::RunFiles;
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use trueness_files::write::{self, Block, Layout, Writable};
+use trueness_files::{Body, Format, ReadOptions, Unit};
+use trueness_geom::align::{self, AlignError, BestFit, Measured, Row, RowFit, Start, Target};
+use trueness_geom::closest::Tree;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::space::Point;
+use trueness_inspect::results::align::AlignDocument;
+use trueness_inspect::results::{InputRecord, Role};
+
+/// Brings a scan onto its reference, from any starting pose
+///
+/// The best fit has the least mean square distance to the surface of the reference, weighted by area where the scan is a
+/// mesh; outliers do not count. Whole and partial scans, meshes and points. The exit status is 0 if the result can be
+/// relied on, 1 if it is poor, ambiguous, of a wrong unit or did not settle (it is written all the same).
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Tables of --points, one row a line, mm: of pairs, x y z measured and x y z of the reference; of 3-2-1 and rps, these six and
+the direction in which the point is held. A last column, if there, is the weight.
+
+Examples:
+  trueness align scan.stl nominal.stl -o aligned.stl
+  trueness align scan.ply nominal.stl --json transform.json
+  trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl")]
+pub struct AlignArgs {
+    /// The scan: a mesh or points; `-` reads stdin
+    measured: PathBuf,
+    /// The nominal: a mesh, which does not move
+    reference: PathBuf,
+    /// The scan in the frame of the reference, mm
+    #[arg(short, long, value_name = "FILE", help = out_help())]
+    out: Option<PathBuf>,
+    /// What makes a pose the best
+    #[arg(long, value_enum, default_value = "best-fit")]
+    method: MethodArg,
+    /// Table of places that belong together, for the methods other than best-fit
+    #[arg(long, value_name = "FILE", required_if_eq_any = [("method", "pairs"), ("method", "3-2-1"), ("method", "rps")])]
+    points: Option<PathBuf>,
+    /// Start from the pose in the files instead of looking for one
+    #[arg(long)]
+    from_here: bool,
+    /// Let all points count, however far off they are
+    #[arg(long)]
+    keep_outliers: bool,
+    #[command(flatten)]
+    input: PointInputArgs,
+    /// Unit of the reference [default: that of the measured file, --units]
+    #[arg(long, value_name = "UNIT")]
+    reference_units: Option<Unit>,
+    /// Format of the reference [default: told by its content; --format is that of the measured file]
+    #[arg(long, value_name = "NAME", value_parser = format_named)]
+    reference_format: Option<&'static Format>,
+    #[command(flatten)]
+    document: DocumentArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodArg {
+    /// The least mean square distance to the surface.
+    BestFit,
+    /// Pairs of points that belong together.
+    Pairs,
+    /// Six rows that hold all six degrees of freedom, exactly.
+    #[value(name = "3-2-1")]
+    ThreeTwoOne,
+    /// A reference point system: rows held along their directions, by weight.
+    Rps,
+}
+
+fn out_help() -> String {
+    format!(
+        "The scan in the frame of the reference, mm: a mesh {}; points {}",
+        Writable::Mesh.shown(),
+        Writable::Points.shown()
+    )
+}
+
+impl Run for AlignArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.measured, &self.reference].into_iter().chain(&self.points))
+            .also("--out", self.out.as_ref())
+            .document(self.document.json.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+/// What is measured, as it stands in its file.
+struct Scan {
+    mesh: Mesh,
+    record: InputRecord,
+}
+
+impl Scan {
+    fn open(args: &AlignArgs) -> anyhow::Result<Scan> {
+        let Opened { mut record, body, .. } =
+            read::open(&args.measured, Role::Measured, &args.input.reading())?;
+        let mesh = match body {
+            Body::Mesh(source) => source.mesh,
+            Body::Points(source) => Mesh { positions: read::all_points(source)?, faces: vec![] },
+        };
+        read::describe(&mut record, &mesh.positions);
+        Ok(Scan { mesh, record })
+    }
+
+    fn holds(&self) -> Writable {
+        if self.mesh.faces.is_empty() { Writable::Points } else { Writable::Mesh }
+    }
+
+    /// Writes it as it lies after `motion`. Gives what the format could not hold, for people.
+    fn write(&self, path: &Path, motion: &Rigid) -> anyhow::Result<Option<String>> {
+        let positions: Vec<Point> = self.mesh.positions.iter().map(|p| motion.point(*p)).collect();
+        if self.holds() == Writable::Points {
+            let mut file = write::points(path, Layout::default())?;
+            file.write(&Block { points: &positions, ..Block::default() })?;
+            file.finish()?;
+            return Ok(None);
+        }
+        let loss = write::mesh(path, &Mesh { positions, faces: self.mesh.faces.clone() })?;
+        Ok((loss.moved > 0).then(|| {
+            format!("{}: its format rounds by up to {} mm", path.display(), scientific(loss.farthest, 1))
+        }))
+    }
+}
+
+fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
+    if args.method == MethodArg::BestFit && args.points.is_some() {
+        return Err(
+            Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
+        );
+    }
+    let mut scan = Scan::open(args)?;
+    if let Some(path) = &args.out {
+        scan.holds().check(path)?;
+    }
+    let reading = ReadOptions {
+        units: args.reference_units.or(args.input.file.units),
+        format: args.reference_format,
+        ..ReadOptions::default()
+    };
+    let (reference, mut record) = read::mesh(&args.reference, Role::Reference, &reading)?;
+    read::hash(&mut scan.record, &args.measured)?;
+    read::hash(&mut record, &args.reference)?;
+    let records = vec![scan.record.clone(), record];
+    let document = match (&args.points, args.method) {
+        (Some(path), method) => {
+            let found = by_rows(path, method)?;
+            let name = match method {
+                MethodArg::BestFit | MethodArg::Pairs => "pairs",
+                MethodArg::ThreeTwoOne => "3-2-1",
+                MethodArg::Rps => "rps",
+            };
+            AlignDocument::of_rows(&found, name, records, common.seed)
+        }
+        (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
+    };
+    let motion = Rigid::from_matrix(document.transform).context("the motion found")?;
+    let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
+    args.document.write(&document)?;
+    args.document.table(|| table(&document, loss.as_deref()))?;
+    Ok(if document.sound() { Outcome::Conforming } else { Outcome::NotConforming })
+}
+
+fn best_fit(
+    args: &AlignArgs,
+    scan: &Scan,
+    reference: &Mesh,
+    records: Vec<InputRecord>,
+    common: &Common,
+) -> anyhow::Result<AlignDocument> {
+    let of_reference = || args.reference.display().to_string();
+    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let tree = Tree::build_watched(reference, &stage).map_err(|e| match e {
+        trueness_geom::closest::MeshError::Cancelled(e) => e.into(),
+        e => anyhow::anyhow!("{}: {e}", of_reference()),
+    })?;
+    let measured = match scan.holds() {
+        Writable::Mesh => Measured::Mesh(&scan.mesh),
+        _ => Measured::Points { points: &scan.mesh.positions, normals: None },
+    };
+    let options = BestFit {
+        start: if args.from_here { Start::Given(Rigid::IDENTITY) } else { Start::Anywhere },
+        robust: !args.keep_outliers,
+        seed: common.seed,
+    };
+    let found = align::best_fit(&measured, &Target::new(reference, &tree), &options, &stage);
+    drop(stage);
+    let found = found.map_err(|e| match e {
+        AlignError::Cancelled(e) => e.into(),
+        e => anyhow::anyhow!("{}: {e}", args.measured.display()),
+    })?;
+    Ok(AlignDocument::of_best_fit(&found, records, common.seed))
+}
+
+/// The rows of a table: numbers parted by blanks, commas, semicolons or tabs; `#` begins a comment.
+fn rows(path: &Path) -> anyhow::Result<Vec<Vec<f64>>> {
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let mut all: Vec<Vec<f64>> = vec![];
+    for (number, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default();
+        let words = line.split([' ', ',', ';', '\t']).filter(|word| !word.is_empty());
+        let row: Result<Vec<f64>, _> = words.map(str::parse::<f64>).collect();
+        match row {
+            Ok(row) if row.is_empty() => {}
+            Ok(row) => all.push(row),
+            // Names of the columns.
+            Err(_) if all.is_empty() && number == 0 => {}
+            Err(e) => anyhow::bail!(
+                "{}: line {}: {e}; give numbers with a decimal point",
+                path.display(),
+                number + 1
+            ),
+        }
+    }
+    Ok(all)
+}
+
+/// Aligns by the rows of a table.
+fn by_rows(path: &Path, method: MethodArg) -> anyhow::Result<RowFit> {
+    let shown = path.display();
+    let rows = rows(path)?;
+    let columns = if method == MethodArg::Pairs { 6 } else { 9 };
+    if let Some(i) = rows.iter().position(|r| r.len() != columns && r.len() != columns + 1) {
+        let found = rows[i].len();
+        anyhow::bail!(
+            "{shown}: row {} has {found} numbers; give {columns}, or {} with the weight",
+            i + 1,
+            columns + 1
+        );
+    }
+    if method == MethodArg::ThreeTwoOne && rows.len() != 6 {
+        anyhow::bail!("{shown}: 3-2-1 needs six rows, and there are {}; --method rps takes more", rows.len());
+    }
+    let three = |row: &[f64], k: usize| [row[k], row[k + 1], row[k + 2]];
+    let weight = |row: &Vec<f64>| row.get(columns).copied().unwrap_or(1.0);
+    let found = if method == MethodArg::Pairs {
+        let measured: Vec<Point> = rows.iter().map(|r| three(r, 0)).collect();
+        let reference: Vec<Point> = rows.iter().map(|r| three(r, 3)).collect();
+        let weights: Vec<f64> = rows.iter().map(weight).collect();
+        align::pairs(&measured, &reference, Some(&weights))
+    } else {
+        let row = |r: &Vec<f64>| Row {
+            measured: three(r, 0),
+            nominal: three(r, 3),
+            direction: three(r, 6),
+            weight: weight(r),
+        };
+        align::constrained(&rows.iter().map(row).collect::<Vec<Row>>(), None)
+    };
+    found.map_err(|e| anyhow::anyhow!("{shown}: {e}"))
+}
+
+/// The document for people.
+fn table(document: &AlignDocument, loss: Option<&str>) -> String {
+    let mut out = read::notes(&document.inputs);
+    let _ = writeln!(out, "reference from measured by {}, mm", document.method);
+    let rows: Vec<Vec<String>> =
+        document.transform.iter().map(|row| row.iter().map(|x| fixed(*x, 12)).collect()).collect();
+    out.push_str(&console::columns(&rows));
+    let settled = if document.converged { "settled" } else { "not settled" };
+    let _ = writeln!(
+        out,
+        "rms {}   mean {}   {} after {}",
+        six_digits(document.rms),
+        six_digits(document.mean_abs),
+        settled,
+        counted(document.iterations, ["step", "steps"])
+    );
+    if let Some(fit) = &document.best_fit {
+        let _ = writeln!(
+            out,
+            "{} count, {} left out   share of the surface {} %   median {}",
+            counted(fit.used, POINTS),
+            fit.left_out,
+            fixed(100.0 * fit.share, 1),
+            six_digits(fit.median)
+        );
+        let u = fit.std_uncertainty;
+        let degrees = [0, 1, 2].map(|k| scientific(u[k].to_degrees(), 1)).join(" ");
+        let lengths = [3, 4, 5].map(|k| scientific(u[k], 1)).join(" ");
+        let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
+    }
+    for pair in &document.pairs {
+        let _ = writeln!(out, "row {}: {}", pair.row + 1, six_digits(pair.residual));
+    }
+    for warning in &document.warnings {
+        let _ = writeln!(out, "! {}", warning.text);
+    }
+    out.extend(loss.map(|text| format!("{text}\n")));
+    out
+}

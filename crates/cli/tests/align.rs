@@ -1,0 +1,157 @@
+//! `trueness align` as users run it.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::{CUBE, Folder, corpus, document, status, stderr, stdout, trueness};
+use serde_json::Value;
+use trueness_geom::rigid::Rigid;
+
+/// A mesh in OFF: vertices and the lines of its faces.
+struct Off {
+    points: Vec<[f64; 3]>,
+    faces: Vec<String>,
+}
+
+/// A wedge without symmetry, of few facets.
+fn wedge() -> Off {
+    let points = vec![
+        [0.0, 0.0, 0.0],
+        [60.0, 0.0, 0.0],
+        [0.0, 35.0, 0.0],
+        [60.0, 25.0, 0.0],
+        [0.0, 0.0, 12.0],
+        [52.0, 0.0, 20.0],
+        [0.0, 35.0, 12.0],
+        [60.0, 25.0, 15.0],
+    ];
+    let faces = CUBE.lines().filter(|l| l.starts_with("3 ")).map(str::to_string).collect();
+    Off { points, faces }
+}
+
+impl Off {
+    fn text(&self, motion: &Rigid) -> String {
+        let point = |p: &[f64; 3]| {
+            let q = motion.point(*p);
+            format!("{} {} {}\n", q[0], q[1], q[2])
+        };
+        let points: String = self.points.iter().map(point).collect();
+        format!("OFF\n{} {} 0\n{points}{}\n", self.points.len(), self.faces.len(), self.faces.join("\n"))
+    }
+}
+
+fn motion() -> Rigid {
+    Rigid::translation_by([120.0, -40.0, 7.0]).after(&Rigid::rotation_about([0.0; 3], [1.2, -0.7, 1.9]))
+}
+
+fn transform(document: &Value) -> Rigid {
+    Rigid::from_matrix(serde_json::from_value(document["transform"].clone()).unwrap()).unwrap()
+}
+
+#[test]
+fn the_document_takes_the_scan_to_the_reference_and_the_file_lies_there() {
+    let folder = Folder::new();
+    let (part, pose) = (wedge(), motion());
+    let scan = folder.write("scan.off", part.text(&pose));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let out = folder.file("aligned.ply");
+    let words = ["align", scan.to_str().unwrap(), nominal.to_str().unwrap(), "-o", out.to_str().unwrap()];
+    let found = document(words);
+    assert_eq!(
+        (found["schema"].as_str(), found["method"].as_str()),
+        (Some("trueness/align/1"), Some("best-fit"))
+    );
+    assert_eq!((found["converged"].as_bool(), found["degrees_of_freedom"].as_u64()), (Some(true), Some(6)));
+    let off = transform(&found).after(&pose);
+    assert!(off.angle() < 1e-9 && off.displacement([30.0, 15.0, 5.0]) < 1e-8, "{found}");
+    assert!(found["rms"].as_f64().unwrap() < 1e-9 && found["mean_abs"].as_f64().unwrap() < 1e-9);
+    // What was written lies on the reference as it is.
+    let compared = document(["compare", out.to_str().unwrap(), nominal.to_str().unwrap()]);
+    assert!(compared["comparisons"][0]["deviation"]["all"]["rms"].as_f64().unwrap() < 1e-5);
+    let table = trueness(words);
+    assert!(stdout(&table).contains("reference from measured by best-fit, mm"), "{}", stdout(&table));
+    assert_eq!(status(&table), 0, "{}", stdout(&table));
+}
+
+#[test]
+fn compare_aligns_first() {
+    let folder = Folder::new();
+    let part = wedge();
+    let scan = folder.write("scan.off", part.text(&motion()));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let words = ["compare", scan.to_str().unwrap(), nominal.to_str().unwrap(), "--tolerance", "0.001"];
+    assert_eq!(status(&trueness(words)), 1);
+    let found = document(words.into_iter().chain(["--align"]));
+    assert_eq!(found["verdict"], "pass");
+    assert!(transform(&found["alignment"]).after(&motion()).angle() < 1e-9);
+    assert!(stdout(&trueness(words.into_iter().chain(["--align"]))).contains("best fit to"));
+}
+
+#[test]
+fn what_looks_the_same_in_several_ways_has_status_1() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.off", CUBE);
+    let again = folder.write("again.off", CUBE);
+    let answer = trueness(["align", cube.to_str().unwrap(), again.to_str().unwrap()]);
+    assert_eq!(status(&answer), 1, "{}{}", stdout(&answer), stderr(&answer));
+    assert!(stdout(&answer).contains("the part looks the same in several ways"), "{}", stdout(&answer));
+}
+
+#[test]
+fn tables_of_places_give_the_motion() {
+    let folder = Folder::new();
+    let (part, pose) = (wedge(), motion());
+    let scan = folder.write("scan.off", part.text(&pose));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let row = |p: &[f64; 3], more: &str| {
+        let q = pose.point(*p);
+        format!("{},{},{},{},{},{}{more}\n", q[0], q[1], q[2], p[0], p[1], p[2])
+    };
+    let pairs: String = part.points[..4].iter().map(|p| row(p, "")).collect();
+    let pairs = folder.write("pairs.csv", format!("mx,my,mz,x,y,z\n{pairs}"));
+    let held = [(0, "0,0,1"), (1, "0,0,1"), (2, "0,0,1"), (0, "0,1,0"), (1, "0,1,0"), (4, "1,0,0")];
+    let rows: String = held.iter().map(|(i, d)| row(&part.points[*i], &format!(",{d}"))).collect();
+    let rows = folder.write("rows.csv", rows);
+    for (method, file) in [("pairs", &pairs), ("3-2-1", &rows), ("rps", &rows)] {
+        let words = [
+            "align",
+            scan.to_str().unwrap(),
+            nominal.to_str().unwrap(),
+            "--method",
+            method,
+            "--points",
+            file.to_str().unwrap(),
+        ];
+        let found = document(words);
+        assert_eq!(found["method"], method);
+        assert!(transform(&found).after(&pose).angle() < 1e-12, "{method}");
+        assert!(found["pairs"].as_array().unwrap().len() >= 4);
+    }
+}
+
+#[test]
+fn wrong_questions_are_answered_with_the_place_and_the_remedy() {
+    let folder = Folder::new();
+    let part = wedge();
+    let scan = folder.write("scan.off", part.text(&motion()));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let cloud = corpus("reference_fits/cylinder_exact_60.xyz");
+    let bad = folder.write("bad.csv", "1,2,3,4,5,6\n1,2,3,4,5\n");
+    let letters = folder.write("letters.csv", "1,2,3,4,5,6\n1,2,x,4,5,6\n");
+    let (scan, nominal, cloud) = (scan.to_str().unwrap(), nominal.to_str().unwrap(), cloud.to_str().unwrap());
+    let (bad, letters) = (bad.to_str().unwrap(), letters.to_str().unwrap());
+    for (words, expected, text) in [
+        (vec!["align", scan, cloud], 3, "a reference must be a mesh"),
+        (vec!["align", scan, nominal, "--method", "pairs"], 2, "--points"),
+        (vec!["align", scan, nominal, "--points", bad], 2, "--method"),
+        (vec!["align", scan, nominal, "--method", "pairs", "--points", bad], 3, "row 2 has 5 numbers"),
+        (vec!["align", scan, nominal, "--method", "pairs", "--points", letters], 3, "line 2"),
+        (vec!["align", scan, nominal, "-o", scan], 2, "would overwrite the input"),
+        (vec!["align", scan, nominal, "-o", "nowhere.xyz"], 2, ".stl"),
+        (vec!["align", "missing.stl", nominal], 3, "missing.stl"),
+    ] {
+        let answer = trueness(&words);
+        assert_eq!(status(&answer), expected, "{words:?}: {}", stderr(&answer));
+        assert!(stderr(&answer).contains(text), "{words:?}: {}", stderr(&answer));
+    }
+}

@@ -1,0 +1,354 @@
+//! The best fit from any pose: start, iteration, and what the result is worth.
+
+use super::icp::{MOST, Match, Problem, weighted_median};
+use super::sample::{Measured, Samples};
+use super::start::{Candidate, Search};
+use super::system::Spectrum;
+use super::{AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom};
+use crate::closest::{FreeEdges, check_mesh, check_points};
+use crate::num::sum::Sum;
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{Aabb, cross, dot, norm};
+
+/// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
+const FEW: usize = 400;
+const SOME: usize = 5000;
+/// Iterations after which poses are compared.
+const SOON: usize = 20;
+/// Standard deviations from which on a distance counts no more when poses are compared.
+const FAR: f64 = 20.0;
+/// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
+const AS_WELL: f64 = 1.25;
+/// Starts whose cost is within this ratio of the best are iterated to the end.
+const PROMISING: f64 = 4.0;
+/// Worth of a start below which normals are tried the other way round.
+const DOUBTFUL: f64 = 0.6;
+/// Median distance over diagonal from which on a fit is poor.
+const POOR: f64 = 0.01;
+/// Factors between units that are confused.
+const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
+
+/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface: of the
+/// vertices of a mesh, weighted by area, or of points; outliers do not count unless `options` say so.
+///
+/// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
+/// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit.
+///
+/// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.2 s for the start on two cores,
+/// then some ten closest-point searches of all points.
+///
+/// # Errors
+/// [`AlignError`]: fewer than three points, all points on one line, coordinates that are no numbers, cancelled.
+///
+/// ```
+/// use trueness_geom::align::{best_fit, BestFit, Measured, Target};
+/// use trueness_geom::{closest::Tree, mesh::Mesh, progress::Silent, rigid::Rigid};
+/// // A tetrahedron without symmetry, and the same turned by half a turn and shifted.
+/// let reference = Mesh {
+///     positions: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 11.0]],
+///     faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+/// };
+/// let turn = Rigid::rotation_about([1.0, 2.0, 3.0], [3.0, 0.4, 0.1]);
+/// let measured =
+///     Mesh { positions: reference.positions.iter().map(|p| turn.point(*p)).collect(), ..reference.clone() };
+/// let tree = Tree::build(&reference)?;
+/// let target = Target::new(&reference, &tree);
+/// let found = best_fit(&Measured::Mesh(&measured), &target, &BestFit::default(), &Silent)?;
+/// assert!(found.reference_from_measured.after(&turn).angle() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn best_fit(
+    measured: &Measured,
+    reference: &Target,
+    options: &BestFit,
+    progress: &dyn Progress,
+) -> Result<Alignment, AlignError> {
+    let samples = checked(measured, reference)?;
+    let free_edges = FreeEdges::watched(reference.tree, progress)?;
+    let work = Work::new(reference, &free_edges, options, &samples);
+    let start = match options.start {
+        Start::Anywhere => work.search(&samples, progress)?,
+        Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
+    };
+    let samples = if start.turned { samples.turned() } else { samples };
+    let some = samples.thinned(SOME, options.seed);
+    let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
+    let all = work.problem(&samples);
+    let ended = all.run(pose, work.reach(sigma), MOST, progress)?;
+    let mut result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
+    if let Some(search) = &start.search {
+        result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
+    }
+    result.warnings = work.warnings(&result, &start, measured);
+    Ok(result)
+}
+
+/// The samples of what is measured, once it is known to be fit for use.
+fn checked(measured: &Measured, reference: &Target) -> Result<Samples, AlignError> {
+    check_points(measured.points())?;
+    check_mesh(reference.mesh)?;
+    match measured {
+        Measured::Mesh(mesh) => check_mesh(mesh)?,
+        Measured::Points { points, normals: Some(normals) } if normals.len() != points.len() => {
+            let (expected, found) = (points.len(), normals.len());
+            return Err(AlignError::Uneven { what: "normals", expected, found });
+        }
+        Measured::Points { .. } => {}
+    }
+    let samples = Samples::all(measured);
+    if samples.points.len() < 3 {
+        return Err(AlignError::TooFewPoints { needed: 3, found: samples.points.len() });
+    }
+    let moments = samples.moments();
+    if moments.variances[1] <= 1e-14 * moments.variances[2] {
+        return Err(AlignError::Collinear);
+    }
+    Ok(samples)
+}
+
+/// What all steps share.
+struct Work<'a> {
+    target: &'a Target<'a>,
+    free_edges: Option<&'a FreeEdges>,
+    options: &'a BestFit,
+    radius: f64,
+    rounding: f64,
+}
+
+/// Where to go on from.
+struct Found {
+    /// Best first.
+    poses: Vec<Rigid>,
+    /// Whether the measured normals had to be turned round.
+    turned: bool,
+    /// The factor by which the measured would fit better.
+    scale: Option<f64>,
+    search: Option<Search>,
+}
+
+impl<'a> Work<'a> {
+    fn new(
+        target: &'a Target<'a>,
+        free_edges: &'a FreeEdges,
+        options: &'a BestFit,
+        samples: &Samples,
+    ) -> Work<'a> {
+        let far = |b: &Aabb| b.min.iter().chain(&b.max).fold(0.0f64, |m, x| m.max(x.abs()));
+        let moments = samples.moments();
+        let size = far(&target.bounds) + norm(moments.mean).min(far(&Aabb::of(&samples.points)));
+        Work {
+            target,
+            free_edges: (free_edges.count() > 0).then_some(free_edges),
+            options,
+            radius: moments.radius(),
+            rounding: 4.0 * f64::EPSILON * size.max(moments.radius()),
+        }
+    }
+
+    fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
+        Problem {
+            target: self.target,
+            free_edges: self.free_edges,
+            samples,
+            mean: samples.moments().mean,
+            robust: self.options.robust,
+            radius: self.radius,
+            rounding: self.rounding,
+        }
+    }
+
+    /// How far a pose with distances of this deviation is looked around at first.
+    fn reach(&self, sigma: f64) -> f64 {
+        if self.options.robust { (2.0 * FAR * sigma).max(64.0 * self.rounding) } else { f64::INFINITY }
+    }
+
+    /// Looks for starts.
+    fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
+        let few = samples.thinned(FEW, self.options.seed).with_normals(&samples.points);
+        let mut search = Search::new(self.target, few, self.options.seed, progress)?;
+        let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
+        let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
+        let mut turned = false;
+        if best(&candidates) < DOUBTFUL && search.samples.oriented {
+            search.turn();
+            let others = search.candidates(&[Rigid::IDENTITY], progress)?;
+            turned = best(&others) > best(&candidates);
+            if turned {
+                candidates = others;
+            } else {
+                search.turn();
+            }
+        }
+        let scale = self.scale(&search, best(&candidates), progress)?;
+        let refined = search.refine(&candidates, &self.problem(&search.samples), progress)?;
+        let least = refined.first().map_or(0.0, |r| r.0);
+        let good = refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect();
+        Ok(Found { poses: good, turned, scale, search: Some(search) })
+    }
+
+    /// The factor between units by which the measured fits better than as it is.
+    fn scale(&self, search: &Search, as_is: f64, progress: &dyn Progress) -> Result<Option<f64>, AlignError> {
+        let ratio = search.size_ratio();
+        for factor in UNITS {
+            if !(0.8..1.25).contains(&(ratio * factor)) {
+                continue;
+            }
+            let scaled = search.scaled(factor);
+            let worth = scaled.candidates(&[Rigid::IDENTITY], progress)?.first().map_or(0.0, |c| c.worth);
+            // A tiny piece lies well on any flat place: what counts is that all of it fits at full size.
+            if worth > DOUBTFUL && (worth > as_is || ratio < 1.0) {
+                return Ok(Some(factor));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The best of the poses, iterated to the end on some samples, and the standard deviation of the distances there.
+    fn choose(
+        &self,
+        poses: &[Rigid],
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<(Rigid, f64), AlignError> {
+        let problem = self.problem(some);
+        let mut ended: Vec<(Rigid, f64)> = vec![];
+        for pose in poses {
+            let at_start = problem.matches(pose, f64::INFINITY, progress)?;
+            let sigma = problem.deviation(&at_start);
+            let pose = problem.run(*pose, self.reach(sigma), SOON, progress)?.pose;
+            let matches = problem.matches(&pose, f64::INFINITY, progress)?;
+            ended.push((pose, problem.deviation(&matches)));
+        }
+        let least = ended.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
+        let mut best: Option<(f64, Rigid, f64)> = None;
+        for (pose, sigma) in ended {
+            let cost = problem.cost(&pose, self.cap(least), progress)?;
+            if best.is_none_or(|(c, ..)| cost < c) {
+                best = Some((cost, pose, sigma));
+            }
+        }
+        best.map(|(_, pose, sigma)| (pose, sigma)).ok_or(AlignError::NoOverlap)
+    }
+
+    /// The distance from which on none counts for more when poses are compared.
+    fn cap(&self, sigma: f64) -> f64 {
+        (FAR * sigma).max(1e-6 * self.radius)
+    }
+
+    /// Figures of the result at `pose`.
+    fn worth(
+        &self,
+        all: &Problem,
+        pose: &Rigid,
+        iterations: usize,
+        converged: bool,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Alignment, AlignError> {
+        let mut matches = all.matches(pose, f64::INFINITY, progress)?;
+        let median = weighted_median(matches.iter().map(|m| (m.distance, m.equation.weight)));
+        let sigma = all.deviation(&matches);
+        all.weigh(&mut matches, sigma);
+        let system = all.system(&matches, pose);
+        if system.weight <= 0.0 {
+            return Err(AlignError::NoOverlap);
+        }
+        let facets = all.system_of_facets(&matches, pose);
+        let of_facets = Spectrum::of(&facets);
+        let free = freedom::count(&self.problem(some), &facets, &of_facets, pose, progress)?;
+        // What is free is told by the facets; edges of a faceted cylinder would hold it.
+        let spectrum = if free > 0 { Spectrum::of(&facets) } else { Spectrum::of(&system) };
+        let used = matches.iter().filter(|m| m.equation.weight > 0.0).count();
+        let term = |m: &Match| if m.distance.is_finite() { m.equation.weight * m.distance } else { 0.0 };
+        let sum = matches.iter().map(term).fold(Sum::default(), Sum::plus).value();
+        Ok(Alignment {
+            reference_from_measured: *pose,
+            rms: system.rms(),
+            mean_abs: sum / system.weight,
+            median: median.unwrap_or(0.0),
+            iterations,
+            converged,
+            used: used as u64,
+            left_out: (matches.len() - used) as u64,
+            share: system.weight.min(1.0),
+            covariance: freedom::covariance(&system, &spectrum, &matches, free),
+            center: system.center,
+            condition: (free == 0).then(|| spectrum.values[5] / spectrum.values[0]),
+            freedoms: freedom::named(&facets, &of_facets, free),
+            alternatives: vec![],
+            warnings: vec![],
+        })
+    }
+
+    /// Other poses that fit about as well: the other starts, and turns of the kind that common symmetries have. What the
+    /// freedom of the shape allows is no other pose.
+    fn alternatives(
+        &self,
+        search: &Search,
+        poses: &[Rigid],
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Alternative>, AlignError> {
+        let pose = result.reference_from_measured;
+        let few = self.problem(&search.samples);
+        let mut candidates = search.symmetric(&pose);
+        candidates.extend(poses.iter().map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
+        candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
+        let problem = self.problem(some);
+        let cap = self.cap(1.4826 * result.median);
+        let own = problem.cost(&pose, cap, progress)?;
+        let own_few = few.cost(&pose, cap, progress)?;
+        let mut found: Vec<Alternative> = vec![];
+        for (_, other) in search.refine(&candidates, &few, progress)? {
+            // With few samples first: most are far worse.
+            if few.cost(&other, cap, progress)? > 4.0 * AS_WELL * AS_WELL * own_few.max(1e-3 * cap * cap) {
+                continue;
+            }
+            let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
+            let cost = problem.cost(&other, cap, progress)?;
+            let floor = self.rounding * self.rounding * 256.0;
+            let ratio = ((cost + floor) / (own + floor)).sqrt();
+            let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
+            let between = other.after(&pose.inverse());
+            let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
+            if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
+                found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
+            }
+        }
+        found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        Ok(found)
+    }
+
+    fn warnings(&self, result: &Alignment, start: &Found, measured: &Measured) -> Vec<AlignWarning> {
+        let mut warnings = vec![];
+        let size = self.target.bounds.diagonal().min(Aabb::of(measured.points()).diagonal());
+        let share = result.median / size;
+        warnings.extend((share > POOR).then_some(AlignWarning::Poor { share }));
+        warnings.extend(start.scale.map(|factor| AlignWarning::Scale { factor }));
+        warnings.extend(start.turned.then_some(AlignWarning::NormalsTurned));
+        let count = result.alternatives.len();
+        warnings.extend((count > 0).then_some(AlignWarning::Ambiguous { count }));
+        warnings.extend(result.freedoms.iter().map(|&f| AlignWarning::Free(f)));
+        warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
+        warnings
+    }
+}
+
+/// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.
+fn allowed(motion: &Rigid, freedoms: &[Freedom], tolerance: f64) -> bool {
+    let slides = freedoms.iter().any(|f| matches!(f, Freedom::Slides { .. }));
+    if motion.angle() < 0.02 {
+        return slides;
+    }
+    freedoms.iter().any(|f| match f {
+        Freedom::Slides { .. } => false,
+        // Its axis stays in its direction, and in its place where nothing slides.
+        Freedom::Turns { point, direction } => {
+            norm(cross(motion.vector(*direction), *direction)) < 0.02
+                && dot(motion.vector(*direction), *direction) > 0.0
+                && (slides || motion.displacement(*point) < tolerance)
+        }
+    })
+}

@@ -1,0 +1,143 @@
+//! Poses from pairs of points with normals: two places of the measured surface that lie to each other as two places of
+//! the reference do.
+//!
+//! Four numbers say how two points with normals lie to each other, whatever the pose: their distance, the angles of both
+//! normals with the line between them, and the angle between the normals (Drost, Ulrich, Navab, Ilic: Model globally,
+//! match locally, CVPR 2010). All pairs of a sample of the reference are sorted into cells of these four numbers. A pair
+//! of the measured surface looks its cell up: each pair there gives one pose, which is tried at once (Papazov, Burschka:
+//! An efficient RANSAC for 3D object recognition, ACCV 2010). Pairs with few counterparts are tried first: they tell most.
+
+use super::sample::Samples;
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Cells of each of the angles from 0 to π.
+const ANGLES: usize = 16;
+
+/// A place with its normal.
+pub(super) type Oriented = (Point, Vector);
+
+/// Pairs of a sample, by the way in which they lie.
+pub(super) struct PairTable {
+    sample: Vec<Oriented>,
+    /// Width of the cells of distance.
+    step: f64,
+    /// Cells of distance.
+    lengths: usize,
+    /// Where the pairs of each cell begin.
+    first: Vec<u32>,
+    pairs: Vec<[u16; 2]>,
+}
+
+/// The four numbers, in units of cells.
+fn relation(a: Oriented, b: Oriented, step: f64) -> Option<[f64; 4]> {
+    let (x, length) = unit(minus(b.0, a.0))?;
+    let angle = |c: f64| libm::acos(c.clamp(-1.0, 1.0)) * (ANGLES as f64 / PI);
+    Some([length / step, angle(dot(a.1, x)), angle(dot(b.1, x)), angle(dot(a.1, b.1))])
+}
+
+impl PairTable {
+    /// Of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of places.
+    pub fn new(sample: &Samples, step: f64, least: f64) -> PairTable {
+        let sample: Vec<Oriented> =
+            sample.points.iter().copied().zip(sample.normals.iter().copied()).collect();
+        let longest = sample.iter().flat_map(|a| sample.iter().map(move |b| minus(b.0, a.0)));
+        let longest = longest.fold(0.0f64, |m, v| m.max(dot(v, v))).sqrt();
+        let lengths = (longest / step) as usize + 1;
+        let keys: Vec<Vec<u32>> = (sample.par_iter())
+            .map(|&a| {
+                let key = |&b: &Oriented| match relation(a, b, step) {
+                    Some(r) if r[0] * step >= least => cell(r.map(|x| x as usize), lengths) as u32,
+                    _ => u32::MAX,
+                };
+                sample.iter().map(key).collect()
+            })
+            .collect();
+        let mut first = vec![0u32; lengths * ANGLES.pow(3) + 1];
+        let known = || keys.iter().flatten().filter(|&&k| k != u32::MAX);
+        known().for_each(|&k| first[k as usize + 1] += 1);
+        for i in 1..first.len() {
+            first[i] += first[i - 1];
+        }
+        let mut next = first.clone();
+        let mut pairs = vec![[0u16; 2]; known().count()];
+        for (i, row) in keys.iter().enumerate() {
+            for (j, &k) in row.iter().enumerate().filter(|(_, k)| **k != u32::MAX) {
+                pairs[next[k as usize] as usize] = [i as u16, j as u16];
+                next[k as usize] += 1;
+            }
+        }
+        PairTable { sample, step, lengths, first, pairs }
+    }
+
+    /// Pairs of the reference that lie to each other about as these two: those of its cell and of the nearer neighbours.
+    pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
+        let Some(r) = relation(a, b, self.step) else { return vec![] };
+        // The cell in which the number lies, and the one on the side to which it is nearer.
+        let near = r.map(|x| {
+            let low = (x - 0.5).floor();
+            [low, low + 1.0]
+        });
+        let limits = [self.lengths, ANGLES, ANGLES, ANGLES];
+        let mut found = vec![];
+        for corner in 0..16usize {
+            let at: [f64; 4] = std::array::from_fn(|k| near[k][corner >> k & 1]);
+            if (0..4).any(|k| at[k] < 0.0 || at[k] >= limits[k] as f64) {
+                continue;
+            }
+            let k = cell(at.map(|x| x as usize), self.lengths);
+            found.extend_from_slice(&self.pairs[self.first[k] as usize..self.first[k + 1] as usize]);
+        }
+        found
+    }
+
+    /// The motion that lays the measured pair on a pair of the reference. `None` where a frame has no direction.
+    pub fn pose(&self, from: &PairFrame, [i, j]: [u16; 2]) -> Option<Rigid> {
+        let (a, b) = (self.sample[i as usize], self.sample[j as usize]);
+        let to = PairFrame::new(a, b, from.sum)?;
+        // Columns of the frames are the images of the axes: R = Σ to_k from_kᵀ.
+        let rows = std::array::from_fn(|r| {
+            (0..3).fold([0.0; 3], |s, k| plus(s, times(to.axes[k][r], from.axes[k])))
+        });
+        Some(Rigid::of_rotation(rows, from.middle, to.middle))
+    }
+}
+
+/// Index of a cell.
+#[inline(always)]
+fn cell(at: [usize; 4], lengths: usize) -> usize {
+    let angle = |k: usize| at[k].min(ANGLES - 1);
+    ((at[0].min(lengths - 1) * ANGLES + angle(1)) * ANGLES + angle(2)) * ANGLES + angle(3)
+}
+
+/// A frame that goes with a pair: the first axis along the pair, the third along the normals.
+pub(super) struct PairFrame {
+    middle: Point,
+    axes: [Vector; 3],
+    /// Whether the third axis follows the sum of the normals or their difference.
+    sum: bool,
+}
+
+impl PairFrame {
+    /// Of the sum or difference of the normals. `None` where it lies along the pair.
+    fn new(a: Oriented, b: Oriented, sum: bool) -> Option<PairFrame> {
+        let (x, _) = unit(minus(b.0, a.0))?;
+        let n = if sum { plus(a.1, b.1) } else { minus(a.1, b.1) };
+        let across = minus(n, times(dot(n, x), x));
+        let (z, length) = unit(across)?;
+        (length > 0.2).then(|| PairFrame {
+            middle: times(0.5, plus(a.0, b.0)),
+            axes: [x, cross(z, x), z],
+            sum,
+        })
+    }
+
+    /// Of whichever is farther from the direction of the pair.
+    pub fn best(a: Oriented, b: Oriented) -> Option<PairFrame> {
+        let x = minus(b.0, a.0);
+        let across = |n: Vector| norm(cross(n, x));
+        PairFrame::new(a, b, across(plus(a.1, b.1)) >= across(minus(a.1, b.1)))
+    }
+}

@@ -1,0 +1,160 @@
+//! The freedom that the shape leaves: a plane slides, a cylinder spins, a sphere turns every way.
+
+use super::AlignError;
+use super::icp::{Match, Problem, moved};
+use super::system::{Six, SixBySix, Spectrum, System, eigen_six, slope};
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use std::collections::BTreeMap;
+
+/// A motion that changes nothing in how the measured fits the reference; in the frame of the reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Freedom {
+    /// It slides along this unit direction.
+    Slides {
+        /// Where to.
+        direction: Vector,
+    },
+    /// It turns about an axis.
+    Turns {
+        /// A place on the axis, millimetres.
+        point: Point,
+        /// Unit direction of the axis.
+        direction: Vector,
+    },
+}
+
+/// Mean square displacement along the facets' normals per unit of mean square displacement, above which a motion is held.
+const HELD: f64 = 0.02;
+/// Share of the radius by which the others are tried, and the distance per way up to which they are free: a cylinder of
+/// facets holds its rotation by its edges, but only until the next facet.
+const TRIED: f64 = 0.05;
+const BARELY: f64 = 0.02;
+
+/// Number of directions of the spectrum, from the least, that are free at `pose`.
+pub(super) fn count(
+    problem: &Problem,
+    system: &System,
+    spectrum: &Spectrum,
+    pose: &Rigid,
+    progress: &dyn Progress,
+) -> Result<usize, AlignError> {
+    let step = TRIED * system.radius;
+    let mut here = None;
+    for k in 0..6 {
+        let share = spectrum.values[k] / system.weight;
+        if share >= HELD {
+            return Ok(k);
+        }
+        let at_pose = match here {
+            Some(x) => x,
+            None => *here.insert(mean_square(problem, pose, step, progress)?),
+        };
+        for sign in [-1.0, 1.0] {
+            let motion = moved(system, &spectrum.vectors[k].map(|x| sign * step * x));
+            let there = mean_square(problem, &motion.after(pose), step, progress)?;
+            if (there - at_pose).max(0.0).sqrt() > BARELY * step {
+                return Ok(k);
+            }
+        }
+    }
+    Ok(6)
+}
+
+/// Mean square distance of the samples that have a place within `reach`.
+fn mean_square(
+    problem: &Problem,
+    pose: &Rigid,
+    reach: f64,
+    progress: &dyn Progress,
+) -> Result<f64, AlignError> {
+    let matches = problem.matches(pose, reach, progress)?;
+    let there = matches.iter().filter(|m| m.distance.is_finite());
+    let (sum, weight) = there.fold((0.0, 0.0), |(s, w), m| {
+        (s + m.equation.weight * m.distance * m.distance, w + m.equation.weight)
+    });
+    Ok(if weight > 0.0 { sum / weight } else { reach * reach })
+}
+
+/// The motions that the first `free` directions of the spectrum span: slides first, then turns.
+pub(super) fn named(system: &System, spectrum: &Spectrum, free: usize) -> Vec<Freedom> {
+    // Combinations without rotation: the null space of the Gram matrix of the rotations.
+    let turn = |k: usize| -> Vector { std::array::from_fn(|i| spectrum.vectors[k][i]) };
+    let shift = |k: usize| -> Vector { std::array::from_fn(|i| spectrum.vectors[k][i + 3]) };
+    let mut gram: SixBySix = [[0.0; 6]; 6];
+    for i in 0..6 {
+        for j in 0..6 {
+            gram[i][j] = match i < free && j < free {
+                true => dot(turn(i), turn(j)),
+                // The others stand last.
+                false => f64::from(u8::from(i == j)) * 4.0,
+            };
+        }
+    }
+    let (values, rows) = eigen_six(&gram);
+    let combined = |row: &Six, of: &dyn Fn(usize) -> Vector| {
+        (0..free).fold([0.0; 3], |s, k| plus(s, times(row[k], of(k))))
+    };
+    let slides: Vec<Vector> = (0..free)
+        .filter(|&k| values[k] < 0.01)
+        .filter_map(|k| unit(combined(&rows[k], &shift)).map(|u| u.0))
+        .collect();
+    let mut found: Vec<Freedom> =
+        slides.iter().map(|&direction| Freedom::Slides { direction: forward(direction) }).collect();
+    for row in (0..free).filter(|&k| values[k] >= 0.01).map(|k| &rows[k]) {
+        let omega = times(1.0 / system.radius, combined(row, &turn));
+        let t = slides.iter().fold(combined(row, &shift), |t, s| minus(t, times(dot(t, *s), *s)));
+        let Some((direction, size)) = unit(omega) else { continue };
+        let point = plus(system.center, times(1.0 / (size * size), cross(omega, t)));
+        found.push(Freedom::Turns { point, direction: forward(direction) });
+    }
+    found
+}
+
+/// The direction whose component of largest magnitude is positive.
+fn forward(d: Vector) -> Vector {
+    let largest = (0..3).max_by(|&i, &j| d[i].abs().total_cmp(&d[j].abs())).unwrap_or(0);
+    times(1f64.copysign(d[largest]), d)
+}
+
+/// Cells along the radius within which residuals may go together.
+const CELLS: f64 = 4.0;
+
+/// Covariance of the six unknowns (rotation vector about the center of the system, radians; translation, mm), none along
+/// the first `free` directions.
+///
+/// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one
+/// cell of space are therefore taken for one observation (cluster-robust covariance: Liang, Zeger, Longitudinal data
+/// analysis using generalized linear models, Biometrika 73, 1986): right for independent residuals as well as for
+/// correlated ones, as long as their range is below the cells' size, a quarter of the points' radius.
+pub(super) fn covariance(system: &System, spectrum: &Spectrum, matches: &[Match], free: usize) -> SixBySix {
+    let mut cells: BTreeMap<[i64; 3], Six> = BTreeMap::new();
+    for m in matches.iter().filter(|m| m.equation.weight > 0.0) {
+        let e = &m.equation;
+        let key = minus(e.point, system.center).map(|x| (x * CELLS / system.radius).floor() as i64);
+        let row = slope(e.point, e.away, system.center, system.radius);
+        let sum = cells.entry(key).or_insert([0.0; 6]);
+        for i in 0..6 {
+            sum[i] += e.weight * row[i];
+        }
+    }
+    let mut middle = [[0.0; 6]; 6];
+    for g in cells.values() {
+        for i in 0..6 {
+            for j in 0..6 {
+                middle[i][j] += g[i] * g[j];
+            }
+        }
+    }
+    let count = cells.len() as f64;
+    let few = count / (count - 6.0).max(1.0);
+    let mut out = spectrum.sandwich(&middle, free);
+    let unit = |k: usize| if k < 3 { 1.0 / system.radius } else { 1.0 };
+    for i in 0..6 {
+        for j in 0..6 {
+            out[i][j] *= few * unit(i) * unit(j);
+        }
+    }
+    out
+}

@@ -1,0 +1,215 @@
+//! Alignment by places that belong together: pairs of points, and rows of a measured point, its nominal place and the
+//! direction in which it is held, as in 3-2-1 and reference point systems.
+
+use super::AlignError;
+use super::icp::moved;
+use super::system::{Equation, Hold, SixBySix, Spectrum, System, eigen_six};
+use crate::closest::check_points;
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
+
+/// One row of a reference point system: the measured point is to lie in the plane through `nominal` across `direction`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Measured, in its own frame, millimetres.
+    pub measured: Point,
+    /// Where it should be, in the frame of the reference.
+    pub nominal: Point,
+    /// The direction in which it is held, of any length, in the frame of the reference.
+    pub direction: Vector,
+    /// Its weight: greater than that of others means held better. All alike for 3-2-1.
+    pub weight: f64,
+}
+
+/// An alignment by rows or pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowFit {
+    /// Takes measured coordinates to those of the reference.
+    pub reference_from_measured: Rigid,
+    /// Of each row: the distance left along its direction, signed; of each pair: the distance left.
+    pub residuals: Vec<f64>,
+    /// Root of their weighted mean square.
+    pub rms: f64,
+    /// Steps taken.
+    pub iterations: usize,
+    /// Whether the steps settled.
+    pub converged: bool,
+}
+
+/// The motion that brings `measured[i]` nearest to `reference[i]`, by the least weighted sum of squared distances.
+///
+/// Closed form by unit quaternions: Horn, Closed-form solution of absolute orientation using unit quaternions, J. Opt.
+/// Soc. Am. A 4, 1987. A mirror image is never taken for a rotation. Without `weights` all count alike.
+///
+/// # Errors
+/// [`AlignError::Uneven`], [`AlignError::TooFewPoints`] below three, [`AlignError::Collinear`], [`AlignError::BadWeight`],
+/// [`AlignError::Point`] for a coordinate that is no number.
+///
+/// ```
+/// use trueness_geom::{align::pairs, rigid::Rigid};
+/// let measured = [[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 20.0, 0.0]];
+/// let turn = Rigid::rotation_about([1.0, 1.0, 1.0], [2.0, 0.5, 0.0]);
+/// let fit = pairs(&measured, &measured.map(|p| turn.point(p)), None)?;
+/// assert!(fit.rms < 1e-14);
+/// # Ok::<(), trueness_geom::align::AlignError>(())
+/// ```
+pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -> Result<RowFit, AlignError> {
+    let uneven = |what, found| Err(AlignError::Uneven { what, expected: measured.len(), found });
+    if measured.len() != reference.len() {
+        return uneven("points of the reference", reference.len());
+    }
+    if let Some(w) = weights
+        && w.len() != measured.len()
+    {
+        return uneven("weights", w.len());
+    }
+    check_points(measured)?;
+    check_points(reference)?;
+    let weight = |i: usize| weights.map_or(1.0, |w| w[i]);
+    let total = checked_weights(measured.len(), &weight)?;
+    let there = (0..measured.len()).filter(|&i| weight(i) > 0.0).count();
+    if there < 3 {
+        return Err(AlignError::TooFewPoints { needed: 3, found: there });
+    }
+    let mean = |p: &[Point]| (0..p.len()).fold([0.0; 3], |s, i| plus(s, times(weight(i) / total, p[i])));
+    let (from, to) = (mean(measured), mean(reference));
+    // Correlation of the centered points: s[a][b] = Σ w p_a q_b.
+    let mut s = [[0.0; 3]; 3];
+    for i in 0..measured.len() {
+        let (p, q) = (minus(measured[i], from), minus(reference[i], to));
+        for a in 0..3 {
+            for b in 0..3 {
+                s[a][b] += weight(i) / total * p[a] * q[b];
+            }
+        }
+    }
+    let (rows, certain) = quaternion_rotation(&s);
+    if !certain {
+        return Err(AlignError::Collinear);
+    }
+    let motion = Rigid::of_rotation(rows, from, to);
+    let residuals: Vec<f64> =
+        measured.iter().zip(reference).map(|(p, q)| norm(minus(motion.point(*p), *q))).collect();
+    let rms = mean_square(&residuals, &weight, total).sqrt();
+    Ok(RowFit { reference_from_measured: motion, residuals, rms, iterations: 1, converged: true })
+}
+
+/// The rotation of greatest `Σ s_ab R_ba`, and whether no other does as well.
+fn quaternion_rotation(s: &[[f64; 3]; 3]) -> ([Vector; 3], bool) {
+    let trace = s[0][0] + s[1][1] + s[2][2];
+    let skew = [s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]];
+    let size = s.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    let mut n: SixBySix = [[0.0; 6]; 6];
+    n[0][0] = trace;
+    for a in 0..3 {
+        (n[0][a + 1], n[a + 1][0]) = (skew[a], skew[a]);
+        for b in 0..3 {
+            n[a + 1][b + 1] = s[a][b] + s[b][a] - if a == b { trace } else { 0.0 };
+        }
+    }
+    // The two rows that Horn's matrix does not have stand below all its eigenvalues.
+    (n[4][4], n[5][5]) = (-16.0 * size, -16.0 * size);
+    let (values, vectors) = eigen_six(&n);
+    let [w, x, y, z, ..] = vectors[5];
+    let rows = [
+        [w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z],
+    ];
+    (rows, size > 0.0 && values[5] - values[4] > 1e-12 * size)
+}
+
+/// Steps after which rows count as not settling.
+const MOST: usize = 100;
+
+/// The motion that brings the measured point of every row into the plane across its direction: exactly for six rows that
+/// hold all six freedoms (3-2-1), by the least weighted sum of squares for more (RPS). A point held in two or three
+/// directions has as many rows.
+///
+/// It starts from `start`, or from the points taken as pairs; the planes are few, so a start far off may lead to another
+/// solution. Steps of Gauss and Newton.
+///
+/// # Errors
+/// [`AlignError::TooFewPoints`] below six rows; [`AlignError::Underdetermined`] names how many freedoms stay open;
+/// [`AlignError::NoDirection`], [`AlignError::BadWeight`], [`AlignError::Point`]; those of [`pairs`] without a start.
+///
+/// ```
+/// use trueness_geom::{align::{constrained, Row}, rigid::Rigid};
+/// // Three points hold z, two hold y, one holds x.
+/// let held = [
+///     ([0.0, 0.0, 0.0], 2), ([80.0, 0.0, 0.0], 2), ([0.0, 50.0, 0.0], 2),
+///     ([10.0, 0.0, 8.0], 1), ([70.0, 0.0, 8.0], 1), ([0.0, 25.0, 8.0], 0),
+/// ];
+/// let turn = Rigid::rotation_about([0.0; 3], [0.3, -0.2, 1.0]);
+/// let rows = held.map(|(nominal, axis)| {
+///     let mut direction = [0.0; 3];
+///     direction[axis] = 1.0;
+///     Row { measured: turn.point(nominal), nominal, direction, weight: 1.0 }
+/// });
+/// let fit = constrained(&rows, None)?;
+/// assert!(fit.converged && fit.rms < 1e-13);
+/// assert!(fit.reference_from_measured.after(&turn).angle() < 1e-14);
+/// # Ok::<(), trueness_geom::align::AlignError>(())
+/// ```
+pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignError> {
+    let measured: Vec<Point> = rows.iter().map(|r| r.measured).collect();
+    let nominal: Vec<Point> = rows.iter().map(|r| r.nominal).collect();
+    check_points(&measured)?;
+    check_points(&nominal)?;
+    if rows.len() < 6 {
+        return Err(AlignError::TooFewPoints { needed: 6, found: rows.len() });
+    }
+    let weight = |i: usize| rows[i].weight;
+    let total = checked_weights(rows.len(), &weight)?;
+    let held: Result<Vec<Vector>, AlignError> = rows
+        .iter()
+        .enumerate()
+        .map(|(row, r)| unit(r.direction).map(|d| d.0).ok_or(AlignError::NoDirection { row }))
+        .collect();
+    let held = held?;
+    let mut pose = match start {
+        Some(pose) => pose,
+        None => pairs(&measured, &nominal, None)?.reference_from_measured,
+    };
+    let middle = times(1.0 / rows.len() as f64, nominal.iter().fold([0.0; 3], |s, p| plus(s, *p)));
+    let radius = nominal.iter().map(|p| norm(minus(*p, middle))).fold(0.0, f64::max);
+    let residual = |pose: &Rigid, i: usize| dot(held[i], minus(pose.point(measured[i]), nominal[i]));
+    let size = nominal.iter().flatten().fold(radius, |m, x| m.max(x.abs()));
+    let (mut iterations, mut converged) = (0, false);
+    while iterations < MOST && !converged {
+        let equation = |i: usize| Equation {
+            point: pose.point(measured[i]),
+            away: minus(pose.point(measured[i]), nominal[i]),
+            hold: Hold::Plane(held[i]),
+            weight: weight(i),
+        };
+        let equations: Vec<Equation> = (0..rows.len()).map(equation).collect();
+        let system = System::new(&equations, middle, radius);
+        let spectrum = Spectrum::of(&system);
+        if spectrum.fixed > 0 {
+            return Err(AlignError::Underdetermined { free: spectrum.fixed });
+        }
+        let step = spectrum.solve(&system.right, 0);
+        pose = moved(&system, &step).after(&pose);
+        iterations += 1;
+        converged = step.iter().all(|x| x.abs() <= 8.0 * f64::EPSILON * size);
+    }
+    let residuals: Vec<f64> = (0..rows.len()).map(|i| residual(&pose, i)).collect();
+    let rms = mean_square(&residuals, &weight, total).sqrt();
+    Ok(RowFit { reference_from_measured: pose, residuals, rms, iterations, converged })
+}
+
+/// The sum of the weights, each of which must be a number from 0 upwards, and not all of them 0.
+fn checked_weights(count: usize, weight: &impl Fn(usize) -> f64) -> Result<f64, AlignError> {
+    match (0..count).find(|&i| !(weight(i) >= 0.0 && weight(i).is_finite())) {
+        Some(row) => Err(AlignError::BadWeight { row }),
+        None => {
+            let total: f64 = (0..count).map(weight).sum();
+            if total > 0.0 { Ok(total) } else { Err(AlignError::BadWeight { row: 0 }) }
+        }
+    }
+}
+
+fn mean_square(residuals: &[f64], weight: &impl Fn(usize) -> f64, total: f64) -> f64 {
+    residuals.iter().enumerate().map(|(i, r)| weight(i) * r * r).sum::<f64>() / total
+}

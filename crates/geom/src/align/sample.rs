@@ -1,0 +1,241 @@
+//! What is aligned, as weighted points: every point stands for its share of the measured surface.
+//!
+//! A vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one place and thin
+//! in another is not drawn towards the dense place. A point of a cloud stands for itself.
+
+use crate::fit::eigen;
+use crate::mesh::Mesh;
+use crate::num::random::Random;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::spatial::neighbours::PointTree;
+use rayon::prelude::*;
+
+/// What is brought to the reference, millimetres, in a frame of its own.
+#[derive(Clone, Copy, Debug)]
+pub enum Measured<'a> {
+    /// A mesh with outward facets. Its vertices are aligned, each with the area around it as its weight.
+    Mesh(&'a Mesh),
+    /// Points, each of the same weight.
+    Points {
+        /// Places, millimetres.
+        points: &'a [Point],
+        /// Outward unit normals, as many; without them any side of the reference will do.
+        normals: Option<&'a [Vector]>,
+    },
+}
+
+impl Measured<'_> {
+    /// All points, in their order.
+    pub fn points(&self) -> &[Point] {
+        match self {
+            Measured::Mesh(mesh) => &mesh.positions,
+            Measured::Points { points, .. } => points,
+        }
+    }
+}
+
+/// Weighted points with normals.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Samples {
+    pub points: Vec<Point>,
+    /// As many unit normals, zero where there is none; nothing at all where none are known.
+    pub normals: Vec<Vector>,
+    /// Positive, of sum 1.
+    pub weights: Vec<f64>,
+    /// Whether the normals tell outside from inside.
+    pub oriented: bool,
+}
+
+/// Neighbours that make the normal of a point of a cloud.
+const NEIGHBOURS: usize = 16;
+
+impl Samples {
+    /// All that is measured. Vertices that no facet uses are left out.
+    pub fn all(measured: &Measured) -> Samples {
+        let mut samples = match measured {
+            Measured::Mesh(mesh) => of_vertices(mesh),
+            Measured::Points { points, normals } => Samples {
+                points: points.to_vec(),
+                normals: normals.map(<[Vector]>::to_vec).unwrap_or_default(),
+                weights: vec![1.0; points.len()],
+                oriented: normals.is_some(),
+            },
+        };
+        let total: f64 = samples.weights.iter().sum();
+        samples.weights.iter_mut().for_each(|w| *w /= total);
+        samples
+    }
+
+    /// About `count` of them, spread evenly by weight and equal in weight; all where there are no more. They are taken in
+    /// random order.
+    pub fn thinned(&self, count: usize, seed: u64) -> Samples {
+        let random = &mut Random::new(seed);
+        let mut chosen: Vec<usize> = Vec::with_capacity(count);
+        if self.points.len() <= count {
+            chosen.extend(0..self.points.len());
+        } else {
+            // The places i + 1/2 of a ruler of `count` marks, laid along the weights one after the other.
+            let (mut sum, mut next) = (0.0, 0.5 / count as f64);
+            for (i, w) in self.weights.iter().enumerate() {
+                sum += w;
+                if next <= sum {
+                    chosen.push(i);
+                    next = ((sum * count as f64 - 0.5).floor() + 1.5) / count as f64;
+                }
+            }
+        }
+        shuffle(&mut chosen, random);
+        let whole = self.points.len() <= count;
+        let weights: Vec<f64> =
+            chosen.iter().map(|&i| if whole { self.weights[i] } else { 1.0 / chosen.len() as f64 }).collect();
+        let normals = match self.normals.is_empty() {
+            true => vec![],
+            false => chosen.iter().map(|&i| self.normals[i]).collect(),
+        };
+        Samples {
+            points: chosen.iter().map(|&i| self.points[i]).collect(),
+            normals,
+            weights,
+            oriented: self.oriented,
+        }
+    }
+
+    /// The same with normals by local planes of `among`, without sides; where there are normals, those.
+    pub fn with_normals(mut self, among: &[Point]) -> Samples {
+        if self.normals.is_empty() {
+            let tree = PointTree::new(among);
+            self.normals = self.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
+        }
+        self
+    }
+
+    /// The same with every normal turned round.
+    pub fn turned(&self) -> Samples {
+        Samples { normals: self.normals.iter().map(|n| times(-1.0, *n)).collect(), ..self.clone() }
+    }
+
+    /// The same `factor` times as large.
+    pub fn scaled(&self, factor: f64) -> Samples {
+        Samples { points: self.points.iter().map(|p| times(factor, *p)).collect(), ..self.clone() }
+    }
+
+    /// Weighted mean and second moments about it.
+    pub fn moments(&self) -> Moments {
+        Moments::of(self.points.iter().copied().zip(self.weights.iter().copied()))
+    }
+}
+
+/// Where points lie and how they spread.
+pub(super) struct Moments {
+    pub mean: Point,
+    /// Variances along the principal axes, least first.
+    pub variances: [f64; 3],
+    /// The principal axes, a right-handed frame.
+    pub axes: [Vector; 3],
+}
+
+impl Moments {
+    /// Of weighted points.
+    pub fn of(points: impl Iterator<Item = (Point, f64)> + Clone) -> Moments {
+        let (mut mean, mut total) = ([0.0; 3], 0.0);
+        for (p, w) in points.clone() {
+            mean = plus(mean, times(w, p));
+            total += w;
+        }
+        mean = times(1.0 / total, mean);
+        let mut spread = [[0.0; 3]; 3];
+        for (p, w) in points {
+            let q = minus(p, mean);
+            for i in 0..3 {
+                for j in 0..3 {
+                    spread[i][j] += w / total * q[i] * q[j];
+                }
+            }
+        }
+        let (variances, mut axes) = eigen(spread);
+        axes[2] = cross(axes[0], axes[1]);
+        Moments { mean, variances, axes }
+    }
+
+    /// Root mean square distance from the mean.
+    pub fn radius(&self) -> f64 {
+        self.variances.iter().sum::<f64>().max(0.0).sqrt()
+    }
+}
+
+/// The direction in which the nearest neighbours spread least; zero where they lie on a line.
+fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
+    let near = tree.k_nearest(p, NEIGHBOURS, None);
+    let moments = Moments::of(near.iter().map(|n| (among[n.1 as usize], 1.0)));
+    if moments.variances[1] > 1e-6 * moments.variances[2] { moments.axes[0] } else { [0.0; 3] }
+}
+
+fn of_vertices(mesh: &Mesh) -> Samples {
+    let mut normals = vec![[0.0; 3]; mesh.positions.len()];
+    let mut areas = vec![0.0; mesh.positions.len()];
+    for face in &mesh.faces {
+        let double = double_area(mesh, face);
+        for &v in face {
+            normals[v as usize] = plus(normals[v as usize], double);
+            areas[v as usize] += norm(double);
+        }
+    }
+    let mut samples = Samples { oriented: true, ..Samples::default() };
+    for ((p, n), a) in mesh.positions.iter().zip(normals).zip(areas) {
+        if a > 0.0 {
+            samples.points.push(*p);
+            samples.normals.push(unit(n).map_or([0.0; 3], |n| n.0));
+            samples.weights.push(a);
+        }
+    }
+    samples
+}
+
+fn double_area(mesh: &Mesh, face: &[u32; 3]) -> Vector {
+    let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+    cross(minus(b, a), minus(c, a))
+}
+
+/// `count` places on a mesh, spread by area, with the normals of their facets, of equal weight and in random order.
+pub(super) fn on_surface(mesh: &Mesh, count: usize, seed: u64) -> Samples {
+    let random = &mut Random::new(seed);
+    let areas: Vec<f64> = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).collect();
+    let total: f64 = areas.iter().sum();
+    let (mut sum, mut next) = (0.0, random.unit());
+    let mut found: Vec<(Point, Vector)> = Vec::with_capacity(count);
+    for (face, area) in mesh.faces.iter().zip(&areas) {
+        sum += area / total * count as f64;
+        while next <= sum && found.len() < count {
+            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let (root, t) = (random.unit().sqrt(), random.unit());
+            let p = plus(plus(times(1.0 - root, a), times(root * (1.0 - t), b)), times(root * t, c));
+            if let Some((n, _)) = unit(double_area(mesh, face)) {
+                found.push((p, n));
+            }
+            next += 1.0;
+        }
+    }
+    shuffle(&mut found, random);
+    let weights = vec![1.0 / found.len() as f64; found.len()];
+    let (points, normals) = found.into_iter().unzip();
+    Samples { points, normals, weights, oriented: true }
+}
+
+/// The area of a mesh.
+pub(super) fn area(mesh: &Mesh) -> f64 {
+    mesh.faces.iter().map(|f| 0.5 * norm(double_area(mesh, f))).sum()
+}
+
+/// Fisher and Yates.
+fn shuffle<T>(items: &mut [T], random: &mut Random) {
+    for i in (1..items.len()).rev() {
+        items.swap(i, random.below(i as u64 + 1) as usize);
+    }
+}
+
+/// Whether two normals agree within the angle of this cosine; a zero normal agrees with all.
+#[inline(always)]
+pub(super) fn agree(a: Vector, b: Vector, oriented: bool, cosine: f64) -> bool {
+    let c = dot(a, b);
+    a == [0.0; 3] || (if oriented { c } else { c.abs() }) >= cosine
+}

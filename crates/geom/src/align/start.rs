@@ -1,0 +1,303 @@
+//! Where to start: poses from all that could tell, tried by the hundred thousand on a grid, the best of them refined.
+
+use super::features::{Oriented, PairFrame, PairTable};
+use super::field::Field;
+use super::icp::Problem;
+use super::sample::{Moments, Samples, area, on_surface};
+use super::{AlignError, Target};
+use crate::num::random::Random;
+use crate::progress::{Cancelled, Progress};
+use crate::rigid::Rigid;
+use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Places on the reference whose pairs are known.
+const REFERENCE: usize = 900;
+/// Samples of the measured surface that a pose is tried on: first few, then all.
+const TRIED: [usize; 3] = [24, 96, 400];
+/// Share of the samples' worth that a pose must have to be tried further.
+const ENOUGH: [f64; 2] = [0.25, 0.35];
+/// Pairs of the measured surface that are looked up, and poses tried.
+const LOOKED_UP: usize = 4000;
+const POSES: usize = 60_000;
+/// Counterparts tried of each.
+const COUNTERPARTS: usize = 300;
+/// Share of the best worth that others must have to be refined.
+const COMPARABLE: f64 = 0.5;
+/// Starts that are refined, and those whose refined pose is looked at closely.
+const REFINED: usize = 32;
+const CLOSE: usize = 12;
+
+/// The search for a start.
+pub(super) struct Search {
+    /// A few hundred samples with normals, in random order.
+    pub samples: Samples,
+    bounds: Aabb,
+    known: Arc<Known>,
+    /// Mean distance of neighbours among the places of the reference.
+    pub spacing: f64,
+    measured: Moments,
+    seed: u64,
+}
+
+/// What is known of the reference.
+struct Known {
+    field: Field,
+    table: PairTable,
+    moments: Moments,
+}
+
+/// A pose and what it is worth, from 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub pose: Rigid,
+    pub worth: f64,
+}
+
+impl Search {
+    /// Prepares the reference.
+    pub fn new(
+        target: &Target,
+        samples: Samples,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<Search, AlignError> {
+        let bounds = target.bounds;
+        let reference = on_surface(target.mesh, REFERENCE, seed);
+        let spacing = (area(target.mesh) / REFERENCE as f64).sqrt().max(1e-3 * bounds.diagonal());
+        let reach = 1.2 * spacing;
+        let field = Field::new(target.mesh, target.tree, &bounds, reach, progress)?;
+        let table = PairTable::new(&reference, spacing, 2.0 * spacing);
+        let known = Arc::new(Known { field, table, moments: reference.moments() });
+        Ok(Search { bounds, known, spacing, measured: samples.moments(), samples, seed })
+    }
+
+    /// Turns the normals of the samples round.
+    pub fn turn(&mut self) {
+        self.samples = self.samples.turned();
+    }
+
+    /// Root mean square radius of the measured over that of the reference.
+    pub fn size_ratio(&self) -> f64 {
+        self.measured.radius() / self.known.moments.radius()
+    }
+
+    /// The same for samples `factor` times as large.
+    pub fn scaled(&self, factor: f64) -> Search {
+        let samples = self.samples.scaled(factor);
+        let (bounds, known, spacing, seed) = (self.bounds, self.known.clone(), self.spacing, self.seed);
+        Search { measured: samples.moments(), samples, bounds, known, spacing, seed }
+    }
+
+    /// The best poses, best first: no two nearly the same.
+    pub fn candidates(&self, given: &[Rigid], progress: &dyn Progress) -> Result<Vec<Candidate>, AlignError> {
+        let mut all: Vec<Rigid> = given.to_vec();
+        all.extend(self.of_axes());
+        let mut found: Vec<Candidate> =
+            all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) }).collect();
+        found.extend(self.of_pairs(progress)?);
+        Ok(self.distinct(found))
+    }
+
+    /// Middle on middle, axes along axes in all ways: 24 for the sides of a box.
+    fn of_axes(&self) -> Vec<Rigid> {
+        let (from, to) = (&self.measured, &self.known.moments);
+        let quarter = |rows: [Vector; 3]| {
+            let rotated = std::array::from_fn(|r| {
+                (0..3).fold([0.0; 3], |s: Vector, k| {
+                    std::array::from_fn(|c| {
+                        s[c] + to.axes[k][r] * (0..3).map(|j| rows[k][j] * from.axes[j][c]).sum::<f64>()
+                    })
+                })
+            });
+            Rigid::of_rotation(rotated, from.mean, to.mean)
+        };
+        cube_rotations().into_iter().map(quarter).collect()
+    }
+
+    /// By pairs of samples that lie to each other as pairs of the reference do.
+    fn of_pairs(&self, progress: &dyn Progress) -> Result<Vec<Candidate>, AlignError> {
+        let random = &mut Random::stream(self.seed, 1);
+        let size = self.bounds.diagonal().min(Aabb::of(&self.samples.points).diagonal());
+        let all: Vec<Oriented> =
+            self.samples.points.iter().copied().zip(self.samples.normals.iter().copied()).collect();
+        let mut pairs = vec![];
+        for _ in 0..8 * LOOKED_UP {
+            let [i, j] = [(); 2].map(|()| random.below(all.len() as u64) as usize);
+            let length = norm(minus(all[j].0, all[i].0));
+            if pairs.len() < LOOKED_UP && length >= 0.25 * size && length <= 0.9 * size {
+                pairs.push((i, j));
+            }
+        }
+        // Normals without a side may point either way.
+        let signs: &[[f64; 2]] = match self.samples.oriented {
+            true => &[[1.0, 1.0]],
+            false => &[[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]],
+        };
+        let facing = |(i, j): (usize, usize), s: &[f64; 2]| {
+            let of = |k: usize, s: f64| (all[k].0, times(s, all[k].1));
+            (of(i, s[0]), of(j, s[1]))
+        };
+        let mut rare: Vec<(usize, usize)> = (pairs.par_iter().enumerate())
+            .map(|(k, &pair)| {
+                let like = |s: &[f64; 2]| {
+                    let (a, b) = facing(pair, s);
+                    self.known.table.like(a, b).len()
+                };
+                (signs.iter().map(like).sum(), k)
+            })
+            .collect();
+        rare.retain(|r| r.0 > 0);
+        rare.sort_unstable();
+        // The rarest tell most.
+        let mut poses = 0;
+        rare.retain(|r| {
+            poses += r.0.min(COUNTERPARTS * signs.len());
+            poses <= POSES
+        });
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        let best = |&(_, k): &(usize, usize)| -> Vec<Candidate> {
+            let of_sign = |s: &[f64; 2]| {
+                let (a, b) = facing(pairs[k], s);
+                self.best_of_pair(a, b)
+            };
+            signs.iter().flat_map(of_sign).collect()
+        };
+        let found: Vec<Vec<Candidate>> = rare.par_iter().map(best).collect();
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// The two best poses that lay this pair on one of the reference.
+    fn best_of_pair(&self, a: Oriented, b: Oriented) -> Vec<Candidate> {
+        let Some(frame) = PairFrame::best(a, b) else { return vec![] };
+        let like = self.known.table.like(a, b);
+        let every = like.len().div_ceil(COUNTERPARTS).max(1);
+        let mut best: Vec<Candidate> = vec![];
+        for &pair in like.iter().step_by(every) {
+            let Some(pose) = self.known.table.pose(&frame, pair) else { continue };
+            let worth = self.worth(&pose);
+            if worth > 0.0 && best.get(1).is_none_or(|b| worth > b.worth) {
+                best.push(Candidate { pose, worth });
+                best.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+                best.truncate(2);
+            }
+        }
+        best
+    }
+
+    /// Mean worth of the samples at a pose; 0 as soon as it is clearly poor.
+    pub fn worth(&self, pose: &Rigid) -> f64 {
+        let (mut sum, mut done) = (0.0, 0);
+        for (stage, &until) in TRIED.iter().enumerate() {
+            let until = until.min(self.samples.points.len());
+            for k in done..until {
+                let (p, n) = (self.samples.points[k], self.samples.normals[k]);
+                let oriented = self.samples.oriented;
+                sum +=
+                    self.known.field.worth(pose.point(p), pose.vector(n), oriented, self.known.field.reach);
+            }
+            done = until;
+            if stage < 2 && sum < ENOUGH[stage] * done as f64 {
+                return 0.0;
+            }
+        }
+        sum / done as f64
+    }
+
+    /// The best of each heap of nearly equal poses, best first.
+    fn distinct(&self, mut all: Vec<Candidate>) -> Vec<Candidate> {
+        all.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+        let mut kept: Vec<Candidate> = vec![];
+        for c in all {
+            let enough = kept.first().is_none_or(|best| c.worth >= COMPARABLE * best.worth);
+            if enough
+                && kept.len() < REFINED
+                && !kept.iter().any(|k| self.apart(&k.pose, &c.pose) < 2.0 * self.spacing)
+            {
+                kept.push(c);
+            }
+        }
+        kept
+    }
+
+    /// How far two poses lay the measured points apart, root mean square.
+    pub fn apart(&self, a: &Rigid, b: &Rigid) -> f64 {
+        let m = &self.measured;
+        let ends = (0..3).map(|k| {
+            let p = std::array::from_fn(|i| m.mean[i] + m.variances[k].max(0.0).sqrt() * m.axes[k][i]);
+            let d = minus(minus(a.point(p), a.point(m.mean)), minus(b.point(p), b.point(m.mean)));
+            dot(d, d)
+        });
+        let d = minus(a.point(m.mean), b.point(m.mean));
+        (dot(d, d) + ends.sum::<f64>()).sqrt()
+    }
+
+    /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean
+    /// square distance.
+    pub fn refine(
+        &self,
+        candidates: &[Candidate],
+        problem: &Problem,
+        progress: &dyn Progress,
+    ) -> Result<Vec<(f64, Rigid)>, AlignError> {
+        let cap = 0.5 * self.spacing;
+        let refined: Result<Vec<(f64, Rigid)>, AlignError> = (candidates.par_iter())
+            .map(|c| {
+                let pose = problem.run(c.pose, 2.0 * self.spacing, 12, progress)?.pose;
+                Ok((problem.cost(&pose, cap, progress)?, pose))
+            })
+            .collect();
+        let mut refined = refined?;
+        refined.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let mut kept: Vec<(f64, Rigid)> = vec![];
+        for (cost, pose) in refined {
+            if kept.len() < CLOSE && !kept.iter().any(|k| self.apart(&k.1, &pose) < self.spacing) {
+                kept.push((cost, pose));
+            }
+        }
+        Ok(kept)
+    }
+
+    /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the
+    /// principal axes of the reference by halves, thirds, … twelfths, and by the turns of a cube.
+    pub fn symmetric(&self, pose: &Rigid) -> Vec<Candidate> {
+        let center = self.known.moments.mean;
+        let turn = |axis: Vector, angle: f64| Rigid::rotation_about(center, times(angle, axis)).after(pose);
+        let mut all = vec![];
+        for axis in self.known.moments.axes {
+            for n in 2..=12 {
+                for k in (1..n).filter(|k| (2..=*k).all(|d| k % d != 0 || n % d != 0)) {
+                    all.push(turn(axis, std::f64::consts::TAU * f64::from(k) / f64::from(n)));
+                }
+            }
+            let next = self.known.moments.axes.map(|a| cross(axis, a)).into_iter().filter(|a| norm(*a) > 0.5);
+            let halves = next.map(|a| times(std::f64::consts::FRAC_1_SQRT_2, plus(axis, a)));
+            all.extend(halves.map(|a| turn(a, std::f64::consts::PI)));
+        }
+        let found = all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) });
+        let enough = 0.8 * self.worth(pose);
+        self.distinct(found.filter(|c| c.worth > enough).collect())
+    }
+}
+
+/// The 24 rotations of a cube: permutations of the axes with signs, of determinant 1.
+fn cube_rotations() -> Vec<[Vector; 3]> {
+    let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    let mut all = vec![];
+    for order in orders {
+        for signs in 0..8u32 {
+            let rows: [Vector; 3] = std::array::from_fn(|k| {
+                let mut row = [0.0; 3];
+                row[order[k]] = if signs >> k & 1 == 1 { -1.0 } else { 1.0 };
+                row
+            });
+            if dot(rows[0], cross(rows[1], rows[2])) > 0.0 {
+                all.push(rows);
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,239 @@
+//! Poses found from anywhere.
+
+use super::parts::{block, bracket, moved, random_pose, turned};
+use crate::align::{
+    AlignError, AlignWarning, Alignment, BestFit, Freedom, Measured, Start, Target, best_fit,
+};
+use crate::closest::Tree;
+use crate::mesh::Mesh;
+use crate::num::random::Random;
+use crate::progress::{Progress, Silent};
+use crate::rigid::Rigid;
+use crate::space::{Point, cross, norm, times};
+
+fn fit(measured: &Measured, reference: &Mesh) -> Alignment {
+    let tree = Tree::build(reference).unwrap();
+    best_fit(measured, &Target::new(reference, &tree), &BestFit::default(), &Silent).unwrap()
+}
+
+fn off(found: &Alignment, pose: &Rigid, at: Point) -> [f64; 2] {
+    let off = found.reference_from_measured.after(pose);
+    [off.angle(), off.displacement(at)]
+}
+
+const MIDDLE: Point = [40.0, 25.0, 10.0];
+
+#[test]
+fn the_same_part_is_found_from_random_poses() {
+    let reference = bracket(4.0);
+    let random = &mut Random::new(1);
+    for trial in 0..8 {
+        let pose = random_pose(random, 200.0);
+        let found = fit(&Measured::Mesh(&moved(&reference, &pose)), &reference);
+        let [angle, shift] = off(&found, &pose, MIDDLE);
+        assert!(angle < 1e-10 && shift < 1e-9, "{trial}: {found:?}");
+        assert!(found.converged && found.warnings.is_empty(), "{trial}: {:?}", found.warnings);
+    }
+}
+
+/// The part with waves of form, as a scan has them.
+fn wavy(mesh: &Mesh, size: f64) -> Mesh {
+    let wave = |p: &Point| {
+        let s = |a: f64, b: f64| size * libm::sin(0.21 * a + 0.13 * b);
+        [p[0] + s(p[1], p[2]), p[1] + s(p[2], p[0]), p[2] + s(p[0], p[1])]
+    };
+    Mesh { positions: mesh.positions.iter().map(wave).collect(), faces: mesh.faces.clone() }
+}
+
+#[test]
+fn the_pose_is_the_least_of_the_sum_of_squares() {
+    // By brute force: no small motion about the result has a lower area-weighted sum of squared distances.
+    let reference = bracket(8.0);
+    let scan = wavy(&bracket(3.0), 0.02);
+    let tree = Tree::build(&reference).unwrap();
+    let options = BestFit { robust: false, ..BestFit::default() };
+    let found = best_fit(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &options, &Silent).unwrap();
+    let mut weights = vec![0.0; scan.positions.len()];
+    for f in &scan.faces {
+        let [a, b, c] = f.map(|v| scan.positions[v as usize]);
+        let area = norm(cross(crate::space::minus(b, a), crate::space::minus(c, a))) / 6.0;
+        f.iter().for_each(|&v| weights[v as usize] += area);
+    }
+    let squares = |motion: &Rigid| -> f64 {
+        let pose = motion.after(&found.reference_from_measured);
+        let of = |(p, w): (&Point, &f64)| {
+            let hit = tree.closest(&pose.point(*p), f64::INFINITY).unwrap().unwrap();
+            w * hit.distance * hit.distance
+        };
+        scan.positions.iter().zip(&weights).map(of).sum()
+    };
+    let total: f64 = weights.iter().sum();
+    let least = squares(&Rigid::IDENTITY);
+    assert!(((least / total).sqrt() / found.rms - 1.0).abs() < 1e-9, "{} {}", least / total, found.rms);
+    for k in 0..6 {
+        for sign in [-1.0, 1.0] {
+            let mut v = [0.0; 3];
+            // A tenth of what an independent pose may be off.
+            v[k % 3] = sign * if k < 3 { 0.000_05f64.to_radians() } else { 0.000_015 };
+            let motion =
+                if k < 3 { Rigid::rotation_about(found.center, v) } else { Rigid::translation_by(v) };
+            assert!(squares(&motion) > least, "{k} {sign}");
+        }
+    }
+}
+
+/// The facets of `mesh` whose middles lie on one side of a plane.
+fn half(mesh: &Mesh, normal: Point, beyond: f64) -> Mesh {
+    let middle = |f: &[u32; 3]| {
+        f.iter().map(|&v| crate::space::dot(mesh.positions[v as usize], normal)).sum::<f64>() / 3.0
+    };
+    Mesh {
+        positions: mesh.positions.clone(),
+        faces: mesh.faces.iter().copied().filter(|f| middle(f) > beyond).collect(),
+    }
+}
+
+#[test]
+fn a_piece_of_the_part_finds_its_place() {
+    let reference = bracket(4.0);
+    let scan = bracket(1.5);
+    let random = &mut Random::new(3);
+    for (normal, beyond) in [([1.0, 0.3, 0.2], 48.0), ([0.0, 0.0, 1.0], 9.5), ([-0.5, 1.0, 0.4], 6.0)] {
+        let pose = random_pose(random, 200.0);
+        let found = fit(&Measured::Mesh(&moved(&half(&scan, normal, beyond), &pose)), &reference);
+        let [angle, shift] = off(&found, &pose, MIDDLE);
+        assert!(angle < 1e-6 && shift < 1e-5, "{normal:?}: {angle} {shift} {:?}", found.warnings);
+    }
+}
+
+#[test]
+fn points_without_normals_find_their_place_and_strays_do_not_count() {
+    let reference = bracket(4.0);
+    let random = &mut Random::new(5);
+    let mut points = bracket(1.5).positions;
+    let there = points.len();
+    for _ in 0..there / 10 {
+        points.push(std::array::from_fn(|k| [100.0, 70.0, 50.0][k] * random.unit() - 10.0));
+    }
+    let pose = random_pose(random, 200.0);
+    points.iter_mut().for_each(|p| *p = pose.point(*p));
+    let found = fit(&Measured::Points { points: &points, normals: None }, &reference);
+    let [angle, shift] = off(&found, &pose, MIDDLE);
+    assert!(angle < 1e-6 && shift < 1e-5, "{angle} {shift} {found:?}");
+    assert!(found.left_out >= there as u64 / 20, "{}", found.left_out);
+}
+
+#[test]
+fn turned_normals_are_noticed() {
+    let reference = bracket(4.0);
+    let pose = random_pose(&mut Random::new(8), 50.0);
+    let mut scan = moved(&reference, &pose);
+    scan.faces.iter_mut().for_each(|f| f.swap(1, 2));
+    let found = fit(&Measured::Mesh(&scan), &reference);
+    assert!(found.warnings.contains(&AlignWarning::NormalsTurned), "{:?}", found.warnings);
+    assert!(off(&found, &pose, MIDDLE)[1] < 1e-8);
+}
+
+#[test]
+fn a_wrong_unit_is_noticed() {
+    let reference = bracket(4.0);
+    for factor in [25.4, 1.0 / 25.4, 10.0, 1e-3] {
+        let scaled = reference.positions.iter().map(|p| times(1.0 / factor, *p)).collect();
+        let scan = Mesh { positions: scaled, faces: reference.faces.clone() };
+        let found = fit(&Measured::Mesh(&scan), &reference);
+        assert!(found.warnings.contains(&AlignWarning::Scale { factor }), "{factor}: {:?}", found.warnings);
+    }
+}
+
+#[test]
+fn a_part_that_looks_the_same_in_several_ways_is_told() {
+    // A box of three different sides: three half turns.
+    let reference = block([0.0; 3], [40.0, 25.0, 10.0], 2.0);
+    let found = fit(&Measured::Mesh(&reference), &reference);
+    assert_eq!(found.alternatives.len(), 3, "{:?}", found.alternatives);
+    assert!(found.alternatives.iter().all(|a| (a.angle - std::f64::consts::PI).abs() < 1e-6));
+    assert!(found.warnings.contains(&AlignWarning::Ambiguous { count: 3 }));
+    assert!(found.freedoms.is_empty() && found.condition.is_some());
+}
+
+#[test]
+fn a_body_of_revolution_turns_about_its_axis() {
+    let profile = [[0.0, 0.0], [12.0, 0.0], [12.0, 10.0], [7.0, 14.0], [7.0, 30.0], [0.0, 30.0]];
+    let reference = turned(&profile, 64);
+    let pose = Rigid::rotation_about([0.0; 3], [0.3, 0.1, 0.2]);
+    let found = fit(&Measured::Mesh(&moved(&turned(&profile, 90), &pose)), &reference);
+    let [Freedom::Turns { point, direction }] = found.freedoms[..] else { panic!("{:?}", found.freedoms) };
+    assert!(norm(cross(direction, [0.0, 0.0, 1.0])) < 1e-2, "{direction:?}");
+    assert!(libm::hypot(point[0], point[1]) < 0.1, "{point:?}");
+    assert_eq!(found.condition, None);
+}
+
+#[test]
+fn a_patch_of_a_plane_slides_and_turns() {
+    let reference = block([0.0; 3], [40.0, 25.0, 10.0], 5.0);
+    let points: Vec<Point> =
+        (0..400).map(|k| [10.0 + (k % 20) as f64, 8.0 + 0.5 * (k / 20) as f64, 10.0]).collect();
+    let found = fit(&Measured::Points { points: &points, normals: None }, &reference);
+    let slides = found.freedoms.iter().filter(|f| matches!(f, Freedom::Slides { .. })).count();
+    assert_eq!((found.freedoms.len(), slides), (3, 2), "{:?}", found.freedoms);
+}
+
+#[test]
+fn noise_and_uncertainty_agree() {
+    // Of noisy copies, the pose is off by what the covariance says: the mean of the squared normalised error of each of
+    // the six is 1.
+    let reference = bracket(6.0);
+    let tree = Tree::build(&reference).unwrap();
+    let target = Target::new(&reference, &tree);
+    let random = &mut Random::new(12);
+    let clean = bracket(2.5);
+    let mut normal = || {
+        let (u, v) = (1.0 - random.unit(), random.unit());
+        (-2.0 * libm::log(u)).sqrt() * libm::cos(std::f64::consts::TAU * v)
+    };
+    let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+    let (mut sum, trials) = (0.0, 60);
+    for _ in 0..trials {
+        let noisy = clean.positions.iter().map(|p| p.map(|x| x + 0.01 * normal())).collect();
+        let scan = Mesh { positions: noisy, faces: clean.faces.clone() };
+        let found = best_fit(&Measured::Mesh(&scan), &target, &options, &Silent).unwrap();
+        let pose = found.reference_from_measured;
+        let r = pose.rotation();
+        let turn = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|x| 0.5 * x);
+        let shift = crate::space::minus(pose.point(found.center), found.center);
+        for k in 0..3 {
+            sum += turn[k] * turn[k] / found.covariance[k][k];
+            sum += shift[k] * shift[k] / found.covariance[k + 3][k + 3];
+        }
+    }
+    let mean = sum / f64::from(6 * trials);
+    assert!((0.7..1.4).contains(&mean), "{mean}");
+}
+
+#[test]
+fn threads_change_nothing_and_bad_input_is_refused() {
+    let reference = bracket(5.0);
+    let scan = wavy(&moved(&reference, &random_pose(&mut Random::new(2), 90.0)), 0.02);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| fit(&Measured::Mesh(&scan), &reference))
+    };
+    assert_eq!(with(1), with(4));
+    let tree = Tree::build(&reference).unwrap();
+    let target = Target::new(&reference, &tree);
+    let of = |points: &[Point], progress: &dyn Progress| {
+        best_fit(&Measured::Points { points, normals: None }, &target, &BestFit::default(), progress)
+    };
+    assert!(matches!(of(&[[0.0; 3]; 2], &Silent), Err(AlignError::TooFewPoints { found: 2, .. })));
+    assert_eq!(of(&[[1.0; 3]; 9], &Silent), Err(AlignError::Collinear));
+    let line: Vec<Point> = (0..9).map(|k| [f64::from(k), 2.0 * f64::from(k), 1.0]).collect();
+    assert_eq!(of(&line, &Silent), Err(AlignError::Collinear));
+    assert!(matches!(of(&[[0.0; 3], [f64::NAN; 3], [1.0; 3]], &Silent), Err(AlignError::Point(_))));
+    struct Stop;
+    impl Progress for Stop {
+        fn cancelled(&self) -> bool {
+            true
+        }
+    }
+    assert!(matches!(of(&scan.positions, &Stop), Err(AlignError::Cancelled(_))));
+}

@@ -1,0 +1,293 @@
+//! `trueness/align/1`: the motion that brings a measured part onto its reference.
+
+use super::{InputRecord, UNITS, VERSION};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, RowFit};
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/align/1";
+
+/// The whole document. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AlignDocument {
+    /// `trueness/align/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The files read: the measured first.
+    pub inputs: Vec<InputRecord>,
+    /// `best-fit`, `pairs`, `3-2-1` or `rps`.
+    pub method: String,
+    /// 4×4, row by row, acting on columns (x, y, z, 1): takes measured coordinates to those of the reference.
+    pub transform: [[f64; 4]; 4],
+    /// Angle of its rotation, radians.
+    pub angle: f64,
+    /// Root of the weighted mean square distance of what counts.
+    pub rms: f64,
+    /// Weighted mean distance of what counts.
+    pub mean_abs: f64,
+    /// Steps of the last iteration.
+    pub iterations: u64,
+    /// Whether the iteration settled: the last step was less than a thousandth of its own uncertainty.
+    pub converged: bool,
+    /// Of the six degrees of freedom, those that the parts determine.
+    pub degrees_of_freedom: u64,
+    /// The motions that stay free.
+    pub free: Vec<FreeMotion>,
+    /// What a best fit tells beyond that; absent for the other methods.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub best_fit: Option<BestFitRecord>,
+    /// Of `pairs`, `3-2-1` and `rps`: what is left in each row of the table, in its order.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub pairs: Vec<PairRecord>,
+    /// What is to be said about the result.
+    pub warnings: Vec<AlignNote>,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// The alignment that a comparison began with.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AlignedTo {
+    /// The reference that the measured was brought to.
+    pub reference: String,
+    /// 4×4, row by row: takes the coordinates of the measured file to those compared.
+    pub transform: [[f64; 4]; 4],
+    /// Root of the weighted mean square distance of what counts.
+    pub rms: f64,
+    /// Weighted mean distance of what counts.
+    pub mean_abs: f64,
+    /// Steps of the last iteration.
+    pub iterations: u64,
+    /// Whether the iteration settled.
+    pub converged: bool,
+    /// Points without a weight in the fit; they are compared all the same.
+    pub left_out: u64,
+    /// What is to be said about the result.
+    pub warnings: Vec<AlignNote>,
+}
+
+impl AlignedTo {
+    /// Of a best fit to `reference`.
+    pub fn new(found: &Alignment, reference: String) -> AlignedTo {
+        AlignedTo {
+            reference,
+            transform: found.reference_from_measured.matrix(),
+            rms: found.rms,
+            mean_abs: found.mean_abs,
+            iterations: found.iterations as u64,
+            converged: found.converged,
+            left_out: found.left_out,
+            warnings: found.warnings.iter().map(AlignNote::of).collect(),
+        }
+    }
+
+    /// As [`AlignDocument::sound`].
+    pub fn sound(&self) -> bool {
+        sound(&self.warnings)
+    }
+}
+
+/// Whether an alignment with these warnings may be relied on.
+fn sound(warnings: &[AlignNote]) -> bool {
+    !warnings.iter().any(|w| matches!(w.kind.as_str(), "poor" | "ambiguous" | "scale" | "not_converged"))
+}
+
+/// What a best fit tells.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct BestFitRecord {
+    /// Weighted median distance of all points that have a place on the reference.
+    pub median: f64,
+    /// Points that count.
+    pub used: u64,
+    /// Points that do not: outliers, beside a free edge, on the other side of a wall.
+    pub left_out: u64,
+    /// Share of the measured surface that counts, 0 to 1.
+    pub share: f64,
+    /// Mean of the measured points in the frame of the reference: what the rotation vector of the covariance is about.
+    pub center: [f64; 3],
+    /// Covariance of the rotation vector (radians) and the translation (mm); zero along free motions.
+    pub covariance: [[f64; 6]; 6],
+    /// Standard uncertainties of the same six.
+    pub std_uncertainty: [f64; 6],
+    /// Greatest over least eigenvalue of the normal equations.
+    pub condition: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub condition_reason: Option<String>,
+    /// Other poses that fit nearly as well, best first.
+    pub alternatives: Vec<AlternativeRecord>,
+}
+
+/// Another pose that fits nearly as well.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AlternativeRecord {
+    /// As `transform` of the document.
+    pub transform: [[f64; 4]; 4],
+    /// Angle of the rotation between this pose and the result, radians.
+    pub angle: f64,
+    /// Its root mean square distance, capped at twenty standard deviations, over that of the result.
+    pub ratio: f64,
+}
+
+/// A motion that the shape leaves free, in the frame of the reference.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FreeMotion {
+    /// `slides` or `turns`.
+    pub kind: String,
+    /// Unit direction of the slide, or of the axis.
+    pub direction: [f64; 3],
+    /// A place on the axis; absent for a slide.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub point: Option<[f64; 3]>,
+}
+
+/// A row of the table of places.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct PairRecord {
+    /// Number of the row, from 0.
+    pub row: u64,
+    /// What is left: the distance of a pair, the signed distance along the direction of a row.
+    pub residual: f64,
+}
+
+/// Something to be said about an alignment.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AlignNote {
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale` or `not_converged`.
+    pub kind: String,
+    /// One sentence for people.
+    pub text: String,
+}
+
+impl From<&Freedom> for FreeMotion {
+    fn from(freedom: &Freedom) -> FreeMotion {
+        match *freedom {
+            Freedom::Slides { direction } => FreeMotion { kind: "slides".into(), direction, point: None },
+            Freedom::Turns { point, direction } => {
+                FreeMotion { kind: "turns".into(), direction, point: Some(point) }
+            }
+        }
+    }
+}
+
+impl AlignNote {
+    /// Of a warning of the best fit.
+    pub fn of(warning: &AlignWarning) -> AlignNote {
+        let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
+        let (kind, text) = match warning {
+            AlignWarning::Poor { share } => (
+                "poor",
+                format!(
+                    "half of the points are farther than {:.2} % of the size from the reference: it is hardly the same part, or its \
+                     place was not found",
+                    100.0 * share
+                ),
+            ),
+            AlignWarning::Ambiguous { count } => (
+                "ambiguous",
+                format!(
+                    "{count} other {} as well: the part looks the same in several ways",
+                    if *count == 1 { "pose fits about" } else { "poses fit about" }
+                ),
+            ),
+            AlignWarning::Free(Freedom::Slides { direction }) => {
+                ("free", format!("the shape leaves it free to slide along {}", three(*direction)))
+            }
+            AlignWarning::Free(Freedom::Turns { point, direction }) => (
+                "free",
+                format!(
+                    "the shape leaves it free to turn about the axis along {} through {}",
+                    three(*direction),
+                    three(*point)
+                ),
+            ),
+            AlignWarning::NormalsTurned => {
+                ("normals_turned", "the measured normals point inward; they were turned round".into())
+            }
+            AlignWarning::Scale { factor } => (
+                "scale",
+                format!(
+                    "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units)"
+                ),
+            ),
+            AlignWarning::NotConverged => ("not_converged", "the iteration did not settle".into()),
+        };
+        AlignNote { kind: kind.into(), text }
+    }
+}
+
+impl AlignDocument {
+    /// Of a best fit of the first of `inputs` to the second.
+    pub fn of_best_fit(found: &Alignment, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
+        let alternatives = found.alternatives.iter().map(|a| AlternativeRecord {
+            transform: a.reference_from_measured.matrix(),
+            angle: a.angle,
+            ratio: a.ratio,
+        });
+        AlignDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            inputs,
+            method: "best-fit".into(),
+            transform: found.reference_from_measured.matrix(),
+            angle: found.reference_from_measured.angle(),
+            rms: found.rms,
+            mean_abs: found.mean_abs,
+            iterations: found.iterations as u64,
+            converged: found.converged,
+            degrees_of_freedom: 6 - found.freedoms.len().min(6) as u64,
+            free: found.freedoms.iter().map(FreeMotion::from).collect(),
+            best_fit: Some(BestFitRecord {
+                median: found.median,
+                used: found.used,
+                left_out: found.left_out,
+                share: found.share,
+                center: found.center,
+                covariance: found.covariance,
+                std_uncertainty: std::array::from_fn(|k| found.covariance[k][k].max(0.0).sqrt()),
+                condition: found.condition,
+                condition_reason: found.condition.is_none().then(|| "a motion is free".into()),
+                alternatives: alternatives.collect(),
+            }),
+            pairs: vec![],
+            warnings: found.warnings.iter().map(AlignNote::of).collect(),
+            seed,
+        }
+    }
+
+    /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`.
+    pub fn of_rows(found: &RowFit, method: &str, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
+        let count = found.residuals.len().max(1) as f64;
+        let row = |(row, residual): (usize, &f64)| PairRecord { row: row as u64, residual: *residual };
+        let note = AlignNote::of(&AlignWarning::NotConverged);
+        AlignDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            inputs,
+            method: method.into(),
+            transform: found.reference_from_measured.matrix(),
+            angle: found.reference_from_measured.angle(),
+            rms: found.rms,
+            mean_abs: found.residuals.iter().map(|r| r.abs()).sum::<f64>() / count,
+            iterations: found.iterations as u64,
+            converged: found.converged,
+            degrees_of_freedom: 6,
+            free: vec![],
+            best_fit: None,
+            pairs: found.residuals.iter().enumerate().map(row).collect(),
+            warnings: if found.converged { vec![] } else { vec![note] },
+            seed,
+        }
+    }
+
+    /// Whether the result may be relied on: it settled, it fits, no unit is wrong, and no other pose fits as well.
+    pub fn sound(&self) -> bool {
+        sound(&self.warnings)
+    }
+}
