@@ -313,6 +313,7 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
             count: body.measured.positions.len() as u64,
             bounds: None,
         },
+        alignment: None,
         method: "exact".into(),
         sign: sign(),
         max_distance: None,
