@@ -3,8 +3,9 @@
 use super::fold;
 use super::rectangle::minimum_rectangle;
 use super::{SurfaceError, range};
-use crate::fit::{self, FitError, Kind, Shape};
+use crate::fit::{self, FitError};
 use crate::progress::{Cancelled, Progress};
+use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
 
