@@ -6,6 +6,7 @@
 //! of fixed size, and blocks are added in their order.
 
 use super::stencil::Stencil;
+use crate::num::banded::dot;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
@@ -292,18 +293,6 @@ fn raise(powers: &mut [[f64; LANE]], x: &[f64; LANE]) {
         let (low, high) = powers.split_at_mut(k);
         (0..LANE).for_each(|n| high[0][n] = low[k - 1][n] * x[n]);
     }
-}
-
-/// Sum of products, in lanes that the compiler keeps side by side.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0f64; 8];
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    for (a, b) in a.iter().zip(b) {
-        (0..8).for_each(|k| sums[k] += a[k] * b[k]);
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
 }
 
 /// Products of two basis functions on each span, as polynomials.
