@@ -7,9 +7,9 @@ use crate::results::surface::{
 };
 use crate::results::{InputRecord, UNITS, VERSION};
 use rayon::prelude::*;
-use trueness_geom::stats::statistics::Summary;
 use trueness_geom::space::Point;
 use trueness_geom::spline::surface::{Bend, Patches};
+use trueness_geom::stats::statistics::Summary;
 use trueness_geom::surface::{Base, Fairness, Layout, Options, Reached, SurfaceFit};
 
 /// Share of points in layers beyond which the surface is doubtful.

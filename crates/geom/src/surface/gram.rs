@@ -6,6 +6,7 @@
 //! of fixed size, and blocks are added in their order.
 
 use super::stencil::Stencil;
+use crate::num::banded::dot;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
@@ -38,8 +39,6 @@ pub(super) struct Binned {
 
 /// The sums of one run over all points.
 pub(super) struct Sums {
-    /// `Σ w N Nᵀ`, if it was asked for.
-    pub normal: Option<Stencil>,
     /// `Σ w N r`.
     pub right: Vec<Point>,
     /// `Σ w |r|²`.
@@ -131,22 +130,18 @@ impl Binned {
         out
     }
 
-    /// Sums over all points of what the `surface` (of points less the center) leaves of them; without one, of the points themselves.
-    pub(super) fn sums(
-        &self,
-        surface: Option<&Patches>,
-        normal: bool,
-        progress: &dyn Progress,
-    ) -> Result<Sums, Cancelled> {
-        self.sums_of(normal, progress, |k, cell, [s, t]| {
-            let p = self.points[k];
-            match surface {
-                Some(surface) => {
-                    let place = surface.place(cell, s, t);
-                    std::array::from_fn(|d| p[d] - place[d])
-                }
-                None => p,
-            }
+    /// The normal equations: `Σ w N Nᵀ`, and the sums of the points less the center.
+    pub(super) fn equations(&self, progress: &dyn Progress) -> Result<(Stencil, Sums), Cancelled> {
+        let mut normal = Stencil::new(self.counts, [self.spans[0].degree(), self.spans[1].degree()]);
+        let sums = self.sums_of(Some(&mut normal), progress, |k, _, _| self.points[k])?;
+        Ok((normal, sums))
+    }
+
+    /// The sums of what the `surface` (of points less the center) leaves of the points.
+    pub(super) fn left_by(&self, surface: &Patches, progress: &dyn Progress) -> Result<Sums, Cancelled> {
+        self.sums_of(None, progress, |k, cell, [s, t]| {
+            let place = surface.place(cell, s, t);
+            std::array::from_fn(|d| self.points[k][d] - place[d])
         })
     }
 
@@ -156,23 +151,19 @@ impl Binned {
         progress: &dyn Progress,
         value: impl Fn(u32) -> Point + Sync,
     ) -> Result<Vec<Point>, Cancelled> {
-        Ok(self.sums_of(false, progress, |k, _, _| value(self.order[k]))?.right)
+        Ok(self.sums_of(None, progress, |k, _, _| value(self.order[k]))?.right)
     }
 
     fn sums_of(
         &self,
-        normal: bool,
+        mut normal: Option<&mut Stencil>,
         progress: &dyn Progress,
         value: impl Fn(usize, usize, [f64; 2]) -> Point + Sync,
     ) -> Result<Sums, Cancelled> {
         let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
-        let mut sums = Sums {
-            normal: normal.then(|| Stencil::new(self.counts, [p, q])),
-            right: vec![[0.0; 3]; self.counts[0] * self.counts[1]],
-            square: 0.0,
-        };
+        let mut sums = Sums { right: vec![[0.0; 3]; self.counts[0] * self.counts[1]], square: 0.0 };
         let products = [Products::new(&self.spans[0]), Products::new(&self.spans[1])];
-        let moments = if normal { (2 * p + 1) * (2 * q + 1) } else { 0 };
+        let moments = if normal.is_some() { (2 * p + 1) * (2 * q + 1) } else { 0 };
         let size = moments + 3 * (p + 1) * (q + 1) + 1;
         let items = self.items();
         let mut cell = vec![0.0; size];
@@ -182,16 +173,16 @@ impl Binned {
                 return Err(Cancelled);
             }
             let found: Vec<Vec<f64>> =
-                batch.par_iter().map(|item| self.item(*item, size, normal, &value)).collect();
+                batch.par_iter().map(|item| self.item(*item, size, moments > 0, &value)).collect();
             for (item, own) in batch.iter().zip(found) {
                 if item.0 != current {
-                    self.flush(current as usize, &mut cell, &products, &mut sums);
+                    self.flush(current as usize, &mut cell, &products, normal.as_deref_mut(), &mut sums);
                     current = item.0;
                 }
                 cell.iter_mut().zip(own).for_each(|(a, b)| *a += b);
             }
         }
-        self.flush(current as usize, &mut cell, &products, &mut sums);
+        self.flush(current as usize, &mut cell, &products, normal.as_deref_mut(), &mut sums);
         Ok(sums)
     }
 
@@ -249,12 +240,19 @@ impl Binned {
     }
 
     /// Adds what the moments of a cell come to, and clears them.
-    fn flush(&self, cell: usize, moments: &mut [f64], products: &[Products; 2], sums: &mut Sums) {
+    fn flush(
+        &self,
+        cell: usize,
+        moments: &mut [f64],
+        products: &[Products; 2],
+        normal: Option<&mut Stencil>,
+        sums: &mut Sums,
+    ) {
         let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
         let (i, j) = (cell / self.spans[1].count(), cell % self.spans[1].count());
         let corner = self.spans[0].first(i) * self.counts[1] + self.spans[1].first(j);
         let mut at = 0;
-        if let Some(normal) = &mut sums.normal {
+        if let Some(normal) = normal {
             let wide = 2 * q + 1;
             at = (2 * p + 1) * wide;
             for a in 0..=p {
@@ -295,18 +293,6 @@ fn raise(powers: &mut [[f64; LANE]], x: &[f64; LANE]) {
         let (low, high) = powers.split_at_mut(k);
         (0..LANE).for_each(|n| high[0][n] = low[k - 1][n] * x[n]);
     }
-}
-
-/// Sum of products, in lanes that the compiler keeps side by side.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0f64; 8];
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    for (a, b) in a.iter().zip(b) {
-        (0..8).for_each(|k| sums[k] += a[k] * b[k]);
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
 }
 
 /// Products of two basis functions on each span, as polynomials.

@@ -29,10 +29,7 @@ pub(super) fn solve(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Solved, SurfaceError> {
-    let sums = data.sums(None, true, progress)?;
-    let Sums { normal: Some(normal), right, .. } = sums else {
-        return Err(SurfaceError::Undetermined { total: 0, points: 0, unsupported: 0 });
-    };
+    let (normal, Sums { right, .. }) = data.equations(progress)?;
     let total = data.counts[0] * data.counts[1];
     let (cells, empty_cells) = data.cells();
     let unsupported = (0..total).filter(|k| normal.diagonal(*k) < SUPPORT).count();
@@ -142,7 +139,7 @@ impl System<'_> {
         progress: &dyn Progress,
     ) -> Result<(Vec<Point>, f64), SurfaceError> {
         let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
-        let Sums { mut right, square, .. } = self.data.sums(Some(&patches), false, progress)?;
+        let Sums { mut right, square, .. } = self.data.left_by(&patches, progress)?;
         if weight > 0.0 {
             let pull = self.energy.times(points);
             right.iter_mut().zip(&pull).for_each(|(r, e)| (0..3).for_each(|d| r[d] -= weight * e[d]));
