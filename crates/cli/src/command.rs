@@ -4,6 +4,8 @@ use crate::commands::align::AlignArgs;
 use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
 use crate::commands::fit::FitArgs;
+use crate::commands::inspect::InspectArgs;
+use crate::commands::plan::PlanArgs;
 use crate::commands::repair::RepairArgs;
 use crate::commands::section::SectionArgs;
 use crate::commands::segment::SegmentArgs;
@@ -34,6 +36,8 @@ pub enum Command {
     Check(CheckArgs),
     Compare(Box<CompareArgs>),
     Fit(FitArgs),
+    Inspect(Box<InspectArgs>),
+    Plan(PlanArgs),
     Repair(RepairArgs),
     Section(Box<SectionArgs>),
     Segment(SegmentArgs),
@@ -56,6 +60,8 @@ impl Command {
             Command::Check(args) => args,
             Command::Compare(args) => args.as_ref(),
             Command::Fit(args) => args,
+            Command::Inspect(args) => args.as_ref(),
+            Command::Plan(args) => args,
             Command::Repair(args) => args,
             Command::Section(args) => args.as_ref(),
             Command::Segment(args) => args,

@@ -23,6 +23,8 @@
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
 //! | rigid motions | [`rigid`] |
+//! | features found with the nominal | [`feature`] |
+//! | tolerance zones, datum systems | [`zone`] |
 //! | progress and cancellation | [`progress`] |
 
 pub mod align;
@@ -31,6 +33,7 @@ pub mod check;
 pub mod closest;
 pub mod cloud;
 pub mod deviation;
+pub mod feature;
 pub mod fit;
 mod frame;
 mod memory;
@@ -49,3 +52,4 @@ pub mod spline;
 pub mod stats;
 pub mod surface;
 pub mod topology;
+pub mod zone;

@@ -7,14 +7,20 @@
 //! | deviations from references | [`compare`] |
 //! | elements through points | [`fit`] |
 //! | surfaces through points | [`surface`] |
+//! | inspection plans, as people write them | [`plan`] |
+//! | kinds of characteristics | [`characteristic`] |
+//! | a plan and data make verdicts | [`inspection`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 
+pub mod characteristic;
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod inspection;
+pub mod plan;
 pub mod repair;
 pub mod report;
 pub mod results;

@@ -3,3 +3,4 @@
 mod view;
 
 pub use view::View;
+pub(crate) use view::{cut_out, rim};

@@ -4,6 +4,8 @@ pub mod align;
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod inspect;
+pub mod plan;
 pub mod repair;
 pub mod section;
 pub mod segment;

@@ -10,14 +10,14 @@ const MOST: usize = 8;
 
 /// One function: its value at x = 0 and its slope.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Function<const P: usize> {
+pub(crate) struct Function<const P: usize> {
     pub level: f64,
     pub slope: [f64; P],
 }
 
 /// The lowest point of the program.
 #[derive(Clone, Debug)]
-pub(super) struct Lowest<const P: usize> {
+pub(crate) struct Lowest<const P: usize> {
     pub x: [f64; P],
     /// The greatest function there.
     pub value: f64,
@@ -38,7 +38,7 @@ enum Held {
 type Square = [[f64; MOST]; MOST];
 
 /// Solves the program for at least one function; `None` if the numbers are not finite.
-pub(super) fn lowest<const P: usize>(functions: &[Function<P>], reach: f64) -> Option<Lowest<P>> {
+pub(crate) fn lowest<const P: usize>(functions: &[Function<P>], reach: f64) -> Option<Lowest<P>> {
     let n = P + 1;
     let first = (0..functions.len()).max_by(|&i, &j| functions[i].level.total_cmp(&functions[j].level))?;
     let mut held = [Held::Function(first); MOST];

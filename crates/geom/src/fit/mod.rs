@@ -51,6 +51,7 @@ use crate::progress::Progress;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
 pub(crate) use dense::{eigen, solve};
+pub(crate) use linear::{Function, lowest};
 pub use request::{FitError, Method, Options};
 pub use solution::{Covariance, Fit, Residuals, Touching};
 

@@ -7,6 +7,7 @@ pub mod align;
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod inspect;
 pub mod repair;
 pub mod research;
 pub mod section;
@@ -163,6 +164,8 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("align", text(schemars::schema_for!(align::AlignDocument))),
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+        ("inspect", text(schemars::schema_for!(inspect::InspectDocument))),
+        ("plan", text(schemars::schema_for!(crate::plan::text::PlanText))),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
         ("section", text(schemars::schema_for!(section::SectionDocument))),

@@ -70,7 +70,7 @@ impl<'a> View<'a> {
 }
 
 /// These facets with their own vertices.
-fn cut_out(mesh: &Mesh, facets: &[usize]) -> Mesh {
+pub(crate) fn cut_out(mesh: &Mesh, facets: &[usize]) -> Mesh {
     let mut part = Mesh::default();
     let mut number: HashMap<u32, u32> = HashMap::new();
     for face in facets.iter().filter_map(|f| mesh.faces.get(*f)) {
@@ -86,7 +86,7 @@ fn cut_out(mesh: &Mesh, facets: &[usize]) -> Mesh {
 }
 
 /// Edges with one facet, and which way the facets look on the whole.
-fn rim(part: &Mesh) -> Mark {
+pub(crate) fn rim(part: &Mesh) -> Mark {
     let mut single: BTreeSet<[u32; 2]> = BTreeSet::new();
     let mut sum: Vector = [0.0; 3];
     for f in &part.faces {

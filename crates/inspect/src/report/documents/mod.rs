@@ -3,6 +3,7 @@
 mod check;
 mod compare;
 mod fit;
+mod inspect;
 mod repair;
 mod segment;
 
@@ -12,6 +13,7 @@ use crate::results::InputRecord;
 use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
 use crate::results::fit::FitDocument;
+use crate::results::inspect::InspectDocument;
 use crate::results::repair::RepairDocument;
 use crate::results::segment::SegmentDocument;
 use crate::scale::Scale;
@@ -27,6 +29,8 @@ pub enum Answer<'a> {
     Compare(&'a CompareDocument),
     /// Which element lies through these points?
     Fit(&'a FitDocument),
+    /// Does this part keep its tolerances?
+    Inspect(&'a InspectDocument),
     /// What was mended in this mesh?
     Repair(&'a RepairDocument),
     /// Which elements are in this mesh or cloud?
@@ -40,6 +44,7 @@ impl Answer<'_> {
             Answer::Check(d) => *d,
             Answer::Compare(d) => *d,
             Answer::Fit(d) => *d,
+            Answer::Inspect(d) => *d,
             Answer::Repair(d) => *d,
             Answer::Segment(d) => *d,
         }

@@ -1,0 +1,131 @@
+//! The plan's file, and the files that it names.
+
+use crate::read::{self, Opened};
+use anyhow::{Context, anyhow, bail};
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use trueness_files::{Body, ReadOptions};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+use trueness_inspect::inspection::{Data, OwnPoints};
+use trueness_inspect::plan::{Align, At, Plan, PlanError, Source};
+use trueness_inspect::results::inspect::PlanRecord;
+use trueness_inspect::results::{InputRecord, Role};
+
+/// Longest plan that is read, bytes.
+const LONGEST: u64 = 16 << 20;
+
+/// A plan with its text.
+pub struct PlanFile {
+    pub path: PathBuf,
+    pub text: String,
+    pub plan: Plan,
+    sha256: Option<String>,
+}
+
+impl PlanFile {
+    pub fn read(path: &Path) -> anyhow::Result<PlanFile> {
+        let shown = path.display();
+        if crate::run_files::is_stream(path) {
+            bail!("{shown}: a plan must be a file; its paths are relative to it");
+        }
+        let file = std::fs::File::open(path).with_context(|| format!("{shown}: the plan cannot be read"))?;
+        let mut bytes = Vec::new();
+        let read = file.take(LONGEST + 1).read_to_end(&mut bytes);
+        read.with_context(|| format!("{shown}: the plan cannot be read"))?;
+        if bytes.len() as u64 > LONGEST {
+            bail!("{shown}: it is longer than 16 MB; a plan is a short text");
+        }
+        let text = String::from_utf8(bytes).map_err(|e| {
+            let valid = String::from_utf8_lossy(&e.as_bytes()[..e.utf8_error().valid_up_to()]).into_owned();
+            let end = valid.len();
+            anyhow!(
+                "{shown}: {}",
+                PlanError::at(&valid, &(end..end), "the text is not UTF-8; save the plan as UTF-8")
+            )
+        })?;
+        let plan = Plan::parse(&text).map_err(|e| anyhow!("{shown}: {e}"))?;
+        let digest = trueness_files::sha256(path).ok();
+        let sha256 = digest.map(|d| d.iter().map(|b| format!("{b:02x}")).collect());
+        Ok(PlanFile { path: path.to_owned(), text, plan, sha256 })
+    }
+
+    pub fn record(&self) -> PlanRecord {
+        PlanRecord { path: self.path.display().to_string(), sha256: self.sha256.clone() }
+    }
+
+    /// A path of the plan, from where the program runs.
+    fn path_of(&self, written: &At<String>) -> PathBuf {
+        let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
+        folder.map_or_else(|| PathBuf::from(&written.value), |f| f.join(&written.value))
+    }
+
+    /// The files that it reads; with `own`, its own measured data among them.
+    pub fn inputs(&self, own: bool) -> Vec<PathBuf> {
+        let points = self.plan.features.iter().filter_map(|f| match &f.source {
+            Source::Points(path) => Some(path),
+            _ => None,
+        });
+        let measured = self.plan.measured.iter().filter(|_| own);
+        points.chain(measured).chain(&self.plan.reference).map(|p| self.path_of(p)).collect()
+    }
+
+    /// The place of something in the plan, and what it is, for errors.
+    fn at(&self, written: &At<String>, what: &str) -> String {
+        format!("{}: {}", self.path.display(), PlanError::at(&self.text, &written.span, what))
+    }
+
+    /// Everything measured, with `part` in place of the plan's own measured data.
+    pub fn data(&self, part: Option<&Path>, seed: u64) -> anyhow::Result<(Data, Vec<InputRecord>)> {
+        let units = self.plan.units.and_then(|u| u.name().parse().ok());
+        let options = ReadOptions { units, ..ReadOptions::default() };
+        let (mut data, mut inputs) = (Data { seed, ..Data::default() }, Vec::new());
+        if let Some(own) = &self.plan.measured {
+            let path = part.map_or_else(|| self.path_of(own), Path::to_owned);
+            let taken = take(&path, &options);
+            let (mesh, record, _) = match part {
+                Some(_) => taken?,
+                None => taken.with_context(|| self.at(own, "the measured data"))?,
+            };
+            data.measured = Some(mesh);
+            inputs.push(record);
+        }
+        if let (Align::BestFit, Some(written)) = (&self.plan.align, &self.plan.reference) {
+            let path = self.path_of(written);
+            let read = read::mesh(&path, Role::Reference, &options);
+            let (source, mut record) = read.with_context(|| self.at(written, "the reference"))?;
+            read::hash(&mut record, &path)?;
+            data.reference = Some(source.mesh);
+            inputs.push(record);
+        }
+        let mut seen: BTreeMap<PathBuf, (Vec<Point>, bool)> = BTreeMap::new();
+        for (number, feature) in self.plan.features.iter().enumerate() {
+            let Source::Points(written) = &feature.source else { continue };
+            let path = self.path_of(written);
+            if !seen.contains_key(&path) {
+                let what = format!("the points of feature \"{}\"", feature.id);
+                let (mesh, record, planar) =
+                    take(&path, &options).with_context(|| self.at(written, &what))?;
+                inputs.push(record);
+                seen.insert(path.clone(), (mesh.positions, planar));
+            }
+            if let Some((points, planar)) = seen.get(&path) {
+                data.points.insert(number, OwnPoints { points: points.clone(), planar: *planar });
+            }
+        }
+        Ok((data, inputs))
+    }
+}
+
+/// Reads a mesh or points.
+fn take(path: &Path, options: &ReadOptions) -> anyhow::Result<(Mesh, InputRecord, bool)> {
+    let Opened { mut record, body, planar, .. } = read::open(path, Role::Measured, options)?;
+    let mesh = match body {
+        Body::Mesh(source) => source.mesh,
+        Body::Points(source) => Mesh { positions: read::all_points(source)?, faces: vec![] },
+    };
+    read::describe(&mut record, &mesh.positions);
+    read::hash(&mut record, path)?;
+    Ok((mesh, record, planar))
+}

@@ -1,0 +1,136 @@
+//! `trueness inspect`: a plan and measured parts make verdicts.
+
+mod files;
+mod lists;
+mod table;
+
+use crate::command::Run;
+use crate::exit::{Outcome, Usage};
+use crate::options::{Common, DocumentArgs};
+use crate::output::whole_file;
+use crate::progress::Stage;
+use crate::report::ReportArgs;
+use crate::run_files::RunFiles;
+use anyhow::anyhow;
+use clap::Args;
+use files::PlanFile;
+use std::path::{Path, PathBuf};
+use trueness_geom::progress::Cancelled;
+use trueness_inspect::inspection::{self, Stop, View};
+use trueness_inspect::plan::PlanError;
+use trueness_inspect::report::Answer;
+use trueness_inspect::results::Verdict;
+use trueness_inspect::results::inspect::InspectDocument;
+
+/// Run an inspection plan: features, tolerances, verdicts
+///
+/// The plan is a TOML file that names the measured data, the features and the characteristics with their tolerances. A fault
+/// in it is told with line and column. Exit status 1 if a characteristic fails, is undecided or was not measured.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness inspect bracket.toml
+  trueness inspect bracket.toml --measured scan-0815.stl --json result.json --html report.html
+  trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml")]
+pub struct InspectArgs {
+    /// The plan; paths in it are relative to it
+    plan: PathBuf,
+    /// Measured meshes or clouds, in place of the plan's own: one part each
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    measured: Vec<PathBuf>,
+    #[command(flatten)]
+    document: DocumentArgs,
+    /// Write the characteristics as a table, one line each
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write the verdicts as JUnit XML, for continuous integration
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+impl InspectArgs {
+    /// The parts: files in place of the plan's own, or that one.
+    fn parts(&self) -> Vec<Option<&Path>> {
+        match self.measured.is_empty() {
+            true => vec![None],
+            false => self.measured.iter().map(|p| Some(p.as_path())).collect(),
+        }
+    }
+}
+
+impl Run for InspectArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        let mut inputs = vec![self.plan.clone()];
+        inputs.extend(self.measured.iter().cloned());
+        // What is wrong with the plan is told when it is run; here its files must not be written over.
+        if let Ok(plan) = PlanFile::read(&self.plan) {
+            inputs.extend(plan.inputs(self.measured.is_empty()));
+        }
+        Ok(RunFiles::of(&inputs)
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref())
+            .also("--csv", self.csv.as_ref())
+            .also("--junit", self.junit.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
+    if args.measured.len() > 1 && (args.document.json.is_some() || args.report.html.is_some()) {
+        let what = "--json and --html hold one part; give one --measured, or --csv and --junit for all";
+        return Err(Usage(what.into()).into());
+    }
+    let plan = PlanFile::read(&args.plan)?;
+    if !args.measured.is_empty() && plan.plan.measured.is_none() {
+        let what =
+            "--measured replaces the plan's measured data, but the plan names none; add `measured` to it";
+        return Err(Usage(what.into()).into());
+    }
+    let mut documents = Vec::new();
+    for part in args.parts() {
+        let document = inspect(args, &plan, part, common)?;
+        args.document.table(|| table::table(&document))?;
+        documents.push(document);
+    }
+    if let Some(path) = &args.csv {
+        let text = lists::csv(&documents);
+        whole_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    if let Some(path) = &args.junit {
+        let text = lists::junit(&documents);
+        whole_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    let pass = documents.iter().all(|d| d.verdict == Verdict::Pass);
+    Ok(if pass { Outcome::Conforming } else { Outcome::NotConforming })
+}
+
+/// One part.
+fn inspect(
+    args: &InspectArgs,
+    plan: &PlanFile,
+    part: Option<&Path>,
+    common: &Common,
+) -> anyhow::Result<InspectDocument> {
+    let (data, inputs) = plan.data(part, common.seed)?;
+    let stage = Stage::new(common.progress, "inspecting", "features", None);
+    let found = inspection::run(&plan.plan, data, &stage);
+    drop(stage);
+    let found = found.map_err(|stop| match stop {
+        Stop::Cancelled => anyhow::Error::from(Cancelled),
+        Stop::Plan { span, what } => {
+            anyhow!("{}: {}", plan.path.display(), PlanError::at(&plan.text, &span, what))
+        }
+        stop => anyhow!("{}: {stop}", plan.path.display()),
+    })?;
+    let document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
+    args.document.write(&document)?;
+    if args.report.html.is_some() {
+        let view = View::new(&document, &found);
+        args.report.write(Answer::Inspect(&document), &view.objects(), &view.marks, common.progress)?;
+    }
+    Ok(document)
+}

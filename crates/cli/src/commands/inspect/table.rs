@@ -1,0 +1,73 @@
+//! The document of an inspection for people.
+
+use crate::console;
+use crate::number::{fixed, signed, six_digits};
+use crate::read;
+use std::fmt::Write;
+use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+
+/// The document for people.
+pub fn table(document: &InspectDocument) -> String {
+    let mut out = read::notes(&document.inputs);
+    if let Some(title) = &document.title {
+        let _ = writeln!(out, "{title}");
+    }
+    let alignment = &document.alignment;
+    if let Some(rms) = alignment.rms {
+        let _ = writeln!(out, "aligned by {}, rms {}", alignment.method, six_digits(rms));
+    }
+    for warning in &alignment.warnings {
+        let _ = writeln!(out, "! alignment: {}", warning.text);
+    }
+    let mut rows = vec![
+        ["id", "kind", "feature", "datums", "allowed", "value", "used", "verdict"].map(String::from).to_vec(),
+    ];
+    rows.extend(document.characteristics.iter().map(row));
+    out.push_str(&console::columns(&rows));
+    for c in &document.characteristics {
+        if let Some(reason) = &c.reason {
+            let _ = writeln!(out, "! {}: {reason}", c.id);
+        }
+        for note in &c.notes {
+            let _ = writeln!(out, "  {}: {note}", c.id);
+        }
+    }
+    let n = &document.counts;
+    let _ = writeln!(
+        out,
+        "{}: {} pass, {} fail, {} undecided, {} not measured; decision rule {}; mm, degrees",
+        document.verdict.word(),
+        n.pass,
+        n.fail,
+        n.undecided,
+        n.not_measured,
+        document.decision_rule
+    );
+    out
+}
+
+fn row(c: &CharacteristicRecord) -> Vec<String> {
+    let sign = if c.zone == "diameter" { "∅" } else { "" };
+    let allowed = match (c.nominal, c.lower) {
+        (Some(nominal), Some(lower)) => {
+            // The limit deviations as the plan has them, not the rounding of their sums.
+            let deviation = |limit: f64| signed(((limit - nominal) * 1e12).round() / 1e12);
+            format!("{} {}/{}", six_digits(nominal), deviation(lower), deviation(c.upper))
+        }
+        _ => format!("{sign}{}", six_digits(c.upper)),
+    };
+    let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
+    let value = c.uncertainty.map_or(value.clone(), |u| format!("{value} ± {}", six_digits(u)));
+    let used = c.utilisation.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
+    let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
+    vec![
+        c.id.clone(),
+        kind,
+        c.feature.clone(),
+        c.datums.join(" "),
+        allowed,
+        value,
+        used,
+        c.verdict.word().into(),
+    ]
+}

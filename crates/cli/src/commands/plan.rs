@@ -1,0 +1,73 @@
+//! `trueness plan init`: a plan proposed from the nominal.
+
+use crate::command::Run;
+use crate::console;
+use crate::exit::Outcome;
+use crate::options::{Common, InputArgs};
+use crate::output::whole_file;
+use crate::progress::Stage;
+use crate::read;
+use crate::run_files::RunFiles;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+use trueness_geom::segment::{self, Options, SegmentError};
+use trueness_inspect::plan::proposal;
+use trueness_inspect::results::Role;
+
+/// Propose an inspection plan
+#[derive(Args, Debug)]
+pub struct PlanArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand, Debug)]
+enum What {
+    Init(InitArgs),
+}
+
+/// Propose a plan: every plane, cylinder, cone and sphere of the nominal a feature, with placeholder tolerances
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness plan init nominal.stl --out part.toml")]
+struct InitArgs {
+    /// The nominal mesh
+    nominal: PathBuf,
+    #[command(flatten)]
+    reading: InputArgs,
+    /// Where the plan goes [default: standard output]
+    #[arg(long, short, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl Run for PlanArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        let What::Init(args) = &self.what;
+        Ok(RunFiles::of([&args.nominal]).also("--out", args.out.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        let What::Init(args) = &self.what;
+        init(args, common)
+    }
+}
+
+fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let (source, _) = read::mesh(&args.nominal, Role::Reference, &args.reading.reading())?;
+    let mesh = source.mesh;
+    let stage = Stage::new(common.progress, "segmenting", "facets", Some(mesh.faces.len() as u64));
+    let options = Options { seed: common.seed, ..Options::default() };
+    let found = segment::mesh(&mesh, &options, &stage);
+    drop(stage);
+    let found = found.map_err(|e| match e {
+        SegmentError::Cancelled(e) => anyhow::Error::from(e),
+        e => anyhow::anyhow!("{}: {e}", args.nominal.display()),
+    })?;
+    let name = args.nominal.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    let text = proposal(&mesh, &found, &name);
+    match &args.out {
+        Some(path) => whole_file(path, |file| file.write_all(text.as_bytes()))?,
+        None => console::document(&text)?,
+    }
+    Ok(Outcome::Conforming)
+}

@@ -1,0 +1,149 @@
+//! The example that ships: its features against the reference, its verdicts, its report.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::{Folder, corpus, document, status, stderr, trueness};
+use serde_json::Value;
+
+fn numbers(v: &Value) -> [f64; 3] {
+    let of = |k: usize| match &v[k] {
+        Value::String(text) => text.parse().unwrap(),
+        number => number.as_f64().unwrap(),
+    };
+    [of(0), of(1), of(2)]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+fn off_axis(p: [f64; 3], point: [f64; 3], direction: [f64; 3]) -> f64 {
+    let q: [f64; 3] = std::array::from_fn(|k| p[k] - point[k]);
+    (dot(q, q) - dot(q, direction).powi(2)).max(0.0).sqrt()
+}
+
+/// Distance within which a feature found by the nominal agrees with the least-squares element of its labelled points, mm.
+const NEAR: f64 = 0.002;
+
+#[test]
+fn features_found_by_the_nominal_are_those_of_the_reference() {
+    let folder = corpus("examples/plate");
+    let text = std::fs::read_to_string(folder.join("reference.json")).unwrap();
+    let reference: Value = serde_json::from_str(&text).unwrap();
+    let answer = document(["inspect", folder.join("plate.toml").to_str().unwrap()]);
+    let transform = &answer["alignment"]["transform"];
+    let turned = |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| dot(numbers(&transform[k]), v)) };
+    let moved = |p: [f64; 3]| -> [f64; 3] {
+        let t = turned(p);
+        std::array::from_fn(|k| t[k] + transform[k][3].as_f64().unwrap())
+    };
+    let faces = [
+        ("A", 11),
+        ("top", 1),
+        ("B", 7),
+        ("C", 9),
+        ("boss", 0),
+        ("boss end", 2),
+        ("cone", 8),
+        ("pocket", 10),
+    ];
+    for (id, face) in faces {
+        let found = answer["features"].as_array().unwrap().iter().find(|f| f["id"] == id).unwrap();
+        let known = &reference["features"][face];
+        let (own, lsq) = (&found["parameters"], &known["lsq"]);
+        let mut off: Vec<(&str, f64)> = vec![];
+        let form: f64 = known["form_lsq"].as_str().unwrap().parse().unwrap();
+        off.push(("form", found["form_error"].as_f64().unwrap() - form));
+        if let Some(radius) = lsq["radius"].as_str() {
+            off.push(("radius", own["radius"].as_f64().unwrap() - radius.parse::<f64>().unwrap()));
+        }
+        // Over the extent of the feature, its axis or plane must be where that of the reference is.
+        match known["type"].as_str().unwrap() {
+            "plane" => {
+                let (point, normal) = (numbers(&own["point"]), numbers(&own["normal"]));
+                let (at, way) = (moved(numbers(&lsq["point"])), turned(numbers(&lsq["normal"])));
+                off.push(("height", dot(std::array::from_fn(|k| at[k] - point[k]), normal)));
+                off.push(("tilt over 40 mm", 40.0 * (1.0 - dot(normal, way).abs()).max(0.0).sqrt()));
+            }
+            "sphere" => {
+                let (a, b) = (numbers(&own["center"]), moved(numbers(&lsq["center"])));
+                off.push(("center", off_axis(a, b, [0.0; 3])));
+            }
+            kind => {
+                let key = if kind == "cone" { "apex" } else { "point" };
+                let (point, way) = (numbers(&own[key]), numbers(&own["direction"]));
+                let (at, direction) = (moved(numbers(&lsq[key])), turned(numbers(&lsq["direction"])));
+                for t in [-9.0, 9.0] {
+                    let end = std::array::from_fn(|k| at[k] + t * direction[k]);
+                    off.push(("axis", off_axis(end, point, way)));
+                }
+            }
+        }
+        for (what, off) in off {
+            println!("{id}: {what} off by {off:.5}");
+            assert!(off.abs() <= NEAR, "{id}: {what} off by {off}");
+        }
+    }
+}
+
+#[test]
+fn the_example_reports_what_it_found() {
+    let folder = Folder::new();
+    let html = folder.file("report.html");
+    let plan = corpus("examples/plate/plate.toml");
+    let words = ["inspect", plan.to_str().unwrap(), "--html", html.to_str().unwrap(), "--json"];
+    let json = folder.file("r.json");
+    let o = trueness(words.into_iter().chain([json.to_str().unwrap()]));
+    let answer: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    let verdict = answer["verdict"].as_str().unwrap();
+    assert_eq!(status(&o), i32::from(verdict != "pass"), "{}", stderr(&o));
+    let page = std::fs::read_to_string(&html).unwrap();
+    for c in answer["characteristics"].as_array().unwrap() {
+        assert!(!c["value"].is_null(), "{c}");
+        let row = format!("title=\"{0}\">{0}</bdi>", c["id"].as_str().unwrap());
+        assert!(page.contains(&row), "{row}");
+        assert!(page.contains(&format!("data-t=\"kind.{}\"", c["kind"].as_str().unwrap())));
+    }
+}
+
+/// The same bytes on any number of threads.
+#[test]
+fn threads_do_not_change_the_answer() {
+    let plan = corpus("examples/plate/plate.toml");
+    let run = |threads: &str| {
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--threads", threads, "--json", "-"]);
+        String::from_utf8(o.stdout).unwrap()
+    };
+    let one = run("1");
+    assert!(one.contains("\"schema\": \"trueness/inspect/1\""), "{one}");
+    assert!(one == run("3"));
+}
+
+/// Aligned by best fit from the scanner's pose, the same features are found, and values that do not lean on the model's
+/// place are the same.
+#[test]
+fn the_best_fit_finds_the_same_features() {
+    let example = corpus("examples/plate");
+    let text = std::fs::read_to_string(example.join("plate.toml")).unwrap();
+    let (before, after) = text.split_once("method = \"given\"").unwrap();
+    let after = after.split_once("[[feature]]").unwrap().1;
+    let at = |name: &str| format!("'{}'", example.join(name).display());
+    let plan = format!("{before}method = \"best-fit\"\n[[feature]]{after}")
+        .replace("\"scan.stl\"", &at("scan.stl"))
+        .replace("\"nominal.stl\"", &at("nominal.stl"));
+    let folder = Folder::new();
+    let plan = folder.write("plan.toml", plan);
+    let found = document(["inspect", plan.to_str().unwrap()]);
+    let given = document(["inspect", example.join("plate.toml").to_str().unwrap()]);
+    assert_eq!(found["alignment"]["method"], "best-fit");
+    assert_eq!(found["alignment"]["converged"], true);
+    assert!(found["alignment"]["rms"].as_f64().unwrap() < 0.02, "{}", found["alignment"]);
+    let pairs =
+        found["characteristics"].as_array().unwrap().iter().zip(given["characteristics"].as_array().unwrap());
+    for (a, b) in pairs {
+        let (x, y) = (a["value"].as_f64().unwrap(), b["value"].as_f64().unwrap());
+        assert!((x - y).abs() < 2e-3, "{}: {x} and {y}", a["id"]);
+        assert_eq!(a["verdict"], b["verdict"]);
+    }
+}

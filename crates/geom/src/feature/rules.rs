@@ -1,0 +1,204 @@
+//! What makes a facet or a point part of a nominal feature.
+
+use super::bounds::Polygon;
+use super::{FeatureError, Nearness, Nominal};
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+
+/// A nominal feature, ready to be asked.
+pub(super) struct Rules<'a> {
+    near: &'a Nearness,
+    kind: Kind,
+}
+
+enum Kind {
+    Plane { point: Point, normal: Vector, boundary: Polygon },
+    Cylinder { point: Point, direction: Vector, radius: f64, length: f64 },
+    Cone { apex: Point, direction: Vector, half_angle: f64, between: [f64; 2] },
+    Sphere { center: Point, radius: f64 },
+    Edge { point: Point, direction: Vector, length: f64, normals: [Vector; 2] },
+}
+
+fn way(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
+    if v.iter().any(|x| !x.is_finite()) {
+        return Err(FeatureError::NotFinite);
+    }
+    unit(v).map(|u| u.0).ok_or(FeatureError::NoDirection { what })
+}
+
+fn size(what: &'static str, value: f64) -> Result<f64, FeatureError> {
+    match value {
+        _ if !value.is_finite() => Err(FeatureError::NotFinite),
+        _ if value > 0.0 => Ok(value),
+        _ => Err(FeatureError::Size { what, value }),
+    }
+}
+
+fn place(p: Point) -> Result<Point, FeatureError> {
+    if p.iter().all(|x| x.is_finite()) { Ok(p) } else { Err(FeatureError::NotFinite) }
+}
+
+impl<'a> Rules<'a> {
+    pub(super) fn new(nominal: &Nominal, near: &'a Nearness) -> Result<Rules<'a>, FeatureError> {
+        let kind = match nominal {
+            Nominal::Plane { point, normal, boundary } => {
+                for corner in boundary {
+                    place(*corner)?;
+                }
+                let normal = way("normal", *normal)?;
+                let boundary = Polygon::new(*point, normal, boundary).ok_or(FeatureError::Boundary)?;
+                Kind::Plane { point: place(*point)?, normal, boundary }
+            }
+            Nominal::Cylinder { point, direction, radius, length } => Kind::Cylinder {
+                point: place(*point)?,
+                direction: way("direction", *direction)?,
+                radius: size("radius", *radius)?,
+                length: size("length", *length)?,
+            },
+            Nominal::Cone { apex, direction, half_angle, between: [from, to] } => Kind::Cone {
+                apex: place(*apex)?,
+                direction: way("direction", *direction)?,
+                half_angle: size("half angle", *half_angle)?,
+                between: [from.min(*to), size("end", from.max(*to))?],
+            },
+            Nominal::Sphere { center, radius } => {
+                Kind::Sphere { center: place(*center)?, radius: size("radius", *radius)? }
+            }
+            Nominal::Edge { point, direction, length, normals: [a, b] } => Kind::Edge {
+                point: place(*point)?,
+                direction: way("direction", *direction)?,
+                length: size("length", *length)?,
+                normals: [way("first normal", *a)?, way("second normal", *b)?],
+            },
+        };
+        Ok(Rules { near, kind })
+    }
+
+    /// Whether a facet with this unit normal belongs to the feature.
+    pub(super) fn facet(&self, corners: [Point; 3], facing: Vector) -> bool {
+        corners.iter().all(|p| self.point(*p)) && {
+            let center = times(1.0 / 3.0, plus(corners[0], plus(corners[1], corners[2])));
+            self.faces(center, facing)
+        }
+    }
+
+    /// Whether a place is near the feature and within its bounds.
+    pub(super) fn point(&self, p: Point) -> bool {
+        let Nearness { distance, margin, .. } = *self.near;
+        let within = |x: f64, low: f64, high: f64| x >= low + margin && x <= high - margin;
+        match &self.kind {
+            Kind::Plane { point, normal, boundary } => {
+                dot(minus(p, *point), *normal).abs() <= distance && boundary.holds(p, margin)
+            }
+            Kind::Cylinder { point, direction, radius, length } => {
+                let (off, along) = polar(p, *point, *direction);
+                (off - radius).abs() <= distance && within(along, 0.0, *length)
+            }
+            Kind::Cone { apex, direction, half_angle, between: [from, to] } => {
+                let (off, along) = polar(p, *apex, *direction);
+                let away = off * libm::cos(*half_angle) - along * libm::sin(*half_angle);
+                away.abs() <= distance && within(along, *from, *to)
+            }
+            Kind::Sphere { center, radius } => (norm(minus(p, *center)) - radius).abs() <= distance,
+            Kind::Edge { point, direction, length, .. } => {
+                let (off, along) = polar(p, *point, *direction);
+                off <= distance && within(along, 0.0, *length)
+            }
+        }
+    }
+
+    /// Whether a facet about `center` faces as the feature does there.
+    fn faces(&self, center: Point, facing: Vector) -> bool {
+        let angle = self.near.angle;
+        match &self.kind {
+            Kind::Plane { normal, .. } => dot(*normal, facing) >= libm::cos(angle),
+            Kind::Cylinder { point, direction, .. } => {
+                // Inwards in a bore, outwards on a boss.
+                across(center, *point, *direction)
+                    .is_some_and(|radial| dot(radial, facing).abs() >= libm::cos(angle))
+            }
+            Kind::Cone { apex, direction, half_angle, .. } => {
+                across(center, *apex, *direction).is_some_and(|radial| {
+                    let normal = minus(
+                        times(libm::cos(*half_angle), radial),
+                        times(libm::sin(*half_angle), *direction),
+                    );
+                    dot(normal, facing).abs() >= libm::cos(angle)
+                })
+            }
+            Kind::Sphere { center: middle, .. } => {
+                unit(minus(center, *middle)).is_some_and(|(r, _)| dot(r, facing).abs() >= libm::cos(angle))
+            }
+            Kind::Edge { direction, normals: [a, b], .. } => {
+                // Between the two normals, turning about the edge.
+                let turn = cross(*a, *b);
+                let about = if dot(turn, *direction) < 0.0 { times(-1.0, *direction) } else { *direction };
+                let sideways = dot(facing, *direction).abs() <= libm::sin(angle);
+                let slack = libm::sin(angle.min(0.1));
+                sideways && dot(cross(*a, facing), about) >= slack && dot(cross(facing, *b), about) >= slack
+            }
+        }
+    }
+
+    /// Places of the nominal feature to start from.
+    pub(super) fn starts(&self) -> Vec<Point> {
+        const TURNS: usize = 12;
+        let about = |axis: Vector| -> [Vector; 2] {
+            let least = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs())).unwrap_or(0);
+            let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
+            let frame = Rigid::into_frame([0.0; 3], axis, toward).unwrap_or(Rigid::IDENTITY);
+            [frame.rotation()[0], frame.rotation()[1]]
+        };
+        let ring = |center: Point, axis: Vector, radius: f64| -> Vec<Point> {
+            let [u, v] = about(axis);
+            let at = |k: usize| {
+                let phi = std::f64::consts::TAU * k as f64 / TURNS as f64;
+                plus(times(radius * libm::cos(phi), u), times(radius * libm::sin(phi), v))
+            };
+            (0..TURNS).map(|k| plus(center, at(k))).collect()
+        };
+        const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
+        match &self.kind {
+            Kind::Plane { point, normal, boundary } => boundary.places(|[a, b], axes| {
+                let dropped = 3 - axes[0] - axes[1];
+                let mut p = *point;
+                (p[axes[0]], p[axes[1]]) = (a, b);
+                p[dropped] -= dot(minus(p, *point), *normal) / normal[dropped];
+                p
+            }),
+            Kind::Cylinder { point, direction, radius, length } => LEVELS
+                .iter()
+                .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
+                .collect(),
+            Kind::Cone { apex, direction, half_angle, between: [from, to] } => LEVELS
+                .iter()
+                .flat_map(|t| {
+                    let z = from + t * (to - from);
+                    ring(plus(*apex, times(z, *direction)), *direction, z * libm::tan(*half_angle))
+                })
+                .collect(),
+            Kind::Sphere { center, radius } => [-0.8f64, -0.4, 0.0, 0.4, 0.8]
+                .iter()
+                .flat_map(|t| {
+                    let axis = [0.0, 0.0, 1.0];
+                    ring(plus(*center, times(t * radius, axis)), axis, radius * (1.0 - t * t).sqrt())
+                })
+                .collect(),
+            Kind::Edge { point, direction, length, .. } => {
+                (0..9).map(|k| plus(*point, times(length * (f64::from(k) + 0.5) / 9.0, *direction))).collect()
+            }
+        }
+    }
+}
+
+/// Distance from an axis, and place along it.
+fn polar(p: Point, point: Point, direction: Vector) -> (f64, f64) {
+    let q = minus(p, point);
+    (norm(cross(q, direction)), dot(q, direction))
+}
+
+/// Unit vector away from an axis.
+fn across(p: Point, point: Point, direction: Vector) -> Option<Vector> {
+    let q = minus(p, point);
+    unit(minus(q, times(dot(q, direction), direction))).map(|u| u.0)
+}

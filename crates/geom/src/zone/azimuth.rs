@@ -1,0 +1,79 @@
+//! The least of a function of one angle: all directions that stand at a given angle to an axis.
+//!
+//! The width of a feature as a function of the angle about a datum has many local minima over a full turn, but near each of
+//! them it is all but convex: the greatest of functions that are straight to second order in the height of the feature. So
+//! the turn is sampled, and each low sample is followed to the bottom by golden section, which needs no derivative (J. Kiefer,
+//! Sequential minimax search for a maximum, 1953).
+
+use crate::rigid::Rigid;
+use crate::space::{Vector, plus, times};
+
+/// Samples of a full turn.
+const SAMPLES: usize = 1440;
+/// Sampled minima that are followed.
+const FOLLOWED: usize = 12;
+/// 1 over the golden ratio.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Directions at a fixed angle to an axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    along: Vector,
+    across: [Vector; 2],
+    period: f64,
+}
+
+impl Cone {
+    /// Unit vectors whose scalar product with `axis` is the cosine of `angle`; `None` where `axis` has no direction.
+    /// A direction and its opposite are one zone, so half a turn is all there is where they stand across the axis.
+    pub(super) fn about(axis: Vector, angle: f64) -> Option<Cone> {
+        let least = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()))?;
+        let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
+        let [u, v, w] = Rigid::into_frame([0.0; 3], axis, toward)?.rotation();
+        let right = angle == std::f64::consts::FRAC_PI_2;
+        let (sine, cosine) = if right { (1.0, 0.0) } else { (libm::sin(angle), libm::cos(angle)) };
+        let period = std::f64::consts::TAU * if right { 0.5 } else { 1.0 };
+        Some(Cone { along: times(cosine, w), across: [times(sine, u), times(sine, v)], period })
+    }
+
+    /// The direction at the azimuth `phi`.
+    pub(super) fn direction(&self, phi: f64) -> Vector {
+        let across = plus(times(libm::cos(phi), self.across[0]), times(libm::sin(phi), self.across[1]));
+        plus(self.along, across)
+    }
+
+    /// The azimuth of the least `value`.
+    pub(super) fn least(&self, value: impl Fn(Vector) -> f64) -> f64 {
+        let step = self.period / SAMPLES as f64;
+        let at = |phi: f64| value(self.direction(phi));
+        let samples: Vec<f64> = (0..SAMPLES).map(|k| at(k as f64 * step)).collect();
+        let around = |k: usize| [samples[(k + SAMPLES - 1) % SAMPLES], samples[(k + 1) % SAMPLES]];
+        let mut low: Vec<usize> =
+            (0..SAMPLES).filter(|&k| around(k).iter().all(|neighbour| samples[k] <= *neighbour)).collect();
+        low.sort_by(|&i, &j| samples[i].total_cmp(&samples[j]).then(i.cmp(&j)));
+        low.truncate(FOLLOWED);
+        let bottoms = low.into_iter().map(|k| {
+            let phi = golden(&at, (k as f64 - 1.0) * step, (k as f64 + 1.0) * step);
+            (at(phi), phi)
+        });
+        bottoms.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1)
+    }
+}
+
+/// The place of the least value between two places, where the function has one valley.
+fn golden(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+    let (mut at_a, mut at_b) = (value(a), value(b));
+    for _ in 0..90 {
+        if at_a <= at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - GOLDEN * (high - low);
+            at_a = value(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + GOLDEN * (high - low);
+            at_b = value(b);
+        }
+    }
+    if at_a <= at_b { a } else { b }
+}

@@ -1,0 +1,134 @@
+//! The frame that datums make, one after the other.
+
+use super::{AS_DRAWN, Datum, DatumError, Freedom, System, nearest};
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
+use std::f64::consts::FRAC_PI_2;
+
+/// What is fixed so far.
+#[derive(Default)]
+pub(super) struct State {
+    z: Option<Vector>,
+    x: Option<Vector>,
+    /// A point of the origin's height along z, of its place along x, and along y.
+    height: Option<Point>,
+    along: Option<Point>,
+    beside: Option<Point>,
+    /// Whether the first datum is an axis whose sense is still open.
+    open: bool,
+}
+
+impl State {
+    /// Takes in the next datum.
+    pub(super) fn take(&mut self, datum: usize, d: &Datum) -> Result<(), DatumError> {
+        let Some(z) = self.z else {
+            return self.first(datum, d);
+        };
+        match *d {
+            Datum::Plane { point, normal } => self.plane(datum, z, point, normal),
+            Datum::Axis { point, direction } => {
+                nearest(&[z], direction)
+                    .map_err(|angle| DatumError::Oblique { datum, degrees: angle.to_degrees() })?;
+                self.place(datum, z, point)
+            }
+            Datum::Point(point) => self.place(datum, z, point),
+        }
+    }
+
+    fn first(&mut self, datum: usize, d: &Datum) -> Result<(), DatumError> {
+        match *d {
+            Datum::Plane { point, normal } => {
+                self.z = Some(times(-1.0, normal));
+                self.height = Some(point);
+            }
+            Datum::Axis { point, direction } => {
+                self.z = Some(direction);
+                (self.along, self.beside, self.open) = (Some(point), Some(point), true);
+            }
+            Datum::Point(_) => {
+                let _ = datum;
+                return Err(DatumError::Unsupported { what: "a center as the first datum" });
+            }
+        }
+        Ok(())
+    }
+
+    fn plane(&mut self, datum: usize, z: Vector, point: Point, normal: Vector) -> Result<(), DatumError> {
+        let angle = libm::acos(dot(z, normal).abs().min(1.0));
+        let degrees = angle.to_degrees();
+        if angle <= AS_DRAWN {
+            if self.height.is_some() {
+                return Err(DatumError::Idle { datum, degrees });
+            }
+            self.height = Some(point);
+            if self.open {
+                self.z = Some(if dot(z, normal) > 0.0 { times(-1.0, z) } else { z });
+                self.open = false;
+            }
+            return Ok(());
+        }
+        if (angle - FRAC_PI_2).abs() > AS_DRAWN {
+            return Err(DatumError::Oblique { datum, degrees });
+        }
+        match self.x {
+            None => {
+                self.x = Some(times(-1.0, normal));
+                self.along = self.along.or(Some(point));
+                Ok(())
+            }
+            Some(x) => {
+                let beside = libm::acos(dot(x, normal).abs().min(1.0));
+                if (beside - FRAC_PI_2).abs() > AS_DRAWN {
+                    return Err(DatumError::Idle { datum, degrees: beside.to_degrees() });
+                }
+                if self.beside.is_some() {
+                    return Err(DatumError::Idle { datum, degrees });
+                }
+                self.beside = Some(point);
+                Ok(())
+            }
+        }
+    }
+
+    /// A center, or an axis along z: a place in the plane across z.
+    fn place(&mut self, datum: usize, z: Vector, point: Point) -> Result<(), DatumError> {
+        match (self.along, self.beside, self.x) {
+            (None, None, _) => (self.along, self.beside) = (Some(point), Some(point)),
+            (Some(_), None, Some(_)) => self.beside = Some(point),
+            (Some(origin), Some(_), None) => {
+                let way = minus(point, origin);
+                let flat = minus(way, times(dot(way, z), z));
+                let Some((x, length)) = unit(flat) else {
+                    return Err(DatumError::Idle { datum, degrees: 0.0 });
+                };
+                if length <= 1e-9 * norm(way) {
+                    return Err(DatumError::Idle { datum, degrees: 0.0 });
+                }
+                self.x = Some(x);
+            }
+            _ => return Err(DatumError::Idle { datum, degrees: 0.0 }),
+        }
+        Ok(())
+    }
+
+    /// The frame.
+    pub(super) fn finished(self, datums: &[Datum]) -> Result<System, DatumError> {
+        let Some(z) = self.z else { return Err(DatumError::Unsupported { what: "no datums" }) };
+        let free = Freedom {
+            shift: [self.along.is_none(), self.beside.is_none(), self.height.is_none()],
+            turn: [false, false, self.x.is_none()],
+        };
+        let least = (0..3).min_by(|&i, &j| z[i].abs().total_cmp(&z[j].abs())).unwrap_or(0);
+        let any = std::array::from_fn(|k| f64::from(u8::from(k == least)));
+        let lost = DatumError::Unsupported { what: "directions that make no frame" };
+        let turned = Rigid::into_frame([0.0; 3], z, self.x.unwrap_or(any)).ok_or(lost)?;
+        let [x, y, z] = turned.rotation();
+        // Where nothing holds the origin, it is at a datum all the same.
+        let anywhere = self.along.or(self.beside).or(self.height).unwrap_or([0.0; 3]);
+        let at = |p: Option<Point>, axis: Vector| dot(p.unwrap_or(anywhere), axis);
+        let (a, b, c) = (at(self.along, x), at(self.beside, y), at(self.height, z));
+        let origin = plus(plus(times(a, x), times(b, y)), times(c, z));
+        let frame = Rigid::into_frame(origin, z, x).ok_or(lost)?;
+        Ok(System { frame, free, datums: datums.to_vec() })
+    }
+}

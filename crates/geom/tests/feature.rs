@@ -1,0 +1,114 @@
+//! Features found in meshes and clouds whose facets are known.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, in_cloud, in_mesh};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Silent;
+use trueness_geom::space::Point;
+
+/// Strips of the arc between floor and wall.
+const ARC: usize = 8;
+/// Strips along y.
+const LONG: usize = 10;
+
+/// A floor z = 0 up to x = 0, an arc of radius 2 down to the wall x = 2; 20 mm along y. Strip `s` between two lines of the
+/// profile has the facets 2·LONG·s …: floor 0, arc 1 ..= ARC, wall ARC + 1.
+fn rounded_step() -> Mesh {
+    let arc = (0..=ARC).map(|k| {
+        let angle = std::f64::consts::FRAC_PI_2 * k as f64 / ARC as f64;
+        [2.0 * angle.sin(), 2.0 * angle.cos() - 2.0]
+    });
+    let profile: Vec<[f64; 2]> = std::iter::once([-10.0, 0.0]).chain(arc).chain([[2.0, -12.0]]).collect();
+    let mut mesh = Mesh::default();
+    for [x, z] in &profile {
+        mesh.positions.extend((0..=LONG).map(|j| [*x, 2.0 * j as f64, *z]));
+    }
+    let at = |i: usize, j: usize| (i * (LONG + 1) + j) as u32;
+    for i in 0..profile.len() - 1 {
+        for j in 0..LONG {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            mesh.faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+fn found(mesh: &Mesh, nominal: &Nominal, near: Nearness) -> Found {
+    in_mesh(mesh, &Tree::build(mesh).unwrap(), nominal, &near, &Silent).unwrap()
+}
+
+fn strips(found: &Found) -> Vec<usize> {
+    let mut strips: Vec<usize> = found.facets.iter().map(|f| *f as usize / (2 * LONG)).collect();
+    strips.dedup();
+    strips
+}
+
+const NEAR: Nearness = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true };
+
+fn floor() -> Nominal {
+    let boundary = vec![[-10.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 20.0, 0.0], [-10.0, 20.0, 0.0]];
+    Nominal::Plane { point: [-5.0, 9.0, 0.0], normal: [0.0, 0.0, 3.0], boundary }
+}
+
+#[test]
+fn a_plane_ends_at_its_boundary() {
+    let mesh = rounded_step();
+    let whole = found(&mesh, &floor(), NEAR);
+    assert_eq!((strips(&whole), whole.facets.len(), whole.points.len()), (vec![0], 2 * LONG, 2 * (LONG + 1)));
+    assert!((whole.area - 200.0).abs() < 1e-9 && (floor().area().unwrap() - 200.0).abs() < 1e-9);
+    // Without the rim the line that the arc shares is left out.
+    let inner = found(&mesh, &floor(), Nearness { rim: false, ..NEAR });
+    assert_eq!(inner.points.len(), LONG + 1);
+    // No facet keeps to the margin: none of their corners is inside.
+    assert_eq!(found(&mesh, &floor(), Nearness { margin: 0.5, ..NEAR }), Found::default());
+    // From below nothing faces up.
+    let below = Nominal::Plane {
+        point: [0.0; 3],
+        normal: [0.0, 0.0, -1.0],
+        boundary: vec![[-10.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 20.0, 0.0]],
+    };
+    assert_eq!(found(&mesh, &below, NEAR), Found::default());
+}
+
+#[test]
+fn a_rounding_is_found_as_cylinder_and_as_edge() {
+    let mesh = rounded_step();
+    let cylinder =
+        Nominal::Cylinder { point: [0.0, 0.0, -2.0], direction: [0.0, 1.0, 0.0], radius: 2.0, length: 20.0 };
+    assert_eq!(strips(&found(&mesh, &cylinder, NEAR)), (1..=ARC).collect::<Vec<_>>());
+    // Only the middle of it: the margin takes 3 mm at both ends, the facets there are 2 mm long.
+    let middle = found(&mesh, &cylinder, Nearness { margin: 3.0, ..NEAR });
+    assert_eq!(middle.facets.len(), ARC * 2 * (LONG - 4));
+    let edge = Nominal::Edge {
+        point: [2.0, 0.0, 0.0],
+        direction: [0.0, 1.0, 0.0],
+        length: 20.0,
+        normals: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+    };
+    let near = Nearness { distance: 3.0, angle: 0.05, ..NEAR };
+    assert_eq!(strips(&found(&mesh, &edge, near)), (1..=ARC).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_cloud_gives_what_is_near() {
+    let points: Vec<Point> = vec![[-5.0, 5.0, 0.05], [-5.0, 5.0, 0.2], [5.0, 5.0, 0.0], [-0.05, 5.0, 0.0]];
+    let all = in_cloud(&points, &floor(), &NEAR).unwrap();
+    assert_eq!((all.points, all.facets.len()), (vec![0, 3], 0));
+    let inner = in_cloud(&points, &floor(), &Nearness { margin: 0.1, ..NEAR }).unwrap();
+    assert_eq!(inner.points, vec![0]);
+}
+
+#[test]
+fn nominal_features_without_sense_are_refused() {
+    let refused = |nominal: Nominal| in_cloud(&[], &nominal, &NEAR).unwrap_err();
+    let boundary = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    let plane = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+    assert_eq!(refused(plane), FeatureError::Boundary);
+    let sphere = Nominal::Sphere { center: [0.0; 3], radius: -1.0 };
+    assert_eq!(refused(sphere), FeatureError::Size { what: "radius", value: -1.0 });
+    let none = Nominal::Cylinder { point: [0.0; 3], direction: [0.0; 3], radius: 1.0, length: 1.0 };
+    assert_eq!(refused(none), FeatureError::NoDirection { what: "direction" });
+    let lost = Nominal::Sphere { center: [f64::NAN, 0.0, 0.0], radius: 1.0 };
+    assert_eq!(refused(lost), FeatureError::NotFinite);
+}

@@ -1,0 +1,34 @@
+//! Angularity: ISO 1101:2017, 17.12. ASME Y14.5-2018, section 9 agrees for surfaces and axes.
+
+use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, orientation, refuse};
+
+/// The width, with the sign ∅ the diameter, of the least zone at the theoretically exact angle `basic.angle` to the datum.
+#[derive(Debug)]
+pub struct Angularity;
+
+impl Characteristic for Angularity {
+    fn word(&self) -> &'static str {
+        "angularity"
+    }
+    fn symbol(&self) -> &'static str {
+        "∠"
+    }
+    fn standard(&self) -> &'static str {
+        "ISO 1101:2017, 17.12"
+    }
+    fn keys(&self) -> &'static [&'static str] {
+        &["tolerance", "datums", "datum_method", "diametral", "basic"]
+    }
+    fn check(&self, q: &Question) -> Result<(), Refusal> {
+        let Some(angle) = q.spec.basic.angle else {
+            return refuse("kind", "it needs the theoretically exact angle: basic = { angle = 60 }");
+        };
+        if q.spec.basic.place.iter().any(Option::is_some) {
+            return refuse("basic", "an angle is all it takes");
+        }
+        orientation::check(q, angle)
+    }
+    fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
+        orientation::measure(m, m.spec.basic.angle.unwrap_or(0.0))
+    }
+}

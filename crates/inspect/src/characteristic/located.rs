@@ -1,0 +1,62 @@
+//! The datum system of a characteristic, from the measured datum features.
+
+use super::{Measuring, Missing};
+use crate::inspection::Taken;
+use crate::plan::Class;
+use trueness_geom::fit::Method;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::shape::Kind;
+use trueness_geom::space::minus;
+use trueness_geom::zone::datum::{Datum, Freedom, Rule, Source, System, center, mean};
+
+/// The frame in which true places are given, and what it leaves free: that of the datums, or the one that the plan gives.
+pub(super) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
+    match m.spec.frame {
+        Some(frame) => Ok((frame, Freedom::NONE)),
+        None => system(m).map(|s| (s.frame, s.free)),
+    }
+}
+
+/// The only datum.
+pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
+    let none = || Missing::Impossible("it has no datum".into());
+    let first = m.datums.first().ok_or_else(none)?;
+    if let Some(datum) = first.derived_datum()? {
+        return Ok(datum);
+    }
+    if first.class == Class::Sphere {
+        let method = match m.spec.datum_rule {
+            Rule::Gaussian => Method::Gaussian,
+            Rule::MinimumZone => Method::MinimumZone,
+        };
+        let shape = first.refitted(Kind::Sphere, method, m.progress)?.shape;
+        let center = center(&shape).ok_or_else(|| Missing::NotMeasured("the datum has no center".into()))?;
+        return Ok(Datum::Point(center));
+    }
+    system(m)?.datums.first().copied().ok_or_else(none)
+}
+
+fn system(m: &Measuring) -> Result<System, Missing> {
+    if let [only] = m.datums
+        && let Some(datum) = only.derived_datum()?
+    {
+        return Ok(System::of(&[datum])?);
+    }
+    let sources: Vec<Source> = m.datums.iter().map(|d| source(d, m.feature())).collect::<Result<_, _>>()?;
+    Ok(System::associated(&sources, m.spec.datum_rule, m.progress)?)
+}
+
+/// The points of a datum feature. A plane that does not say where its material is has it on the side of the toleranced
+/// feature.
+fn source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'a>, Missing> {
+    let points = datum.taken()?;
+    let kind = match datum.class {
+        Class::Plane => Kind::Plane,
+        Class::Cylinder => Kind::Cylinder,
+        Class::Cone => Kind::Cone,
+        Class::Sphere => Kind::Sphere,
+        _ => Kind::Line,
+    };
+    let away = || minus(mean(points), mean(&toleranced.points));
+    Ok(Source { points, kind, outward: datum.outward.unwrap_or_else(away) })
+}

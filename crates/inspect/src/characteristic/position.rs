@@ -1,0 +1,103 @@
+//! Position: ISO 1101:2017, 17.13; ISO 5458. ASME Y14.5-2018, section 10 agrees where no material requirement is stated.
+
+use super::located::frame;
+use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, is_axis, refuse};
+use crate::plan::Class;
+use trueness_geom::space::{Point, Vector};
+use trueness_geom::zone::motion::{Search, placed};
+
+/// Twice the greatest distance of the feature from its theoretically exact place in the datum system, the least over the
+/// motions that the datums leave free.
+///
+/// Of a cylinder or cone: of both ends of the associated axis, over the extent of the points. Of a line: of all its points.
+/// Of a plane: of all its points. Of a sphere, circle or point: of its center. Coordinates that `basic` does not give do not
+/// count: x and y place an axis along z (zone ∅), one of them alone holds it between two planes.
+#[derive(Debug)]
+pub struct Position;
+
+impl Characteristic for Position {
+    fn word(&self) -> &'static str {
+        "position"
+    }
+    fn symbol(&self) -> &'static str {
+        "⌖"
+    }
+    fn standard(&self) -> &'static str {
+        "ISO 1101:2017, 17.13; ISO 5458:2018"
+    }
+    fn keys(&self) -> &'static [&'static str] {
+        &["tolerance", "datums", "datum_method", "frame", "basic", "diametral"]
+    }
+    fn check(&self, q: &Question) -> Result<(), Refusal> {
+        let class = q.class(&[
+            Class::Point,
+            Class::Line,
+            Class::Plane,
+            Class::Circle,
+            Class::Sphere,
+            Class::Cylinder,
+            Class::Cone,
+        ])?;
+        if q.spec.datums.is_empty() && q.spec.frame.is_none() {
+            return refuse("kind", "it needs a datum system: give `datums` or `frame`");
+        }
+        if q.datums().first() == Some(&Class::Sphere) {
+            return refuse("datums", "a center as the first datum is not built yet");
+        }
+        if q.datums().contains(&Class::Point) {
+            return refuse("datums", "a point is no datum; take a sphere");
+        }
+        if q.spec.basic.angle.is_some() {
+            return refuse("basic", "it takes x, y and z, not an angle");
+        }
+        let given = q.spec.basic.place.map(|x| x.is_some());
+        let count = given.iter().filter(|g| **g).count();
+        if count == 0 {
+            return refuse("kind", "it needs the theoretically exact place: basic = { x = 10, y = 20 }");
+        }
+        if is_axis(class) && given[2] {
+            return refuse("basic", "an axis along z is placed by x and y");
+        }
+        if class == Class::Plane && count != 1 {
+            return refuse("basic", "a plane across an axis of the datum system is placed by one coordinate");
+        }
+        match q.spec.diametral {
+            Some(true) if count == 1 => {
+                refuse("diametral", "a zone about one coordinate lies between planes")
+            }
+            Some(false) if count > 1 => {
+                refuse("diametral", "a zone between planes is given by one coordinate")
+            }
+            _ => Ok(()),
+        }
+    }
+    fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
+        let (start, free) = frame(m)?;
+        let points = m.feature().zoned()?;
+        let place = m.spec.basic.place;
+        let distance = |p: Point| Some(from_place(p, place));
+        let search = Search { start, free, middle: 0.0, floating: false };
+        let found = placed(&points, &distance, &search, m.progress)?;
+        let far = if found.max.0.abs() >= found.min.0.abs() { found.max.1 } else { found.min.1 };
+        let mut value = Value { value: 2.0 * found.half, witness: vec![points[far]], ..Value::default() };
+        value.diametral = place.iter().flatten().count() > 1;
+        if let [only] = points.as_slice() {
+            let at = found.motion.point(*only);
+            let names = ["x", "y", "z"];
+            value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (names[k], at[k])).collect();
+        }
+        Ok(value)
+    }
+}
+
+/// Distance from the true place in the coordinates that are given, and its gradient; signed where it is one coordinate.
+fn from_place(p: Point, place: [Option<f64>; 3]) -> (f64, Vector) {
+    let off: Vector = std::array::from_fn(|k| place[k].map_or(0.0, |x| p[k] - x));
+    if place.iter().flatten().count() == 1 {
+        let gradient = place.map(|x| f64::from(u8::from(x.is_some())));
+        return (off.iter().sum(), gradient);
+    }
+    let length = trueness_geom::space::norm(off);
+    let away = if length > 0.0 { off.map(|x| x / length) } else { [0.0; 3] };
+    (length, away)
+}

@@ -1,0 +1,93 @@
+//! From a value and its limits to a verdict.
+
+use crate::plan::{Limits, Rule};
+use crate::results::Verdict;
+
+/// The verdict on `value` with the expanded uncertainty `u`.
+///
+/// `simple`: the limits belong to what is allowed, the uncertainty is not looked at. `iso14253-1` (ISO 14253-1:2017, 5):
+/// conformity is proven where the value lies within the limits by at least `u`, non-conformity where it lies beyond one by
+/// more than `u`; between them nothing is decided.
+pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<f64>) -> Verdict {
+    let (lower, upper) = limits.range();
+    // How far the value is inside the nearest limit.
+    let inside = lower.map_or(f64::INFINITY, |l| value - l).min(upper - value);
+    let u = match rule {
+        Rule::Simple => 0.0,
+        Rule::Iso14253 => u.unwrap_or(0.0),
+    };
+    if inside >= u {
+        Verdict::Pass
+    } else if inside < -u {
+        Verdict::Fail
+    } else {
+        Verdict::Undecided
+    }
+}
+
+/// Share of what is allowed that the value takes up: 1 at a limit.
+pub fn utilisation(value: f64, limits: &Limits) -> Option<f64> {
+    let share = match *limits {
+        Limits::Greatest(t) => value / t,
+        Limits::Between { nominal, lower, upper } => {
+            let middle = nominal + 0.5 * (lower + upper);
+            (value - middle).abs() / (0.5 * (upper - lower))
+        }
+    };
+    share.is_finite().then_some(share)
+}
+
+/// How bad a verdict is.
+pub(crate) fn rank(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Fail => 3,
+        Verdict::Undecided => 2,
+        Verdict::NotMeasured => 1,
+        Verdict::Pass => 0,
+    }
+}
+
+/// The verdict on all: the worst of them.
+pub fn overall(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
+    verdicts.into_iter().max_by_key(|v| rank(*v)).unwrap_or(Verdict::NotMeasured)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_belongs_to_what_is_allowed() {
+        let limits = Limits::Greatest(0.05);
+        let simple = |v| verdict(v, &limits, Rule::Simple, Some(1.0));
+        assert_eq!(
+            [simple(0.0), simple(0.05), simple(0.0501)],
+            [Verdict::Pass, Verdict::Pass, Verdict::Fail]
+        );
+        let size = Limits::Between { nominal: 12.0, lower: -0.1, upper: 0.2 };
+        let simple = |v| verdict(v, &size, Rule::Simple, None);
+        assert_eq!(
+            [simple(11.95), simple(12.2), simple(11.8)],
+            [Verdict::Pass, Verdict::Pass, Verdict::Fail]
+        );
+        assert_eq!(utilisation(12.2, &size).map(|u| (u * 1e9).round()), Some(1e9));
+        assert_eq!(utilisation(0.0, &Limits::Greatest(0.0)), None);
+    }
+
+    #[test]
+    fn near_a_limit_nothing_is_decided() {
+        let limits = Limits::Between { nominal: 10.0, lower: -0.5, upper: 0.5 };
+        let at = |v| verdict(v, &limits, Rule::Iso14253, Some(0.125));
+        use Verdict::{Fail, Pass, Undecided};
+        assert_eq!([at(10.375), at(10.4), at(10.625), at(10.626)], [Pass, Undecided, Undecided, Fail]);
+        assert_eq!([at(9.625), at(9.6), at(9.375), at(9.374)], [Pass, Undecided, Undecided, Fail]);
+    }
+
+    #[test]
+    fn the_worst_verdict_stands_for_all() {
+        use Verdict::{Fail, NotMeasured, Pass, Undecided};
+        assert_eq!(overall([Pass, Undecided, Fail, NotMeasured]), Fail);
+        assert_eq!(overall([Pass, NotMeasured]), NotMeasured);
+        assert_eq!(overall([Pass, Pass]), Pass);
+    }
+}

@@ -1,0 +1,219 @@
+//! Taking the features of a plan from the measured data.
+
+use super::taken::{Element, Taken};
+use super::{Data, Stop};
+use crate::plan::text::DerivedWord;
+use crate::plan::{Class, Feature, Plan, Source};
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::{FeatureError, Found, in_cloud, in_mesh};
+use trueness_geom::fit::{FitError, Options, fit};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::shape::Kind;
+use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
+use trueness_geom::space::{Point, cross, minus, norm, plus, times};
+use trueness_geom::zone::datum::{self, Datum, mean};
+
+/// All features of the plan, in its order.
+pub(super) fn features(plan: &Plan, data: &Data, progress: &dyn Progress) -> Result<Vec<Taken>, Stop> {
+    let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal));
+    let tree = match &data.measured {
+        Some(mesh) if sought && !mesh.faces.is_empty() => {
+            Some(Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?)
+        }
+        _ => None,
+    };
+    let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
+    for (number, feature) in plan.features.iter().enumerate() {
+        if progress.cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        let taken = match &feature.source {
+            Source::Derived { how, of: [a, b] } => derived(feature, *how, &all[*a], &all[*b]),
+            Source::Points(_) => {
+                let mut taken = bare(feature);
+                if let Some(own) = data.points.get(&number) {
+                    (taken.points, taken.planar) = (own.points.clone(), own.planar);
+                }
+                taken.areas = vec![1.0; taken.points.len()];
+                associated(taken, feature, progress)?
+            }
+            Source::Nominal => {
+                let found = found(feature, data, tree.as_ref(), progress)?;
+                associated(found, feature, progress)?
+            }
+        };
+        all.push(taken);
+    }
+    Ok(all)
+}
+
+/// A feature that nothing was found of yet.
+fn bare(feature: &Feature) -> Taken {
+    let normal = match &feature.nominal {
+        Some(trueness_geom::feature::Nominal::Plane { normal, .. }) => Some(*normal),
+        _ => None,
+    };
+    let edge = matches!(feature.nominal, Some(trueness_geom::feature::Nominal::Edge { .. }));
+    Taken {
+        id: feature.id.clone(),
+        class: feature.class,
+        points: vec![],
+        areas: vec![],
+        facets: vec![],
+        planar: false,
+        edge,
+        outward: feature.outward.or(normal),
+        nominal: feature.nominal.clone(),
+        coverage: None,
+        element: Err("it was not measured".into()),
+    }
+}
+
+/// The points that the measured data have where the model has the feature.
+fn found(
+    feature: &Feature,
+    data: &Data,
+    tree: Option<&Tree>,
+    progress: &dyn Progress,
+) -> Result<Taken, Stop> {
+    let mut taken = bare(feature);
+    let (Some(mesh), Some(nominal)) = (&data.measured, &feature.nominal) else { return Ok(taken) };
+    let found = match tree {
+        Some(tree) => in_mesh(mesh, tree, nominal, &feature.near, progress),
+        None => in_cloud(&mesh.positions, nominal, &feature.near),
+    };
+    let found = found.map_err(|e| match e {
+        FeatureError::Cancelled => Stop::Cancelled,
+        e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
+    })?;
+    taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
+    taken.areas = areas(mesh, &found);
+    taken.coverage = nominal.area().filter(|_| tree.is_some()).map(|whole| found.area / whole);
+    taken.facets = found.facets;
+    Ok(taken)
+}
+
+/// The area that each point stands for: a third of the feature's facets about it.
+fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
+    if found.facets.is_empty() {
+        return vec![1.0; found.points.len()];
+    }
+    let mut areas = vec![0.0; found.points.len()];
+    for face in found.facets.iter().filter_map(|f| mesh.faces.get(*f as usize)) {
+        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        let third = norm(cross(minus(b, a), minus(c, a))) / 6.0;
+        for v in face {
+            if let Ok(place) = found.points.binary_search(v) {
+                areas[place] += third;
+            }
+        }
+    }
+    areas
+}
+
+/// The feature with the element of its points, or the reason why it has none.
+fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> Result<Taken, Stop> {
+    if taken.points.is_empty() {
+        taken.element = Err(match feature.source {
+            Source::Nominal => "nothing was measured where the model has it".into(),
+            _ => "its file has no points".into(),
+        });
+        return Ok(taken);
+    }
+    if let Some(share) = taken.coverage.filter(|share| *share < feature.coverage) {
+        taken.element = Err(format!(
+            "only {:.1} % of its nominal area was measured, less than {:.1} %",
+            100.0 * share,
+            100.0 * feature.coverage
+        ));
+        return Ok(taken);
+    }
+    let kind = match taken.class {
+        Class::Point => {
+            taken.element = Ok(Element::Point(mean(&taken.points)));
+            return Ok(taken);
+        }
+        Class::Line if taken.planar => Kind::Line2,
+        Class::Line => Kind::Line,
+        Class::Plane => Kind::Plane,
+        Class::Circle if taken.planar => Kind::Circle2,
+        Class::Circle => Kind::Circle,
+        Class::Sphere => Kind::Sphere,
+        Class::Cylinder => Kind::Cylinder,
+        Class::Cone => Kind::Cone,
+        Class::Torus => Kind::Torus,
+        Class::Surface => return Ok(taken),
+    };
+    let options = Options { method: feature.method, ..Options::default() };
+    taken.element = match fit(&taken.points, kind, &options, progress) {
+        Ok(fit) => Ok(Element::Fit(Box::new(fit))),
+        Err(FitError::Cancelled) => return Err(Stop::Cancelled),
+        Err(e @ FitError::NoSuchMethod { .. }) => {
+            let what = format!("feature \"{}\": {e}", feature.id);
+            return Err(Stop::Plan { span: feature.span.clone(), what });
+        }
+        Err(e) => Err(e.to_string()),
+    };
+    Ok(taken)
+}
+
+/// A plane or axis of a feature.
+fn ray(taken: &Taken) -> Result<Ray, String> {
+    let none = || format!("feature \"{}\" has no plane or axis", taken.id);
+    match taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))? {
+        Element::Derived(Datum::Plane { point, normal }) => Ok(Ray { point: *point, direction: *normal }),
+        Element::Derived(Datum::Axis { point, direction }) => {
+            Ok(Ray { point: *point, direction: *direction })
+        }
+        Element::Fit(fit) => {
+            let (point, direction) = (datum::foot(&fit.shape), datum::direction(&fit.shape));
+            Ok(Ray { point: point.ok_or_else(none)?, direction: direction.ok_or_else(none)? })
+        }
+        _ => Err(none()),
+    }
+}
+
+fn center(taken: &Taken) -> Result<Point, String> {
+    taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))?;
+    let points = taken.zoned().map_err(|_| format!("feature \"{}\" has no center", taken.id))?;
+    points.first().copied().ok_or_else(|| format!("feature \"{}\" has no center", taken.id))
+}
+
+fn derived(feature: &Feature, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
+    let mut taken = bare(feature);
+    let made = match how {
+        DerivedWord::MedianPlane => median(&mut taken, a, b),
+        DerivedWord::Intersection => intersection(a, b),
+        DerivedWord::Midpoint => center(a).and_then(|p| center(b).map(|q| Element::Point(midpoint(p, q)))),
+        DerivedWord::Projection => center(a).and_then(|p| {
+            let plane = ray(b)?;
+            Ok(Element::Point(minus(p, times(point_plane(p, plane), plane.direction))))
+        }),
+    };
+    taken.element = made;
+    taken
+}
+
+/// The plane half way between two, and their points projected onto it: its extent.
+fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, String> {
+    let (first, second) = (ray(a)?, ray(b)?);
+    let plane = median_plane(first, second).ok_or("its two planes are perpendicular to each other")?;
+    let onto = |p: &Point| plus(*p, times(-point_plane(*p, plane), plane.direction));
+    taken.points = a.points.iter().chain(&b.points).map(onto).collect();
+    taken.areas = vec![1.0; taken.points.len()];
+    Ok(Element::Derived(Datum::Plane { point: plane.point, normal: plane.direction }))
+}
+
+fn intersection(a: &Taken, b: &Taken) -> Result<Element, String> {
+    let (first, second) = (ray(a)?, ray(b)?);
+    let parallel = "its two features are parallel";
+    match (a.class, b.class) {
+        (Class::Plane, Class::Plane) => {
+            let line = plane_plane(first, second, midpoint(first.point, second.point)).ok_or(parallel)?;
+            Ok(Element::Derived(Datum::Axis { point: line.point, direction: line.direction }))
+        }
+        (Class::Plane, _) => line_plane(second, first).map(Element::Point).ok_or(parallel.into()),
+        _ => line_plane(first, second).map(Element::Point).ok_or(parallel.into()),
+    }
+}

@@ -1,0 +1,198 @@
+//! A feature taken from the measured data: its points, and the element associated with them.
+
+use crate::characteristic::{Missing, Value};
+use crate::plan::Class;
+use trueness_geom::feature::Nominal;
+use trueness_geom::fit::{Fit, Method, Options, fit};
+use trueness_geom::progress::Progress;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::shape::{Kind, Shape};
+use trueness_geom::space::{Point, Vector, dot, minus, plus, times};
+use trueness_geom::zone::datum::{self, Datum, mean};
+
+/// A feature of a plan, measured or not.
+#[derive(Clone, Debug)]
+pub struct Taken {
+    /// Its name.
+    pub id: String,
+    /// What it is.
+    pub class: Class,
+    /// Its points; of a derived median plane, those of its two planes, projected onto it.
+    pub points: Vec<Point>,
+    /// The area that each point stands for; 1 for points without facets.
+    pub areas: Vec<f64>,
+    /// Facets of the measured mesh that it has.
+    pub facets: Vec<u32>,
+    /// Whether its points have two coordinates only.
+    pub planar: bool,
+    /// Whether it is an edge: a line fitted to a narrow band.
+    pub edge: bool,
+    /// A direction out of the material, where it is known.
+    pub outward: Option<Vector>,
+    /// As the model has it.
+    pub nominal: Option<Nominal>,
+    /// Share of the nominal area that was measured.
+    pub coverage: Option<f64>,
+    /// The element, or why there is none.
+    pub element: Result<Element, String>,
+}
+
+/// What a feature is made to.
+#[derive(Clone, Debug)]
+pub enum Element {
+    /// An element fitted to the points.
+    Fit(Box<Fit>),
+    /// The mean of the points, or a derived point.
+    Point(Point),
+    /// A derived plane or line.
+    Derived(Datum),
+}
+
+impl Taken {
+    fn element(&self) -> Result<&Element, Missing> {
+        self.element.as_ref().map_err(|reason| self.missing(reason))
+    }
+
+    fn missing(&self, reason: &str) -> Missing {
+        Missing::NotMeasured(format!("feature \"{}\": {reason}", self.id))
+    }
+
+    /// Its points.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn taken(&self) -> Result<&[Point], Missing> {
+        match &self.element {
+            Err(reason) if self.points.is_empty() => Err(self.missing(reason)),
+            _ if self.points.is_empty() => Err(self.missing("it has no points of its own")),
+            _ => Ok(&self.points),
+        }
+    }
+
+    /// Its element.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn shape(&self) -> Result<Shape, Missing> {
+        match self.element()? {
+            Element::Fit(fit) => Ok(fit.shape),
+            _ => Err(self.missing("it has no fitted element")),
+        }
+    }
+
+    /// Another element through its points.
+    ///
+    /// # Errors
+    /// Too few points, points that determine none.
+    pub fn refitted(&self, kind: Kind, method: Method, progress: &dyn Progress) -> Result<Fit, Missing> {
+        if let Element::Fit(fit) = self.element()?
+            && fit.shape.kind() == kind
+            && fit.method == method
+        {
+            return Ok((**fit).clone());
+        }
+        let options = Options { method, ..Options::default() };
+        fit(self.taken()?, kind, &options, progress).map_err(|e| match Missing::from(e) {
+            Missing::NotMeasured(reason) => self.missing(&reason),
+            other => other,
+        })
+    }
+
+    /// The circle of its points in the plane of the section: of points in space, that of least squares.
+    ///
+    /// # Errors
+    /// Too few points, points that determine none.
+    pub fn profile(&self, method: Method, progress: &dyn Progress) -> Result<Fit, Missing> {
+        if self.planar {
+            return self.refitted(Kind::Circle2, method, progress);
+        }
+        let shape = self.refitted(Kind::Plane, Method::Gaussian, progress)?.shape;
+        let none = || self.missing("its points lie in no plane");
+        let (Shape::Plane { point, normal }, Some(first)) = (shape, self.points.first()) else {
+            return Err(none());
+        };
+        let seen = Rigid::into_frame(point, normal, minus(*first, point)).ok_or_else(none)?;
+        let flat: Vec<Point> =
+            self.points.iter().map(|p| seen.point(*p)).map(|[x, y, _]| [x, y, 0.0]).collect();
+        let options = Options { method, ..Options::default() };
+        Ok(fit(&flat, Kind::Circle2, &options, progress)?)
+    }
+
+    /// The form of its points against an element: value, and where it is reached.
+    pub fn form(&self, fit: &Fit) -> Value {
+        let mut at: Vec<usize> = fit.touching.iter().map(|t| t.point).collect();
+        if at.is_empty() {
+            at = vec![fit.residuals.max.1, fit.residuals.min.1];
+        }
+        let witness = at.into_iter().filter_map(|i| self.points.get(i).copied()).collect();
+        Value { value: fit.residuals.form_error, witness, ..Value::default() }
+    }
+
+    /// Its element as a datum, if it is made of others.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn derived_datum(&self) -> Result<Option<Datum>, Missing> {
+        match self.element()? {
+            Element::Derived(datum) => Ok(Some(*datum)),
+            Element::Point(p) => Ok(Some(Datum::Point(*p))),
+            Element::Fit(_) => Ok(None),
+        }
+    }
+
+    /// The points that a zone must hold: of a surface or median line all of them, of an axis both ends over the extent of
+    /// the points, of what has a center that one.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub fn zoned(&self) -> Result<Vec<Point>, Missing> {
+        let element = self.element()?;
+        match (self.class, element) {
+            (_, Element::Point(p)) => Ok(vec![*p]),
+            (Class::Plane | Class::Surface | Class::Torus, _) => self.taken().map(<[Point]>::to_vec),
+            (Class::Line, _) if !self.edge => self.taken().map(<[Point]>::to_vec),
+            (Class::Line | Class::Cylinder | Class::Cone, Element::Fit(fit)) => self.ends(&fit.shape),
+            (_, Element::Fit(fit)) => match fit.shape {
+                Shape::Sphere { center, .. }
+                | Shape::Circle { center, .. }
+                | Shape::Circle2 { center, .. } => Ok(vec![center]),
+                _ => Err(self.missing("it has no center")),
+            },
+            (_, Element::Derived(_)) => Err(self.missing("it is derived and has no extent")),
+        }
+    }
+
+    /// Both ends of an axis over the extent of the points.
+    fn ends(&self, shape: &Shape) -> Result<Vec<Point>, Missing> {
+        let (Some(foot), Some(direction)) = (datum::foot(shape), datum::direction(shape)) else {
+            return Err(self.missing("it has no axis"));
+        };
+        let along = |p: &Point| dot(minus(*p, foot), direction);
+        let first = self.points.iter().map(along).fold(f64::INFINITY, f64::min);
+        let last = self.points.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+        Ok([first, last].map(|t| plus(foot, times(t, direction))).to_vec())
+    }
+
+    /// The middle of its points on its element.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn middle(&self) -> Result<Point, Missing> {
+        let zoned = self.zoned()?;
+        Ok(mean(&zoned))
+    }
+
+    /// Direction of its axis, or its normal.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn direction(&self) -> Result<Vector, Missing> {
+        let found = match self.element()? {
+            Element::Fit(fit) => datum::direction(&fit.shape),
+            Element::Derived(Datum::Plane { normal, .. }) => Some(*normal),
+            Element::Derived(Datum::Axis { direction, .. }) => Some(*direction),
+            _ => None,
+        };
+        found.ok_or_else(|| self.missing("it has no direction"))
+    }
+}

@@ -1,0 +1,118 @@
+//! What a report draws of an inspection: every feature in the color of its worst verdict, and where values are reached.
+
+use super::Inspection;
+use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::results::Verdict;
+use crate::results::inspect::InspectDocument;
+use crate::scale::palette::Rgb;
+use crate::segment::{cut_out, rim};
+use trueness_geom::mesh::Mesh;
+
+/// Color of a verdict.
+pub fn color(verdict: Verdict) -> Rgb {
+    match verdict {
+        Verdict::Pass => [0x11, 0x6b, 0x2e],
+        Verdict::Fail => [0xc1, 0x1f, 0x2b],
+        Verdict::Undecided => [0x8a, 0x52, 0x00],
+        Verdict::NotMeasured => [0x57, 0x60, 0x6a],
+    }
+}
+
+/// An inspection prepared for drawing.
+pub struct View {
+    /// The measured data without the features, then a part for each drawn feature.
+    parts: Vec<Part>,
+    /// Where the values are reached, one for each row of the list, in its order.
+    pub marks: Vec<Marks>,
+}
+
+struct Part {
+    name: String,
+    mesh: Mesh,
+    color: Option<Rgb>,
+}
+
+impl View {
+    /// Of what was found, which the document tells.
+    pub fn new(document: &InspectDocument, found: &Inspection) -> View {
+        let mut parts = Vec::new();
+        let whole = found.measured.as_ref();
+        let mut free: Vec<bool> = vec![true; whole.map_or(0, |m| m.faces.len())];
+        for (taken, record) in found.features.iter().zip(&document.features) {
+            let worst = document.worst_of(&record.id);
+            let mut own = Vec::new();
+            for &facet in &taken.facets {
+                if std::mem::replace(&mut free[facet as usize], false) {
+                    own.push(facet as usize);
+                }
+            }
+            let mesh = match whole {
+                Some(mesh) if !taken.facets.is_empty() => cut_out(mesh, &own),
+                // What is derived is drawn by what it is made of.
+                _ if record.source == "derived" => continue,
+                _ => Mesh { positions: taken.points.clone(), faces: vec![] },
+            };
+            parts.push(Part { name: record.id.clone(), mesh, color: worst.map(color) });
+        }
+        if let Some(mesh) = whole {
+            let rest: Vec<usize> = (0..free.len()).filter(|f| free[*f]).collect();
+            let (name, color) = (String::new(), None);
+            let mesh = if mesh.faces.is_empty() { mesh.clone() } else { cut_out(mesh, &rest) };
+            parts.push(Part { name, mesh, color });
+        }
+        parts.retain(|p| !p.mesh.positions.is_empty());
+        View { marks: marks(document, &parts), parts }
+    }
+
+    /// What is drawn.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let object = |part: &'_ Part| -> (ViewRole, Option<Rgb>) { (ViewRole::Part, part.color) };
+        self.parts
+            .iter()
+            .map(|part| {
+                let (role, color) = object(part);
+                ViewObject {
+                    role,
+                    name: &part.name,
+                    color,
+                    comparison: None,
+                    geometry: match part.mesh.faces.is_empty() {
+                        true => Geometry::Points(&part.mesh.positions),
+                        false => Geometry::Mesh(&part.mesh),
+                    },
+                    fields: vec![],
+                    keep: &[],
+                    gathered: None,
+                }
+            })
+            .collect()
+    }
+}
+
+/// One mark a row: the rim of the feature and the places where the value is reached, in the color of the verdict.
+fn marks(document: &InspectDocument, parts: &[Part]) -> Vec<Marks> {
+    let mut groups: Vec<MarkGroup> = Vec::new();
+    for c in document.rows() {
+        let key = format!("verdict.{}", key(c.verdict));
+        let part = parts.iter().find(|p| p.name == c.feature && !p.mesh.faces.is_empty());
+        let mut mark = part.map_or(Mark::default(), |p| rim(&p.mesh));
+        mark.points = c.witness.clone();
+        if groups.last().is_none_or(|g| g.key != key) {
+            groups.push(MarkGroup { key, color: color(c.verdict), items: vec![] });
+        }
+        if let Some(group) = groups.last_mut() {
+            group.items.push(mark.finite());
+        }
+    }
+    vec![Marks { role: ViewRole::Touching, comparison: None, groups }]
+}
+
+/// The word of a verdict in the table of words.
+fn key(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::Undecided => "undecided",
+        Verdict::NotMeasured => "not_measured",
+    }
+}

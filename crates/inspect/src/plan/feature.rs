@@ -1,0 +1,348 @@
+//! The features of a plan.
+
+use super::Checker;
+use super::at::At;
+use super::error::{PlanError, unknown};
+use super::text::{DerivedWord, ExtractText, FeatureText, MethodWord, NominalText, PlanText, ShapeWord};
+use std::ops::Range;
+use trueness_geom::feature::{Nearness, Nominal};
+use trueness_geom::fit::Method;
+use trueness_geom::space::{Point, Vector, unit};
+
+/// What a feature is to a characteristic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// A place.
+    Point,
+    /// An axis or median line.
+    Line,
+    /// A plane, median planes too.
+    Plane,
+    /// One section of something round.
+    Circle,
+    /// A sphere.
+    Sphere,
+    /// A cylinder.
+    Cylinder,
+    /// A cone.
+    Cone,
+    /// A torus.
+    Torus,
+    /// A surface of any form.
+    Surface,
+}
+
+impl Class {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Class::Point => "point",
+            Class::Line => "line",
+            Class::Plane => "plane",
+            Class::Circle => "circle",
+            Class::Sphere => "sphere",
+            Class::Cylinder => "cylinder",
+            Class::Cone => "cone",
+            Class::Torus => "torus",
+            Class::Surface => "surface",
+        }
+    }
+}
+
+/// A feature that can be taken.
+#[derive(Clone, Debug)]
+pub struct Feature {
+    /// Its name.
+    pub id: String,
+    /// Where the name stands.
+    pub span: Range<usize>,
+    /// What it is.
+    pub class: Class,
+    /// Where it comes from.
+    pub source: Source,
+    /// As the model has it.
+    pub nominal: Option<Nominal>,
+    /// How near measured facets must be to the nominal one.
+    pub near: Nearness,
+    /// Least share of the nominal area that must have been measured.
+    pub coverage: f64,
+    /// How the element is associated.
+    pub method: Method,
+    /// A direction out of the material.
+    pub outward: Option<Vector>,
+}
+
+/// Where a feature comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// A file of its own points, as written.
+    Points(At<String>),
+    /// The measured data, by its nominal.
+    Nominal,
+    /// Other features.
+    Derived {
+        /// How.
+        how: DerivedWord,
+        /// Their numbers.
+        of: [usize; 2],
+    },
+}
+
+/// Angle between normals within which facets belong to a feature, where the plan says nothing.
+const ANGLE: f64 = 15.0;
+/// Distance from the nominal surface within which they do, over the size of the feature.
+const DISTANCE: f64 = 0.02;
+/// Least share of the nominal area that must have been measured, where the plan says nothing.
+const COVERAGE: f64 = 0.25;
+
+pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feature>, PlanError> {
+    let mut all: Vec<Feature> = Vec::new();
+    for At { value, span } in &written.feature {
+        if let Some(other) = all.iter().find(|f| f.id == value.id.value) {
+            return checker.wrong(&value.id.span, format!("there are two features \"{}\"", other.id));
+        }
+        all.push(feature(checker, value, span, &all, written.measured.is_some())?);
+    }
+    Ok(all)
+}
+
+fn feature(
+    checker: &Checker,
+    written: &FeatureText,
+    whole: &Range<usize>,
+    before: &[Feature],
+    measured: bool,
+) -> Result<Feature, PlanError> {
+    let id = &written.id.value;
+    let method = match written.method.as_ref().map(|m| m.value) {
+        None | Some(MethodWord::Gaussian) => Method::Gaussian,
+        Some(MethodWord::MinimumZone) => Method::MinimumZone,
+        Some(MethodWord::MinimumCircumscribed) => Method::MinimumCircumscribed,
+        Some(MethodWord::MaximumInscribed) => Method::MaximumInscribed,
+        Some(MethodWord::Robust) => Method::Robust,
+    };
+    let outward = match &written.outward {
+        Some(v) if unit(v.value).is_none() => {
+            return checker.wrong(&v.span, "`outward` has no length; give a direction out of the material");
+        }
+        other => other.as_ref().map(|v| v.value),
+    };
+    let mut made = Feature {
+        id: id.clone(),
+        span: written.id.span.clone(),
+        class: Class::Point,
+        source: Source::Nominal,
+        nominal: None,
+        near: Nearness { distance: 0.0, angle: 0.0, margin: 0.0, rim: true },
+        coverage: 0.0,
+        method,
+        outward,
+    };
+    if let Some(derived) = &written.derived {
+        if let Some(shape) = &written.shape {
+            return checker
+                .wrong(&shape.span, "a derived feature takes no shape; it follows from its features");
+        }
+        (made.class, made.source) = self::derived(checker, derived, written.of.as_ref(), before)?;
+        return Ok(made);
+    }
+    let Some(shape) = &written.shape else {
+        return checker.wrong(whole, format!("feature \"{id}\" needs `shape`, or `derived` with `of`"));
+    };
+    if let Some(seed) = &written.seed {
+        return checker.wrong(
+            &seed.span,
+            "regions from a seed are not built into `inspect` yet; give `nominal` or `points`",
+        );
+    }
+    made.class = class(checker, shape)?;
+    if let Some(nominal) = &written.nominal {
+        made.nominal = Some(self::nominal(checker, shape.value, nominal)?);
+    }
+    if let Some(points) = &written.points {
+        made.source = Source::Points(points.clone());
+    } else if made.nominal.is_none() {
+        return checker.wrong(whole, format!("feature \"{id}\" has no points: give `points` or `nominal`"));
+    } else if !measured {
+        let what = format!(
+            "feature \"{id}\" is to be found in the measured data, but the plan names none; add `measured`"
+        );
+        return checker.wrong(&written.id.span, what);
+    }
+    if let Some(nominal) = &made.nominal {
+        (made.near, made.coverage) = near(checker, nominal, written.extract.as_ref())?;
+    }
+    Ok(made)
+}
+
+fn class(checker: &Checker, shape: &At<ShapeWord>) -> Result<Class, PlanError> {
+    Ok(match shape.value {
+        ShapeWord::Point => Class::Point,
+        ShapeWord::Line | ShapeWord::Edge => Class::Line,
+        ShapeWord::Plane => Class::Plane,
+        ShapeWord::Circle => Class::Circle,
+        ShapeWord::Sphere => Class::Sphere,
+        ShapeWord::Cylinder => Class::Cylinder,
+        ShapeWord::Cone => Class::Cone,
+        ShapeWord::Torus => Class::Torus,
+        ShapeWord::Surface => {
+            return checker.wrong(
+                &shape.span,
+                "surfaces of any form are not built into `inspect` yet; `trueness compare` measures them",
+            );
+        }
+    })
+}
+
+fn derived(
+    checker: &Checker,
+    how: &At<DerivedWord>,
+    of: Option<&At<Vec<At<String>>>>,
+    before: &[Feature],
+) -> Result<(Class, Source), PlanError> {
+    let Some(of) = of else {
+        return checker.wrong(&how.span, "a derived feature needs `of`, a list of two features");
+    };
+    let [a, b] = of.value.as_slice() else {
+        return checker.wrong(&of.span, "a derived feature is made of two features");
+    };
+    let number = |name: &At<String>| {
+        let known: Vec<&str> = before.iter().map(|f| f.id.as_str()).collect();
+        before.iter().position(|f| f.id == name.value).map_or_else(
+            || {
+                checker.wrong(
+                    &name.span,
+                    format!(
+                        "{}; features stand before those made of them",
+                        unknown("feature", &name.value, &known)
+                    ),
+                )
+            },
+            Ok,
+        )
+    };
+    let of_two = [number(a)?, number(b)?];
+    let classes = of_two.map(|n| before[n].class);
+    let axis = |c: Class| matches!(c, Class::Line | Class::Cylinder | Class::Cone);
+    let place = |c: Class| matches!(c, Class::Point | Class::Sphere | Class::Circle);
+    let class = match (how.value, classes) {
+        (DerivedWord::MedianPlane, [Class::Plane, Class::Plane]) => Class::Plane,
+        (DerivedWord::Intersection, [Class::Plane, Class::Plane]) => Class::Line,
+        (DerivedWord::Intersection, [x, Class::Plane] | [Class::Plane, x]) if axis(x) => Class::Point,
+        (DerivedWord::Midpoint, [x, y]) if place(x) && place(y) => Class::Point,
+        (DerivedWord::Projection, [x, Class::Plane]) if place(x) => Class::Point,
+        (_, [x, y]) => {
+            let what = format!("this cannot be made of a {} and a {}", x.word(), y.word());
+            return checker.wrong(&of.span, what);
+        }
+    };
+    Ok((class, Source::Derived { how: how.value, of: of_two }))
+}
+
+fn nominal(checker: &Checker, shape: ShapeWord, at: &At<NominalText>) -> Result<Nominal, PlanError> {
+    let NominalText {
+        point,
+        normal,
+        direction,
+        boundary,
+        radius,
+        length,
+        center,
+        apex,
+        half_angle,
+        between,
+        normals,
+    } = at.value.clone();
+    let missing = |key: &str| -> PlanError {
+        PlanError::at(checker.text, &at.span, format!("the nominal feature needs `{key}`"))
+    };
+    let place = |p: Option<Point>, key| p.map(|p| checker.place(p)).ok_or_else(|| missing(key));
+    let way = |v: Option<Vector>, key| v.ok_or_else(|| missing(key));
+    let size = |x: Option<f64>, key| x.map(|x| x * checker.unit).ok_or_else(|| missing(key));
+    let made = match shape {
+        ShapeWord::Plane => Nominal::Plane {
+            point: place(point, "point")?,
+            normal: way(normal, "normal")?,
+            boundary: boundary
+                .ok_or_else(|| missing("boundary"))?
+                .into_iter()
+                .map(|p| checker.place(p))
+                .collect(),
+        },
+        ShapeWord::Cylinder => Nominal::Cylinder {
+            point: place(point, "point")?,
+            direction: way(direction, "direction")?,
+            radius: size(radius, "radius")?,
+            length: size(length, "length")?,
+        },
+        ShapeWord::Cone => Nominal::Cone {
+            apex: place(apex, "apex")?,
+            direction: way(direction, "direction")?,
+            half_angle: half_angle.ok_or_else(|| missing("half_angle"))?.to_radians(),
+            between: between.ok_or_else(|| missing("between"))?.map(|x| x * checker.unit),
+        },
+        ShapeWord::Sphere => {
+            Nominal::Sphere { center: place(center, "center")?, radius: size(radius, "radius")? }
+        }
+        ShapeWord::Edge => Nominal::Edge {
+            point: place(point, "point")?,
+            direction: way(direction, "direction")?,
+            length: size(length, "length")?,
+            normals: normals.ok_or_else(|| missing("normals"))?,
+        },
+        _ => {
+            return checker.wrong(
+                &at.span,
+                "a nominal is for planes, cylinders, cones, spheres and edges; give `points`",
+            );
+        }
+    };
+    // The same rules as when the feature is sought, before any file is read.
+    let probe = Nearness { distance: 1.0, angle: 0.1, margin: 0.0, rim: true };
+    match trueness_geom::feature::in_cloud(&[], &made, &probe) {
+        Ok(_) => Ok(made),
+        Err(e) => checker.wrong(&at.span, e.to_string()),
+    }
+}
+
+fn near(
+    checker: &Checker,
+    nominal: &Nominal,
+    written: Option<&ExtractText>,
+) -> Result<(Nearness, f64), PlanError> {
+    let size = match nominal {
+        Nominal::Plane { boundary, .. } => trueness_geom::space::Aabb::of(boundary).diagonal(),
+        Nominal::Cylinder { radius, length, .. } => length.max(2.0 * radius),
+        Nominal::Cone { between: [from, to], .. } => (to - from).abs(),
+        Nominal::Sphere { radius, .. } => 2.0 * radius,
+        Nominal::Edge { length, .. } => *length,
+    };
+    let none = ExtractText::default();
+    let written = written.unwrap_or(&none);
+    let or = |number: &Option<At<f64>>, what: &str, default: f64| match number {
+        Some(n) => checker.not_negative(n, what),
+        None => Ok(default),
+    };
+    let share = |number: &Option<At<f64>>| match number {
+        Some(n) if !(0.0..=1.0).contains(&n.value) => {
+            checker.wrong(&n.span, format!("the coverage is {}; it is a share from 0 to 1", n.value))
+        }
+        Some(n) => Ok(n.value),
+        None => Ok(COVERAGE),
+    };
+    let angle = match &written.angle {
+        Some(a) if !(a.value > 0.0 && a.value < 90.0) => {
+            return checker
+                .wrong(&a.span, format!("the angle is {}; give degrees between 0 and 90", a.value));
+        }
+        other => other.as_ref().map_or(ANGLE, |a| a.value).to_radians(),
+    };
+    let distance = or(&written.distance, "the distance", DISTANCE * size)?;
+    let margin = match &written.margin {
+        Some(margin) => checker.length(margin, "the margin")?,
+        // A measured edge may be as far off as a measured surface.
+        None => -distance,
+    };
+    let near = Nearness { distance, angle, margin, rim: written.rim.unwrap_or(true) };
+    Ok((near, share(&written.coverage)?))
+}

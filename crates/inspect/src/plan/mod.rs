@@ -1,0 +1,234 @@
+//! The inspection plan: features, characteristics, decision, from a text that people write.
+//!
+//! [`Plan::parse`] refuses whatever could not be evaluated, with line, column and the nearest known word, before any file
+//! is read.
+
+mod at;
+mod error;
+mod feature;
+mod proposal;
+mod spec;
+pub mod text;
+
+pub use at::At;
+pub use error::{PlanError, unknown};
+pub use feature::{Class, Feature, Source};
+pub use proposal::proposal;
+pub use spec::{Basic, Limits, Spec};
+
+use std::ops::Range;
+use text::{AlignWord, PlanText, RuleWord, UnitWord};
+use trueness_geom::rigid::Rigid;
+
+/// Name of the plan's schema.
+pub const SCHEMA: &str = "trueness/plan/1";
+
+/// A plan that can be evaluated. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Heading.
+    pub title: Option<String>,
+    /// Unit of files that do not say their own.
+    pub units: Option<UnitWord>,
+    /// File of the measured mesh or cloud, as written.
+    pub measured: Option<At<String>>,
+    /// File of the nominal mesh, as written.
+    pub reference: Option<At<String>>,
+    /// How the measured data come to lie on the reference.
+    pub align: Align,
+    /// The features, in the plan's order.
+    pub features: Vec<Feature>,
+    /// The characteristics, in the plan's order.
+    pub specs: Vec<Spec>,
+    /// How verdicts are reached.
+    pub decision: Decision,
+}
+
+/// How the measured data come to lie on the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Align {
+    /// As measured.
+    None,
+    /// By this motion: reference from measured.
+    Given(Rigid),
+    /// By the best fit of the measured data onto the reference, from any pose.
+    BestFit,
+}
+
+impl Align {
+    /// The word for it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Align::None => "none",
+            Align::Given(_) => "given",
+            Align::BestFit => "best-fit",
+        }
+    }
+}
+
+/// How verdicts are reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// The rule.
+    pub rule: Rule,
+    /// Expanded uncertainty of values that have none of their own, millimetres (degrees for angles).
+    pub uncertainty: Option<f64>,
+}
+
+/// A decision rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The value alone decides.
+    Simple,
+    /// ISO 14253-1:2017: conformity is proven where the value is within the limits by the expanded uncertainty,
+    /// non-conformity where it is beyond them by it.
+    Iso14253,
+}
+
+impl Rule {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Rule::Simple => "simple",
+            Rule::Iso14253 => "iso14253-1",
+        }
+    }
+}
+
+/// A text under examination: what is wrong is told with its place.
+struct Checker<'a> {
+    text: &'a str,
+    /// Millimetres in the plan's unit.
+    unit: f64,
+}
+
+impl Checker<'_> {
+    fn wrong<T>(&self, span: &Range<usize>, what: impl Into<String>) -> Result<T, PlanError> {
+        Err(PlanError::at(self.text, span, what))
+    }
+
+    /// A finite length in millimetres.
+    fn length(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
+        match number.value.is_finite() {
+            true => Ok(number.value * self.unit),
+            false => self.wrong(&number.span, format!("{what} is {}; give a finite number", number.value)),
+        }
+    }
+
+    /// A finite length in millimetres that is not below zero.
+    fn not_negative(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
+        match self.length(number, what)? {
+            x if x >= 0.0 => Ok(x),
+            _ => self.wrong(&number.span, format!("{what} is {}; it cannot be below 0", number.value)),
+        }
+    }
+
+    fn place(&self, p: [f64; 3]) -> [f64; 3] {
+        p.map(|x| x * self.unit)
+    }
+}
+
+impl Plan {
+    /// Reads a plan.
+    ///
+    /// # Errors
+    /// The first fault, with line and column: no TOML, an unknown key or word (with the nearest known one), a feature that
+    /// does not exist, a kind that does not fit its feature, a missing datum, tolerance or key.
+    ///
+    /// ```
+    /// use trueness_inspect::plan::Plan;
+    /// let text = r#"
+    /// schema = "trueness/plan/1"
+    /// [[feature]]
+    /// id = "A"
+    /// shape = "plane"
+    /// points = "a.xyz"
+    /// [[characteristic]]
+    /// id = "1"
+    /// kind = "flatness"
+    /// feature = "A"
+    /// tolerance = 0.05
+    /// "#;
+    /// assert_eq!(Plan::parse(text)?.specs[0].kind.word(), "flatness");
+    /// let error = Plan::parse(&text.replace("flatness", "flatnes")).unwrap_err();
+    /// assert!(error.to_string().starts_with("line 9, column 8: there is no kind \"flatnes\"; did you mean \"flatness\"?"));
+    /// # Ok::<(), trueness_inspect::plan::PlanError>(())
+    /// ```
+    pub fn parse(text: &str) -> Result<Plan, PlanError> {
+        let written: PlanText = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
+        let unit = written.units.as_ref().map_or(1.0, |u| u.value.millimetres());
+        let checker = Checker { text, unit };
+        if written.schema.value != SCHEMA {
+            let what = format!("the schema is \"{}\"; this program reads \"{SCHEMA}\"", written.schema.value);
+            return checker.wrong(&written.schema.span, what);
+        }
+        let features = feature::features(&checker, &written)?;
+        let decision = decision(&checker, &written)?;
+        let specs = spec::specs(&checker, &written, &features, &decision)?;
+        if specs.is_empty() {
+            return checker.wrong(&(0..0), "the plan has no characteristic; add a [[characteristic]]");
+        }
+        Ok(Plan {
+            align: align(&checker, &written)?,
+            title: written.title,
+            units: written.units.map(|u| u.value),
+            measured: written.measured,
+            reference: written.reference,
+            features,
+            specs,
+            decision,
+        })
+    }
+
+    /// Number of the feature with this id.
+    pub fn feature(&self, id: &str) -> Option<usize> {
+        self.features.iter().position(|f| f.id == id)
+    }
+}
+
+fn align(checker: &Checker, plan: &PlanText) -> Result<Align, PlanError> {
+    let Some(written) = &plan.align else { return Ok(Align::None) };
+    let span = &written.method.span;
+    match (written.method.value, &written.transform) {
+        (AlignWord::BestFit, None) if plan.measured.is_none() || plan.reference.is_none() => {
+            checker.wrong(span, "a best fit needs `measured` and `reference`")
+        }
+        (AlignWord::BestFit, None) => Ok(Align::BestFit),
+        (AlignWord::None, None) => Ok(Align::None),
+        (AlignWord::Given, Some(rows)) => {
+            let row = |k: usize| -> Option<[f64; 4]> { rows.value.get(k)?.as_slice().try_into().ok() };
+            let four = [row(0), row(1), row(2), row(3)];
+            let ([Some(mut a), Some(mut b), Some(mut c), Some(d)], 4) = (four, rows.value.len()) else {
+                return checker.wrong(&rows.span, "a transform has four rows of four numbers");
+            };
+            for row in [&mut a, &mut b, &mut c] {
+                row[3] *= checker.unit;
+            }
+            let motion = Rigid::from_matrix([a, b, c, d]);
+            motion.map(Align::Given).or_else(|e| checker.wrong(&rows.span, format!("the transform: {e}")))
+        }
+        (AlignWord::Given, None) => {
+            checker.wrong(span, "method \"given\" needs `transform`, four rows of four numbers")
+        }
+        (_, Some(rows)) => checker.wrong(&rows.span, "only method \"given\" takes a transform"),
+        _ => checker.wrong(
+            span,
+            "this way of alignment is not built into `inspect` yet; align first and give the transform (method \"given\")",
+        ),
+    }
+}
+
+fn decision(checker: &Checker, written: &PlanText) -> Result<Decision, PlanError> {
+    let Some(written) = &written.decision else {
+        return Ok(Decision { rule: Rule::Simple, uncertainty: None });
+    };
+    let rule = match written.rule.value {
+        RuleWord::Simple => Rule::Simple,
+        RuleWord::Iso14253 => Rule::Iso14253,
+    };
+    let uncertainty = match &written.uncertainty {
+        Some(u) => Some(checker.not_negative(u, "the uncertainty")?),
+        None => None,
+    };
+    Ok(Decision { rule, uncertainty })
+}

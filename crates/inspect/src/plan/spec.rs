@@ -1,0 +1,333 @@
+//! The characteristics of a plan.
+
+use super::at::At;
+use super::error::{PlanError, unknown};
+use super::feature::{Class, Feature, Source};
+use super::text::{
+    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OneOrTwo, PlanText, RunoutWord, SizeWord,
+    TextureWord,
+};
+use super::{Checker, Decision, Rule};
+use crate::characteristic::{self, Allowed, Characteristic, Question};
+use std::ops::Range;
+use trueness_geom::fit::Method;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::zone::datum;
+
+/// A characteristic that can be evaluated. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// Its name.
+    pub id: String,
+    /// Where the name stands.
+    pub span: Range<usize>,
+    /// What it is.
+    pub kind: &'static dyn Characteristic,
+    /// Numbers of the features: one, or two of a size.
+    pub features: Vec<usize>,
+    /// Numbers of the datum features, the first datum first.
+    pub datums: Vec<usize>,
+    /// How datums are associated.
+    pub datum_rule: datum::Rule,
+    /// The datum system as given: frame from measured.
+    pub frame: Option<Rigid>,
+    /// Theoretically exact dimensions.
+    pub basic: Basic,
+    /// Whether the zone is a cylinder or sphere, where the plan says so.
+    pub diametral: Option<bool>,
+    /// How a form is evaluated.
+    pub form: Method,
+    /// Which size.
+    pub size: Option<SizeWord>,
+    /// What is allowed.
+    pub limits: Limits,
+    /// Whether a run-out is read along the datum axis.
+    pub axial: bool,
+    /// Which parameter of a texture.
+    pub parameter: TextureWord,
+    /// Expanded uncertainty of the value, as the plan gives it for this characteristic or for all.
+    pub uncertainty: Option<f64>,
+}
+
+/// Theoretically exact dimensions, millimetres and radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Basic {
+    /// Coordinates in the datum system.
+    pub place: [Option<f64>; 3],
+    /// Angle.
+    pub angle: Option<f64>,
+}
+
+/// What is allowed; the limits belong to it. Millimetres; degrees for angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limits {
+    /// No more than this.
+    Greatest(f64),
+    /// Between two deviations from a nominal value.
+    Between {
+        /// Nominal value.
+        nominal: f64,
+        /// Lower limit deviation.
+        lower: f64,
+        /// Upper limit deviation.
+        upper: f64,
+    },
+}
+
+impl Spec {
+    /// The unit of its value.
+    pub fn unit(&self) -> &'static str {
+        self.kind.unit(self.parameter)
+    }
+}
+
+impl Limits {
+    /// Least and greatest allowed value.
+    pub fn range(&self) -> (Option<f64>, f64) {
+        match *self {
+            Limits::Greatest(t) => (None, t),
+            Limits::Between { nominal, lower, upper } => (Some(nominal + lower), nominal + upper),
+        }
+    }
+}
+
+pub(super) fn specs(
+    checker: &Checker,
+    written: &PlanText,
+    features: &[Feature],
+    decision: &Decision,
+) -> Result<Vec<Spec>, PlanError> {
+    let mut all: Vec<Spec> = Vec::new();
+    for At { value, span } in &written.characteristic {
+        if all.iter().any(|s| s.id == value.id.value) {
+            return checker
+                .wrong(&value.id.span, format!("there are two characteristics \"{}\"", value.id.value));
+        }
+        all.push(spec(checker, value, span, features, decision)?);
+    }
+    Ok(all)
+}
+
+fn spec(
+    checker: &Checker,
+    written: &CharacteristicText,
+    whole: &Range<usize>,
+    features: &[Feature],
+    decision: &Decision,
+) -> Result<Spec, PlanError> {
+    let word = &written.kind.value.0;
+    let Some(kind) = characteristic::ALL.into_iter().find(|c| c.word() == word) else {
+        if word == "line-profile" {
+            return checker.wrong(&written.kind.span, "line profiles are not built into `inspect` yet");
+        }
+        let known: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
+        return checker.wrong(&written.kind.span, unknown("kind", word, &known));
+    };
+    for (key, span) in keys(written) {
+        if !kind.keys().contains(&key) {
+            return checker.wrong(&span, format!("{word} takes no `{key}`"));
+        }
+    }
+    let parameter = written.parameter.as_ref().map_or(TextureWord::Sa, |p| p.value);
+    let unit = kind.unit(parameter);
+    let made = Spec {
+        id: written.id.value.clone(),
+        span: written.id.span.clone(),
+        kind,
+        features: toleranced(checker, &written.feature, features)?,
+        datums: datums(checker, written, features)?,
+        datum_rule: match written.datum_method.as_ref().map(|m| m.value) {
+            Some(DatumMethodWord::MinimumZone) => datum::Rule::MinimumZone,
+            _ => datum::Rule::Gaussian,
+        },
+        frame: frame(checker, written)?,
+        basic: basic(checker, written.basic.as_ref())?,
+        diametral: written.diametral.as_ref().map(|d| d.value),
+        form: match written.method.as_ref().map(|m| m.value) {
+            Some(FormMethodWord::Gaussian) => Method::Gaussian,
+            _ => Method::MinimumZone,
+        },
+        size: written.size.as_ref().map(|s| s.value),
+        limits: limits(checker, written, whole, kind, unit)?,
+        axial: written.direction.as_ref().is_some_and(|d| d.value == RunoutWord::Axial),
+        parameter,
+        uncertainty: match &written.uncertainty {
+            Some(u) => Some(number(checker, u, unit, "the uncertainty")?),
+            // The plan's common uncertainty is a length.
+            None => decision.uncertainty.filter(|_| unit == "mm"),
+        },
+    };
+    if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() {
+        let what =
+            "rule \"iso14253-1\" needs the expanded uncertainty: give `uncertainty` here or in [decision]";
+        return checker.wrong(whole, what);
+    }
+    let question = Question { spec: &made, features };
+    kind.check(&question).or_else(|refusal| {
+        let place = keys(written).into_iter().find(|(key, _)| *key == refusal.key).map(|(_, span)| span);
+        let place = match refusal.key {
+            "feature" => Some(written.feature.span.clone()),
+            "kind" => Some(written.kind.span.clone()),
+            _ => place,
+        };
+        checker.wrong(&place.unwrap_or(whole.clone()), format!("{word}: {}", refusal.what))
+    })?;
+    Ok(made)
+}
+
+/// The keys that only some kinds take, where they stand.
+fn keys(w: &CharacteristicText) -> Vec<(&'static str, Range<usize>)> {
+    fn of<T>(key: &'static str, at: &Option<At<T>>) -> Option<(&'static str, Range<usize>)> {
+        at.as_ref().map(|a| (key, a.span.clone()))
+    }
+    [
+        of("tolerance", &w.tolerance),
+        of("datums", &w.datums),
+        of("datum_method", &w.datum_method),
+        of("frame", &w.frame),
+        of("basic", &w.basic),
+        of("diametral", &w.diametral),
+        of("method", &w.method),
+        of("size", &w.size),
+        of("nominal", &w.nominal),
+        of("upper", &w.upper),
+        of("lower", &w.lower),
+        of("direction", &w.direction),
+        of("parameter", &w.parameter),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn named(
+    checker: &Checker,
+    name: &str,
+    span: &Range<usize>,
+    features: &[Feature],
+) -> Result<usize, PlanError> {
+    let known: Vec<&str> = features.iter().map(|f| f.id.as_str()).collect();
+    features
+        .iter()
+        .position(|f| f.id == name)
+        .map_or_else(|| checker.wrong(span, unknown("feature", name, &known)), Ok)
+}
+
+fn toleranced(checker: &Checker, at: &At<OneOrTwo>, features: &[Feature]) -> Result<Vec<usize>, PlanError> {
+    let names = match &at.value {
+        OneOrTwo::One(name) => std::slice::from_ref(name),
+        OneOrTwo::Two(names) => names.as_slice(),
+    };
+    if names.is_empty() || names.len() > 2 {
+        return checker.wrong(&at.span, "give one feature, or two of a size");
+    }
+    names.iter().map(|name| named(checker, name, &at.span, features)).collect()
+}
+
+fn datums(
+    checker: &Checker,
+    written: &CharacteristicText,
+    features: &[Feature],
+) -> Result<Vec<usize>, PlanError> {
+    let Some(list) = &written.datums else { return Ok(vec![]) };
+    if list.value.len() > 3 {
+        return checker.wrong(&list.span, "a datum system has up to three datums");
+    }
+    let mut numbers = Vec::new();
+    for name in &list.value {
+        if name.value.contains('-') && !features.iter().any(|f| f.id == name.value) {
+            return checker
+                .wrong(&name.span, format!("common datums (\"{}\") are not built yet", name.value));
+        }
+        let number = named(checker, &name.value, &name.span, features)?;
+        let class = features[number].class;
+        if matches!(class, Class::Circle | Class::Torus | Class::Surface) {
+            return checker.wrong(&name.span, format!("a {} cannot be a datum here", class.word()));
+        }
+        if numbers.contains(&number) {
+            return checker.wrong(&name.span, format!("datum \"{}\" is named twice", name.value));
+        }
+        if list.value.len() > 1 && matches!(features[number].source, Source::Derived { .. }) {
+            return checker
+                .wrong(&name.span, "a derived feature can be a datum alone, but not in a system yet");
+        }
+        numbers.push(number);
+    }
+    Ok(numbers)
+}
+
+fn frame(checker: &Checker, written: &CharacteristicText) -> Result<Option<Rigid>, PlanError> {
+    let Some(at) = &written.frame else { return Ok(None) };
+    if written.datums.is_some() {
+        return checker.wrong(&at.span, "give datums or a frame, not both");
+    }
+    let frame = Rigid::into_frame(checker.place(at.value.origin), at.value.z, at.value.x);
+    let sound = frame.filter(|f| f.matrix().iter().flatten().all(|x| x.is_finite()));
+    sound.map_or_else(
+        || checker.wrong(&at.span, "x and z of the frame need lengths and must not be parallel"),
+        |f| Ok(Some(f)),
+    )
+}
+
+fn basic(checker: &Checker, at: Option<&At<BasicText>>) -> Result<Basic, PlanError> {
+    let Some(At { value, span }) = at else { return Ok(Basic::default()) };
+    let place = [value.x, value.y, value.z].map(|x| x.map(|x| x * checker.unit));
+    if place.iter().flatten().chain(value.angle.iter()).any(|x| !x.is_finite()) {
+        return checker.wrong(span, "a theoretically exact dimension must be a finite number");
+    }
+    match value.angle {
+        Some(angle) if !(0.0..=90.0).contains(&angle) => {
+            checker.wrong(span, format!("the angle is {angle}; give degrees from 0 to 90"))
+        }
+        angle => Ok(Basic { place, angle: angle.map(f64::to_radians) }),
+    }
+}
+
+/// A number in the unit of the kind's values: angles and ratios are not lengths.
+fn number(checker: &Checker, at: &At<f64>, unit: &str, what: &str) -> Result<f64, PlanError> {
+    in_unit(checker, unit).not_negative(at, what)
+}
+
+/// The checker for values in this unit.
+fn in_unit<'a>(checker: &Checker<'a>, unit: &str) -> Checker<'a> {
+    Checker { text: checker.text, unit: if unit == "mm" { checker.unit } else { 1.0 } }
+}
+
+fn limits(
+    checker: &Checker,
+    w: &CharacteristicText,
+    whole: &Range<usize>,
+    kind: &dyn Characteristic,
+    unit: &str,
+) -> Result<Limits, PlanError> {
+    let word = kind.word();
+    match kind.allowed() {
+        Allowed::Greatest => {
+            let Some(t) = &w.tolerance else {
+                return checker.wrong(whole, format!("{word} needs `tolerance`"));
+            };
+            Ok(Limits::Greatest(number(checker, t, unit, "the tolerance")?))
+        }
+        Allowed::Between => {
+            let signed = in_unit(checker, unit);
+            let (Some(nominal), Some(upper), Some(lower)) = (&w.nominal, &w.upper, &w.lower) else {
+                return checker.wrong(whole, format!("{word} needs `nominal`, `upper` and `lower`"));
+            };
+            let made = Limits::Between {
+                nominal: signed.length(nominal, "the nominal value")?,
+                lower: signed.length(lower, "the lower limit deviation")?,
+                upper: signed.length(upper, "the upper limit deviation")?,
+            };
+            match made {
+                Limits::Between { lower: l, upper: u, .. } if l > u => checker.wrong(
+                    &lower.span,
+                    format!(
+                        "the lower limit deviation {} is above the upper one {}",
+                        lower.value, upper.value
+                    ),
+                ),
+                made => Ok(made),
+            }
+        }
+    }
+}

@@ -1,0 +1,430 @@
+//! The plan as its author writes it: TOML, `trueness/plan/1`. Every value that can be wrong knows its place.
+
+use super::at::At;
+use crate::characteristic;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use std::borrow::Cow;
+
+/// The whole plan. Paths are relative to the plan, lengths in `units`, angles in degrees.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlanText {
+    /// `trueness/plan/1`.
+    pub schema: At<String>,
+    /// Heading of tables and reports.
+    pub title: Option<String>,
+    /// Unit of the plan's lengths and of files that do not say their own: mm, cm, m, in, um. Without it: mm.
+    pub units: Option<At<UnitWord>>,
+    /// The measured mesh or cloud.
+    pub measured: Option<At<String>>,
+    /// The nominal mesh.
+    pub reference: Option<At<String>>,
+    /// How the measured data come to lie on the reference. Without it they are taken as they are.
+    pub align: Option<AlignText>,
+    /// The features.
+    #[serde(default)]
+    pub feature: Vec<At<FeatureText>>,
+    /// The characteristics.
+    #[serde(default)]
+    pub characteristic: Vec<At<CharacteristicText>>,
+    /// How a verdict is reached.
+    pub decision: Option<DecisionText>,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum UnitWord {
+    /// Millimetre.
+    Mm,
+    /// Centimetre.
+    Cm,
+    /// Metre.
+    M,
+    /// Inch, 25.4 mm.
+    In,
+    /// Micrometre.
+    Um,
+}
+
+impl UnitWord {
+    /// Millimetres in one of it.
+    pub fn millimetres(self) -> f64 {
+        match self {
+            UnitWord::Mm => 1.0,
+            UnitWord::Cm => 10.0,
+            UnitWord::M => 1000.0,
+            UnitWord::In => 25.4,
+            UnitWord::Um => 0.001,
+        }
+    }
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            UnitWord::Mm => "mm",
+            UnitWord::Cm => "cm",
+            UnitWord::M => "m",
+            UnitWord::In => "in",
+            UnitWord::Um => "um",
+        }
+    }
+}
+
+/// How the measured data come to lie on the reference.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AlignText {
+    /// The way.
+    pub method: At<AlignWord>,
+    /// With `given`: four rows of four numbers that take measured coordinates to those of the reference.
+    pub transform: Option<At<Vec<Vec<f64>>>>,
+}
+
+/// Ways of alignment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AlignWord {
+    /// As measured.
+    None,
+    /// By the matrix of the plan.
+    Given,
+    /// The best fit onto the reference.
+    BestFit,
+    /// By datum features.
+    Datum,
+    /// By reference points.
+    Rps,
+    /// By pairs of points.
+    Pairs,
+}
+
+/// A feature: where its points come from, and what it is.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureText {
+    /// Its name, for datums and characteristics.
+    pub id: At<String>,
+    /// What it is; not for derived features.
+    pub shape: Option<At<ShapeWord>>,
+    /// File of its own measured points.
+    pub points: Option<At<String>>,
+    /// The feature as the model has it; its points are sought there in the measured data, unless `points` gives them.
+    pub nominal: Option<At<NominalText>>,
+    /// A place on the feature of the reference: the region around it is sought in the measured data.
+    pub seed: Option<At<[f64; 3]>>,
+    /// How near measured facets must be to the nominal feature.
+    pub extract: Option<ExtractText>,
+    /// How the element is associated: gaussian (without it), minimum-zone, minimum-circumscribed, maximum-inscribed, robust.
+    pub method: Option<At<MethodWord>>,
+    /// Of a plane of measured points: a direction out of the material.
+    pub outward: Option<At<[f64; 3]>>,
+    /// A feature made of others.
+    pub derived: Option<At<DerivedWord>>,
+    /// Those that a derived feature is made of.
+    pub of: Option<At<Vec<At<String>>>>,
+}
+
+/// Shapes of features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ShapeWord {
+    /// A place: the mean of its points.
+    Point,
+    /// A line in space, or of points of two columns in the plane: an axis, an extracted median line.
+    Line,
+    /// A plane.
+    Plane,
+    /// A circle in space: one section of something round.
+    Circle,
+    /// A sphere.
+    Sphere,
+    /// A cylinder.
+    Cylinder,
+    /// A cone.
+    Cone,
+    /// A torus.
+    Torus,
+    /// An edge where two planes meet.
+    Edge,
+    /// A surface of any form, as the reference has it.
+    Surface,
+}
+
+/// How an element is associated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MethodWord {
+    /// Least squares.
+    Gaussian,
+    /// The narrowest zone.
+    MinimumZone,
+    /// The smallest around all points.
+    MinimumCircumscribed,
+    /// The largest within the points.
+    MaximumInscribed,
+    /// Outliers do not count.
+    Robust,
+}
+
+/// Features made of others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DerivedWord {
+    /// Half way between two planes.
+    MedianPlane,
+    /// Line of two planes, or point of a line and a plane.
+    Intersection,
+    /// Half way between two points or centers.
+    Midpoint,
+    /// A point or center, projected onto a plane.
+    Projection,
+}
+
+/// A feature as the model has it. Which keys it needs depends on the shape.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NominalText {
+    /// A point of a plane; start of the axis of a cylinder or of an edge.
+    pub point: Option<[f64; 3]>,
+    /// Normal of a plane, out of the material.
+    pub normal: Option<[f64; 3]>,
+    /// Direction of an axis or edge.
+    pub direction: Option<[f64; 3]>,
+    /// Corners of a plane's boundary, in order.
+    pub boundary: Option<Vec<[f64; 3]>>,
+    /// Radius of a cylinder or sphere.
+    pub radius: Option<f64>,
+    /// Length of a cylinder or edge.
+    pub length: Option<f64>,
+    /// Center of a sphere.
+    pub center: Option<[f64; 3]>,
+    /// Tip of a cone; `direction` points from it into the cone.
+    pub apex: Option<[f64; 3]>,
+    /// Angle between a cone's axis and surface, degrees.
+    pub half_angle: Option<f64>,
+    /// Where a cone begins and ends along its axis, from the tip.
+    pub between: Option<[f64; 2]>,
+    /// Normals of the two planes that meet in an edge, out of the material.
+    pub normals: Option<[[f64; 3]; 2]>,
+}
+
+/// How near measured facets must be to the nominal feature.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExtractText {
+    /// Greatest distance from the nominal surface.
+    pub distance: Option<At<f64>>,
+    /// Greatest angle between the normals, degrees.
+    pub angle: Option<At<f64>>,
+    /// What is left out along the bounds of the feature; below 0, how far it may reach beyond them (without it, `distance`).
+    pub margin: Option<At<f64>>,
+    /// Whether vertices that other facets share count (without it they do): on a sharp edge they belong to both surfaces.
+    pub rim: Option<bool>,
+    /// Least share of the nominal area that must have been measured, 0 to 1.
+    pub coverage: Option<At<f64>>,
+}
+
+/// One feature or two.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OneOrTwo {
+    /// One.
+    One(String),
+    /// Several.
+    Two(Vec<String>),
+}
+
+/// A characteristic: what is measured, and what is allowed.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CharacteristicText {
+    /// Its name in results.
+    pub id: At<String>,
+    /// What it is.
+    pub kind: At<KindWord>,
+    /// The feature that is toleranced; for the size of two parallel planes, both.
+    pub feature: At<OneOrTwo>,
+    /// Width or diameter of the zone; greatest allowed value.
+    pub tolerance: Option<At<f64>>,
+    /// The datums, the first one first.
+    pub datums: Option<At<Vec<At<String>>>>,
+    /// How datums are associated: gaussian (without it) or minimum-zone.
+    pub datum_method: Option<At<DatumMethodWord>>,
+    /// The datum system, given as a frame in measured coordinates instead of datums.
+    pub frame: Option<At<FrameText>>,
+    /// Theoretically exact coordinates in the datum system, or the angle in degrees.
+    pub basic: Option<At<BasicText>>,
+    /// Whether the zone is a cylinder or sphere (with the sign ∅).
+    pub diametral: Option<At<bool>>,
+    /// Of a form: minimum-zone (without it) or gaussian.
+    pub method: Option<At<FormMethodWord>>,
+    /// Of a size: which one by ISO 14405-1.
+    pub size: Option<At<SizeWord>>,
+    /// Nominal value of a size, distance or angle.
+    pub nominal: Option<At<f64>>,
+    /// Upper limit deviation.
+    pub upper: Option<At<f64>>,
+    /// Lower limit deviation.
+    pub lower: Option<At<f64>>,
+    /// Of a run-out: radial (without it) or axial.
+    pub direction: Option<At<RunoutWord>>,
+    /// Of a texture: which parameter.
+    pub parameter: Option<At<TextureWord>>,
+    /// Expanded uncertainty (k = 2) of this characteristic's value.
+    pub uncertainty: Option<At<f64>>,
+}
+
+/// A frame in measured coordinates.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrameText {
+    /// Its origin.
+    pub origin: [f64; 3],
+    /// Direction of x.
+    pub x: [f64; 3],
+    /// Direction of z.
+    pub z: [f64; 3],
+}
+
+/// Theoretically exact dimensions.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BasicText {
+    /// Coordinate along x.
+    pub x: Option<f64>,
+    /// Coordinate along y.
+    pub y: Option<f64>,
+    /// Coordinate along z.
+    pub z: Option<f64>,
+    /// Angle in degrees.
+    pub angle: Option<f64>,
+}
+
+/// How datums are associated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DatumMethodWord {
+    /// Least squares.
+    Gaussian,
+    /// Minimum zone, tangent outside the material.
+    MinimumZone,
+}
+
+/// How a form is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FormMethodWord {
+    /// The narrowest zone, as the standards define it.
+    MinimumZone,
+    /// About the least-squares element.
+    Gaussian,
+}
+
+/// Sizes of ISO 14405-1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "UPPERCASE")]
+pub enum SizeWord {
+    /// Two-point size.
+    Lp,
+    /// Least-squares size.
+    Gg,
+    /// Minimum circumscribed size.
+    Gn,
+    /// Maximum inscribed size.
+    Gx,
+    /// Minimax size.
+    Gc,
+}
+
+impl SizeWord {
+    /// Its letters.
+    pub fn word(self) -> &'static str {
+        match self {
+            SizeWord::Lp => "LP",
+            SizeWord::Gg => "GG",
+            SizeWord::Gn => "GN",
+            SizeWord::Gx => "GX",
+            SizeWord::Gc => "GC",
+        }
+    }
+}
+
+/// Along which way a run-out is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum RunoutWord {
+    /// Across the datum axis.
+    Radial,
+    /// Along it.
+    Axial,
+}
+
+/// Parameters of ISO 25178-2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum TextureWord {
+    /// Arithmetic mean height.
+    Sa,
+    /// Root mean square height.
+    Sq,
+    /// Maximum height.
+    Sz,
+    /// Skewness.
+    Ssk,
+    /// Kurtosis.
+    Sku,
+}
+
+impl TextureWord {
+    /// Its letters.
+    pub fn word(self) -> &'static str {
+        match self {
+            TextureWord::Sa => "Sa",
+            TextureWord::Sq => "Sq",
+            TextureWord::Sz => "Sz",
+            TextureWord::Ssk => "Ssk",
+            TextureWord::Sku => "Sku",
+        }
+    }
+
+    /// Whether it is a length, not a ratio.
+    pub fn is_length(self) -> bool {
+        !matches!(self, TextureWord::Ssk | TextureWord::Sku)
+    }
+}
+
+/// How a verdict is reached.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DecisionText {
+    /// The rule.
+    pub rule: At<RuleWord>,
+    /// Expanded uncertainty (k = 2) of every value that has none of its own.
+    pub uncertainty: Option<At<f64>>,
+}
+
+/// Decision rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum RuleWord {
+    /// The value alone decides.
+    #[serde(rename = "simple")]
+    Simple,
+    /// Within the uncertainty of a limit nothing is decided.
+    #[serde(rename = "iso14253-1")]
+    Iso14253,
+}
+
+/// The word of a characteristic, one of the list.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(transparent)]
+pub struct KindWord(pub String);
+
+impl JsonSchema for KindWord {
+    fn schema_name() -> Cow<'static, str> {
+        "Kind".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let words: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
+        json_schema!({ "type": "string", "enum": words })
+    }
+}

@@ -1,0 +1,154 @@
+//! The page of an inspection: the verdict, every characteristic with its value, the features.
+
+use super::super::html::Html;
+use super::super::page::blocks::{Headline, badge, fact, key_number, section};
+use super::{Head, Pick, Subject};
+use crate::results::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument};
+use serde_json::Value;
+
+impl Subject for InspectDocument {
+    fn head(&self) -> Head<'_> {
+        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
+    }
+
+    fn headline(&self) -> Headline {
+        self.verdict.into()
+    }
+
+    fn picture(&self) -> &'static str {
+        "picture.inspect"
+    }
+
+    fn numbers(&self, h: &mut Html) {
+        let n = &self.counts;
+        h.raw("<dl class=\"key-numbers\">");
+        key_number(h, "characteristics", "lead", |h| {
+            h.count(self.characteristics.len() as u64);
+        });
+        for (key, count, class) in [
+            ("verdict.fail", n.fail, "warn"),
+            ("verdict.undecided", n.undecided, "warn"),
+            ("verdict.not_measured", n.not_measured, "warn"),
+            ("verdict.pass", n.pass, ""),
+        ] {
+            if count > 0 || key == "verdict.pass" {
+                key_number(h, key, class, |h| {
+                    h.count(count);
+                });
+            }
+        }
+        h.raw("</dl>");
+    }
+
+    fn list(&self, h: &mut Html) {
+        section(h, "characteristics", |h| characteristics(h, self));
+        section(h, "features", |h| features(h, self));
+        section(h, "alignment", |h| {
+            h.raw("<dl class=\"facts pairs\">");
+            fact(h, "method", |h| {
+                h.word(&format!("align.{}", self.alignment.method));
+            });
+            if let Some(rms) = self.alignment.rms {
+                fact(h, "rms", |h| {
+                    h.number(rms, 4, false).raw("\u{a0}mm");
+                });
+            }
+            h.raw("</dl>");
+            for warning in &self.alignment.warnings {
+                h.raw("<p class=\"note\">").text(&warning.text).raw("</p>");
+            }
+        });
+    }
+
+    fn method(&self, h: &mut Html) {
+        h.raw("<p>").word("method.inspect.text").raw("</p><p>");
+        h.word(&format!("decision.{}.text", self.decision_rule)).raw("</p><ul>");
+        let mut standards: Vec<&str> = self.characteristics.iter().map(|c| c.standard.as_str()).collect();
+        standards.sort_unstable();
+        standards.dedup();
+        for standard in standards {
+            h.raw("<li>").text(standard).raw("</li>");
+        }
+        h.raw("</ul>");
+    }
+
+    fn how(&self, h: &mut Html) {
+        h.word("decision").raw(" ").text(&self.decision_rule);
+    }
+
+    fn picks(&self) -> Vec<Pick> {
+        let of = |(n, c): (usize, &CharacteristicRecord)| Pick {
+            position: c.anchor.unwrap_or([0.0; 3]),
+            mark: Some(n),
+            ..Pick::default()
+        };
+        self.rows().into_iter().enumerate().map(of).collect()
+    }
+
+    fn important(&self, picks: &[Pick]) -> Vec<usize> {
+        (0..picks.len()).collect()
+    }
+
+    fn json(&self) -> serde_json::Result<Value> {
+        serde_json::to_value(self)
+    }
+}
+
+fn characteristics(h: &mut Html, d: &InspectDocument) {
+    h.raw("<table class=\"pick\"><thead><tr><th></th><th>").word("feature").raw("</th><th class=\"r\">");
+    h.word("allowed").raw("</th><th class=\"r\">").word("value").raw("</th><th>").word("verdict");
+    h.raw("</th></tr></thead><tbody>");
+    for (n, c) in d.rows().into_iter().enumerate() {
+        h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" <b>").text(&c.symbol).raw("</b> ");
+        h.word(&format!("kind.{}", c.kind)).raw("</td><td>").name(&c.feature);
+        for datum in &c.datums {
+            h.raw(" | ").name(datum);
+        }
+        h.raw("</td><td class=\"r\">");
+        allowed(h, c);
+        h.raw("</td><td class=\"r\">");
+        h.optional(c.value, c.reason.as_deref(), digits(c), false);
+        if let Some(u) = c.uncertainty {
+            h.raw(" ±\u{a0}").number(u, digits(c), false);
+        }
+        h.raw("</td><td>");
+        badge(h, c.verdict.into());
+        h.raw("</td></tr>");
+        if let Some(reason) = &c.reason {
+            h.raw("<tr><td colspan=\"5\" class=\"note\">").text(reason).raw("</td></tr>");
+        }
+    }
+    h.raw("</tbody></table>");
+}
+
+fn digits(c: &CharacteristicRecord) -> usize {
+    if c.unit == "mm" { 4 } else { 3 }
+}
+
+fn allowed(h: &mut Html, c: &CharacteristicRecord) {
+    match (c.nominal, c.lower) {
+        (Some(_), Some(lower)) => {
+            h.number(lower, digits(c), false).raw(" … ").number(c.upper, digits(c), false);
+        }
+        _ => {
+            h.raw(if c.zone == "diameter" { "⌀" } else { "" }).number(c.upper, digits(c), false);
+        }
+    }
+}
+
+fn features(h: &mut Html, d: &InspectDocument) {
+    h.raw("<table><thead><tr><th></th><th class=\"r\">").word("points").raw("</th><th class=\"r\">");
+    h.word("form_error").raw("</th><th class=\"r\">").word("coverage").raw("</th></tr></thead><tbody>");
+    for f in &d.features {
+        h.raw("<tr><td>").name(&f.id).raw(" ");
+        h.word(&format!("shape.{}", f.shape)).raw("</td><td class=\"r\">").count(f.points);
+        h.raw("</td><td class=\"r\">").optional(f.form_error, reason(f), 4, false);
+        h.raw("</td><td class=\"r\">").optional_percent(f.coverage, f.coverage_reason.as_deref(), 1);
+        h.raw("</td></tr>");
+    }
+    h.raw("</tbody></table>");
+}
+
+fn reason(f: &FeatureRecord) -> Option<&str> {
+    f.reason.as_deref().or(f.uncertainty_reason.as_deref())
+}
