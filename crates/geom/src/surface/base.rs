@@ -66,7 +66,9 @@ pub(super) fn parameters(
     let shape = |kind| {
         fit::fit(points, kind, &fit::Options::default(), progress).map(|f| f.shape).map_err(|e| match e {
             FitError::Cancelled => Cancelled.into(),
-            FitError::Collinear { .. } | FitError::AllEqual => SurfaceError::Line,
+            FitError::Collinear { .. }
+            | FitError::AllEqual
+            | FitError::Undetermined { kind: Kind::Plane } => SurfaceError::Line,
             e => SurfaceError::Base(e),
         })
     };

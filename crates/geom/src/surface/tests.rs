@@ -206,6 +206,8 @@ fn points_that_determine_nothing_are_refused() {
             SurfaceError::Line
         );
     }
+    let few: Vec<Point> = [0.0, 1.0, 2.0, 3.0, 5.0].map(|x| [x; 3]).to_vec();
+    assert_eq!(fit(&few, &Options::default(), &Silent).unwrap_err(), SurfaceError::Line);
     let same = vec![[1.0, 2.0, 3.0]; 20];
     assert_eq!(fit(&same, &Options::default(), &Silent).unwrap_err(), SurfaceError::Line);
     let mut points = scan(100, 0.0, 1);
