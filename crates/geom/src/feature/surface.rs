@@ -87,12 +87,12 @@ mod tests {
             for p in [[5.0, -3.0, 2.0], [-2.0, 7.0, 1.0], [9.0, 9.0, -9.0]] {
                 let (_, gradient) = surface.distance(p).unwrap();
                 assert!((norm(gradient) - 1.0).abs() < 1e-12);
-                for k in 0..3 {
+                for (k, along) in gradient.into_iter().enumerate() {
                     let step: Vector = std::array::from_fn(|i| if i == k { 1e-5 } else { 0.0 });
                     let slope = (surface.distance(plus(p, step)).unwrap().0
                         - surface.distance(minus(p, step)).unwrap().0)
                         / 2e-5;
-                    assert!((slope - gradient[k]).abs() < 1e-8, "{surface:?} {p:?}");
+                    assert!((slope - along).abs() < 1e-8, "{surface:?} {p:?}");
                 }
             }
         }

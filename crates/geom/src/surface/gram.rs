@@ -182,7 +182,7 @@ impl Binned {
                 cell.iter_mut().zip(own).for_each(|(a, b)| *a += b);
             }
         }
-        self.flush(current as usize, &mut cell, &products, normal.as_deref_mut(), &mut sums);
+        self.flush(current as usize, &mut cell, &products, normal, &mut sums);
         Ok(sums)
     }
 

@@ -35,7 +35,7 @@ pub(super) fn corrected(
         // The weight of the thin plate settles with the first correction.
         known = next.degrees_of_freedom.map(|dof| (next.fairness, dof));
         let (before, after) = (rms(&best.deviations), rms(&next.deviations));
-        if !(after < before) {
+        if after.is_nan() || after >= before {
             break;
         }
         best = SurfaceFit { corrections: n, ..next };

@@ -118,7 +118,7 @@ impl System<'_> {
             let gradient = self.gradient(&points, weight, progress)?.0;
             let step = self.solved(factor, &gradient);
             let size = largest(&step) / largest(&points).max(f64::MIN_POSITIVE);
-            if !(size < before) {
+            if size.is_nan() || size >= before {
                 break;
             }
             points.iter_mut().zip(&step).for_each(|(p, s)| (0..3).for_each(|d| p[d] += s[d]));

@@ -358,7 +358,7 @@ fn robust_weights_leave_outliers_out() {
         points[20 * k][2] += 2.0 + 5.0 * random.unit();
     }
     let error = |f: &SurfaceFit| {
-        let clean = |k: &usize| k % 20 != 0;
+        let clean = |k: &usize| !k.is_multiple_of(20);
         (0..points.len()).filter(clean).map(|k| f.deviations[k].abs()).fold(0.0, f64::max)
     };
     let plain = fit(&points, &spans(15), &Silent).unwrap();

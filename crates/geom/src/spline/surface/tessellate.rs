@@ -119,7 +119,7 @@ impl Surface<Point> {
             // Each direction has half of the tolerance; 2hk M₂ is no more than (r h² + k² / r) M₂.
             let bend = if k == 0 { uu + ratio * uv } else { vv + uv / ratio };
             let steps = (length * (bend / (4.0 * tolerance)).sqrt()).ceil().max(1.0);
-            if !(steps < 1e6) {
+            if steps.is_nan() || steps >= 1e6 {
                 return None;
             }
             let steps = steps as usize;
