@@ -240,6 +240,11 @@ fn too_few_points_are_not_measured() {
             }
             Err(e) => panic!("{}: {e}", c.kind),
         }
+        // The toleranced feature alone: its datums are there.
+        let mut short = Case { features: c.features.clone(), more: c.more.clone(), ..c };
+        short.features[0].2.truncate(1);
+        let found = short.run("", <[Point]>::to_vec).unwrap();
+        assert!(found.values[0].is_err(), "{}: {:?}", c.kind, found.values[0]);
         let none = c.run("", |_| vec![]).unwrap();
         assert!(none.values[0].is_err(), "{}", c.kind);
     }

@@ -63,7 +63,8 @@ impl Taken {
     /// Why it has none.
     pub fn taken(&self) -> Result<&[Point], Missing> {
         match &self.element {
-            Err(reason) if self.points.is_empty() => Err(self.missing(reason)),
+            // Too few points, or too little of it measured: no zone about them would mean anything.
+            Err(reason) => Err(self.missing(reason)),
             _ if self.points.is_empty() => Err(self.missing("it has no points of its own")),
             _ => Ok(&self.points),
         }
