@@ -175,14 +175,14 @@ impl Sheet<'_> {
                 run.curve = Some(self.fit(&run.items, whole, progress)?);
             }
         }
-        if let ([run], true) = (&mut runs[..], whole) {
-            if let Some(found) = run.curve.take() {
-                let range = 0..found.segments.len();
-                let item = Item { from: 0, to: self.polygon.facets(), ..run.items[0] };
-                let mut all = self.finish(found.segments, found.joins, &[(item, range)]);
-                (all.noise, all.spacing) = (found.noise, found.spacing);
-                return Ok(all);
-            }
+        if let ([run], true) = (&mut runs[..], whole)
+            && let Some(found) = run.curve.take()
+        {
+            let range = 0..found.segments.len();
+            let item = Item { from: 0, to: self.polygon.facets(), ..run.items[0] };
+            let mut all = self.finish(found.segments, found.joins, &[(item, range)]);
+            (all.noise, all.spacing) = (found.noise, found.spacing);
+            return Ok(all);
         }
         let mut segments: Vec<Segment> = vec![];
         let mut joins: Vec<Option<Join>> = vec![];

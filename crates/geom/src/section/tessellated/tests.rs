@@ -135,7 +135,7 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
 fn a_free_curve_between_lines_is_a_spline() {
     let wave = |x: f64| 6.0 * (1.0 - libm::cos(x * std::f64::consts::PI / 40.0)) / 2.0;
     let mut outline = vec![[-30.0, -20.0], [70.0, -20.0], [70.0, 6.0]];
-    outline.extend((0..=40).rev().map(|i| f64::from(i)).map(|x| [x, wave(x)]));
+    outline.extend((0..=40).rev().map(f64::from).map(|x| [x, wave(x)]));
     outline.push([-30.0, 0.0]);
     let found = &sections(&[outline.clone()])[0];
     use Kind::{Line, Spline};
