@@ -131,13 +131,7 @@ mod tests {
         assert_eq!(found[29 + 3..29 + 6], points[3]);
         assert_eq!(found[56..], [0.0, 1e22, 0.0, 1e22]);
         let last = file.lines().last().unwrap();
-        assert_eq!(
-            &last[..32],
-            format!(
-                "S      1G{:>7}D      2P{:>7}",
-                file.matches("G      ").count(),
-                file.lines().filter(|l| l.as_bytes()[72] == b'P').count()
-            )
-        );
+        let lines = |section: u8| file.lines().filter(|l| l.as_bytes()[72] == section).count();
+        assert_eq!(&last[..32], format!("S      1G{:>7}D      2P{:>7}", lines(b'G'), lines(b'P')));
     }
 }

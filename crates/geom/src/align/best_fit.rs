@@ -38,23 +38,32 @@ const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 /// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.2 s for the start on two cores,
 /// then some ten closest-point searches of all points.
 ///
+/// Of a measured mesh the vertices are aligned. A few vertices determine no pose among outliers: give points of the surface
+/// of a mesh of some large facets instead, else the answer is mostly an ambiguous one.
+///
 /// # Errors
 /// [`AlignError`]: fewer than three points, all points on one line, coordinates that are no numbers, cancelled.
 ///
 /// ```
 /// use trueness_geom::align::{best_fit, BestFit, Measured, Target};
 /// use trueness_geom::{closest::Tree, mesh::Mesh, progress::Silent, rigid::Rigid};
-/// // A tetrahedron without symmetry, and the same turned by half a turn and shifted.
 /// let reference = Mesh {
 ///     positions: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 11.0]],
 ///     faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
 /// };
+/// // Points of its surface, turned by 3 radians about x and a little about the others.
 /// let turn = Rigid::rotation_about([1.0, 2.0, 3.0], [3.0, 0.4, 0.1]);
-/// let measured =
-///     Mesh { positions: reference.positions.iter().map(|p| turn.point(*p)).collect(), ..reference.clone() };
+/// let mut points = vec![];
+/// for face in &reference.faces {
+///     let [a, b, c] = face.map(|v| reference.positions[v as usize]);
+///     for (i, j) in (0..=12).flat_map(|i| (0..=12 - i).map(move |j| (f64::from(i) / 12.0, f64::from(j) / 12.0))) {
+///         points.push(turn.point(std::array::from_fn(|k| a[k] + i * (b[k] - a[k]) + j * (c[k] - a[k]))));
+///     }
+/// }
 /// let tree = Tree::build(&reference)?;
 /// let target = Target::new(&reference, &tree);
-/// let found = best_fit(&Measured::Mesh(&measured), &target, &BestFit::default(), &Silent)?;
+/// let measured = Measured::Points { points: &points, normals: None };
+/// let found = best_fit(&measured, &target, &BestFit::default(), &Silent)?;
 /// assert!(found.reference_from_measured.after(&turn).angle() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

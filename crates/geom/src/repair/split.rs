@@ -69,26 +69,11 @@ fn part(
         return Ok(());
     }
     let before = work.mesh().clone();
-    let changing: BTreeSet<u32> = lost
-        .iter()
-        .flat_map(|(_, fan)| fan)
-        .chain(again.iter().flat_map(|(_, pair)| pair))
-        .copied()
-        .collect();
-    let count = |pairs: Option<Vec<_>>| pairs.map_or(usize::MAX, |pairs| pairs.len());
-    let crossings = count(work.crossings(|f, _| changing.contains(&f))?);
-    let first = before.positions.len() as u32;
-    for (i, offset) in OFFSETS.into_iter().enumerate() {
-        let distance = offset * work.gap;
-        set_off(work, &lost, &again, distance);
-        // What has changed has a new vertex.
-        let now = count(work.crossings(|_, face| face.iter().any(|v| *v >= first))?);
-        if now <= crossings || i + 1 == OFFSETS.len() {
-            break;
-        }
-        work.restore(before.clone());
+    let Parted { lost, again, distances } = apart(work, lost, again, step)?;
+    if distances.is_empty() {
+        return Ok(());
     }
-    work.parted.extend(first..work.mesh().positions.len() as u32);
+    work.parted.extend(before.positions.len() as u32..work.mesh().positions.len() as u32);
     for (v, fan) in &lost {
         work.log(step, "fan of facets given its own vertex", before.positions[*v as usize], fan.len(), 0.0);
     }
@@ -99,16 +84,86 @@ fn part(
     Ok(())
 }
 
-/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge.
-fn set_off(work: &mut Work, lost: &[(u32, Vec<u32>)], again: &[([u32; 2], [u32; 2])], distance: f64) {
+/// What is set off, and how far each: the fans first, then the pairs at edges.
+struct Parted {
+    lost: Vec<(u32, Vec<u32>)>,
+    again: Vec<([u32; 2], [u32; 2])>,
+    distances: Vec<f64>,
+}
+
+/// Sets the fans and pairs off, each as little as it can be without crossing anything.
+///
+/// What crosses at every distance stays together if it does so at a vertex; at an edge it is parted all the same.
+fn apart(
+    work: &mut Work,
+    mut lost: Vec<(u32, Vec<u32>)>,
+    again: Vec<([u32; 2], [u32; 2])>,
+    step: &'static str,
+) -> Result<Parted, RepairError> {
+    let before = work.mesh().clone();
+    let changing: BTreeSet<u32> = lost
+        .iter()
+        .flat_map(|(_, fan)| fan)
+        .chain(again.iter().flat_map(|(_, pair)| pair))
+        .copied()
+        .collect();
+    // Facets that cross already cannot tell whether the distance is right.
+    let crossing = work.crossings(|f, _| changing.contains(&f))?.unwrap_or_default();
+    let crossing: BTreeSet<u32> = crossing.into_iter().flatten().collect();
+    let clean = |facets: &[u32]| !facets.iter().any(|f| crossing.contains(f));
+    let mut asked: Vec<bool> =
+        lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
+    let first = before.positions.len() as u32;
+    let mut nth = vec![0; asked.len()];
+    loop {
+        let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
+        set_off(work, &lost, &again, &distances);
+        // What has changed has a new vertex.
+        let pairs = work.crossings(|_, face| face.iter().any(|v| *v >= first))?.unwrap_or_default();
+        let faces = &work.mesh().faces;
+        let mut bad: Vec<usize> = pairs
+            .iter()
+            .flatten()
+            .flat_map(|f| faces[*f as usize])
+            .filter_map(|v| v.checked_sub(first))
+            .map(|i| i as usize)
+            .filter(|&i| asked[i])
+            .collect();
+        bad.sort_unstable();
+        bad.dedup();
+        let (more, last): (Vec<usize>, Vec<usize>) =
+            bad.into_iter().partition(|&i| nth[i] + 1 < OFFSETS.len());
+        let kept: Vec<usize> = if step == VERTICES.name {
+            last.into_iter().filter(|&i| i < lost.len()).collect()
+        } else {
+            vec![]
+        };
+        if more.is_empty() && kept.is_empty() {
+            return Ok(Parted { lost, again, distances });
+        }
+        work.restore(before.clone());
+        more.iter().for_each(|&i| nth[i] += 1);
+        for i in kept.into_iter().rev() {
+            lost.remove(i);
+            nth.remove(i);
+            asked.remove(i);
+        }
+        if asked.is_empty() {
+            return Ok(Parted { lost, again, distances: vec![] });
+        }
+    }
+}
+
+/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
+fn set_off(work: &mut Work, lost: &[(u32, Vec<u32>)], again: &[([u32; 2], [u32; 2])], distances: &[f64]) {
     let mut renamed = BTreeMap::new();
-    for (v, fan) in lost {
+    for ((v, fan), distance) in lost.iter().zip(distances) {
         let place = plus(work.at(*v), times(-distance, outwards(work, fan, work.at(*v))));
         let new = work.add(place);
         renamed.extend(fan.iter().map(|&f| ((f, *v), new)));
     }
     let (mut removed, mut added) = (vec![], vec![]);
-    for (ends, facets) in again {
+    for ((ends, facets), distance) in again.iter().zip(&distances[lost.len()..]) {
         let middle = times(0.5, plus(work.at(ends[0]), work.at(ends[1])));
         let place = plus(middle, times(-distance, outwards(work, facets, middle)));
         let new = work.add(place);

@@ -68,9 +68,10 @@ pub struct Search {
 /// let height = |p: [f64; 3]| Some((p[2], [0.0, 0.0, 1.0]));
 /// let search = Search { start: Rigid::IDENTITY, free: Freedom::NONE, middle: 0.0, floating: false };
 /// assert_eq!(placed(&points, &height, &search, &Silent)?.half, 0.4);
-/// // Free to tilt and to rise, it is a minimum zone: two points above, two below by 0.1.
+/// // Free to tilt and to rise, it is a minimum zone: two points above, two below by 0.1 seen along z, at a slope of 0.2 / 9
+/// // in both directions.
 /// let free = placed(&points, &height, &Search { free: Freedom::ALL, ..search }, &Silent)?;
-/// assert!((free.half - 0.1).abs() < 1e-12);
+/// assert!((free.half - 0.1 / (1.0 + 2.0 * (0.2f64 / 9.0).powi(2)).sqrt()).abs() < 1e-12);
 /// # Ok::<(), trueness_geom::zone::ZoneError>(())
 /// ```
 pub fn placed(

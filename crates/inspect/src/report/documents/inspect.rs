@@ -94,28 +94,30 @@ impl Subject for InspectDocument {
     }
 }
 
+/// Three columns, so that the verdict stands in view beside the part: what and of which feature, value over what is allowed,
+/// verdict.
 fn characteristics(h: &mut Html, d: &InspectDocument) {
-    h.raw("<table class=\"pick\"><thead><tr><th></th><th>").word("feature").raw("</th><th class=\"r\">");
-    h.word("allowed").raw("</th><th class=\"r\">").word("value").raw("</th><th>").word("verdict");
+    h.raw("<table class=\"pick\"><thead><tr><th>").word("feature").raw("</th><th class=\"r\">");
+    h.word("value").raw("<br><small>").word("allowed").raw("</small></th><th>").word("verdict");
     h.raw("</th></tr></thead><tbody>");
     for (n, c) in d.rows().into_iter().enumerate() {
         h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" <b>").text(&c.symbol).raw("</b> ");
-        h.word(&format!("kind.{}", c.kind)).raw("</td><td>").name(&c.feature);
+        h.word(&format!("kind.{}", c.kind)).raw("<br><small>").name(&c.feature);
         for datum in &c.datums {
             h.raw(" | ").name(datum);
         }
-        h.raw("</td><td class=\"r\">");
-        allowed(h, c);
-        h.raw("</td><td class=\"r\">");
+        h.raw("</small></td><td class=\"r\">");
         h.optional(c.value, c.reason.as_deref(), digits(c), false);
         if let Some(u) = c.uncertainty {
             h.raw(" ±\u{a0}").number(u, digits(c), false);
         }
-        h.raw("</td><td>");
+        h.raw("<br><small>");
+        allowed(h, c);
+        h.raw("</small></td><td>");
         badge(h, c.verdict.into());
         h.raw("</td></tr>");
         if let Some(reason) = &c.reason {
-            h.raw("<tr><td colspan=\"5\" class=\"note\">").text(reason).raw("</td></tr>");
+            h.raw("<tr><td colspan=\"3\" class=\"note\">").text(reason).raw("</td></tr>");
         }
     }
     h.raw("</tbody></table>");
@@ -131,7 +133,11 @@ fn allowed(h: &mut Html, c: &CharacteristicRecord) {
             h.number(lower, digits(c), false).raw(" … ").number(c.upper, digits(c), false);
         }
         _ => {
-            h.raw(if c.zone == "diameter" { "⌀" } else { "" }).number(c.upper, digits(c), false);
+            h.raw(if c.zone == "diameter" { "≤\u{a0}⌀" } else { "≤\u{a0}" }).number(
+                c.upper,
+                digits(c),
+                false,
+            );
         }
     }
 }
