@@ -1,5 +1,5 @@
 //! The example that ships: its features against the reference, its verdicts, its report.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 mod common;
 

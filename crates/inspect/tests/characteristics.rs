@@ -1,6 +1,6 @@
 //! Every characteristic of the list: a case in closed form, moved rigidly, with too few points, and the zone against least
 //! squares.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -146,9 +146,9 @@ fn located() -> Vec<Case> {
         case("circular-runout", &[ring.clone(), shaft.clone()], "datums = [\"A\"]", 0.06),
         case("total-runout", &[drum.clone(), shaft.clone()], "datums = [\"A\"]", 0.06),
         case("total-runout", &[disc, shaft], "datums = [\"A\"]", 0.04),
-        case("size", &[drum.clone()], "size = \"GG\"", 8.0),
-        case("size", &[drum.clone()], "size = \"GN\"", 8.0),
-        case("size", &[drum.clone()], "size = \"GX\"", 8.0),
+        case("size", std::slice::from_ref(&drum), "size = \"GG\"", 8.0),
+        case("size", std::slice::from_ref(&drum), "size = \"GN\"", 8.0),
+        case("size", std::slice::from_ref(&drum), "size = \"GX\"", 8.0),
         case("size", &[drum], "size = \"GC\"", 8.0),
         case("size", &[roof.clone(), floor.clone()], "#both\nsize = \"GG\"", 7.0),
         case("distance", &[roof, floor], "datums = [\"A\"]", 7.0),

@@ -115,10 +115,13 @@ fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, Usage> {
     found.ok_or_else(|| Usage(format!("--{option}: the normal {normal:?} has no direction")))
 }
 
+/// A section and the rows of points that its contours were found in.
+type WithRows = (Section, Vec<Vec<[f64; 2]>>);
+
 /// What a mesh's facets are where planes cut it.
 pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
     let rounding = section::rounding(mesh);
-    let of = |cut: &Cut| -> Result<(Section, Vec<Vec<[f64; 2]>>), SectionError> {
+    let of = |cut: &Cut| -> Result<WithRows, SectionError> {
         let chains = section::cut(mesh, &cut.plane, stage)?;
         let contours = chains
             .par_iter()
@@ -137,7 +140,7 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
 
 /// Contours of a cloud's points near planes.
 pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, stage: &Stage) -> Found {
-    let of = |cut: &Cut| -> Result<(Section, Vec<Vec<[f64; 2]>>), SectionError> {
+    let of = |cut: &Cut| -> Result<WithRows, SectionError> {
         let (numbers, flat) = section::slab(points, &cut.plane, &cut.frame, slab.thickness);
         let rows = section::order(&flat, slab.gap, stage)?;
         let own: Vec<Vec<[f64; 2]>> =
@@ -180,8 +183,8 @@ pub fn nothing_met(planes: &[Cut], record: &InputRecord) -> String {
     let range = |normal: Point| {
         let bounds = record.bounds.as_ref()?;
         let mut range = [0.0; 2];
-        for k in 0..3 {
-            let ends = [normal[k] * bounds.min[k], normal[k] * bounds.max[k]];
+        for (k, along) in normal.into_iter().enumerate() {
+            let ends = [along * bounds.min[k], along * bounds.max[k]];
             range[0] += ends[0].min(ends[1]);
             range[1] += ends[0].max(ends[1]);
         }
