@@ -1,6 +1,6 @@
 //! The answer for one point, before its place is worked out.
 
-/// The answer for one point, as the search finds it. [`Tree::place`] tells the rest.
+/// The answer for one point, as the search finds it. [`Tree::place`](crate::closest::Tree::place) tells the rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Squared distance, the least over all faces: what [`brute::closest`](crate::closest::brute::closest) finds, bit

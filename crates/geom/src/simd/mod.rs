@@ -1,6 +1,6 @@
 //! Vector instructions: what the processor has, and vectors of numbers for it.
 //!
-//! Every kernel is written once for any type of [`lanes::Lanes`] and compiled for each [`Level`]. All levels give the same bits.
+//! Every kernel is written once for any vector type and compiled for each [`Level`]. All levels give the same bits.
 
 pub(crate) mod lanes;
 #[cfg(target_arch = "x86_64")]
