@@ -2,8 +2,8 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use trueness_geom::{
-    deviation::statistics::{Accumulator, Summary},
     num::random::Random,
+    stats::statistics::{Accumulator, Summary},
 };
 
 fn statistics(c: &mut Criterion) {

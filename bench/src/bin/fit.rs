@@ -5,8 +5,9 @@
 
 use trueness_bench::{Result, read_npy, timed};
 use trueness_geom::{
-    fit::{Kind, Method, Options, Shape, fit},
+    fit::{Method, Options, fit},
     progress::Silent,
+    shape::{Kind, Shape},
     space::{Vector, cross, plus, times, unit},
 };
 
