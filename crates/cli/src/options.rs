@@ -71,6 +71,28 @@ impl PointInputArgs {
     }
 }
 
+/// How the reference is read.
+#[derive(Args, Debug)]
+pub struct ReferenceArgs {
+    /// Unit of the reference [default: that of the measured file, --units]
+    #[arg(long, value_name = "UNIT")]
+    reference_units: Option<Unit>,
+    /// Format of the reference [default: told by its content; --format is that of the measured file]
+    #[arg(long, value_name = "NAME", value_parser = format_named)]
+    reference_format: Option<&'static Format>,
+}
+
+impl ReferenceArgs {
+    /// The same for the readers, beside what was said of the measured file.
+    pub fn reading(&self, measured: &PointInputArgs) -> ReadOptions {
+        ReadOptions {
+            units: self.reference_units.or(measured.file.units),
+            format: self.reference_format,
+            ..ReadOptions::default()
+        }
+    }
+}
+
 /// Where the result document goes.
 #[derive(Args, Debug)]
 pub struct DocumentArgs {

@@ -4,7 +4,7 @@
 //! origin. A step shifts and tilts that frame by small amounts about where it is now, so that no direction is
 //! singular, whatever way the element lies.
 
-use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 
 /// A right-handed orthonormal frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,10 +20,7 @@ impl Pose {
     /// Falls back to the world's axes where `w` has no direction.
     pub(crate) fn along(origin: Point, w: Vector) -> Pose {
         let w = unit(w).map_or([0.0, 0.0, 1.0], |(w, _)| w);
-        let least = (0..3).min_by(|&i, &j| w[i].abs().total_cmp(&w[j].abs())).unwrap_or(0);
-        let mut away = [0.0; 3];
-        away[least] = 1.0;
-        Pose::toward(origin, w, away)
+        Pose::toward(origin, w, least_axis(w))
     }
     /// As [`Pose::along`], with the first axis as near to `u` as it can be.
     pub(crate) fn toward(origin: Point, w: Vector, u: Vector) -> Pose {

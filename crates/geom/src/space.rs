@@ -45,6 +45,14 @@ pub fn unit(a: Vector) -> Option<(Vector, f64)> {
     (length > 0.0 && inverse.is_finite() && length.is_finite()).then(|| (a.map(|x| x * inverse), length))
 }
 
+/// The coordinate axis that stands most across `a`: the first of those along which `a` reaches least.
+pub fn least_axis(a: Vector) -> Vector {
+    let least = (0..3).min_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs())).unwrap_or(0);
+    let mut axis = [0.0; 3];
+    axis[least] = 1.0;
+    axis
+}
+
 /// Axis-parallel box. Empty when `min > max` in some coordinate, as [`Aabb::EMPTY`] is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {

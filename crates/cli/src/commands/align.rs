@@ -4,7 +4,7 @@ use crate::command::Run;
 use crate::console;
 use crate::exit::{Outcome, Usage};
 use crate::number::{POINTS, counted, fixed, scientific, six_digits};
-use crate::options::{Common, DocumentArgs, PointInputArgs, format_named};
+use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
 use crate::read::{self, Opened};
 use crate::run_files::RunFiles;
@@ -12,8 +12,8 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use trueness_files::Body;
 use trueness_files::write::{self, Block, Layout, Writable};
-use trueness_files::{Body, Format, ReadOptions, Unit};
 use trueness_geom::align::{self, AlignError, BestFit, Measured, Row, RowFit, Start, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
@@ -58,12 +58,8 @@ pub struct AlignArgs {
     keep_outliers: bool,
     #[command(flatten)]
     input: PointInputArgs,
-    /// Unit of the reference [default: that of the measured file, --units]
-    #[arg(long, value_name = "UNIT")]
-    reference_units: Option<Unit>,
-    /// Format of the reference [default: told by its content; --format is that of the measured file]
-    #[arg(long, value_name = "NAME", value_parser = format_named)]
-    reference_format: Option<&'static Format>,
+    #[command(flatten)]
+    of_reference: ReferenceArgs,
     #[command(flatten)]
     document: DocumentArgs,
 }
@@ -148,11 +144,7 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     if let Some(path) = &args.out {
         scan.holds().check(path)?;
     }
-    let reading = ReadOptions {
-        units: args.reference_units.or(args.input.file.units),
-        format: args.reference_format,
-        ..ReadOptions::default()
-    };
+    let reading = args.of_reference.reading(&args.input);
     let (reference, mut record) = read::mesh(&args.reference, Role::Reference, &reading)?;
     read::hash(&mut scan.record, &args.measured)?;
     read::hash(&mut record, &args.reference)?;

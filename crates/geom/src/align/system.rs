@@ -3,7 +3,7 @@
 //! The six unknowns are a rotation vector about a center and a translation. Rotations are counted in units of the
 //! points' root mean square distance from the center, so that all six have the size of a displacement.
 
-use crate::space::{Point, Vector, cross, dot, minus, times, unit};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 use rayon::prelude::*;
 
 /// What a point is held by: the shape of the surface where it is nearest.
@@ -36,9 +36,7 @@ impl Equation {
         match self.hold {
             Hold::Plane(n) => ([n, n, n], 1),
             Hold::Line(t) => {
-                let least = (0..3).min_by(|&i, &j| t[i].abs().total_cmp(&t[j].abs())).unwrap_or(0);
-                let mut axis = [0.0; 3];
-                axis[least] = 1.0;
+                let axis = least_axis(t);
                 let a = unit(cross(t, axis)).map_or(axis, |a| a.0);
                 ([a, cross(t, a), t], 2)
             }

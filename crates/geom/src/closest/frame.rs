@@ -3,7 +3,7 @@
 use crate::closest::layout::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
-use crate::space::{Point, Vector, cross, dot, minus, times, unit};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 
 /// Triangles in slot order, vertices in order of first use. Ends early where `progress` says that it is cancelled.
 pub fn renumber(mesh: &Mesh, face: &[u32], progress: &dyn Progress) -> (Vec<[u32; 3]>, Vec<Point>) {
@@ -65,10 +65,7 @@ fn reject(a: Vector, e: Vector) -> Vector {
 
 /// Some unit vector perpendicular to the unit vector `x`.
 fn any_perpendicular(x: Vector) -> Vector {
-    let k = (0..3).min_by(|&i, &j| x[i].abs().total_cmp(&x[j].abs())).unwrap_or(0);
-    let mut e = [0.0; 3];
-    e[k] = 1.0;
-    unit(reject(e, x)).map_or([0.0, 1.0, 0.0], |(y, _)| y)
+    unit(reject(least_axis(x), x)).map_or([0.0, 1.0, 0.0], |(y, _)| y)
 }
 
 /// The direction of the part of `ac` perpendicular to the unit vector `x`, `base` being about as long as `ac`.

@@ -3,7 +3,7 @@
 use super::bounds::Polygon;
 use super::{FeatureError, Nearness, Nominal};
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 
 /// A nominal feature, ready to be asked.
 pub(super) struct Rules<'a> {
@@ -144,9 +144,7 @@ impl<'a> Rules<'a> {
     pub(super) fn starts(&self) -> Vec<Point> {
         const TURNS: usize = 12;
         let about = |axis: Vector| -> [Vector; 2] {
-            let least = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs())).unwrap_or(0);
-            let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
-            let frame = Rigid::into_frame([0.0; 3], axis, toward).unwrap_or(Rigid::IDENTITY);
+            let frame = Rigid::into_frame([0.0; 3], axis, least_axis(axis)).unwrap_or(Rigid::IDENTITY);
             [frame.rotation()[0], frame.rotation()[1]]
         };
         let ring = |center: Point, axis: Vector, radius: f64| -> Vec<Point> {

@@ -68,38 +68,28 @@ fn part(
     if lost.is_empty() && again.is_empty() {
         return Ok(());
     }
-    let before = work.mesh().clone();
-    let Parted { lost, again, distances } = apart(work, lost, again, step)?;
-    if distances.is_empty() {
-        return Ok(());
-    }
-    work.parted.extend(before.positions.len() as u32..work.mesh().positions.len() as u32);
+    let first = work.mesh().positions.len() as u32;
+    let lost = apart(work, lost, &again, step)?;
+    work.parted.extend(first..work.mesh().positions.len() as u32);
     for (v, fan) in &lost {
-        work.log(step, "fan of facets given its own vertex", before.positions[*v as usize], fan.len(), 0.0);
+        work.log(step, "fan of facets given its own vertex", work.at(*v), fan.len(), 0.0);
     }
     for (ends, _) in &again {
-        let [a, b] = ends.map(|v| before.positions[v as usize]);
+        let [a, b] = ends.map(|v| work.at(v));
         work.log(step, "edge parted in its middle", times(0.5, plus(a, b)), 2, norm(minus(b, a)));
     }
     Ok(())
 }
 
-/// What is set off, and how far each: the fans first, then the pairs at edges.
-struct Parted {
-    lost: Vec<(u32, Vec<u32>)>,
-    again: Vec<([u32; 2], [u32; 2])>,
-    distances: Vec<f64>,
-}
-
-/// Sets the fans and pairs off, each as little as it can be without crossing anything.
+/// Sets the fans and pairs off, each as little as it can be without crossing anything, and returns the fans that were.
 ///
 /// What crosses at every distance stays together if it does so at a vertex; at an edge it is parted all the same.
 fn apart(
     work: &mut Work,
     mut lost: Vec<(u32, Vec<u32>)>,
-    again: Vec<([u32; 2], [u32; 2])>,
+    again: &[([u32; 2], [u32; 2])],
     step: &'static str,
-) -> Result<Parted, RepairError> {
+) -> Result<Vec<(u32, Vec<u32>)>, RepairError> {
     let before = work.mesh().clone();
     let changing: BTreeSet<u32> = lost
         .iter()
@@ -107,28 +97,28 @@ fn apart(
         .chain(again.iter().flat_map(|(_, pair)| pair))
         .copied()
         .collect();
-    // Facets that cross already cannot tell whether the distance is right.
-    let crossing = work.crossings(|f, _| changing.contains(&f))?.unwrap_or_default();
-    let crossing: BTreeSet<u32> = crossing.into_iter().flatten().collect();
-    let clean = |facets: &[u32]| !facets.iter().any(|f| crossing.contains(f));
+    // Facets that cross already cannot tell whether the distance is right; in a tangle none can.
+    let crossing = work.crossings(|f, _| changing.contains(&f))?;
+    let crossing: Option<BTreeSet<u32>> = crossing.map(|pairs| pairs.into_iter().flatten().collect());
+    let clean = |facets: &[u32]| crossing.as_ref().is_some_and(|c| !facets.iter().any(|f| c.contains(f)));
     let mut asked: Vec<bool> =
         lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut nth = vec![0; asked.len()];
     loop {
         let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
-        set_off(work, &lost, &again, &distances);
+        set_off(work, &lost, again, &distances);
         // What has changed has a new vertex.
-        let pairs = work.crossings(|_, face| face.iter().any(|v| *v >= first))?.unwrap_or_default();
+        let pairs = work.crossings(|_, face| face.iter().any(|v| *v >= first))?;
         let faces = &work.mesh().faces;
-        let mut bad: Vec<usize> = pairs
-            .iter()
-            .flatten()
-            .flat_map(|f| faces[*f as usize])
-            .filter_map(|v| v.checked_sub(first))
-            .map(|i| i as usize)
-            .filter(|&i| asked[i])
-            .collect();
+        let mut bad: Vec<usize> = match pairs {
+            None => (0..asked.len()).collect(),
+            Some(pairs) => {
+                let corners = pairs.iter().flatten().flat_map(|f| faces[*f as usize]);
+                corners.filter_map(|v| v.checked_sub(first)).map(|i| i as usize).collect()
+            }
+        };
+        bad.retain(|&i| asked[i]);
         bad.sort_unstable();
         bad.dedup();
         let (more, last): (Vec<usize>, Vec<usize>) =
@@ -139,7 +129,7 @@ fn apart(
             vec![]
         };
         if more.is_empty() && kept.is_empty() {
-            return Ok(Parted { lost, again, distances });
+            return Ok(lost);
         }
         work.restore(before.clone());
         more.iter().for_each(|&i| nth[i] += 1);
@@ -149,7 +139,7 @@ fn apart(
             asked.remove(i);
         }
         if asked.is_empty() {
-            return Ok(Parted { lost, again, distances: vec![] });
+            return Ok(lost);
         }
     }
 }

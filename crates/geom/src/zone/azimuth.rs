@@ -6,7 +6,7 @@
 //! Sequential minimax search for a maximum, 1953).
 
 use crate::rigid::Rigid;
-use crate::space::{Vector, plus, times};
+use crate::space::{Vector, least_axis, plus, times};
 
 /// Samples of a full turn.
 const SAMPLES: usize = 1440;
@@ -27,9 +27,7 @@ impl Cone {
     /// Unit vectors whose scalar product with `axis` is the cosine of `angle`; `None` where `axis` has no direction.
     /// A direction and its opposite are one zone, so half a turn is all there is where they stand across the axis.
     pub(super) fn about(axis: Vector, angle: f64) -> Option<Cone> {
-        let least = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()))?;
-        let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
-        let [u, v, w] = Rigid::into_frame([0.0; 3], axis, toward)?.rotation();
+        let [u, v, w] = Rigid::into_frame([0.0; 3], axis, least_axis(axis))?.rotation();
         let right = angle == std::f64::consts::FRAC_PI_2;
         let (sine, cosine) = if right { (1.0, 0.0) } else { (libm::sin(angle), libm::cos(angle)) };
         let period = std::f64::consts::TAU * if right { 0.5 } else { 1.0 };

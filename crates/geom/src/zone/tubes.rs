@@ -4,7 +4,7 @@ use super::azimuth::Cone;
 use super::circle::smallest;
 use super::{ZoneError, sane};
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, plus, times, unit};
+use crate::space::{Point, Vector, least_axis, plus, times, unit};
 
 /// A cylinder that holds points.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,9 +38,7 @@ pub fn tube(points: &[Point], direction: Vector) -> Result<Tube, ZoneError> {
 
 fn along(points: &[Point], direction: Vector) -> Option<Tube> {
     let (direction, _) = unit(direction)?;
-    let least = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs()))?;
-    let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
-    let seen = Rigid::into_frame(points[0], direction, toward)?;
+    let seen = Rigid::into_frame(points[0], direction, least_axis(direction))?;
     let [u, v, _] = seen.rotation();
     let flat: Vec<[f64; 2]> = points
         .iter()

@@ -3,7 +3,7 @@
 use crate::results::fit::Extent;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::shape::Shape;
-use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 
 /// Cells of the circle in which points are looked for.
 const CELLS: usize = 360;
@@ -70,10 +70,7 @@ fn frame(shape: &Shape, points: &[Point]) -> (Point, [Vector; 3]) {
 
 /// Three axes of which the last is `w`.
 fn upon(w: Vector) -> [Vector; 3] {
-    let least = (0..3).min_by(|&i, &j| w[i].abs().total_cmp(&w[j].abs())).unwrap_or(0);
-    let mut away = [0.0; 3];
-    away[least] = 1.0;
-    let (v, _) = unit(cross(w, away)).unwrap_or(([0.0, 1.0, 0.0], 1.0));
+    let (v, _) = unit(cross(w, least_axis(w))).unwrap_or(([0.0, 1.0, 0.0], 1.0));
     [cross(v, w), v, w]
 }
 

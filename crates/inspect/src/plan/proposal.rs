@@ -5,7 +5,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::segment::{Region, Segmentation};
 use trueness_geom::shape::Shape;
-use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times};
+use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times};
 use trueness_geom::zone::datum::direction;
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
@@ -125,9 +125,7 @@ fn nominal(shape: &Shape, facets: &[[Point; 3]]) -> Option<String> {
             let facing =
                 facets.iter().fold([0.0; 3], |s, [a, b, c]| plus(s, cross(minus(*b, *a), minus(*c, *a))));
             let normal = if dot(facing, normal) < 0.0 { times(-1.0, normal) } else { normal };
-            let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))?;
-            let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
-            let [u, v, _] = Rigid::into_frame(point, normal, toward)?.rotation();
+            let [u, v, _] = Rigid::into_frame(point, normal, least_axis(normal))?.rotation();
             let ((a, b), (c, d)) = (range(point, u), range(point, v));
             let corner = |s: f64, t: f64| vector(at(at(point, u, s), v, t));
             Some(format!(

@@ -6,7 +6,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit::{Outcome, Usage};
-use crate::options::{Common, PointInputArgs, format_named, weld};
+use crate::options::{Common, PointInputArgs, ReferenceArgs, weld};
 use crate::progress::Stage;
 use crate::read;
 use crate::run_files::RunFiles;
@@ -15,7 +15,7 @@ use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
-use trueness_files::{Format, ReadError, ReadOptions, Unit, WriteError};
+use trueness_files::{ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
@@ -85,12 +85,8 @@ pub struct CompareArgs {
     weld: Option<f64>,
     #[command(flatten)]
     input: PointInputArgs,
-    /// Unit of the references [default: that of the measured file, --units]
-    #[arg(long, value_name = "UNIT")]
-    reference_units: Option<Unit>,
-    /// Format of the references [default: told by their content; --format is that of the measured file]
-    #[arg(long, value_name = "NAME", value_parser = format_named)]
-    reference_format: Option<&'static Format>,
+    #[command(flatten)]
+    of_references: ReferenceArgs,
     #[command(flatten)]
     output: output::OutputArgs,
 }
@@ -172,12 +168,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage("--both needs a measured mesh: points have no facets to measure back to".into()).into()
         );
     }
-    let reading = ReadOptions {
-        units: args.reference_units.or(args.input.file.units),
-        format: args.reference_format,
-        weld: weld(args.weld)?,
-        ..ReadOptions::default()
-    };
+    let reading = ReadOptions { weld: weld(args.weld)?, ..args.of_references.reading(&args.input) };
     let (mut meshes, mut files) = (vec![], vec![measured.record.clone()]);
     for path in &args.references {
         let (mesh, record) = read::mesh(path, Role::Reference, &reading)?;

@@ -8,7 +8,7 @@ use crate::fit::{self, Method, Options};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::shape::{Kind, Shape};
-use crate::space::{Point, Vector, dot, minus, plus, times, unit};
+use crate::space::{Point, Vector, dot, least_axis, minus, plus, times, unit};
 use crate::zone::ZoneError;
 use crate::zone::planes::{slab, slab_at_angle};
 use std::f64::consts::FRAC_PI_2;
@@ -120,10 +120,8 @@ fn along(
         }
         return Err(DatumError::Unsupported { what: "a second axis that is neither a cylinder nor a line" });
     }
-    let least = (0..3).min_by(|&i, &j| direction[i].abs().total_cmp(&direction[j].abs())).unwrap_or(0);
-    let toward = std::array::from_fn(|k| f64::from(u8::from(k == least)));
     let middle = mean(source.points);
-    let Some(seen) = Rigid::into_frame(middle, direction, toward) else {
+    let Some(seen) = Rigid::into_frame(middle, direction, least_axis(direction)) else {
         return Err(DatumError::Unsupported { what: "an axis without direction" });
     };
     let flat: Vec<Point> =

@@ -2,7 +2,7 @@
 
 use super::{AS_DRAWN, Datum, DatumError, Freedom, System, nearest};
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
+use crate::space::{Point, Vector, dot, least_axis, minus, norm, plus, times, unit};
 use std::f64::consts::FRAC_PI_2;
 
 /// What is fixed so far.
@@ -118,10 +118,8 @@ impl State {
             shift: [self.along.is_none(), self.beside.is_none(), self.height.is_none()],
             turn: [false, false, self.x.is_none()],
         };
-        let least = (0..3).min_by(|&i, &j| z[i].abs().total_cmp(&z[j].abs())).unwrap_or(0);
-        let any = std::array::from_fn(|k| f64::from(u8::from(k == least)));
         let lost = DatumError::Unsupported { what: "directions that make no frame" };
-        let turned = Rigid::into_frame([0.0; 3], z, self.x.unwrap_or(any)).ok_or(lost)?;
+        let turned = Rigid::into_frame([0.0; 3], z, self.x.unwrap_or(least_axis(z))).ok_or(lost)?;
         let [x, y, z] = turned.rotation();
         // Where nothing holds the origin, it is at a datum all the same.
         let anywhere = self.along.or(self.beside).or(self.height).unwrap_or([0.0; 3]);
