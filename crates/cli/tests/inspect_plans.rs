@@ -148,6 +148,16 @@ fn faults_of_plans_are_told_with_their_places() {
         fault("datums = [\"A\"]", "datums = [\"A\", \"A\"]", "datum \"A\" is named twice"),
         fault(
             "datums = [\"A\"]",
+            "datums = [\"pin\"]",
+            "\"pin\" is the toleranced feature; it cannot be its own datum",
+        ),
+        fault(
+            "kind = \"flatness\"\nfeature = \"A\"",
+            "kind = \"distance\"\nfeature = [\"A\", \"A\"]",
+            "line 27, column 11: \"A\" is named twice; a feature is no distance from itself",
+        ),
+        fault(
+            "datums = [\"A\"]",
             "datums = [\"A\", \"B\"]",
             "line 34, column 10: perpendicularity: it is evaluated for a single datum only",
         ),

@@ -91,6 +91,26 @@ fn what_is_closed_but_another_part_is_said() {
     }
 }
 
+/// Facets around one edge: a body made of two of them is no mended book, however sound it is.
+#[test]
+fn an_open_mesh_that_loses_its_surface_is_another_one() {
+    let f = Folder::new();
+    for pages in [8u32, 40, 100] {
+        let page = |i: u32| {
+            let turn = std::f64::consts::TAU * f64::from(i) / f64::from(pages);
+            format!("v {} {} 0.5\n", turn.cos(), turn.sin())
+        };
+        let facets = (0..pages).map(|i| format!("f 1 2 {}\n", i + 3));
+        let text: String =
+            ["v 0 0 0\nv 0 0 1\n".into()].into_iter().chain((0..pages).map(page)).chain(facets).collect();
+        let (book, out) = (f.write("book.obj", text), f.file("o.ply"));
+        let d = document(repair(&book, &out, &[]));
+        let [before, after] = ["before", "after"].map(|state| d[state]["area"].as_f64().unwrap());
+        assert!(d["sound"] == false, "{d}");
+        assert!(after > 0.9 * before || d["effect"]["changed"] == true, "{pages}: {before} {after}");
+    }
+}
+
 /// Nothing that makes a mesh unsound is there more often in the result than in the file.
 #[test]
 fn no_file_of_the_corpus_gets_worse() {

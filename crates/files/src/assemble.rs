@@ -3,7 +3,7 @@
 use crate::{
     Warning,
     error::{Fault, Located, Result},
-    polygon::triangulate,
+    polygon::{Cut, triangulate},
 };
 use rayon::prelude::*;
 use trueness_geom::{
@@ -17,6 +17,7 @@ use trueness_geom::{
 pub(crate) struct Faces {
     pub triangles: Vec<[u32; 3]>,
     polygons: u64,
+    somehow: u64,
     slight: u64,
 }
 
@@ -30,7 +31,8 @@ impl Faces {
             [] | [_] | [_, _] => self.slight += 1,
             _ => {
                 self.polygons += 1;
-                triangulate(positions, corners, |t| self.triangles.push(t));
+                let cut = triangulate(positions, corners, |t| self.triangles.push(t));
+                self.somehow += u64::from(cut == Cut::Somehow);
             }
         }
     }
@@ -44,6 +46,9 @@ impl Faces {
     pub fn mesh(self, positions: Vec<Point>, weld: bool, warnings: &mut Vec<Warning>) -> Result<Mesh> {
         if self.polygons > 0 {
             warnings.push(Warning::Polygons { count: self.polygons });
+        }
+        if self.somehow > 0 {
+            warnings.push(Warning::CutSomehow { count: self.somehow });
         }
         if self.slight > 0 {
             warnings.push(Warning::Slight { count: self.slight });

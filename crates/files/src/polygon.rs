@@ -4,25 +4,42 @@
 //! Monthly 82, 1975). The polygon is seen along its area vector (M. E. Newell); what that hides, being far from
 //! plane or crossing itself, is cut somehow, but always into two triangles fewer than it has corners.
 
+use std::collections::BTreeSet;
 use trueness_geom::space::{Point, cross, minus, norm, plus};
 
-/// Cuts the polygon `corners` (indices into `positions`, all of them valid) and hands each triangle to `out`.
+/// Cuts the polygon `corners` (indices into `positions`, all of them valid), hands each triangle to `out`, and says how.
 ///
-/// Fewer than three corners give nothing. Cost: linear where convex, else quadratic in the number of corners.
-pub(crate) fn triangulate(positions: &[Point], corners: &[u32], mut out: impl FnMut([u32; 3])) {
-    let [a, b, rest @ ..] = corners else { return };
+/// Fewer than three corners give nothing. Cost: linear where convex, else `n log n` as a rule in the number of corners; the
+/// effort is bounded, so that no file can make it last.
+pub(crate) fn triangulate(positions: &[Point], corners: &[u32], mut out: impl FnMut([u32; 3])) -> Cut {
+    let [a, b, rest @ ..] = corners else { return Cut::Whole };
     if let [c] = rest {
-        return out([*a, *b, *c]);
+        out([*a, *b, *c]);
+        return Cut::Whole;
     }
     let at = |i: usize| positions[corners[i] as usize];
-    let Some(mut ears) = Ears::new((0..corners.len()).map(at).collect()) else {
-        return fan(corners, out);
+    let Some(places) = seen_along_area((0..corners.len()).map(at).collect()) else {
+        fan(corners, out);
+        return Cut::Somehow;
     };
-    if ears.convex() {
-        return fan(corners, out);
+    if convex(&places) {
+        fan(corners, out);
+        return Cut::Whole;
     }
-    ears.cut(|triangle| out(triangle.map(|i| corners[i])));
+    Ears::new(places).cut(EFFORT, |triangle| out(triangle.map(|i| corners[i as usize])))
 }
+
+/// How a polygon was cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cut {
+    /// Its triangles together are the polygon.
+    Whole,
+    /// It has no area, crosses itself or is far from plane: triangles may lie outside or upon each other.
+    Somehow,
+}
+
+/// Nodes that are visited in looking for corners within ears, at most: about a second. Only polygons made to do harm ask for more.
+const EFFORT: u64 = 100_000_000;
 
 fn fan(corners: &[u32], mut out: impl FnMut([u32; 3])) {
     let [first, rest @ ..] = corners else { return };
@@ -31,114 +48,287 @@ fn fan(corners: &[u32], mut out: impl FnMut([u32; 3])) {
     }
 }
 
-/// Corners seen in the plane of the polygon, counter-clockwise, and which of them are left.
-struct Ears {
-    places: Vec<[f64; 2]>,
-    left: Vec<usize>,
-    gone: Vec<bool>,
-    /// For each corner: no corner before this one lies in its triangle. It only grows while the triangle stays the same, so
-    /// that every corner is looked at once for each triangle.
-    clear: Vec<usize>,
+/// The corners in the plane of the polygon, counter-clockwise; `None` where it has no area to look along.
+fn seen_along_area(corners: Vec<Point>) -> Option<Vec<Place>> {
+    let n = corners.len();
+    // Relative to the first corner: far from the origin the products would lose their digits.
+    let near: Vec<Point> = corners.iter().map(|p| minus(*p, corners[0])).collect();
+    let area = (0..n).fold([0.0; 3], |sum, i| plus(sum, cross(near[i], near[(i + 1) % n])));
+    if !(norm(area) > 0.0 && norm(area).is_finite()) {
+        return None;
+    }
+    // Leave out the greatest component of the normal, keeping the sense of rotation.
+    let axis = (0..3).max_by(|a, b| area[*a].abs().total_cmp(&area[*b].abs()))?;
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let (u, v) = if area[axis] > 0.0 { (u, v) } else { (v, u) };
+    Some(near.iter().map(|p| [p[u] + 0.0, p[v] + 0.0]).collect())
 }
 
-/// Beyond this many corners a polygon is cut as a fan: a file full of longer ones, made to do harm, would take minutes.
-const MOST: usize = 4096;
+/// No corner turns clockwise, and all turns together go round once.
+fn convex(places: &[Place]) -> bool {
+    let n = places.len();
+    let edge = |i: usize| {
+        let (a, b) = (places[i % n], places[(i + 1) % n]);
+        [b[0] - a[0], b[1] - a[1]]
+    };
+    let whole = |i| {
+        let (e, f) = (edge(i), edge(i + 1));
+        libm::atan2(e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1])
+    };
+    let left = (0..n).all(|i| turn([places[(i + n - 1) % n], places[i], places[(i + 1) % n]]) >= 0.0);
+    // Either one turn (6.28) or two (12.57) and more.
+    left && (0..n).map(whole).sum::<f64>() < 9.0
+}
+
+type Place = [f64; 2];
+
+/// Twice the area of a triangle of places, positive when counter-clockwise.
+fn turn([a, b, c]: [Place; 3]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Corners seen in the plane of the polygon, counter-clockwise, and which of them are left.
+struct Ears {
+    places: Vec<Place>,
+    /// The corners before and after each that are left.
+    around: Vec<[u32; 2]>,
+    tree: Tree,
+    /// For each place in the tree the corners whose triangle it lies in: they are looked at again once it is gone.
+    waiting: Vec<Vec<u32>>,
+    /// Corners that may be ears.
+    open: BTreeSet<u32>,
+    /// Corners without a turn.
+    flat: BTreeSet<u32>,
+}
 
 impl Ears {
-    /// `None` where the polygon has no area to look along.
-    fn new(corners: Vec<Point>) -> Option<Ears> {
-        let n = corners.len();
-        if n > MOST {
-            return None;
-        }
-        // Relative to the first corner: far from the origin the products would lose their digits.
-        let near: Vec<Point> = corners.iter().map(|p| minus(*p, corners[0])).collect();
-        let area = (0..n).fold([0.0; 3], |sum, i| plus(sum, cross(near[i], near[(i + 1) % n])));
-        if !(norm(area) > 0.0 && norm(area).is_finite()) {
-            return None;
-        }
-        // Leave out the greatest component of the normal, keeping the sense of rotation.
-        let axis = (0..3).max_by(|a, b| area[*a].abs().total_cmp(&area[*b].abs()))?;
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let (u, v) = if area[axis] > 0.0 { (u, v) } else { (v, u) };
-        let places = near.iter().map(|p| [p[u], p[v]]).collect();
-        Some(Ears { places, left: (0..n).collect(), gone: vec![false; n], clear: vec![0; n] })
+    fn new(places: Vec<Place>) -> Ears {
+        let n = places.len() as u32;
+        let around = (0..n).map(|i| [(i + n - 1) % n, (i + 1) % n]).collect();
+        let tree = Tree::of(&places);
+        let waiting = vec![vec![]; tree.places.len()];
+        let mut ears = Ears { places, around, tree, waiting, open: BTreeSet::new(), flat: BTreeSet::new() };
+        (0..n).for_each(|i| ears.turned(i));
+        ears
     }
 
-    /// Twice the area of a triangle of places, positive when counter-clockwise.
-    fn turn(&self, a: usize, b: usize, c: usize) -> f64 {
-        let [a, b, c] = [a, b, c].map(|i| self.places[i]);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    fn triangle(&self, b: u32) -> [u32; 3] {
+        let [a, c] = self.around[b as usize];
+        [a, b, c]
     }
 
-    fn around(&self, i: usize) -> [usize; 3] {
-        let n = self.left.len();
-        [self.left[(i + n - 1) % n], self.left[i], self.left[(i + 1) % n]]
+    fn turn(&self, b: u32) -> f64 {
+        turn(self.triangle(b).map(|i| self.places[i as usize]))
     }
 
-    /// No corner turns clockwise, and all turns together go round once.
-    fn convex(&self) -> bool {
-        let n = self.left.len();
-        let edge = |i: usize| {
-            let (a, b) = (self.places[i], self.places[(i + 1) % n]);
-            [b[0] - a[0], b[1] - a[1]]
-        };
-        let whole: f64 = (0..n)
-            .map(|i| {
-                let (e, f) = (edge(i), edge((i + 1) % n));
-                (e[0] * f[1] - e[1] * f[0]).atan2(e[0] * f[0] + e[1] * f[1])
-            })
-            .sum();
-        let left = (0..n).all(|i| {
-            let [a, b, c] = self.around(i);
-            self.turn(a, b, c) >= 0.0
-        });
-        // Either one turn (6.28) or two (12.57) and more.
-        left && whole < 9.0
+    /// The triangle of a corner is new.
+    fn turned(&mut self, b: u32) {
+        let turn = self.turn(b);
+        set(&mut self.open, b, turn > 0.0);
+        set(&mut self.flat, b, turn == 0.0);
     }
 
-    /// An ear: a corner turning left whose triangle holds no other corner.
-    fn ear(&mut self, i: usize) -> bool {
-        let [a, b, c] = self.around(i);
-        let inside = |p: usize| {
-            let same = |q: usize| self.places[p] == self.places[q];
-            !(same(a) || same(b) || same(c))
-                && self.turn(a, b, p) >= 0.0
-                && self.turn(b, c, p) >= 0.0
-                && self.turn(c, a, p) >= 0.0
-        };
-        let n = self.places.len();
-        if self.turn(a, b, c) > 0.0 {
-            let first = (self.clear[b]..n).find(|&p| !self.gone[p] && inside(p));
-            self.clear[b] = first.unwrap_or(n);
-            return first.is_none();
-        }
-        false
-    }
-
-    fn cut(&mut self, mut out: impl FnMut([usize; 3])) {
-        let mut i = 0;
-        while self.left.len() > 3 {
-            let n = self.left.len();
-            // Where no corner is an ear, one that is flat does least harm, else any.
-            let next = (i..i + n).map(|k| k % n).find(|&k| self.ear(k));
-            let flat = || {
-                (0..n).find(|&k| {
-                    let [a, b, c] = self.around(k);
-                    self.turn(a, b, c) == 0.0
-                })
+    /// Cuts ear after ear, going round; where no corner is an ear, one that is flat does least harm, else any.
+    fn cut(mut self, effort: u64, mut out: impl FnMut([u32; 3])) -> Cut {
+        let mut how = Cut::Whole;
+        let mut at = 0;
+        let mut first = 0;
+        for _ in 3..self.places.len() {
+            let b = match self.ear(at, effort) {
+                Some(b) => b,
+                None => {
+                    how = Cut::Somehow;
+                    self.flat.first().copied().unwrap_or(first)
+                }
             };
-            i = next.or_else(flat).unwrap_or(0);
-            let [a, b, c] = self.around(i);
+            let [a, b, c] = self.triangle(b);
             out([a, b, c]);
-            self.left.remove(i);
-            self.gone[b] = true;
-            (self.clear[a], self.clear[c]) = (0, 0);
+            self.around[a as usize][1] = c;
+            self.around[c as usize][0] = a;
+            (self.open.remove(&b), self.flat.remove(&b));
+            first = if b == first { c } else { first };
+            at = c;
+            if let Some(place) = self.tree.leave(b) {
+                for w in std::mem::take(&mut self.waiting[place as usize]) {
+                    // Whoever waited has been cut off since, or turned and looked at, or may be an ear now.
+                    if self.around[self.around[w as usize][0] as usize][1] == w && self.turn(w) > 0.0 {
+                        self.open.insert(w);
+                    }
+                }
+            }
+            (self.turned(a), self.turned(c));
         }
-        if let [a, b, c] = self.left[..] {
-            out([a, b, c]);
+        let [a, b, c] = self.triangle(at);
+        let mut last = [a, b, c];
+        last.sort_unstable();
+        out(last);
+        how
+    }
+
+    /// The next ear from corner `at` on: a corner turning left whose triangle holds no other corner.
+    fn ear(&mut self, at: u32, effort: u64) -> Option<u32> {
+        loop {
+            let b = *self.open.range(at..).next().or_else(|| self.open.first())?;
+            let triangle = self.triangle(b).map(|i| self.places[i as usize]);
+            if self.tree.visited > effort {
+                return None;
+            }
+            match self.tree.within(triangle) {
+                None => return Some(b),
+                Some(place) => {
+                    self.open.remove(&b);
+                    self.waiting[place as usize].push(b);
+                }
+            }
         }
     }
+}
+
+fn set(of: &mut BTreeSet<u32>, b: u32, wanted: bool) {
+    if wanted {
+        of.insert(b)
+    } else {
+        of.remove(&b)
+    };
+}
+
+/// The places of the corners that are left, each once, halved along their longer side again and again.
+struct Tree {
+    places: Vec<Place>,
+    /// Corners at each place.
+    corners: Vec<u32>,
+    /// The place of each corner.
+    place_of: Vec<u32>,
+    /// Node `i` halves into `2 i` and `2 i + 1`; node 1 is all.
+    nodes: Vec<Node>,
+    visited: u64,
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    low: Place,
+    high: Place,
+    /// Places that are left.
+    left: u32,
+}
+
+/// Places that are not halved further.
+const FEW: usize = 6;
+
+impl Tree {
+    fn of(corners: &[Place]) -> Tree {
+        let by_place = |a: &u32, b: &u32| {
+            let [a, b] = [a, b].map(|i| corners[*i as usize]);
+            a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+        };
+        let mut order: Vec<u32> = (0..corners.len() as u32).collect();
+        order.sort_unstable_by(by_place);
+        let mut groups: Vec<(Place, Vec<u32>)> = vec![];
+        for i in order {
+            match groups.last_mut().filter(|g| g.0 == corners[i as usize]) {
+                Some(group) => group.1.push(i),
+                None => groups.push((corners[i as usize], vec![i])),
+            }
+        }
+        let empty = Node { low: [0.0; 2], high: [0.0; 2], left: 0 };
+        let mut nodes = vec![empty; 4 * groups.len().div_ceil(FEW).next_power_of_two()];
+        halve(&mut groups, 1, &mut nodes);
+        let mut place_of = vec![0; corners.len()];
+        for (place, (_, members)) in (0..).zip(&groups) {
+            members.iter().for_each(|i| place_of[*i as usize] = place);
+        }
+        let counts = groups.iter().map(|g| g.1.len() as u32).collect();
+        let places = groups.into_iter().map(|g| g.0).collect();
+        Tree { places, corners: counts, place_of, nodes, visited: 0 }
+    }
+
+    /// Takes a corner away; its place, if that was the last corner there.
+    fn leave(&mut self, corner: u32) -> Option<u32> {
+        let place = self.place_of[corner as usize];
+        let corners = &mut self.corners[place as usize];
+        *corners -= 1;
+        if *corners > 0 {
+            return None;
+        }
+        let (mut node, mut from, mut to) = (1, 0, self.places.len());
+        loop {
+            self.nodes[node].left -= 1;
+            if to - from <= FEW {
+                return Some(place);
+            }
+            let middle = (from + to) / 2;
+            if (place as usize) < middle {
+                (node, to) = (2 * node, middle);
+            } else {
+                (node, from) = (2 * node + 1, middle);
+            }
+        }
+    }
+
+    /// Some place inside the triangle or on its rim that is not one of its corners.
+    fn within(&mut self, triangle: [Place; 3]) -> Option<u32> {
+        let mut open = vec![(1, 0, self.places.len())];
+        while let Some((node, from, to)) = open.pop() {
+            self.visited += 1;
+            if self.nodes[node].left == 0 || apart(&triangle, &self.nodes[node]) {
+                continue;
+            }
+            if to - from > FEW {
+                let middle = (from + to) / 2;
+                open.extend([(2 * node, from, middle), (2 * node + 1, middle, to)]);
+                continue;
+            }
+            let inside = |i: &usize| {
+                let p = self.places[*i];
+                let [a, b, c] = triangle;
+                self.corners[*i] > 0
+                    && !triangle.contains(&p)
+                    && turn([a, b, p]) >= 0.0
+                    && turn([b, c, p]) >= 0.0
+                    && turn([c, a, p]) >= 0.0
+            };
+            if let Some(i) = (from..to).find(inside) {
+                return Some(i as u32);
+            }
+        }
+        None
+    }
+}
+
+/// Halves places along the longer side of their box and sets the nodes.
+fn halve(groups: &mut [(Place, Vec<u32>)], node: usize, nodes: &mut [Node]) {
+    let bound = |k: usize, f: fn(f64, f64) -> f64, start: f64| groups.iter().map(|g| g.0[k]).fold(start, f);
+    let low = [0, 1].map(|k| bound(k, f64::min, f64::INFINITY));
+    let high = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY));
+    nodes[node] = Node { low, high, left: groups.len() as u32 };
+    if groups.len() > FEW {
+        let k = usize::from(high[1] - low[1] > high[0] - low[0]);
+        let middle = groups.len() / 2;
+        groups.select_nth_unstable_by(middle, |a, b| a.0[k].total_cmp(&b.0[k]));
+        let (first, second) = groups.split_at_mut(middle);
+        halve(first, 2 * node, nodes);
+        halve(second, 2 * node + 1, nodes);
+    }
+}
+
+/// Whether the box lies wholly outside one side of the triangle or of its box, so that it holds no place of the triangle.
+fn apart(triangle: &[Place; 3], node: &Node) -> bool {
+    let beside = |k: usize| {
+        triangle.iter().all(|p| p[k] < node.low[k]) || triangle.iter().all(|p| p[k] > node.high[k])
+    };
+    let corners = [node.low, [node.low[0], node.high[1]], node.high, [node.high[0], node.low[1]]];
+    let beyond = |i: usize| {
+        let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
+        // What the same formula says of the places in the box is not below its least at a corner but for rounding.
+        let slack = 1e-14 * ((b[0] - a[0]).abs() * span(node, a, 1) + (b[1] - a[1]).abs() * span(node, a, 0));
+        corners.iter().all(|p| turn([a, b, *p]) < -slack)
+    };
+    beside(0) || beside(1) || (0..3).any(beyond)
+}
+
+/// Greatest distance along axis `k` of the box from a place.
+fn span(node: &Node, from: Place, k: usize) -> f64 {
+    (node.low[k] - from[k]).abs().max((node.high[k] - from[k]).abs())
 }
 
 /// Area of a triangle; used to compare cuts in tests.
@@ -197,53 +387,97 @@ mod tests {
         check(&star, 15.0 * (std::f64::consts::PI / 5.0).sin());
     }
 
-    /// The triangles of [`Ears::cut`], every corner looked at anew for every ear.
-    fn plain(places: &[[f64; 2]]) -> Vec<[usize; 3]> {
+    /// The triangles of [`Ears::cut`], found with nothing remembered.
+    fn plain(places: &[Place]) -> Vec<[u32; 3]> {
         let (mut left, mut all, mut i) = ((0..places.len()).collect::<Vec<_>>(), vec![], 0);
-        while left.len() > 2 {
-            let now = |left: &[usize]| Ears {
-                places: places.to_vec(),
-                left: left.to_vec(),
-                gone: (0..places.len()).map(|p| !left.contains(&p)).collect(),
-                clear: vec![0; places.len()],
-            };
+        while left.len() > 3 {
             let n = left.len();
-            let ears = &mut now(&left);
-            let next = (i..i + n).map(|k| k % n).find(|&k| n > 3 && ears.ear(k));
-            let turn = |k: usize| {
-                let [a, b, c] = ears.around(k);
-                ears.turn(a, b, c)
+            let triangle = |k: usize| [left[(k + n - 1) % n], left[k], left[(k + 1) % n]];
+            let turns = |k: usize| turn(triangle(k).map(|i| places[i]));
+            let ear = |k: usize| {
+                let [a, b, c] = triangle(k).map(|i| places[i]);
+                let inside = |p: Place| {
+                    ![a, b, c].contains(&p)
+                        && [[a, b, p], [b, c, p], [c, a, p]].iter().all(|t| turn(*t) >= 0.0)
+                };
+                turns(k) > 0.0 && !left.iter().any(|i| inside(places[*i]))
             };
-            i = if n == 3 { 1 } else { next.or_else(|| (0..n).find(|&k| turn(k) == 0.0)).unwrap_or(0) };
-            all.push(ears.around(i));
+            let next = (i..i + n).map(|k| k % n).find(|k| ear(*k));
+            i = next.or_else(|| (0..n).find(|k| turns(*k) == 0.0)).unwrap_or(0);
+            all.push(triangle(i).map(|i| i as u32));
             left.remove(i);
         }
+        all.push([0, 1, 2].map(|k| left[k] as u32));
         all
     }
 
     #[test]
     fn what_is_remembered_changes_nothing() {
         let random = &mut trueness_geom::num::random::Random::new(5);
-        for case in 0..60 {
-            let n = 4 + random.below(40) as usize;
+        for case in 0..300 {
+            let n = 4 + random.below(60) as usize;
             let place = |k: usize| {
                 let (r, angle) = (1.0 + random.unit(), k as f64 * std::f64::consts::TAU / n as f64);
                 match case % 3 {
-                    0 => [r * angle.cos(), r * angle.sin()],
+                    0 => [r * libm::cos(angle), r * libm::sin(angle)],
                     1 => [random.unit(), random.unit()],
                     _ => [random.below(5) as f64, random.below(5) as f64],
                 }
             };
-            let places: Vec<[f64; 2]> = (0..n).map(place).collect();
-            let mut ears = Ears {
-                places: places.clone(),
-                left: (0..n).collect(),
-                gone: vec![false; n],
-                clear: vec![0; n],
-            };
+            let places: Vec<Place> = (0..n).map(place).collect();
             let mut got = vec![];
-            ears.cut(|t| got.push(t));
+            let how = Ears::new(places.clone()).cut(EFFORT, |t| got.push(t));
             assert_eq!(got, plain(&places), "{case}");
+            assert!(how == Cut::Whole || case % 3 > 0, "{case}");
+        }
+    }
+
+    /// Long outlines are cut as exactly as short ones: combs, slit rings, stars and spirals of many corners.
+    #[test]
+    fn long_outlines_are_cut_inside() {
+        const N: usize = 20_000;
+        let around = |i: usize, turns: f64, r: f64| {
+            let angle = turns * std::f64::consts::TAU * i as f64 / N as f64;
+            [r * libm::cos(angle), r * libm::sin(angle)]
+        };
+        let comb = (0..N).map(|i| [i as f64, if i % 2 == 0 { 0.0 } else { 1e4 }]);
+        let comb = comb.rev().chain([[0.0, -1.0], [N as f64, -1.0]]).collect::<Vec<_>>();
+        let ring =
+            (0..=N).map(|i| around(i, 0.999, 50.0)).chain((0..=N).rev().map(|i| around(i, 0.999, 40.0)));
+        let gear = (0..N).map(|i| around(i, 1.0, if i / 2 % 2 == 0 { 50.0 } else { 45.0 }));
+        let spiral = (0..=N).map(|i| around(i, 30.0, 10.0 + 90.0 * i as f64 / N as f64));
+        let spiral = spiral.chain((0..=N).rev().map(|i| around(i, 30.0, 9.0 + 90.0 * i as f64 / N as f64)));
+        for (name, outline) in
+            [("comb", comb), ("ring", ring.collect()), ("gear", gear.collect()), ("spiral", spiral.collect())]
+        {
+            let n = outline.len();
+            let positions: Vec<Point> = outline.iter().map(|p| [p[0], p[1], 0.0]).collect();
+            let corners: Vec<u32> = (0..n as u32).collect();
+            let mut triangles = vec![];
+            assert_eq!(triangulate(&positions, &corners, |t| triangles.push(t)), Cut::Whole, "{name}");
+            let shoelace: f64 = (0..n).map(|i| turn([[0.0; 2], outline[i], outline[(i + 1) % n]])).sum();
+            let areas = triangles.iter().map(|t| 2.0 * area(&positions, *t)[2]);
+            assert!(areas.clone().all(|a| a >= 0.0), "{name}");
+            assert!((areas.sum::<f64>() / shoelace - 1.0).abs() < 1e-9, "{name}");
+        }
+    }
+
+    /// Outlines that cross themselves everywhere take no longer than the bound, and are named.
+    #[test]
+    fn crossing_outlines_are_cut_somehow() {
+        let star = |i: u32| {
+            let angle = std::f64::consts::TAU * f64::from(i) * 10_000.0 / 20_001.0;
+            [libm::cos(angle), libm::sin(angle), 0.0]
+        };
+        let random = &mut trueness_geom::num::random::Random::new(5);
+        let stars: Vec<Point> = (0..20_001).map(star).collect();
+        let soup: Vec<Point> = (0..20_000).map(|_| [random.unit(), random.unit(), 0.0]).collect();
+        let flower: Vec<Point> = (0..20_000).map(|i| if i % 2 == 0 { [0.0; 3] } else { star(i) }).collect();
+        for positions in [stars, soup, flower] {
+            let corners: Vec<u32> = (0..positions.len() as u32).collect();
+            let mut n = 0;
+            assert_eq!(triangulate(&positions, &corners, |_| n += 1), Cut::Somehow);
+            assert_eq!(n, positions.len() - 2);
         }
     }
 

@@ -33,6 +33,11 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Faces that have no area, cross themselves or are far from plane were cut into triangles that do not make up the face.
+    CutSomehow {
+        /// How many.
+        count: u64,
+    },
     /// Faces of fewer than three vertices were left out.
     Slight {
         /// How many.
@@ -102,6 +107,11 @@ impl fmt::Display for Warning {
             Warning::Polygons { count } => {
                 write!(f, "{count} face(s) of more than three vertices cut into triangles")
             }
+            Warning::CutSomehow { count } => write!(
+                f,
+                "{count} of them cross themselves, are far from plane or have no area: their triangles may lie outside of them \
+                 or upon each other"
+            ),
             Warning::Slight { count } => write!(f, "{count} face(s) of fewer than three vertices left out"),
             Warning::Joined { before, after } => {
                 write!(f, "{before} vertices at {after} places: vertices at the same place were joined")

@@ -134,11 +134,11 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
     let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
-    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
         args.report.write(Answer::Fit(&document), &view.objects(), &view.marks, common.progress)?;
     }
+    args.document.write(&document)?;
     args.document.table(|| table(&document))?;
     Ok(Outcome::Conforming)
 }

@@ -1,8 +1,10 @@
 //! Places near something, without looking at all of them: a balanced tree of boxes over points.
 
-use crate::space::{Aabb, Point};
+use crate::space::{Aabb, Point, norm};
+use crate::topology::union::Sets;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 /// Points of a leaf, at most.
 const LEAF: usize = 8;
@@ -44,6 +46,91 @@ impl Near {
             stack.push((2 * node + 1, range.start..middle));
         }
     }
+}
+
+/// What to do with the points in a box.
+pub(crate) enum Look {
+    /// None of them counts.
+    Past,
+    /// Look at them one by one.
+    Into,
+    /// Any of them will do.
+    Any,
+}
+
+impl Near {
+    /// Hands points to `take`, with the word that it need not look at all of them: it says when it has had enough.
+    pub(crate) fn look(
+        &self,
+        look: impl Fn(usize, &Aabb) -> Look,
+        mut take: impl FnMut(&Point, u32) -> bool,
+    ) {
+        let mut stack = vec![(0, 0..self.points.len())];
+        while let Some((node, range)) = stack.pop() {
+            if range.is_empty() {
+                continue;
+            }
+            match look(node, &self.boxes[node]) {
+                Look::Past => {}
+                Look::Any => {
+                    self.points[range].iter().find(|(p, number)| take(p, *number));
+                }
+                Look::Into if 2 * node + 1 >= self.boxes.len() => {
+                    self.points[range].iter().for_each(|(p, number)| {
+                        take(p, *number);
+                    });
+                }
+                Look::Into => {
+                    let middle = range.start + range.len() / 2;
+                    stack.push((2 * node + 2, middle..range.end));
+                    stack.push((2 * node + 1, range.start..middle));
+                }
+            }
+        }
+    }
+
+    /// The nodes whose points are no farther than `gap` from one another and hang together by `join`, which says whether it
+    /// joins two points. A node that is left out may hang together all the same.
+    pub(crate) fn clusters(&self, gap: f64, join: &impl Fn(u32, u32) -> bool) -> Vec<bool> {
+        let mut clusters = vec![false; self.boxes.len()];
+        self.cluster((0, 0..self.points.len()), gap, join, &mut clusters);
+        clusters
+    }
+
+    fn cluster(
+        &self,
+        (node, range): (usize, Range<usize>),
+        gap: f64,
+        join: &impl Fn(u32, u32) -> bool,
+        clusters: &mut [bool],
+    ) {
+        let points = &self.points[range.clone()];
+        let small = || !points.is_empty() && self.boxes[node].diagonal() * (1.0 + 1e-12) <= gap;
+        if 2 * node + 1 >= self.boxes.len() {
+            let sets = Sets::new(points.len());
+            let pairs = (0..points.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+            if small() {
+                for (i, j) in pairs.filter(|(i, j)| join(points[*i].1, points[*j].1)) {
+                    sets.join(i as u32, j as u32);
+                }
+                clusters[node] = (0..points.len() as u32).all(|i| sets.root(i) == sets.root(0));
+            }
+            return;
+        }
+        let middle = range.start + range.len() / 2;
+        self.cluster((2 * node + 1, range.start..middle), gap, join, clusters);
+        self.cluster((2 * node + 2, middle..range.end), gap, join, clusters);
+        let (low, high) = (&self.points[range.start..middle], &self.points[middle..range.end]);
+        clusters[node] = clusters[2 * node + 1]
+            && clusters[2 * node + 2]
+            && small()
+            && low.iter().any(|a| high.iter().any(|b| join(a.1, b.1)));
+    }
+}
+
+/// Distance from `at` to the farthest place of a box.
+pub(crate) fn farthest(at: Point, bounds: &Aabb) -> f64 {
+    norm([0, 1, 2].map(|k| (at[k] - bounds.min[k]).abs().max((bounds.max[k] - at[k]).abs())))
 }
 
 impl Near {
@@ -170,6 +257,35 @@ mod tests {
                 let want: Vec<u32> = points.iter().filter(|(p, _)| point(p)).map(|(_, i)| *i).collect();
                 assert_eq!(got, want);
             }
+        }
+    }
+
+    /// However many points lie together, each needs to look at one of them only.
+    #[test]
+    fn of_a_crowd_one_will_do() {
+        let random = &mut Random::new(5);
+        for n in [10, 1000, 4000] {
+            let place = |random: &mut Random| std::array::from_fn(|_| 0.1 * random.unit());
+            let points: Vec<(Point, u32)> = (0..n).map(|i| (place(random), i)).collect();
+            let near = Near::new(points.clone());
+            let joined = std::cell::Cell::new(0);
+            let clusters = near.clusters(1.0, &|a, b| {
+                joined.set(joined.get() + 1);
+                a / 3 != b / 3
+            });
+            assert!(clusters[0] && joined.get() < 10 * n, "{}", joined.get());
+            let mut looked = 0;
+            for (p, v) in &points {
+                let look = |node: usize, b: &Aabb| match clusters[node] && farthest(*p, b) <= 1.0 {
+                    true => Look::Any,
+                    false => Look::Into,
+                };
+                near.look(look, |_, w| {
+                    looked += 1;
+                    w / 3 != v / 3
+                });
+            }
+            assert!(looked <= 4 * n, "{looked}");
         }
     }
 

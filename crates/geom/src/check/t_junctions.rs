@@ -1,6 +1,6 @@
 //! Vertices that lie on somebody else's edge.
 
-use super::near::segment_reaches;
+use super::near::{farthest, segment_reaches};
 use super::{Found, Inspected, Kind, Severity};
 use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
@@ -21,7 +21,11 @@ pub(super) const KIND: Kind = Kind {
             let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
             let mut found = vec![];
             near.visit(
-                |bounds| segment_reaches(a, b, m.gap, bounds),
+                // What is that near to an end is none: very many vertices may be.
+                |bounds| {
+                    segment_reaches(a, b, m.gap, bounds)
+                        && [a, b].iter().all(|end| farthest(*end, bounds) * (1.0 + 1e-12) > m.gap)
+                },
                 |p, vertex| {
                     let distance = offset(*p, a, b, m.gap).filter(|_| !e.vertices.contains(&vertex));
                     found.extend(distance.map(|d| Junction {

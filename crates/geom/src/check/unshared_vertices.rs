@@ -1,5 +1,6 @@
 //! Vertices that were likely meant to be one.
 
+use super::near::{Look, farthest};
 use super::{Kind, Severity};
 use crate::space::{Aabb, minus, norm};
 use crate::topology::union::Sets;
@@ -15,19 +16,28 @@ pub(super) const KIND: Kind = Kind {
         let near = m.free_edges.near(m.mesh);
         let vertices = m.free_edges.vertices();
         let sets = Sets::new(vertices.len());
-        (0..vertices.len() as u32).into_par_iter().for_each(|i| {
+        let place = |v: u32| vertices.partition_point(|x| *x < v) as u32;
+        let join = |v: u32, w: u32| {
+            let free = v != w && m.topology.facets_at_edge(m.mesh, [v, w]).is_empty();
+            if free {
+                sets.join(place(v), place(w));
+            }
+            free
+        };
+        // Of very many vertices in one place, one speaks for all.
+        let clusters = near.clusters(m.gap, &join);
+        vertices.par_iter().for_each(|&v| {
             if m.progress.cancelled() {
                 return;
             }
-            let v = vertices[i as usize];
             let at = m.mesh.positions[v as usize];
             let reaches = |b: &Aabb| (0..3).all(|k| at[k] >= b.min[k] - m.gap && at[k] <= b.max[k] + m.gap);
-            near.visit(reaches, |p, other| {
-                let close = other > v && norm(minus(*p, at)) <= m.gap;
-                if close && m.topology.facets_at_edge(m.mesh, [v, other]).is_empty() {
-                    sets.join(i, vertices.partition_point(|x| *x < other) as u32);
-                }
-            });
+            let look = |node: usize, b: &Aabb| match (reaches(b), clusters[node]) {
+                (false, _) => Look::Past,
+                (true, true) if farthest(at, b) * (1.0 + 1e-12) <= m.gap => Look::Any,
+                _ => Look::Into,
+            };
+            near.look(look, |p, other| norm(minus(*p, at)) <= m.gap && join(v, other));
         });
         let mut members: Vec<(u32, u32)> = (0..vertices.len() as u32).map(|i| (sets.root(i), i)).collect();
         members.sort_unstable();
@@ -41,3 +51,55 @@ pub(super) const KIND: Kind = Kind {
         })
     },
 };
+
+#[cfg(test)]
+mod tests {
+    use crate::check::{Options, check};
+    use crate::mesh::Mesh;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+    use crate::space::{Point, minus, norm};
+    use crate::topology::union::Sets;
+
+    /// Groups of vertices by looking at all pairs; in the mesh all lie on the boundary.
+    fn plain(mesh: &Mesh, gap: f64) -> Vec<Vec<u32>> {
+        let n = mesh.positions.len() as u32;
+        let sets = Sets::new(n as usize);
+        let at = |v: u32| mesh.positions[v as usize];
+        let edge = |a: u32, b: u32| mesh.faces.iter().any(|f| f.contains(&a) && f.contains(&b));
+        for (a, b) in (0..n).flat_map(|a| (0..a).map(move |b| (a, b))) {
+            if norm(minus(at(a), at(b))) <= gap && !edge(a, b) {
+                sets.join(a, b);
+            }
+        }
+        let mut groups = std::collections::BTreeMap::<u32, Vec<u32>>::new();
+        (0..n).for_each(|v| groups.entry(sets.root(v)).or_default().push(v));
+        groups.into_values().filter(|g| g.len() > 1).collect()
+    }
+
+    #[test]
+    fn groups_are_those_of_all_pairs() {
+        let random = &mut Random::new(8);
+        for case in 0..60 {
+            // Facets about as large as the gap, smaller, and larger, in crowds.
+            let size = [0.02, 0.2, 2.0][case % 3];
+            let mut mesh = Mesh::default();
+            for _ in 0..5 + case {
+                let n = mesh.positions.len() as u32;
+                let middle: Point = std::array::from_fn(|_| f64::from(random.below(2) as u32));
+                let place = |random: &mut Random| middle.map(|x| x + size * (random.unit() - 0.5));
+                mesh.positions.extend((0..3).map(|_| place(random)));
+                mesh.faces.push([n, n + 1, n + 2]);
+            }
+            let gap = 0.1;
+            let options = Options { gap: Some(gap), ..Options::default() };
+            let report = check(&mesh, None, &options, &Silent).unwrap();
+            let mut found: Vec<Vec<u32>> =
+                report.found("unshared_vertices").unwrap().items.iter().map(|f| f.vertices.clone()).collect();
+            found.sort();
+            let mut expected = plain(&mesh, gap);
+            expected.sort();
+            assert_eq!(found, expected, "{case}");
+        }
+    }
+}

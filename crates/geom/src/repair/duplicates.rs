@@ -7,6 +7,7 @@ use super::edges::Edges;
 use super::work::Work;
 use super::{RepairError, Step};
 use crate::check::finding;
+use std::collections::BTreeMap;
 
 pub(super) const STEP: Step = Step {
     name: "duplicates",
@@ -20,13 +21,13 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         return Ok(());
     }
     let edges = Edges::of(work.mesh(), &known.topology);
-    let mut removed = vec![];
+    let (mut removed, mut directions) = (vec![], Directions::default());
     let mut pairs = known.topology.duplicate_facets.clone();
     pairs.sort_unstable();
     for group in pairs.chunk_by(|a, b| a[0] == b[0]) {
         work.go_on()?;
         let facets: Vec<u32> = [group[0][0]].into_iter().chain(group.iter().map(|d| d[1])).collect();
-        let kept = wanted(work, &edges, &facets);
+        let kept = wanted(work, &edges, &mut directions, &facets);
         let gone = facets.iter().copied().filter(|f| Some(*f) != kept);
         let before = removed.len();
         removed.extend(gone);
@@ -37,22 +38,37 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// Which of the facets stays.
-fn wanted(work: &Work, edges: &Edges, facets: &[u32]) -> Option<u32> {
-    let [a, b, c] = work.mesh().faces[facets[0] as usize];
-    let mut votes = 0;
-    let mut neighbours = 0;
-    for (from, to) in [(a, b), (b, c), (c, a)] {
-        let others = edges.at(from, to).iter().filter(|s| !facets.contains(&s.facet));
-        for side in others {
-            neighbours += 1;
-            votes += if side.up == (from < to) { -1 } else { 1 };
-        }
+/// For edges asked about, how many facets run up them and how many down: at one edge there may be very many groups.
+#[derive(Default)]
+struct Directions(BTreeMap<[u32; 2], [isize; 2]>);
+
+impl Directions {
+    /// Facets that run from `from` to `to`, and those that run the other way.
+    fn at(&mut self, edges: &Edges, from: u32, to: u32) -> [isize; 2] {
+        let count = || {
+            let up = edges.at(from, to).iter().filter(|s| s.up).count();
+            [up as isize, (edges.at(from, to).len() - up) as isize]
+        };
+        let [up, down] = *self.0.entry([from.min(to), from.max(to)]).or_insert_with(count);
+        if from < to { [up, down] } else { [down, up] }
     }
+}
+
+/// Which of the facets stays.
+fn wanted(work: &Work, edges: &Edges, directions: &mut Directions, facets: &[u32]) -> Option<u32> {
+    let [a, b, c] = work.mesh().faces[facets[0] as usize];
     let turned_as_first = |f: u32| {
         let face = work.mesh().faces[f as usize];
         (0..3).any(|k| face[k] == a && face[(k + 1) % 3] == b)
     };
+    let own = facets.iter().filter(|f| turned_as_first(**f)).count() as isize;
+    let (mut votes, mut neighbours) = (0, 0);
+    for (from, to) in [(a, b), (b, c), (c, a)] {
+        let [along, against] = directions.at(edges, from, to);
+        let others = [along - own, against - (facets.len() as isize - own)];
+        neighbours += others[0] + others[1];
+        votes += others[1] - others[0];
+    }
     match votes {
         // The rest needs none of them, or does not know.
         0 if neighbours > 0 && neighbours % 2 == 0 => None,

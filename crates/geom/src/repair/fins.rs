@@ -14,7 +14,7 @@ pub(super) const STEP: Step = Step {
     run,
 };
 
-/// A sheet with free edges is a fin up to this share of the area of its shell.
+/// Sheets with free edges are fins as long as all of them together have at most this share of the area of their shell.
 const FIN: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
@@ -57,20 +57,21 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
             }
         }
     }
-    let shell_area =
-        |s: &Sheet| known.properties.shell_areas[known.topology.shell_of[s.facets[0] as usize] as usize];
+    let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
+    let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| FIN * area).collect();
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
-    let small = |s: &Sheet| !s.has_rim || 0.5 * s.area <= FIN * shell_area(s);
+    let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let mut candidates: Vec<u32> = (0..sheets.len() as u32)
         .filter(|s| !sheets[*s as usize].edges.is_empty())
-        .filter(|s| encloses_nothing(&sheets[*s as usize]) && small(&sheets[*s as usize]))
+        .filter(|s| encloses_nothing(&sheets[*s as usize]) && small(&sheets[*s as usize], &may_go))
         .collect();
     candidates.sort_by(|a, b| sheets[*a as usize].area.total_cmp(&sheets[*b as usize].area));
     let mut removed = vec![];
     for s in candidates {
         let sheet = &sheets[s as usize];
         let not_needed = |e: &usize| meetings[*e].iter().filter(|other| **other != s).count() >= 2;
-        if sheet.edges.iter().all(not_needed) {
+        if small(sheet, &may_go) && sheet.edges.iter().all(not_needed) {
+            may_go[shell(sheet)] -= if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
             sheet.edges.iter().for_each(|e| meetings[*e].retain(|other| *other != s));
             let place = work.middle(sheet.facets[0]);
             work.log(STEP.name, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);

@@ -118,6 +118,7 @@ fn apart(
                 corners.filter_map(|v| v.checked_sub(first)).map(|i| i as usize).collect()
             }
         };
+        bad.extend(as_one(work, &lost, first as usize));
         bad.retain(|&i| asked[i]);
         bad.sort_unstable();
         bad.dedup();
@@ -143,6 +144,22 @@ fn apart(
         }
     }
 }
+
+/// Fans whose new vertex lies so near to that of another one from the same place, or to that place, that the two might be meant
+/// as one. Of such fans the first may stay where it is.
+fn as_one(work: &Work, lost: &[(u32, Vec<u32>)], first: usize) -> Vec<usize> {
+    let new = |i: usize| work.mesh().positions[first + i];
+    let near = |a: Point, b: Point| norm(minus(a, b)) <= work.gap;
+    let crowded = |&i: &usize| {
+        let v = lost[i].0;
+        let earlier = (0..i).rev().take_while(|j| lost[*j].0 == v);
+        near(new(i), work.at(v)) || earlier.take(MANY).any(|j| near(new(i), new(j)))
+    };
+    (0..lost.len()).filter(crowded).collect()
+}
+
+/// Fans at one vertex that are compared with each other.
+const MANY: usize = 64;
 
 /// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
 fn set_off(work: &mut Work, lost: &[(u32, Vec<u32>)], again: &[([u32; 2], [u32; 2])], distances: &[f64]) {

@@ -130,12 +130,13 @@ fn spec(
     }
     let parameter = written.parameter.as_ref().map_or(TextureWord::Sa, |p| p.value);
     let unit = kind.unit(parameter);
+    let toleranced = toleranced(checker, &written.feature, features)?;
     let made = Spec {
         id: written.id.value.clone(),
         span: written.id.span.clone(),
         kind,
-        features: toleranced(checker, &written.feature, features)?,
-        datums: datums(checker, written, features)?,
+        datums: datums(checker, written, &toleranced, features)?,
+        features: toleranced,
         datum_rule: match written.datum_method.as_ref().map(|m| m.value) {
             Some(DatumMethodWord::MinimumZone) => datum::Rule::MinimumZone,
             _ => datum::Rule::Gaussian,
@@ -221,12 +222,19 @@ fn toleranced(checker: &Checker, at: &At<OneOrTwo>, features: &[Feature]) -> Res
     if names.is_empty() || names.len() > 2 {
         return checker.wrong(&at.span, "give one feature, or two of a size");
     }
+    if let [a, b] = names
+        && a == b
+    {
+        return checker
+            .wrong(&at.span, format!("\"{a}\" is named twice; a feature is no distance from itself"));
+    }
     names.iter().map(|name| named(checker, name, &at.span, features)).collect()
 }
 
 fn datums(
     checker: &Checker,
     written: &CharacteristicText,
+    own: &[usize],
     features: &[Feature],
 ) -> Result<Vec<usize>, PlanError> {
     let Some(list) = &written.datums else { return Ok(vec![]) };
@@ -243,6 +251,12 @@ fn datums(
         let class = features[number].class;
         if matches!(class, Class::Circle | Class::Torus | Class::Surface) {
             return checker.wrong(&name.span, format!("a {} cannot be a datum here", class.word()));
+        }
+        if own.contains(&number) {
+            return checker.wrong(
+                &name.span,
+                format!("\"{}\" is the toleranced feature; it cannot be its own datum", name.value),
+            );
         }
         if numbers.contains(&number) {
             return checker.wrong(&name.span, format!("datum \"{}\" is named twice", name.value));

@@ -273,6 +273,9 @@ pub enum ReportError {
 /// Bytes that an object's entry in the manifest may take, names apart.
 const MANIFEST_ENTRY: usize = 4000;
 
+/// Tenths of the budget that objects are packed for at first; the page itself takes the rest.
+const FIRST: usize = 9;
+
 /// What [`write()`] tells its progress in all: each object's places twice, once drawn and once packed.
 pub fn work(objects: &[ViewObject]) -> u64 {
     2 * objects.iter().map(|o| o.places().len() as u64).sum::<u64>()
@@ -304,12 +307,13 @@ pub fn write(
         let view = picture::FirstView::of(input, &input.result.subject().picks());
         picture::png(input, &view, progress).map(|png| page::Picture { png: payload::base64(&png), view })
     };
-    let (picture, full) = rayon::join(draw, || payload::pack(input.objects, &purpose));
+    let (picture, first) =
+        rayon::join(draw, || payload::pack(input.objects, &purpose, FIRST * input.options.budget / 10));
     let picture = picture?;
     // What the page takes without its 3D part is left of the budget first.
     let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
     let room = input.options.budget.saturating_sub(bare);
-    let payload = full?.within(room, input.objects, input.marks, &purpose)?;
+    let payload = first?.within(room, input.objects, input.marks, &purpose)?;
     let html = page::page(input, &payload, &picture)?;
     if progress.cancelled() {
         return Err(Cancelled.into());

@@ -96,11 +96,11 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     hash?;
     let left_out = source.nonfinite_facets;
     let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
-    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh);
         args.report.write(Answer::Check(&document), &view.objects(), &view.marks, common.progress)?;
     }
+    args.document.write(&document)?;
     args.document.table(|| table::text(&document, &check::KINDS))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
 }

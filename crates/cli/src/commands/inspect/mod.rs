@@ -127,10 +127,10 @@ fn inspect(
         stop => anyhow!("{}: {stop}", plan.path.display()),
     })?;
     let document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
-    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &found);
         args.report.write(Answer::Inspect(&document), &view.objects(), &view.marks, common.progress)?;
     }
+    args.document.write(&document)?;
     Ok(document)
 }

@@ -156,12 +156,12 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let left_out = source.nonfinite_facets;
     let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
     let document = document(&repaired, &options, around);
-    file.finish()?;
-    args.document.write(&document)?;
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
         args.report.write(Answer::Repair(&document), &view.objects(), &view.marks, common.progress)?;
     }
+    file.finish()?;
+    args.document.write(&document)?;
     args.document.table(|| table::text(&document))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
 }

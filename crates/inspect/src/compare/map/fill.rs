@@ -1,40 +1,54 @@
 //! Values for vertices beside those that have one.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{minus, norm};
 
 /// Gives each vertex without a value (NaN) that of the vertex nearest along the edges that has one, if the way is no longer than
 /// `reach`; of several at the same distance, the one with the lower number. Values never go over where edges are not shared.
 ///
-/// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959. Cost: `n log n` in the vertices that get a value.
+/// Ways are shortened round by round (R. Bellman, "On a routing problem", 1958): with a reach of a few edges there are few rounds.
 pub fn fill(mesh: &Mesh, values: &mut [f64], reach: f64) {
     let (starts, neighbours) = around_empty(mesh, values);
     let length = |a: u32, b: u32| norm(minus(mesh.positions[a as usize], mesh.positions[b as usize]));
     let list = |v: u32| &neighbours[starts[v as usize] as usize..starts[v as usize + 1] as usize];
-    let mut open = BinaryHeap::new();
-    let offer = |open: &mut BinaryHeap<_>, way: f64, from: u32, to: u32| {
-        let way = way + length(from, to);
-        if way <= reach {
-            // Ways are not below zero: their bits have their order.
-            open.push(Reverse((way.to_bits(), from, to)));
+    let empty = |v: &u32| values[*v as usize].is_nan();
+    // The shortest way so far to a vertex with a value, and that vertex.
+    let mut nearest = vec![(f64::INFINITY, u32::MAX); values.len()];
+    let mut turn: Vec<u32> = (0..values.len() as u32).filter(empty).collect();
+    for &v in &turn {
+        let known = list(v).iter().filter(|n| !empty(n)).map(|&n| (length(n, v), n));
+        nearest[v as usize] = known.filter(|(way, _)| *way <= reach).fold(nearest[v as usize], nearer);
+    }
+    turn.retain(|v| nearest[*v as usize].1 != u32::MAX);
+    let mut waits = vec![false; values.len()];
+    while !turn.is_empty() {
+        let mut next = vec![];
+        for &v in &turn {
+            waits[v as usize] = false;
+            let (way, source) = nearest[v as usize];
+            for &n in list(v).iter().filter(|n| empty(n)) {
+                let offer = (way + length(v, n), source);
+                let best = nearer(nearest[n as usize], offer);
+                if offer.0 <= reach && best != nearest[n as usize] {
+                    nearest[n as usize] = best;
+                    if !std::mem::replace(&mut waits[n as usize], true) {
+                        next.push(n);
+                    }
+                }
+            }
         }
-    };
-    for v in (0..values.len() as u32).filter(|v| values[*v as usize].is_nan()) {
-        for &n in list(v).iter().filter(|n| !values[**n as usize].is_nan()) {
-            offer(&mut open, 0.0, n, v);
+        turn = next;
+    }
+    for (v, (_, source)) in nearest.into_iter().enumerate() {
+        if source != u32::MAX {
+            values[v] = values[source as usize];
         }
     }
-    while let Some(Reverse((way, from, to))) = open.pop() {
-        if !values[to as usize].is_nan() {
-            continue;
-        }
-        values[to as usize] = values[from as usize];
-        for &n in list(to).iter().filter(|n| values[**n as usize].is_nan()) {
-            offer(&mut open, f64::from_bits(way), to, n);
-        }
-    }
+}
+
+/// The shorter way, of equal ones that to the lower number.
+fn nearer(a: (f64, u32), b: (f64, u32)) -> (f64, u32) {
+    if b.0 < a.0 || b.0 == a.0 && b.1 < a.1 { b } else { a }
 }
 
 /// For each vertex without a value the vertices that it shares an edge with: where each list starts, and the lists.

@@ -3,7 +3,8 @@
 use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
 use super::fill::fill;
 use super::spacing::spacing;
-use super::{Flagged, Kept, PointMap, creases, place, worse};
+use super::{Flagged, PointMap, creases, place, worse};
+use rayon::prelude::*;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, dot, minus, norm};
@@ -115,6 +116,10 @@ impl<'a> Drawing<'a> {
 
     /// Cuts a facet and gives the points on it to the vertices.
     fn facet(&mut self, face: u32, corners: [u32; 3], flagged: &[Flagged]) {
+        if flagged.is_empty() && self.map.pieces.halves(face).is_none() {
+            self.show(face, corners, face);
+            return self.faces.push(corners);
+        }
         let flagged = flagged.iter().map(|f| (f.deviation, f.weights)).collect();
         let edges = edges(corners.map(|v| self.positions[v as usize]));
         let mut open = vec![Piece { node: face, corners, edges, flagged }];
@@ -154,24 +159,29 @@ impl<'a> Drawing<'a> {
         let mut open = vec![piece.node];
         while let Some(node) = open.pop() {
             open.extend(self.map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
-            let kept = self.map.worst[node as usize];
-            if kept.deviation.is_nan() {
-                continue;
-            }
-            let foot = place(self.reference, face, kept.weights());
-            let away = piece.corners.map(|v| norm(minus(foot, self.positions[v as usize])));
-            let k = (1..3).fold(0, |best, k| if away[k] < away[best] { k } else { best });
-            self.farthest = self.farthest.max(away[k]);
-            let value = &mut self.values[piece.corners[k] as usize];
-            if worse(kept.deviation, *value, self.map.tolerance) {
-                *value = kept.deviation;
-            }
+            self.show(face, piece.corners, node);
         }
         let mut parts = vec![(piece.corners, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])];
         for (deviation, weights) in piece.flagged {
             self.flag(&mut parts, piece.corners, deviation, weights);
         }
         self.faces.extend(parts.into_iter().map(|(corners, _)| corners));
+    }
+
+    /// Gives the point that a node holds to the nearest of the corners.
+    fn show(&mut self, face: u32, corners: [u32; 3], node: u32) {
+        let kept = self.map.worst[node as usize];
+        if kept.deviation.is_nan() {
+            return;
+        }
+        let foot = place(self.reference, face, kept.weights());
+        let away = corners.map(|v| norm(minus(foot, self.positions[v as usize])));
+        let k = (1..3).fold(0, |best, k| if away[k] < away[best] { k } else { best });
+        self.farthest = self.farthest.max(away[k]);
+        let value = &mut self.values[corners[k] as usize];
+        if worse(kept.deviation, *value, self.map.tolerance) {
+            *value = kept.deviation;
+        }
     }
 
     /// Makes a flagged point a vertex: the part that holds it becomes three.
@@ -208,16 +218,17 @@ fn least_share(part: &[[f64; 3]; 3], place: [f64; 3]) -> f64 {
 
 /// The nearest places of the points that the pieces show.
 fn feet(reference: &Mesh, map: &PointMap) -> Vec<Point> {
-    let mut feet = vec![];
-    for face in 0..reference.faces.len() as u32 {
-        let mut open = vec![face];
+    let of = |open: &mut Vec<u32>, face: u32| -> Vec<Point> {
+        let mut feet = vec![];
+        open.push(face);
         while let Some(node) = open.pop() {
             open.extend(map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
-            let kept: Kept = map.worst[node as usize];
+            let kept = map.worst[node as usize];
             if !kept.deviation.is_nan() {
                 feet.push(place(reference, face, kept.weights()));
             }
         }
-    }
-    feet
+        feet
+    };
+    (0..reference.faces.len() as u32).into_par_iter().map_init(Vec::new, of).flatten_iter().collect()
 }

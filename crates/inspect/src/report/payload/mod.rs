@@ -86,10 +86,12 @@ pub struct Purpose<'a> {
     pub progress: &'a dyn Progress,
 }
 
-/// All objects in full, before it is known how much room there is.
-pub struct Full {
+/// All objects as they probably fit, before it is known how much room there is.
+pub struct First {
     packed: Vec<Packed>,
     quality: Quality,
+    /// Nothing left out.
+    all: Quality,
 }
 
 /// An object as blobs, without the coarser levels of a mesh.
@@ -98,19 +100,58 @@ struct Packed {
     mesh: Option<Ordered>,
 }
 
-/// Packs everything, nothing left out but points that cannot be told apart.
-pub fn pack(objects: &[ViewObject], purpose: &Purpose) -> Result<Full, ReportError> {
+/// Packs everything as finely as it probably fits into `budget` bytes of base64.
+pub fn pack(objects: &[ViewObject], purpose: &Purpose, budget: usize) -> Result<First, ReportError> {
     let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
     let points =
         objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
-    let quality = Quality { points, triangles, bits: 16 };
-    Ok(Full { packed: pack_at(objects, purpose, quality)?, quality })
+    let all = Quality { points, triangles, bits: 16 };
+    let quality = all.probably_within(budget, objects);
+    Ok(First { packed: pack_at(objects, purpose, quality)?, quality, all })
 }
 
-impl Full {
+impl Quality {
+    /// The finest of which experience says that it fits: first positions are rounded to 14 bits, then much is left out evenly.
+    fn probably_within(self, budget: usize, objects: &[ViewObject]) -> Quality {
+        let share = |bits| budget as f64 / objects.iter().map(|o| usual_bytes(o, bits)).sum::<f64>().max(1.0);
+        if share(16) >= 1.0 {
+            return self;
+        }
+        let bits = if objects.iter().all(coarse_grid_is_fine) { 14 } else { 16 };
+        Quality { bits, ..self }.times(share(bits).min(1.0))
+    }
+
+    fn times(self, share: f64) -> Quality {
+        let part = |n: usize| (n as f64 * share) as usize;
+        Quality { points: part(self.points), triangles: part(self.triangles), ..self }
+    }
+
+    fn at_most(self, most: Quality) -> Quality {
+        let (points, triangles) = (self.points.min(most.points), self.triangles.min(most.triangles));
+        Quality { points, triangles, ..self }
+    }
+}
+
+/// Bytes of base64 that an object usually takes; measured on scans of figures. A wrong guess costs time only.
+fn usual_bytes(object: &ViewObject, bits: u32) -> f64 {
+    const FIELD: f64 = 2.6;
+    const TRIANGLE: f64 = 1.1;
+    let place = if bits == 16 { 6.0 } else { 5.0 } + FIELD * object.fields.len() as f64;
+    match object.geometry {
+        Geometry::Points(points) => points.len().min(MOST_POINTS) as f64 * place,
+        Geometry::Mesh(mesh) => {
+            let triangles = mesh.faces.len();
+            let levels = mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES;
+            triangles as f64 * (TRIANGLE + 0.5 * place) + levels as f64
+        }
+    }
+}
+
+impl First {
     /// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
     ///
-    /// First everything is kept; then positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
+    /// What has clearly less than that is packed again with more, once; what has more is packed again with less until it fits:
+    /// first positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
     pub fn within(
         self,
         budget: usize,
@@ -118,13 +159,23 @@ impl Full {
         marks: &[Marks],
         purpose: &Purpose,
     ) -> Result<Payload, ReportError> {
+        /// There is clearly more room.
+        const ROOM: f64 = 1.3;
+        /// Of what would just fit, so that it does.
+        const SAFELY: f64 = 0.96;
         let marks = pack_all_marks(objects, marks);
         let budget = budget.saturating_sub(marks.len());
-        let Full { mut packed, mut quality } = self;
+        let First { mut packed, mut quality, all } = self;
+        let mut may_grow = quality.points < all.points || quality.triangles < all.triangles;
         loop {
             let least = quality.points <= 1000 && quality.triangles <= 1000;
             let expected: usize = packed.iter().map(Packed::expected).sum();
             let mut share = budget as f64 / expected.max(1) as f64;
+            if may_grow && share > ROOM {
+                (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
+                packed = pack_at(objects, purpose, quality)?;
+                continue;
+            }
             if share >= 1.0 || least {
                 let payload = with_levels(packed, purpose)?;
                 share = budget as f64 / payload.len().max(1) as f64;
@@ -133,12 +184,11 @@ impl Full {
                     return Ok(join(payload, marks));
                 }
             }
-            if quality.bits == 16 && share > 0.85 && objects.iter().all(|o| coarse_grid_is_fine(o)) {
+            may_grow = false;
+            if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
                 quality.bits = 14;
             } else {
-                let less = |n: usize| (n as f64 * share * 0.96) as usize;
-                quality =
-                    Quality { points: less(quality.points), triangles: less(quality.triangles), ..quality };
+                quality = quality.times(share * SAFELY);
             }
             packed = pack_at(objects, purpose, quality)?;
         }

@@ -234,7 +234,8 @@ impl Canvas {
         };
         let (columns, rows) = (span(cx, self.width), span(cy, self.height));
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
-            if (f64::from(x) - cx).hypot(f64::from(y) - cy) <= radius {
+            let (dx, dy) = (f64::from(x) - cx, f64::from(y) - cy);
+            if dx * dx + dy * dy <= radius * radius {
                 put(self, x, y);
             }
         }
