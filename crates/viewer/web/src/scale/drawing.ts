@@ -9,7 +9,7 @@ const STRIP = 18
 const TICK = 4
 const LABEL = 52
 /** Room for the shares beside the bars, upright. */
-const SHARE = 46
+const SHARE = 52
 
 export interface Drawing {
   /** Pixel along the axis for a deviation. */
@@ -112,10 +112,10 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   // Shares beside the bands and clear of the bars.
   if (upright) {
     for (let i = 0; i + 1 < edges.length; i++) {
-      const share = state.share(i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1])
-      if (share === null) break
+      const found = state.slotShare(i)
+      if (found === null) break
       const middle = value((at(edges[i]) + at(edges[i + 1])) / 2)
-      if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.percent(share, share > 0 && share < 0.001 ? 2 : 1), 'share'))
+      if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.share(found), 'share'))
     }
   }
   let marked: SVGElement | null = null
