@@ -222,7 +222,7 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
         let finite: Vec<Point> = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).copied().collect();
         let radius = 1.5 * spacing(&finite);
         let part = |mut bits: Vec<u64>, p: &Point| {
-            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + 2.0 * radius);
+            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + OBLIQUE * radius);
             bits
         };
         points.par_iter().fold(none, part).reduce(none, join)
@@ -331,12 +331,14 @@ mod tests {
         .collect()
     }
 
-    /// Every candidate sees of a convex body what looks to it, and nothing else.
-    fn sees_one_side_only(places: &[Place], opaque: &[&ViewObject]) {
+    /// Every candidate sees of a convex body what looks to it, unless that is more `oblique`, and nothing else.
+    fn sees_one_side_only(places: &[Place], opaque: &[&ViewObject], oblique: f64) {
         for view in View::of(places, &candidates(Up::Z, None, places), opaque) {
             for (place, seen) in places.iter().zip(&view.seen) {
                 let looks = place.normal.map_or(0.0, |n| dot(n, view.toward));
-                assert_eq!(seen.is_some(), looks > 0.0, "{:?} from {:?}", place.normal, view.toward);
+                if !(0.0..oblique).contains(&looks) {
+                    assert_eq!(seen.is_some(), looks > 0.0, "{:?} from {:?}", place.normal, view.toward);
+                }
             }
         }
     }
@@ -345,7 +347,7 @@ mod tests {
     #[test]
     fn a_convex_body_hides_what_looks_away() {
         let mesh = cube();
-        sees_one_side_only(&middles(0.0), &[&object(ViewRole::Part, Geometry::Mesh(&mesh), &[0.0; 8])]);
+        sees_one_side_only(&middles(0.0), &[&object(ViewRole::Part, Geometry::Mesh(&mesh), &[0.0; 8])], 0.0);
     }
 
     /// A cloud of 30,000 points scattered on the cube: one looks between them, but not through the part. Decided by the
@@ -364,8 +366,8 @@ mod tests {
         let objects = [cloud(), object(ViewRole::Reference, Geometry::Mesh(&mesh), &[0.0; 8])];
         let shown = shown_objects(&objects);
         assert_eq!(shown.len(), 1, "the reference is not drawn");
-        sees_one_side_only(&middles(0.025), &opaque(&objects, &shown));
+        sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), 0.0);
         let alone = [cloud()];
-        sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)));
+        sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)), SEEN);
     }
 }

@@ -1,6 +1,7 @@
 import type { Vector3 } from 'three'
 import type { Eye } from './eye'
 import type { Cover, Part } from './part'
+import { OBLIQUE } from './shaders'
 import type { ValueBuffer } from './values'
 
 /** How far before a place something may lie without hiding it: pixels, and share of the view's height. */
@@ -75,7 +76,7 @@ function seenFrom(eye: Eye, { places, corners, radius, error }: Cover): Seen {
     at[p + 1] = foot - scale * (m[1] * x + m[5] * y + m[9] * z + m[13])
     at[p + 2] = depth
   }
-  return { at, corners, radius: radius / eye.millimetresPerPixel, margin: 2 * (radius + error) }
+  return { at, corners, radius: radius / eye.millimetresPerPixel, margin: OBLIQUE * radius + 2 * error }
 }
 
 /** Something of it lies at the pixel of `p` and nearer to the eye than the depth `before`. */
