@@ -366,7 +366,7 @@ mod tests {
         let objects = [cloud(), object(ViewRole::Reference, Geometry::Mesh(&mesh), &[0.0; 8])];
         let shown = shown_objects(&objects);
         assert_eq!(shown.len(), 1, "the reference is not drawn");
-        sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), 0.0);
+        sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), SEEN);
         let alone = [cloud()];
         sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)), SEEN);
     }

@@ -8,8 +8,10 @@ import { hex } from './scale'
 const STRIP = 18
 const TICK = 4
 const LABEL = 52
+/** And what a digit beyond the third takes more, upright. */
+const DIGIT = 7
 /** Room for the shares beside the bars, upright. */
-const SHARE = 52
+const SHARE = 56
 
 export interface Drawing {
   /** Pixel along the axis for a deviation. */
@@ -37,7 +39,7 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   // Lying, the numbers at both ends reach beyond the axis.
   target.setAttribute('viewBox', upright ? `0 0 ${w} ${h}` : `-44 0 ${w + 88} ${h}`)
   target.replaceChildren(svg('title', {}, words.of('figure.title')))
-  const strip = upright ? LABEL : breadth - LABEL + 8
+  const strip = upright ? LABEL + DIGIT * Math.max(0, scale.decimals - 3) : breadth - LABEL + 8
   const bars = strip + (upright ? STRIP + 4 : -4)
   const end = upright ? breadth - SHARE : 0
   const room = Math.abs(end - bars)

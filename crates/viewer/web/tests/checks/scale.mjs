@@ -30,9 +30,8 @@ export const scale = [
           await page.locator('.controls input[type=text]').fill(range)
           await page.locator('.controls input[type=text]').press('Enter')
         }
-        const limits = await page.evaluate(() => [...document.querySelectorAll('.chart line.tick')].length)
         const found = await shares(page)
-        assert.ok(found.length > 5 && limits > 5)
+        assert.ok(found.length > 5)
         for (const text of found) assert.match(text, /^\d+\.0%$/)
         assert.equal(found.reduce((sum, text) => sum + parseFloat(text), 0), 100)
       }
@@ -47,7 +46,6 @@ export const scale = [
       const page = await session.report('sphere')
       const opening = await shares(page)
       assert.ok(opening.length >= 9 && opening.every((text) => !text.includes('≈')), opening.join())
-      // Tolerance ±0.05, values 0.01 z: rings of the sphere at 180°/200 each, 200 vertices a ring and one a pole.
       await page.locator('.controls input[type=text]').fill('0.09')
       await page.locator('.controls input[type=text]').press('Enter')
       const other = await shares(page)
