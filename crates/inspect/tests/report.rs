@@ -164,7 +164,8 @@ fn an_inspection_says_first_what_fails_and_what_it_is_called() {
     assert!(body.contains("<p class=\"title\"><bdi class=\"name\" title=\"Plate 7\">Plate 7</bdi>"));
     let lead = body.split("<div class=\"lead\">").nth(1).unwrap();
     assert!(lead.starts_with("<dt><span data-t=\"verdict.fail\">Fail</span></dt><dd>"), "{}", &lead[..120]);
-    let plain: String = lead[..lead.find("</dd>").unwrap()].split('<').map(|p| p.rsplit('>').next().unwrap()).collect();
+    let plain: String =
+        lead[..lead.find("</dd>").unwrap()].split('<').map(|p| p.rsplit('>').next().unwrap()).collect();
     assert!(plain.ends_with("2 /\u{a0}3"), "{plain}");
     // Signs are drawn, whatever fonts there are.
     assert_eq!(body.matches("<svg class=\"gdt\"").count(), 2);

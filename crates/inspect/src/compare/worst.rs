@@ -138,7 +138,8 @@ mod tests {
     fn what_fails_comes_before_what_does_not() {
         let order = |zone| {
             let of = |(index, deviation)| Place { index, point: [0.0; 3], deviation };
-            let mut places: Vec<Place> = (0..).zip([0.039, 0.02, 0.01, -0.495, -0.07, 0.07]).map(of).collect();
+            let mut places: Vec<Place> =
+                (0..).zip([0.039, 0.02, 0.01, -0.495, -0.07, 0.07]).map(of).collect();
             sort(&mut places, zone);
             places.iter().map(|p| p.index).collect::<Vec<_>>()
         };

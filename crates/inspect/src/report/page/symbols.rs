@@ -25,7 +25,9 @@ pub fn path(kind: &str) -> Option<&'static str> {
 /// Writes the sign of a kind, if it has one; its name is to stand beside it.
 pub fn symbol(h: &mut Html, kind: &str) {
     if let Some(path) = path(kind) {
-        h.raw(&format!("<svg class=\"gdt\" viewBox=\"0 0 16 16\" aria-hidden=\"true\"><path d=\"{path}\"/></svg> "));
+        h.raw(&format!(
+            "<svg class=\"gdt\" viewBox=\"0 0 16 16\" aria-hidden=\"true\"><path d=\"{path}\"/></svg> "
+        ));
     }
 }
 

@@ -82,7 +82,8 @@ pub fn flagged(pick: &Pick) -> bool {
 /// What hides places: of a measured cloud the reference's surface, drawn or not, where there is one; else what is drawn and
 /// not looked through.
 fn opaque<'a>(objects: &'a [ViewObject<'a>], shown: &[&'a ViewObject<'a>]) -> Vec<&'a ViewObject<'a>> {
-    let surface = |o: &&ViewObject| o.role == ViewRole::Reference && o.mesh().is_some_and(|m| !m.faces.is_empty());
+    let surface =
+        |o: &&ViewObject| o.role == ViewRole::Reference && o.mesh().is_some_and(|m| !m.faces.is_empty());
     let references: Vec<&ViewObject> =
         objects.iter().filter(surface).filter(|o| o.comparison.unwrap_or(0) == 0).collect();
     let cloud = shown.iter().any(|o| o.role == ViewRole::Measured && o.points().is_some());
