@@ -11,8 +11,9 @@ use fixtures::{cloud_page, heard};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use trueness_geom::fit::Method;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Progress;
-use trueness_inspect::report::{Language, ReportError, ReportOptions};
+use trueness_geom::progress::{Progress, Silent};
+use trueness_inspect::report::{self, Answer, Language, ReportError, ReportInput, ReportOptions};
+use trueness_inspect::results::inspect::InspectDocument;
 
 const NAMES: [&str; 2] = ["scan.stl", "nominal.stl"];
 const TOLERANCE: Option<[f64; 2]> = Some([-0.05, 0.05]);
@@ -111,7 +112,8 @@ fn every_word_is_in_the_table() {
         (page(&sphere(10), TOLERANCE, NAMES, &options).0, ["Nicht in Ordnung", "−0,050"]),
         (check_page(&defects(), &options), ["Nicht fehlerfrei", "Löcher"]),
         (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinster Zone"]),
-        (repair_page(&defects(), &options), ["Repariert: fehlerfrei", "Löcher gefüllt"]),
+        (repair_page(&defects(), &options), ["Repariert: fehlerfrei", "Loch gefüllt"]),
+        (inspect_page(&options), ["Nicht in Ordnung", "Ebenheit"]),
     ];
     for (page, known) in pages {
         let text = String::from_utf8(page).unwrap();
@@ -121,6 +123,53 @@ fn every_word_is_in_the_table() {
         }
         assert!(known.iter().all(|word| text.contains(word)), "{known:?}");
     }
+}
+
+/// The page of an inspection with two failures out of three.
+fn inspect_page(options: &ReportOptions) -> Vec<u8> {
+    let characteristic = |id: &str, kind: &str, symbol: &str, verdict: &str, value: f64| {
+        serde_json::json!({
+            "id": id, "kind": kind, "symbol": symbol, "feature": "TOP", "datums": [], "modifiers": [], "zone": "width",
+            "nominal": null, "tolerance": 0.05, "lower": null, "upper": 0.05, "value": value, "unit": "mm",
+            "uncertainty": null, "decision_rule": "simple", "verdict": verdict, "reason": null, "utilisation": value / 0.05,
+            "witness": [], "anchor": null, "parts": {}, "notes": [], "standard": "ISO 1101:2017",
+        })
+    };
+    let document: InspectDocument = serde_json::from_value(serde_json::json!({
+        "schema": "trueness/inspect/1", "version": "0", "units": "mm", "title": "Plate 7",
+        "plan": {"path": "plate.toml", "sha256": null}, "inputs": [],
+        "alignment": {
+            "method": "none", "transform": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "rms": null,
+            "mean_abs": null, "iterations": null, "converged": null, "warnings": [],
+        },
+        "features": [], "deviation": null, "decision_rule": "simple", "verdict": "fail",
+        "counts": {"pass": 1, "fail": 2, "undecided": 0, "not_measured": 0},
+        "characteristics": [
+            characteristic("1", "flatness", "⏥", "pass", 0.01),
+            characteristic("2", "cylindricity", "⌭", "fail", 0.06),
+            characteristic("3", "texture", "", "fail", 0.08),
+        ],
+    }))
+    .unwrap();
+    let result = Answer::Inspect(&document);
+    let mut page = vec![];
+    report::write(&ReportInput { result, objects: &[], marks: &[], options }, &Silent, &mut page).unwrap();
+    page
+}
+
+#[test]
+fn an_inspection_says_first_what_fails_and_what_it_is_called() {
+    let text = String::from_utf8(inspect_page(&ReportOptions::default())).unwrap();
+    let body = &text[text.find("<body").unwrap()..text.find("id=\"manifest\"").unwrap()];
+    assert!(body.contains("<p class=\"title\"><bdi class=\"name\" title=\"Plate 7\">Plate 7</bdi>"));
+    let lead = body.split("<div class=\"lead\">").nth(1).unwrap();
+    assert!(lead.starts_with("<dt><span data-t=\"verdict.fail\">Fail</span></dt><dd>"), "{}", &lead[..120]);
+    let plain: String =
+        lead[..lead.find("</dd>").unwrap()].split('<').map(|p| p.rsplit('>').next().unwrap()).collect();
+    assert!(plain.ends_with("2 /\u{a0}3"), "{plain}");
+    // Signs are drawn, whatever fonts there are.
+    assert_eq!(body.matches("<svg class=\"gdt\"").count(), 2);
+    assert!(!body.contains(['⏥', '⌭']));
 }
 
 /// The manifest that a page carries.

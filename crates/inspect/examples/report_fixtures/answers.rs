@@ -30,6 +30,9 @@ pub fn write_all(folder: &Path) {
     for (name, method) in [("fit", Method::Gaussian), ("zone", Method::MinimumZone)] {
         written(folder, name, fit_page(&lobed_cylinder(), method, &options).0);
     }
+    // Fewer points than there are steps of the distribution.
+    let few: Vec<Point> = lobed_cylinder().into_iter().step_by(49).take(100).collect();
+    written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
 }
 

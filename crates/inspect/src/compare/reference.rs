@@ -1,7 +1,7 @@
 //! The running comparison with one reference.
 
 use super::map::{Flagged, Foot, MapSurface, PointMap};
-use super::worst::{Place, WorstPlaces};
+use super::worst::{Place, WorstPlaces, sort};
 use super::{Method, Options};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
@@ -35,7 +35,7 @@ pub struct Compared {
     pub limits: Option<Limits>,
     /// Points without a deviation.
     pub excluded: Vec<(Exclusion, u64)>,
-    /// The worst places, highest first, then lowest first.
+    /// The worst places of both signs, the farthest beyond the tolerance first, without one the greatest.
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
@@ -174,7 +174,10 @@ impl<'a> Running<'a> {
 
     /// The places that the result will name.
     pub fn worst_places(&self) -> Vec<Place> {
-        self.worst.pick(WORST).into_iter().flatten().collect()
+        let mut places: Vec<Place> = self.worst.pick(WORST).into_iter().flatten().collect();
+        let zone = self.limits.as_ref().map(|l| [l.lower, l.upper]);
+        sort(&mut places, zone);
+        places
     }
 
     /// Deviations of points that have been counted already.

@@ -3,6 +3,7 @@
 //! The surroundings of the reference are cut into cells; each cell keeps its highest and its lowest deviation. What is asked
 //! for in the end is picked from these, so a single bad region does not fill the list however many points it has.
 
+use crate::tolerance::badness;
 use rayon::prelude::*;
 use trueness_geom::space::{Aabb, Point, minus, norm};
 
@@ -91,6 +92,13 @@ impl WorstPlaces {
     }
 }
 
+/// Puts places into the order in which people look at them: the farthest beyond the tolerance first, without one the
+/// greatest deviation; of equally bad ones, the first in the file.
+pub fn sort(places: &mut [Place], zone: Option<[f64; 2]>) {
+    let bad = |p: &Place| badness(p.deviation, zone);
+    places.sort_by(|a, b| bad(b).total_cmp(&bad(a)).then(a.index.cmp(&b.index)));
+}
+
 /// The larger deviation stays; of equal ones, the first in the file.
 fn keep(cell: &mut Option<Place>, p: Place) {
     let better = cell.is_none_or(|c| {
@@ -124,6 +132,22 @@ mod tests {
         assert_eq!(high[0].point, [20.0, 20.0, 0.0]);
         assert_eq!(high[0].index, 20 * 200 + 40);
         assert_eq!((low[0].point, low[1].point), ([80.0, 90.0, 0.0], [70.0, 30.0, 0.0]));
+    }
+
+    #[test]
+    fn what_fails_comes_before_what_does_not() {
+        let order = |zone| {
+            let of = |(index, deviation)| Place { index, point: [0.0; 3], deviation };
+            let mut places: Vec<Place> =
+                (0..).zip([0.039, 0.02, 0.01, -0.495, -0.07, 0.07]).map(of).collect();
+            sort(&mut places, zone);
+            places.iter().map(|p| p.index).collect::<Vec<_>>()
+        };
+        assert_eq!(order(Some([-0.05, 0.05])), [3, 4, 5, 0, 1, 2]);
+        assert_eq!(order(None), [3, 4, 5, 0, 1, 2]);
+        // Below −0.06 is out, up to 0.1 is in: what is smaller may be worse.
+        assert_eq!(order(Some([-0.06, 0.1])), [3, 4, 5, 0, 2, 1]);
+        assert_eq!(order(Some([-0.5, 0.03])), [5, 0, 3, 1, 2, 4]);
     }
 
     #[test]

@@ -116,7 +116,8 @@ pub struct Comparison {
     pub verdict: Option<Verdict>,
     /// Counts of the deviations; absent when there are none.
     pub histogram: Option<Histogram>,
-    /// The worst places, far from one another, highest first, then lowest first.
+    /// The worst places, far from one another, on both sides: the farthest beyond the tolerance first, without a tolerance
+    /// the greatest deviation.
     pub worst: Vec<Worst>,
     /// The same question asked from the reference's vertices to the measured mesh; only with `--both`.
     #[serde(skip_serializing_if = "Option::is_none", default)]

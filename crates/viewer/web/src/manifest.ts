@@ -99,7 +99,10 @@ export interface MapEntry {
   mean: number | null
   tolerance: { lower: number; upper: number; inside: number | null } | null
   histogram: Histogram | null
+  /** Least to greatest, evenly spaced; all values where they are as many as `count`. */
   quantiles: number[]
+  /** How many values have each colour of the scale as the page opens; absent where not all values are at hand. */
+  slots: number[] | null
 }
 
 /** A place that a row of the list leads to. */

@@ -1,6 +1,6 @@
 import type { Manifest, Pick, ScaleObject } from './manifest'
-import { Colors, widened } from './scale/scale'
-import { Distribution } from './scale/distribution'
+import { Colors, limitsOf, slotOf, widened } from './scale/scale'
+import { Distribution, type Share } from './scale/distribution'
 
 /** What the reader can change. Everything that shows it listens. */
 export class State {
@@ -49,12 +49,36 @@ export class State {
     return Object.keys(this.visible)
   }
 
-  /** Share of the deviations in a range: the result's own number for the tolerance zone, else from the distribution. */
-  share(from: number, to: number): number | null {
+  /**
+   * Share of the deviations in a range: the result's own number for the tolerance zone, counted where that can be, else
+   * about.
+   */
+  share(from: number, to: number): Share | null {
     const zone = this.current?.tolerance
-    if (zone && from === zone.lower && to === zone.upper) return zone.inside
-    const distribution = new Distribution(this.current?.quantiles ?? [])
+    if (zone && zone.inside !== null && from === zone.lower && to === zone.upper) return { share: zone.inside, exact: true }
+    const edges = [-OPEN, ...this.colors.limits, OPEN]
+    const slot = edges.findIndex((edge, i) => from === edge && to === edges[i + 1])
+    if (slot >= 0) return this.slotShare(slot)
+    const distribution = this.distribution
     return distribution.known ? distribution.between(from, to) : null
+  }
+
+  /** Share of the deviations with a colour of the scale, 0 being the low cap; a limit belongs to the band nearer the middle. */
+  slotShare(slot: number): Share | null {
+    const { limits } = this.colors
+    const zone = this.current?.tolerance
+    if (zone && zone.inside !== null && limits[slot - 1] === zone.lower && limits[slot] === zone.upper) return { share: zone.inside, exact: true }
+    const distribution = this.distribution
+    if (distribution.complete) return { share: distribution.share((v) => slotOf(limits, v) === slot), exact: true }
+    const counted = this.current?.slots
+    const opening = this.manifest.scale && limitsOf(widened({ ...this.manifest.scale }))
+    if (counted && opening && counted.length === limits.length + 1 && limits.every((limit, i) => limit === opening[i]))
+      return { share: counted[slot] / counted.reduce((sum, n) => sum + n, 0), exact: true }
+    return distribution.known ? distribution.between(limits[slot - 1] ?? -Infinity, limits[slot] ?? Infinity) : null
+  }
+
+  private get distribution(): Distribution {
+    return new Distribution(this.current?.quantiles ?? [], this.current?.count ?? 0)
   }
 
   listen(listener: (what: Change) => void): void {
@@ -116,6 +140,9 @@ export class State {
 }
 
 export type Change = 'scale' | 'only' | 'hover' | 'comparison' | 'look' | 'flags' | 'log' | 'pick'
+
+/** The end of a range that has none: a number, for links and the GPU. */
+export const OPEN = 1e29
 
 /** Stands in where nothing is mapped. */
 const NO_SCALE: ScaleObject = { mode: 'bands', lower: -1, upper: 1, tolerance: null, bands: 1, palette: '', decimals: 3, unit: 'mm' }

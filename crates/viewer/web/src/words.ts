@@ -1,4 +1,5 @@
 import { readTexts, type Manifest } from './manifest'
+import type { Share } from './scale/distribution'
 
 /** Language of words and numbers; can change while the page is open. */
 export class Words {
@@ -66,6 +67,11 @@ export class Words {
     if (share < 1 && p > 100 - unit) p = 100 - unit
     else if (share > 0 && p < unit) p = unit
     return `${this.number(p, decimals)}\u00a0%`
+  }
+
+  /** A share, marked where it is not counted. */
+  share({ share, exact }: Share): string {
+    return `${exact ? '' : '≈'}${this.percent(share, share > 0 && share < 0.001 ? 2 : 1)}`
   }
 
   private get point(): string {

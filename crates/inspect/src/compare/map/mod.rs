@@ -7,12 +7,12 @@
 mod bisection;
 mod creases;
 mod fill;
-mod spacing;
+pub(crate) mod spacing;
 mod surface;
 
 pub use surface::MapSurface;
 
-use crate::tolerance::Tolerance;
+use crate::tolerance::{Tolerance, badness};
 use bisection::Bisection;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, norm};
@@ -82,8 +82,8 @@ impl PointMap {
 
 /// Whether deviation `a` is worse than `b`: farther beyond the tolerance, else of greater size. Anything is worse than NaN.
 fn worse(a: f64, b: f64, tolerance: Option<Tolerance>) -> bool {
-    let badness = |d: f64| tolerance.map_or(d.abs(), |t| (d - t.upper).max(t.lower - d));
-    b.is_nan() || badness(a) > badness(b)
+    let zone = tolerance.map(|t| [t.lower, t.upper]);
+    b.is_nan() || badness(a, zone) > badness(b, zone)
 }
 
 /// The place with these weights of a facet's corners.

@@ -2,6 +2,7 @@
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, badge, fact, key_number, section};
+use super::super::page::symbols::symbol;
 use super::{Head, Pick, Subject};
 use crate::results::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument};
 use serde_json::Value;
@@ -15,6 +16,10 @@ impl Subject for InspectDocument {
         self.verdict.into()
     }
 
+    fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
     fn picture(&self) -> &'static str {
         "picture.inspect"
     }
@@ -22,9 +27,8 @@ impl Subject for InspectDocument {
     fn numbers(&self, h: &mut Html) {
         let n = &self.counts;
         h.raw("<dl class=\"key-numbers\">");
-        key_number(h, "characteristics", "lead", |h| {
-            h.count(self.characteristics.len() as u64);
-        });
+        // The worst verdict leads, with how many of all have it.
+        let mut lead = true;
         for (key, count, class) in [
             ("verdict.fail", n.fail, "warn"),
             ("verdict.undecided", n.undecided, "warn"),
@@ -32,11 +36,18 @@ impl Subject for InspectDocument {
             ("verdict.pass", n.pass, ""),
         ] {
             if count > 0 || key == "verdict.pass" {
-                key_number(h, key, class, |h| {
+                let leads = count > 0 && std::mem::take(&mut lead);
+                key_number(h, key, if leads { "lead" } else { class }, |h| {
                     h.count(count);
+                    if leads {
+                        h.raw(" <small>/\u{a0}").count(self.characteristics.len() as u64).raw("</small>");
+                    }
                 });
             }
         }
+        key_number(h, "characteristics", "", |h| {
+            h.count(self.characteristics.len() as u64);
+        });
         h.raw("</dl>");
     }
 
@@ -101,7 +112,8 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
     h.word("value").raw("<br><small>").word("allowed").raw("</small></th><th>").word("verdict");
     h.raw("</th></tr></thead><tbody>");
     for (n, c) in d.rows().into_iter().enumerate() {
-        h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" <b>").text(&c.symbol).raw("</b> ");
+        h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" ");
+        symbol(h, &c.kind);
         h.word(&format!("kind.{}", c.kind)).raw("<br><small>").name(&c.feature);
         for datum in &c.datums {
             h.raw(" | ").name(datum);

@@ -17,6 +17,7 @@ use crate::results::inspect::InspectDocument;
 use crate::results::repair::RepairDocument;
 use crate::results::segment::SegmentDocument;
 use crate::scale::Scale;
+use crate::tolerance::badness;
 use serde_json::Value;
 use trueness_geom::space::{Point, Vector};
 
@@ -69,6 +70,10 @@ pub trait Subject {
     fn head(&self) -> Head<'_>;
     /// The first word.
     fn headline(&self) -> Headline;
+    /// What the document itself is called.
+    fn title(&self) -> Option<&str> {
+        None
+    }
     /// Key of a convention that every number on the page follows.
     fn convention(&self) -> Option<&'static str> {
         None
@@ -113,9 +118,10 @@ pub trait Subject {
         vec![]
     }
     /// Numbers of the picks that the first view should show, the most important first: those of the first map with the
-    /// greatest values.
+    /// values farthest beyond the tolerance, without one the greatest.
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
-        let size = |n: &usize| picks[*n].value.unwrap_or(0.0).abs();
+        let zone = self.maps().first().and_then(|m| m.tolerance.as_ref().map(|t| [t.lower, t.upper]));
+        let size = |n: &usize| badness(picks[*n].value.unwrap_or(0.0), zone);
         let mut valued: Vec<usize> = (0..picks.len())
             .filter(|n| picks[*n].value.is_some() && picks[*n].map.unwrap_or(0) == 0)
             .collect();

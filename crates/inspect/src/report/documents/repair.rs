@@ -4,6 +4,7 @@ use super::super::html::Html;
 use super::super::page::blocks::{
     Headline, Tone, fact, key_number, not_printed, pick_row, place_cells, section, swatch,
 };
+use super::super::text::word;
 use super::{Head, Pick, Subject};
 use crate::repair::by_step;
 use crate::results::repair::{Change, Distances, RepairDocument, State};
@@ -139,7 +140,9 @@ fn changes(h: &mut Html, d: &RepairDocument) {
         let what = changes.first().map_or("", |c| &c.what);
         let same = changes.iter().all(|c| c.what == what);
         if same {
-            h.raw("<p class=\"note\">").text(what).raw("</p>");
+            h.raw("<p class=\"note\">");
+            done(h, what);
+            h.raw("</p>");
         }
         h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">");
         h.word("facets.title").raw(
@@ -149,8 +152,12 @@ fn changes(h: &mut Html, d: &RepairDocument) {
         for (k, change) in changes.iter().take(rows).enumerate() {
             pick_row(h, k, first + k);
             h.raw("<td>");
-            let name = if same { (k + 1).to_string() } else { change.what.clone() };
-            h.text(&name).raw("</td><td class=\"r\">");
+            if same {
+                h.text(&(k + 1).to_string());
+            } else {
+                done(h, &change.what);
+            }
+            h.raw("</td><td class=\"r\">");
             h.count(change.facets).raw("</td>");
             place_cells(h, change.position);
             h.raw("</tr>");
@@ -168,6 +175,21 @@ fn changes(h: &mut Html, d: &RepairDocument) {
         h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(d.changes.len() as u64).raw(" / ");
         h.count(d.change_count).raw("</p>");
     }
+}
+
+/// What was done, in the reader's language; as the document says it where the table has no words for it.
+fn done(h: &mut Html, what: &str) {
+    let key = key(what);
+    if word(&key, h.language()) == key {
+        h.text(what);
+    } else {
+        h.word(&key);
+    }
+}
+
+/// Key of what was done in the table of words.
+fn key(what: &str) -> String {
+    format!("done.{}", what.replace(',', "").replace(' ', "_"))
 }
 
 /// Size and defects in two columns.
@@ -250,4 +272,43 @@ fn deviation(h: &mut Html, d: &RepairDocument) {
         });
     }
     h.raw("</dl>");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::text::Language;
+    use super::*;
+    use std::path::{Path, PathBuf};
+    use trueness_geom::repair::STEPS;
+
+    fn sources(folder: &Path) -> Vec<PathBuf> {
+        let all = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+        all.flat_map(|p| if p.is_dir() { sources(&p) } else { vec![p] }).collect()
+    }
+
+    /// What the steps log: the text in each call of `log`, and in the branches that such a text is chosen from.
+    fn logged() -> Vec<String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../geom/src/repair");
+        let mut all = vec![];
+        for file in sources(&folder).iter().filter(|p| !p.ends_with("tests.rs")) {
+            let text = std::fs::read_to_string(file).unwrap();
+            for call in text.split(".log(").skip(1).chain(text.split("let what = match").skip(1)) {
+                let statement = &call[..call.find(';').unwrap_or(call.len())];
+                all.extend(statement.split('"').skip(1).step_by(2).map(str::to_string));
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn every_step_and_what_it_does_has_words_in_every_language() {
+        let phrases = logged();
+        assert!(phrases.len() >= 20 && phrases.iter().any(|p| p == "facets inside the material removed"));
+        let steps = STEPS.iter().map(|s| format!("step.{}", s.name));
+        for key in steps.chain(phrases.iter().map(|p| key(p))) {
+            for language in Language::ALL {
+                assert_ne!(word(&key, language), key, "{language:?}");
+            }
+        }
+    }
 }

@@ -5,11 +5,11 @@ use super::super::payload::Payload;
 use super::super::picture::FirstView;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
-use crate::scale::{Mode, Scale};
+use crate::scale::{Mode, Scale, slot};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-/// Values of the distribution that the script interpolates shares of a range from.
+/// Values of the distribution that the script tells shares of a range from: exactly where these are all, else about.
 const QUANTILES: usize = 2000;
 
 /// Writes the data elements.
@@ -49,13 +49,38 @@ pub fn data(
 
 /// The maps that can be shown, with what the scale draws beside them.
 fn maps(input: &ReportInput) -> Value {
-    let all = input.result.subject().maps().into_iter().enumerate().map(|(n, m)| {
+    let subject = input.result.subject();
+    let maps = subject.maps();
+    let values: Vec<Vec<f64>> = (0..maps.len()).map(|n| sorted(input, n)).collect();
+    let all = maps.into_iter().enumerate().map(|(n, m)| {
         json!({
             "name": m.name, "count": m.count, "mean": m.mean, "tolerance": m.tolerance, "histogram": m.histogram,
-            "quantiles": quantiles(input, n),
+            "quantiles": quantiles(&values[n]), "slots": slots(&values[n], m.count, subject.scale()),
         })
     });
     all.collect::<Vec<_>>().into()
+}
+
+/// The values at hand of a map, least to greatest.
+fn sorted(input: &ReportInput, map: usize) -> Vec<f64> {
+    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured);
+    let mut sorted: Vec<f64> = valued
+        .filter_map(|o| o.field(map))
+        .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
+        .collect();
+    sorted.par_sort_unstable_by(f64::total_cmp);
+    sorted
+}
+
+/// How many values have each colour of the scale as it opens, from the low cap to the high one; absent where some of the
+/// values are not at hand, for then nobody can count them.
+fn slots(sorted: &[f64], count: u64, scale: Option<&Scale>) -> Option<Vec<u64>> {
+    let limits = scale.filter(|_| sorted.len() as u64 == count)?.limits();
+    let mut counts = vec![0; limits.len() + 1];
+    for value in sorted {
+        counts[slot(&limits, *value)] += 1;
+    }
+    Some(counts)
 }
 
 /// The places of the list, in the order of its rows.
@@ -89,14 +114,8 @@ fn palettes(scale: &Scale) -> Value {
     Value::Object(Map::from_iter(palette::NAMES.map(|name| (name.to_string(), of(name)))))
 }
 
-/// Evenly spaced quantiles of the values at hand of a map, least to greatest; empty where there are none.
-fn quantiles(input: &ReportInput, map: usize) -> Vec<f64> {
-    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured);
-    let mut sorted: Vec<f64> = valued
-        .filter_map(|o| o.field(map))
-        .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
-        .collect();
-    sorted.par_sort_unstable_by(f64::total_cmp);
+/// Evenly spaced quantiles of sorted values, all of them where they are few; empty where there are none.
+fn quantiles(sorted: &[f64]) -> Vec<f64> {
     let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
     let steps = QUANTILES.min(last.max(1));
     (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()

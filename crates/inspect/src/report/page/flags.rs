@@ -67,7 +67,7 @@ fn draw(
     scale: Option<&Scale>,
     [left, width, inner]: [f64; 3],
 ) {
-    let hidden = view.places.iter().any(|(n, hidden)| *n == flag.pick && *hidden);
+    let hidden = view.hidden.get(flag.pick) == Some(&true);
     let class = if hidden { " hidden" } else { "" };
     let (Placed { label, x, y, top, .. }, middle) = (flag, flag.top + 0.5 * HEIGHT);
     let mut line = |class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| {

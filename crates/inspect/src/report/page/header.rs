@@ -6,10 +6,11 @@ use super::super::payload::Payload;
 use super::blocks::{badge, file_name, role_key};
 use crate::results::Role;
 
-/// The heading: the title given, else the part's name, else the first file's.
+/// The heading: the title given, else the document's own, else the part's name, else the first file's.
 pub fn title(input: &ReportInput) -> String {
-    let first = input.result.subject().head().inputs.first().map(|i| file_name(&i.path));
-    let given = input.options.title.as_deref().or(input.options.part.as_deref());
+    let subject = input.result.subject();
+    let first = subject.head().inputs.first().map(|i| file_name(&i.path));
+    let given = input.options.title.as_deref().or(subject.title()).or(input.options.part.as_deref());
     given.or(first).unwrap_or("trueness").to_string()
 }
 
@@ -60,7 +61,7 @@ fn who(h: &mut Html, input: &ReportInput) {
 fn identification(h: &mut Html, input: &ReportInput) {
     let o = input.options;
     // Without a title the part's name is the heading already.
-    let part = o.part.as_ref().filter(|_| o.title.is_some());
+    let part = o.part.as_ref().filter(|p| **p != title(input));
     let given = [("part", part), ("serial", o.serial.as_ref()), ("operator", o.operator.as_ref())];
     let mut given = given.into_iter().filter_map(|(key, value)| Some((key, value?))).peekable();
     if given.peek().is_none() {

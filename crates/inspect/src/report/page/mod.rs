@@ -6,6 +6,7 @@ mod figure;
 mod flags;
 mod header;
 mod policy;
+pub mod symbols;
 
 use super::html::{Html, escaped};
 use super::number::Style;

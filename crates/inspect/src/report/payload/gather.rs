@@ -1,5 +1,6 @@
 //! Where vertices were left out, those that stay show the worst of what the others showed.
 
+use crate::tolerance::badness;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, dot, minus, norm};
 
@@ -49,11 +50,10 @@ pub fn farthest(mesh: &Mesh, owners: &[u32]) -> f64 {
 
 /// The value of each vertex that is left: the worst of those it stands for, farthest beyond the zone or else greatest in size.
 pub fn worst(values: &[f64], owners: &[u32], zone: Option<[f64; 2]>) -> Vec<f64> {
-    let badness = |d: f64| zone.map_or(d.abs(), |[l, u]| (d - u).max(l - d));
     let mut worst = values.to_vec();
     for (value, owner) in values.iter().zip(owners).filter(|(v, _)| !v.is_nan()) {
         if let Some(shown) = worst.get_mut(*owner as usize)
-            && (shown.is_nan() || badness(*value) > badness(*shown))
+            && (shown.is_nan() || badness(*value, zone) > badness(*shown, zone))
         {
             *shown = *value;
         }

@@ -21,7 +21,8 @@ pub struct Camera {
     /// Unit vector from the part to the eye.
     pub toward: Vector,
     center: [f64; 2],
-    scale: f64,
+    /// Pixels a millimetre.
+    pub scale: f64,
     size: [f64; 2],
 }
 

@@ -1,13 +1,15 @@
 //! Where the first view looks from: the side that shows most of the places that matter, the most important first.
 //!
-//! A place is seen from a direction when nothing that is drawn lies on the way from it to the eye. That is decided exactly,
-//! facet by facet, for a short list of directions; the usual one is kept when it shows everything.
+//! A place is seen from a direction when nothing lies on the way from it to the eye. That is decided exactly, facet by facet,
+//! for a short list of directions; the usual one is kept when it shows everything. What hides places is what is drawn; for a
+//! cloud it is the reference, drawn or not: between points one looks through, and the part is there all the same.
 
 use super::super::documents::Pick;
 use super::super::marks::{Mark, Marks};
 use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
 use super::shown_objects;
+use crate::compare::spacing;
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
@@ -33,6 +35,8 @@ pub struct Direction {
     pub places: Vec<(usize, bool)>,
     /// For each pick, whether it lies so far off that it is not on the part.
     pub off: Vec<bool>,
+    /// For each pick with a flag in this view, whether it is hidden.
+    pub hidden: Vec<bool>,
 }
 
 /// Chooses the direction for a report.
@@ -48,19 +52,45 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     important.sort_by_key(|n| off[*n]);
     important.truncate(PLACES);
     let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
-    let places: Vec<Place> =
-        important.iter().map(|n| Place::of(&picks[*n], off[*n], input.marks, measured, diagonal)).collect();
+    let place = |n: &usize| Place::of(&picks[*n], off[*n], input.marks, measured, diagonal);
+    let places: Vec<Place> = important.iter().map(place).collect();
+    let opaque = opaque(input.objects, &shown);
     let all = candidates(input.options.up, subject.facing(), &places);
-    let usual = View::of(&places, &all[..1], &shown).remove(0);
+    let usual = View::of(&places, &all[..1], &opaque).remove(0);
     let best = if usual.shows_all_well() {
         usual
     } else {
         // The first of the best: the order of the candidates decides between equals.
-        let views = View::of(&places, &all, &shown);
+        let views = View::of(&places, &all, &opaque);
         views.into_iter().fold(usual, |best, v| if v.rank() > best.rank() { v } else { best })
     };
-    let hidden = best.seen.iter().map(|s| s.is_none());
-    Direction { toward: best.toward, places: important.into_iter().zip(hidden).collect(), off }
+    let mut hidden = vec![false; picks.len()];
+    let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n])).collect();
+    let flags: Vec<Place> = flagged.iter().map(place).collect();
+    for (n, seen) in flagged.iter().zip(&View::of(&flags, &[best.toward], &opaque).remove(0).seen) {
+        hidden[*n] = seen.is_none();
+    }
+    let places = important.into_iter().zip(best.seen.iter().map(|s| s.is_none())).collect();
+    Direction { toward: best.toward, places, off, hidden }
+}
+
+/// A pick has a flag in the first view: a value of the first map.
+pub fn flagged(pick: &Pick) -> bool {
+    pick.value.is_some() && pick.map.unwrap_or(0) == 0
+}
+
+/// What hides places: of a measured cloud the reference's surface, drawn or not, where there is one; else what is drawn and
+/// not looked through.
+fn opaque<'a>(objects: &'a [ViewObject<'a>], shown: &[&'a ViewObject<'a>]) -> Vec<&'a ViewObject<'a>> {
+    let surface =
+        |o: &&ViewObject| o.role == ViewRole::Reference && o.mesh().is_some_and(|m| !m.faces.is_empty());
+    let references: Vec<&ViewObject> =
+        objects.iter().filter(surface).filter(|o| o.comparison.unwrap_or(0) == 0).collect();
+    let cloud = shown.iter().any(|o| o.role == ViewRole::Measured && o.points().is_some());
+    match cloud && !references.is_empty() {
+        true => references,
+        false => shown.iter().copied().filter(|o| o.role != ViewRole::Element).collect(),
+    }
 }
 
 /// How far a pick lies from where it was measured.
@@ -135,10 +165,10 @@ struct View {
 }
 
 impl View {
-    fn of(places: &[Place], directions: &[Vector], shown: &[&ViewObject]) -> Vec<View> {
+    fn of(places: &[Place], directions: &[Vector], opaque: &[&ViewObject]) -> Vec<View> {
         let probes: Vec<(Point, f64)> =
             places.iter().flat_map(|p| p.samples.iter().map(|s| (*s, p.near))).collect();
-        let blocked = blocked(&probes, directions, shown);
+        let blocked = blocked(&probes, directions, opaque);
         let view = |(d, toward): (usize, &Vector)| {
             let mut first = 0;
             let seen = places.iter().map(|p| {
@@ -157,16 +187,22 @@ impl View {
         self.seen.iter().all(|s| s.is_some_and(|s| s >= 0.5))
     }
 
-    /// The most important place first, then how many, then how squarely by and large.
-    fn rank(&self) -> (bool, usize, u32) {
+    /// The most important place first, from its own side rather than from behind; then how many, then how squarely by and
+    /// large.
+    fn rank(&self) -> (u8, usize, u32) {
         let seen = || self.seen.iter().flatten();
         let squarely = 2.0 * seen().sum::<f64>() / seen().count().max(1) as f64;
-        (self.seen.first().is_some_and(Option::is_some), seen().count(), squarely.round() as u32)
+        let first = match self.seen.first() {
+            Some(Some(square)) if *square >= 0.5 => 2,
+            Some(Some(_)) => 1,
+            _ => 0,
+        };
+        (first, seen().count(), squarely.round() as u32)
     }
 }
 
 /// For each probe (a place, and how near to it nothing counts) the directions that something lies in, as bits.
-fn blocked(probes: &[(Point, f64)], directions: &[Vector], shown: &[&ViewObject]) -> Vec<u64> {
+fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject]) -> Vec<u64> {
     let none = || vec![0u64; probes.len()];
     let join = |mut a: Vec<u64>, b: Vec<u64>| {
         a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
@@ -183,18 +219,16 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], shown: &[&ViewObject]
         mesh.faces.par_iter().fold(none, part).reduce(none, join)
     };
     let by_point = |points: &[Point]| {
-        let bounds = Aabb::of(points.iter().filter(|p| p.iter().all(|x| x.is_finite())));
-        let wide = if bounds.is_empty() { 0.0 } else { bounds.sides().into_iter().fold(0.0, f64::max) };
-        // As wide as points of a closed surface of this size are apart when they lie evenly.
-        let radius = 0.75 * wide / (points.len().max(1) as f64).sqrt();
+        // Scattered at random, points of this size leave a thousandth of their surface open.
+        let finite: Vec<Point> = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).copied().collect();
+        let radius = 1.5 * spacing(&finite);
         let part = |mut bits: Vec<u64>, p: &Point| {
-            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + 2.0 * radius);
+            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + OBLIQUE * radius);
             bits
         };
         points.par_iter().fold(none, part).reduce(none, join)
     };
-    let opaque = shown.iter().filter(|o| o.role != ViewRole::Element);
-    opaque.fold(none(), |bits, o| {
+    opaque.iter().fold(none(), |bits, o| {
         let more = match o.geometry {
             Geometry::Mesh(mesh) => by_triangle(mesh),
             Geometry::Points(points) => by_point(points),
@@ -265,32 +299,76 @@ mod tests {
         assert_eq!(crossing([1.0, 2.0, 0.0], [1.0, 0.0, 0.0], a, b, [0.0, 4.0, 5.0]), None);
     }
 
-    /// Every candidate against every place of a cube's faces, by what is known of a convex body.
-    #[test]
-    fn a_convex_body_hides_what_looks_away() {
+    /// The cube from −1 to 1.
+    fn cube() -> Mesh {
         let corner = |i: u32| [0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 });
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-        let mesh = Mesh { positions: (0..8).map(corner).collect(), faces };
-        let object = ViewObject {
-            role: ViewRole::Part,
+        Mesh { positions: (0..8).map(corner).collect(), faces }
+    }
+
+    fn object<'a>(role: ViewRole, geometry: Geometry<'a>, values: &'a [f64]) -> ViewObject<'a> {
+        ViewObject {
+            role,
             name: "",
             color: None,
             comparison: None,
-            geometry: Geometry::Mesh(&mesh),
-            fields: vec![],
+            geometry,
+            fields: vec![crate::report::ViewField { comparison: 0, values, reasons: &[] }],
             keep: &[],
             gathered: None,
-        };
+        }
+    }
+
+    /// The middles of the cube's faces, a little off the middle, `depth` under the surface.
+    fn middles(depth: f64) -> Vec<Place> {
         let axes =
             (0..3).flat_map(|k| [1.0, -1.0].map(|s| std::array::from_fn(|i| if i == k { s } else { 0.0 })));
-        let places: Vec<Place> =
-            axes.map(|n| Place { samples: vec![n], normal: Some(n), near: 0.01 }).collect();
-        for view in View::of(&places, &candidates(Up::Z, None, &places), &[&object]) {
+        axes.map(|n: Vector| Place {
+            samples: vec![plus(times(1.0 - depth, n), [0.0123 * n[1], 0.0123 * n[2], 0.0123 * n[0]])],
+            normal: Some(n),
+            near: (OBLIQUE * depth).max(0.01),
+        })
+        .collect()
+    }
+
+    /// Every candidate sees of a convex body what looks to it, unless that is more `oblique`, and nothing else.
+    fn sees_one_side_only(places: &[Place], opaque: &[&ViewObject], oblique: f64) {
+        for view in View::of(places, &candidates(Up::Z, None, places), opaque) {
             for (place, seen) in places.iter().zip(&view.seen) {
                 let looks = place.normal.map_or(0.0, |n| dot(n, view.toward));
-                assert_eq!(seen.is_some(), looks > 0.0, "{:?} from {:?}", place.normal, view.toward);
+                if !(0.0..oblique).contains(&looks) {
+                    assert_eq!(seen.is_some(), looks > 0.0, "{:?} from {:?}", place.normal, view.toward);
+                }
             }
         }
+    }
+
+    /// Every candidate against every place of a cube's faces, by what is known of a convex body.
+    #[test]
+    fn a_convex_body_hides_what_looks_away() {
+        let mesh = cube();
+        sees_one_side_only(&middles(0.0), &[&object(ViewRole::Part, Geometry::Mesh(&mesh), &[0.0; 8])], 0.0);
+    }
+
+    /// A cloud of 30,000 points scattered on the cube: one looks between them, but not through the part. Decided by the
+    /// reference, though it is not drawn; without one by the points as discs that close the surface.
+    #[test]
+    fn a_cloud_hides_what_looks_away() {
+        let mut random = trueness_geom::num::random::Random::new(7);
+        let mut on_the_cube = || {
+            let mut p: Point = [0.0; 3].map(|_: f64| 2.0 * random.unit() - 1.0);
+            p[random.below(3) as usize] = if random.below(2) == 1 { 1.0 } else { -1.0 };
+            p
+        };
+        let points: Vec<Point> = (0..30_000).map(|_| on_the_cube()).collect();
+        let (mesh, values) = (cube(), vec![0.0; 30_000]);
+        let cloud = || object(ViewRole::Measured, Geometry::Points(&points), &values);
+        let objects = [cloud(), object(ViewRole::Reference, Geometry::Mesh(&mesh), &[0.0; 8])];
+        let shown = shown_objects(&objects);
+        assert_eq!(shown.len(), 1, "the reference is not drawn");
+        sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), SEEN);
+        let alone = [cloud()];
+        sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)), SEEN);
     }
 }

@@ -9,6 +9,7 @@ mod png;
 
 use super::documents::Pick;
 use super::{Geometry, ReportInput, ViewObject, ViewRole};
+use crate::compare::spacing;
 use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use camera::Camera;
@@ -22,6 +23,8 @@ const HEIGHT: u32 = 900;
 const FINE: u32 = 2;
 /// Least brightness of a surface seen edge-on.
 const DARKEST: f64 = 0.72;
+/// How much darker than its middle a point is at its rim, which tells points apart.
+const RIM: f64 = 0.2;
 /// Room for the flags on the left and on the right, where there are any.
 const FLAGS: u32 = 170;
 /// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
@@ -70,22 +73,24 @@ pub struct FirstView {
     pub places: Vec<(usize, bool)>,
     /// For each pick, whether it lies so far off that it is not on the part.
     pub off: Vec<bool>,
+    /// For each pick with a flag in this view, whether it is hidden.
+    pub hidden: Vec<bool>,
     camera: Camera,
 }
 
 impl FirstView {
     /// Of a report with these picks.
     pub fn of(input: &ReportInput, picks: &[Pick]) -> FirstView {
-        let direction::Direction { toward, places, off } = direction::direction(input, picks);
+        let direction::Direction { toward, places, off, hidden } = direction::direction(input, picks);
         let shown = shown_objects(input.objects);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-        let flagged = |n: &usize| picks[*n].value.is_some() && picks[*n].map.unwrap_or(0) == 0;
+        let flagged = |n: &usize| direction::flagged(&picks[*n]);
         let beside = (0..picks.len()).filter(|n| off[*n] && flagged(n)).map(|n| &picks[n].position);
         let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
         let margin = if (0..picks.len()).any(|n| flagged(&n)) { FLAGS } else { 0 };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
-        FirstView { toward, places, off, camera }
+        FirstView { toward, places, off, hidden, camera }
     }
 
     /// Width and height of the picture in pixels.
@@ -249,8 +254,9 @@ impl Canvas {
         camera: &Camera,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // Few points are drawn large enough to be seen.
-        let radius = (600.0 / (points.len().max(1) as f64).sqrt()).clamp(1.5, 16.0);
+        // Large enough to close the surface that they lie on, as far as that is no more than a dot.
+        let finite: Vec<Point> = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).copied().collect();
+        let radius = (camera.scale * spacing(&finite)).clamp(1.5, 16.0);
         for (i, p) in points.iter().enumerate() {
             if i % TASK == 0 && progress.cancelled() {
                 return Err(Cancelled);
@@ -260,7 +266,14 @@ impl Canvas {
                 continue;
             }
             let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
-            self.disc([x, y], radius, |canvas, x, y| canvas.put(x, y, z as f32, || color));
+            // As cones: each sample belongs to the point whose middle is nearest, and none is lost under its neighbours.
+            self.disc([x, y], radius, |canvas, px, py| {
+                let off = (f64::from(px) - x).hypot(f64::from(py) - y) / radius;
+                let shade = 1.0 - RIM * off * off;
+                canvas.put(px, py, (z + radius * (1.0 - off)) as f32, || {
+                    color.map(|c| (f64::from(c) * shade).round() as u8)
+                });
+            });
         }
         Ok(())
     }

@@ -1,5 +1,5 @@
 import { el, need, svg } from '../dom'
-import type { State } from '../state'
+import { OPEN, type State } from '../state'
 import type { Words } from '../words'
 import { drawScale, type Drawing } from './drawing'
 
@@ -34,7 +34,8 @@ export function scaleColumn(state: State, words: Words): void {
     only.replaceChildren()
     if (state.only) {
       const [from, to] = state.only.map((v) => words.signed(v, state.scale.decimals))
-      const share = words.percent(state.share(...state.only) ?? 0, 1)
+      const found = state.share(...state.only)
+      const share = found ? words.share(found) : ''
       only.append(el('span', {}, `${words.of('scale.only')} ${from} … ${to}: `), el('strong', {}, share))
       const clear = el('button', { type: 'button' }, words.of('scale.all'))
       clear.addEventListener('click', () => state.setOnly(null))
@@ -72,9 +73,9 @@ function brush(chart: SVGSVGElement, state: State, drawing: () => Drawing): void
   chart.addEventListener('pointerup', (e) => {
     if (from !== null && Math.abs(along(e) - from) < 4) {
       const value = drawing().value(from)
-      const limits = [-Infinity, ...state.colors.limits, Infinity]
+      const limits = [-OPEN, ...state.colors.limits, OPEN]
       const i = limits.findIndex((limit, k) => k + 1 < limits.length && value >= limit && value <= limits[k + 1])
-      const range: [number, number] = [limits[i], limits[i + 1]].map((x) => (Number.isFinite(x) ? x : 1e29 * Math.sign(x))) as [number, number]
+      const range: [number, number] = [limits[i], limits[i + 1]]
       state.setOnly(state.only && state.only[0] === range[0] && state.only[1] === range[1] ? null : range)
     }
     from = null

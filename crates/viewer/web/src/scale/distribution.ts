@@ -1,18 +1,41 @@
-/** Shares of the deviations, from evenly spaced quantiles. */
+/** A share of the values (0 to 1). */
+export interface Share {
+  share: number
+  /** Counted, not told from quantiles. */
+  exact: boolean
+}
+
+/** Shares of values: counted where all of them are at hand, told from evenly spaced quantiles where they are not. */
 export class Distribution {
-  constructor(private readonly quantiles: number[]) {}
+  /** `quantiles` rise, and are all of the `count` values where they are as many. */
+  constructor(
+    private readonly quantiles: number[],
+    count: number,
+  ) {
+    this.complete = quantiles.length > 0 && quantiles.length >= count
+    // A single value stands at both ends.
+    if (this.complete) this.quantiles = quantiles.slice(0, count)
+  }
+
+  readonly complete: boolean
 
   get known(): boolean {
-    return this.quantiles.length > 1
+    return this.complete || this.quantiles.length > 1
   }
 
   /** Share of values in `[from, to]`. */
-  between(from: number, to: number): number {
-    return Math.max(0, this.share(to, true) - this.share(from, false))
+  between(from: number, to: number): Share {
+    if (this.complete) return { share: this.share((v) => v >= from && v <= to), exact: true }
+    return { share: Math.max(0, this.about(to, true) - this.about(from, false)), exact: false }
   }
 
-  /** Share of values below `x`, or below and at it. */
-  private share(x: number, inclusive: boolean): number {
+  /** Share of the values that are meant; only where all are at hand. */
+  share(meant: (value: number) => boolean): number {
+    return this.quantiles.filter(meant).length / this.quantiles.length
+  }
+
+  /** About the share of values below `x`, or below and at it. */
+  private about(x: number, inclusive: boolean): number {
     const q = this.quantiles
     const last = q.length - 1
     // First quantile that is greater (or not less): binary search.

@@ -8,8 +8,10 @@ import { hex } from './scale'
 const STRIP = 18
 const TICK = 4
 const LABEL = 52
+/** And what a digit beyond the third takes more, upright. */
+const DIGIT = 7
 /** Room for the shares beside the bars, upright. */
-const SHARE = 46
+const SHARE = 56
 
 export interface Drawing {
   /** Pixel along the axis for a deviation. */
@@ -37,7 +39,7 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   // Lying, the numbers at both ends reach beyond the axis.
   target.setAttribute('viewBox', upright ? `0 0 ${w} ${h}` : `-44 0 ${w + 88} ${h}`)
   target.replaceChildren(svg('title', {}, words.of('figure.title')))
-  const strip = upright ? LABEL : breadth - LABEL + 8
+  const strip = upright ? LABEL + DIGIT * Math.max(0, scale.decimals - 3) : breadth - LABEL + 8
   const bars = strip + (upright ? STRIP + 4 : -4)
   const end = upright ? breadth - SHARE : 0
   const room = Math.abs(end - bars)
@@ -112,10 +114,10 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   // Shares beside the bands and clear of the bars.
   if (upright) {
     for (let i = 0; i + 1 < edges.length; i++) {
-      const share = state.share(i === 0 ? -Infinity : edges[i], i + 2 === edges.length ? Infinity : edges[i + 1])
-      if (share === null) break
+      const found = state.slotShare(i)
+      if (found === null) break
       const middle = value((at(edges[i]) + at(edges[i + 1])) / 2)
-      if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.percent(share, share > 0 && share < 0.001 ? 2 : 1), 'share'))
+      if (Math.abs(at(edges[i]) - at(edges[i + 1])) >= 11) target.append(text(middle, breadth - 2, words.share(found), 'share'))
     }
   }
   let marked: SVGElement | null = null

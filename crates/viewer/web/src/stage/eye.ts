@@ -42,6 +42,11 @@ export class Eye {
     this.radius = radius
   }
 
+  /** Of everything, millimetres. */
+  get size(): number {
+    return 2 * this.radius
+  }
+
   /** The three.js camera for this moment. */
   get camera(): OrthographicCamera | PerspectiveCamera {
     const camera = this.perspective ? this.deep : this.flat

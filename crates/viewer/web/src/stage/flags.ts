@@ -122,6 +122,7 @@ export class Flags {
       const { flag, hidden, x, y, inner, top, width: wide } = c
       flag.box.classList.toggle('hidden', hidden)
       flag.line.classList.toggle('hidden', hidden)
+      flag.dot.classList.toggle('hidden', hidden)
       flag.box.classList.toggle('selected', flag.number === this.state.picked)
       const right = inner > x
       flag.box.style.top = `${top}px`

@@ -63,13 +63,24 @@ export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize' | 'opacity' | 'back' | 'sink', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'lift' | 'opacity' | 'back' | 'sink' | 'cover' | 'covered' | 'near', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
   const [base] = parse(object.color)
   const opacity = OPACITIES[object.role] ?? 1
-  const own = { map: { value: true }, slack: { value: 0 }, pointSize: { value: 3 }, opacity: { value: opacity }, back: { value: false }, sink: { value: 0 } }
+  const own = {
+    map: { value: true },
+    slack: { value: 0 },
+    pointSize: { value: 3 },
+    lift: { value: 0 },
+    opacity: { value: opacity },
+    back: { value: false },
+    sink: { value: 0 },
+    cover: { value: null },
+    covered: { value: false },
+    near: { value: 0 },
+  }
   const uniforms = {
     ...shared,
     ...own,

@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Points, Vector3 } from 'three'
+import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Points, Vector3, type Texture } from 'three'
 import { NO_VALUE, type DecodedObject } from '../decode/object'
 import type { ViewObject } from '../manifest'
 import { materialsFor, type Materials } from './look'
@@ -9,6 +9,8 @@ export interface Cover {
   corners: Uint32Array
   /** Radius of a point, millimetres. */
   radius: number
+  /** How far the level may lie from what it stands for, millimetres. */
+  error: number
 }
 
 /**
@@ -19,6 +21,15 @@ const SINKING: Record<string, number> = { reference: 1.5, before: 1.5 }
 
 /** Points that stand for a cloud which hides something. */
 const COVER_POINTS = 60_000
+/** Points whose neighbours tell how far apart a cloud's points lie, and the neighbour that is as far as that. */
+const PROBES = 32
+const NEIGHBOUR = 4
+/** Discs of points, in spacings: of this diameter they close the surface but for a few gaps where points lie at random. */
+const CLOSED = 2
+/** And of this one they close it but for a thousandth. */
+const OPAQUE = 3
+/** Pixels of a disc: least, most, and most where the points are fewer than make a surface. */
+const DISC = { least: 2, most: 64, single: 24, few: 2000 }
 
 /** An object on the stage: its buffers on the GPU, its levels of detail, its values. */
 export class Part {
@@ -28,6 +39,7 @@ export class Part {
   private readonly levels: { start: number; count: number }[]
   private field = -2
   private covering: Cover | null = null
+  private measured: number | null = null
 
   constructor(
     readonly object: ViewObject,
@@ -156,13 +168,13 @@ export class Part {
       if (!numbers.has(v)) numbers.set(v, numbers.size)
       return numbers.get(v) ?? 0
     })
-    return { places: this.placesOf([...numbers.keys()]), corners, radius: 0 }
+    return { places: this.placesOf([...numbers.keys()]), corners, radius: 0, error: this.object.levels.at(-1)?.error ?? 0 }
   }
 
   /** Points are stored so that every prefix is an even sample. */
   private coverOfPoints(): Cover {
     const count = Math.min(COVER_POINTS, this.object.vertices)
-    return { places: this.placesOf(Array.from({ length: count }, (_, v) => v)), corners: new Uint32Array(0), radius: this.spacing(count) / 2 }
+    return { places: this.placesOf(Array.from({ length: count }, (_, v) => v)), corners: new Uint32Array(0), radius: (OPAQUE / 2) * this.spacing(count), error: 0 }
   }
 
   private placesOf(vertices: number[]): Float32Array {
@@ -174,9 +186,60 @@ export class Part {
     return places
   }
 
-  /** How far apart `count` points of a closed surface of this size are when evenly spread, millimetres. */
+  /** Sets the size of points: as large as closes the surface they lie on, and with `opaque` to the last gap. */
+  setPoints(millimetresPerPixel: number, ratio: number, opaque = false): void {
+    if (this.object.kind !== 'points') return
+    const spacing = this.spacing(this.drawn.geometry.drawRange.count)
+    const most = this.object.vertices < DISC.few ? DISC.single : DISC.most
+    const wanted = ((opaque ? OPAQUE : CLOSED) * spacing) / millimetresPerPixel
+    const size = opaque ? wanted : Math.min(most, Math.max(DISC.least, wanted))
+    const { own } = this.materials
+    own.pointSize.value = ratio * size
+    own.lift.value = opaque ? 0 : Math.min(spacing, (size / 2) * millimetresPerPixel)
+  }
+
+  /** How far behind its nearest place a surface of discs may have points of its own, millimetres. */
+  get depth(): number {
+    return this.object.kind === 'points' ? OPAQUE * this.spacing(this.object.vertices) : 0
+  }
+
+  /** Points behind the surface in `cover` have no values; those within `near` of it, and those as far off as they measure, lie on it. */
+  setCover(cover: Texture | null, near: number): void {
+    const { own } = this.materials
+    own.cover.value = cover
+    own.covered.value = cover !== null
+    own.near.value = near
+  }
+
+  /** How far apart the points lie where only the first `count` are drawn, an even sample: millimetres. */
   spacing(count: number): number {
-    return (this.object.step * 65535 * 0.5 * 3) / Math.sqrt(Math.max(1, count))
+    return this.apart * Math.sqrt(this.object.vertices / Math.max(1, Math.min(count, this.object.vertices)))
+  }
+
+  /**
+   * How far apart all points lie: the median distance of some of them from their fourth neighbour, which is the same on a
+   * grid and where they lie at random. Made when first asked for.
+   */
+  private get apart(): number {
+    if (this.measured !== null) return this.measured
+    const { packed } = this.data
+    const count = packed.length / 4
+    const found: number[] = []
+    for (let probe = 0; probe < Math.min(PROBES, count); probe++) {
+      const v = 4 * Math.floor((probe * count) / Math.min(PROBES, count))
+      // The place itself is among them.
+      const least = new Float64Array(NEIGHBOUR + 1).fill(Infinity)
+      for (let p = 0; p < packed.length; p += 4) {
+        const d = (packed[p] - packed[v]) ** 2 + (packed[p + 1] - packed[v + 1]) ** 2 + (packed[p + 2] - packed[v + 2]) ** 2
+        if (d >= least[NEIGHBOUR]) continue
+        let i = NEIGHBOUR
+        for (; i > 0 && least[i - 1] > d; i--) least[i] = least[i - 1]
+        least[i] = d
+      }
+      if (least[NEIGHBOUR] < Infinity) found.push(Math.sqrt(least[NEIGHBOUR]))
+    }
+    found.sort((a, b) => a - b)
+    return (this.measured = (found[found.length >> 1] ?? 65535) * this.object.step)
   }
 
   /** Up to `n` evenly chosen vertices, relative to the stage's centre: enough to frame the part. */

@@ -34,6 +34,28 @@ void main() {
   gl_PointSize = pointSize;
 }`
 
+/** A way through a surface, seen obliquely, is up to this much longer than straight. */
+export const OBLIQUE = 3
+
+/**
+ * A point is a disc, and lies in the depths as a cone with its tip to the eye: where discs overlap each pixel belongs to
+ * the point whose middle is nearest, so that they close a surface and none is lost under its neighbours.
+ * Only for points: a shader that may discard keeps the GPU from leaving out what is hidden.
+ */
+const DISC = `
+#ifdef POINTS
+#define OBLIQUE ${OBLIQUE.toFixed(1)}
+#define RIM 0.2
+uniform mat4 projectionMatrix;
+uniform float sink, lift;
+void disc() {
+  float off = length(2.0 * gl_PointCoord - 1.0);
+  if (off > 1.0) discard;
+  vec4 tip = projectionMatrix * vec4(vPlace.xy, vPlace.z - sink + lift * (1.0 - off), 1.0);
+  gl_FragDepth = clamp(0.5 * tip.z / tip.w + 0.5, 0.0, 1.0);
+}
+#endif`
+
 /** The picture. The colour is found at the pixel from the interpolated value, so band edges are iso-lines. */
 export const FRAGMENT = `
 precision highp float;
@@ -58,6 +80,7 @@ const bool isPoints = true;
 #else
 const bool isPoints = false;
 #endif
+${DISC}
 
 /* 0 is the low cap; a limit belongs to the band nearer the middle. Values are rounded to steps: half a step is still on it. */
 int slotOf(float v) {
@@ -99,13 +122,16 @@ bool line(float along) { return mod(along, 7.0) < 1.6; }
 
 void main() {
 #ifdef POINTS
-  // Only here: a shader that may discard keeps the GPU from leaving out what is hidden.
-  vec2 p = 2.0 * gl_PointCoord - 1.0;
-  if (dot(p, p) > 1.0) discard;
+  disc();
 #endif
   float up = gl_FragCoord.x + gl_FragCoord.y;
   bool inner = backfaces && !isPoints && !gl_FrontFacing;
-  float shade = isPoints || (flatColors && map && !inner) ? 1.0 : light(inner ? 0.55 : map ? 0.72 : 0.45);
+#ifdef POINTS
+  // Points have no side that the light could fall on; a darker rim tells them apart, and near from far.
+  float shade = flatColors ? 1.0 : 1.0 - RIM * dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
+#else
+  float shade = flatColors && map && !inner ? 1.0 : light(inner ? 0.55 : map ? 0.72 : 0.45);
+#endif
   if (inner) {
     color = vec4((line(up) ? vec3(0.62, 0.42, 0.58) : vec3(0.74, 0.58, 0.71)) * shade, opacity);
     return;
@@ -137,12 +163,19 @@ in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
 uniform float objectId;
+/* What is nearest at each pixel, as this buffer has it: the surface that hides points. */
+uniform sampler2D cover;
+uniform bool covered;
+/* How far behind it a point without a deviation of its own still lies on it. */
+uniform float near;
 out vec4 color;
+${DISC}
 void main() {
-#ifdef POINTS
-  vec2 p = 2.0 * gl_PointCoord - 1.0;
-  if (dot(p, p) > 1.0) discard;
-#endif
   bool missing = vMissing.x > 1e-4;
+#ifdef POINTS
+  disc();
+  vec4 front = covered ? texelFetch(cover, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
+  if (front.z > 0.5 && front.y - vPlace.z > max(near, missing ? 0.0 : OBLIQUE * abs(vValue))) discard;
+#endif
   color = vec4(vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
 }`

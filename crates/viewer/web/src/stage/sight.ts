@@ -1,15 +1,21 @@
 import type { Vector3 } from 'three'
 import type { Eye } from './eye'
 import type { Cover, Part } from './part'
+import { OBLIQUE } from './shaders'
 import type { ValueBuffer } from './values'
 
 /** How far before a place something may lie without hiding it: pixels, and share of the view's height. */
 const PIXELS = 6
 const SHARE = 0.01
+/** Share of the size of everything that a place of a cloud may lie under its surface. */
+export const NEAR = 0.002
 
 /**
  * Whether something lies before a place. Where the values of the picture are read it is a look-up; until then, and while
  * the picture moves, the place is held against the coarsest level of what is shown, so that an answer is always there.
+ *
+ * Between the points of a cloud one looks through, and the part is there all the same. There the place is held against the
+ * reference's surface, shown or not, else against the points as discs that close it; the view's size makes no difference.
  */
 export class Sight {
   private from: { key: string; covers: Seen[] } | null = null
@@ -18,22 +24,29 @@ export class Sight {
     private readonly eye: Eye,
     private readonly values: ValueBuffer,
     private readonly shown: () => Part[],
+    /** Surfaces that stand for the clouds that are shown; `null` where none is. */
+    private readonly surfaces: () => Part[] | null,
   ) {}
 
   /** `slack`: how far the place may lie under the surface, millimetres. */
   hidden(place: Vector3, slack: number): boolean {
     const { eye, values } = this
     const p = eye.project(place)
+    const surfaces = this.surfaces()
+    if (surfaces) {
+      const near = p.depth + Math.max(NEAR * eye.size, slack)
+      return this.covers(surfaces).some((cover) => covered(cover, p, near + cover.margin))
+    }
     const before = p.depth + Math.max(PIXELS * eye.millimetresPerPixel, SHARE * eye.height, slack)
-    if (!values.ready) return this.covers().some((cover) => covered(cover, p, before))
+    if (!values.ready) return this.covers(this.shown()).some((cover) => covered(cover, p, before))
     const near = [-1, 0, 1].flatMap((i) => [-1, 0, 1].map((j) => values.at(p.x + i, p.y + j)))
     const seen = near.filter((r) => r !== null)
     return seen.length > 0 && seen.every((r) => r.depth > before)
   }
 
-  /** What is shown, in pixels and depths of this view. */
-  private covers(): Seen[] {
-    const parts = this.shown().filter((p) => !p.translucent)
+  /** Parts in pixels and depths of this view. */
+  private covers(all: Part[]): Seen[] {
+    const parts = all.filter((p) => !p.translucent)
     const key = [...this.eye.save(), this.eye.width, this.eye.pixels, this.eye.perspective, ...parts.map((p) => p.object.id)].join()
     if (this.from?.key !== key) this.from = { key, covers: parts.map((p) => seenFrom(this.eye, p.cover())) }
     return this.from.covers
@@ -46,9 +59,11 @@ interface Seen {
   corners: Uint32Array
   /** Radius of a point, pixels. */
   radius: number
+  /** How far before a place it may lie without hiding it, millimetres. */
+  margin: number
 }
 
-function seenFrom(eye: Eye, { places, corners, radius }: Cover): Seen {
+function seenFrom(eye: Eye, { places, corners, radius, error }: Cover): Seen {
   const at = new Float32Array(places.length)
   const camera = eye.camera
   const m = camera.matrixWorldInverse.elements
@@ -61,7 +76,7 @@ function seenFrom(eye: Eye, { places, corners, radius }: Cover): Seen {
     at[p + 1] = foot - scale * (m[1] * x + m[5] * y + m[9] * z + m[13])
     at[p + 2] = depth
   }
-  return { at, corners, radius: radius / eye.millimetresPerPixel }
+  return { at, corners, radius: radius / eye.millimetresPerPixel, margin: OBLIQUE * radius + 2 * error }
 }
 
 /** Something of it lies at the pixel of `p` and nearer to the eye than the depth `before`. */

@@ -8,6 +8,7 @@ import { Flight } from './flight'
 import { Marks } from './marks'
 import { Pace } from './pace'
 import { Part } from './part'
+import { OBLIQUE } from './shaders'
 import { Sight } from './sight'
 import { ValueBuffer } from './values'
 
@@ -21,16 +22,14 @@ const READ = 120
 const AGAIN = 20
 /** Pixels of the coarsest picture while moving, for one of the full one along a side. */
 const ROUGH = 0.5
-/** A way through a surface, seen obliquely, is up to this much longer than straight. */
-const OBLIQUE = 3
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
 /** Room for a column of flags: with values, and with numbers alone where the stage is narrow. */
 const FLAGS = { wide: 150, narrow: 48 }
 /** Stages narrower than this have flags with numbers alone. */
 export const NARROW = 700
-/** Height of the toolbar, which the part keeps clear of where the stage is narrow. */
-const TOOLS = 76
+/** Room above and below the toolbar, which the part keeps clear of where the stage is narrow. */
+const TOOLS = 8
 
 /** The 3D stage: draws on demand only, never at rest. */
 export class Stage {
@@ -67,7 +66,7 @@ export class Stage {
     this.values = new ValueBuffer(this.renderer)
     this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext, () => this.wanted && this.draw())
     this.eye = new Eye(state.manifest.up)
-    this.sight = new Sight(this.eye, this.values, () => this.shown)
+    this.sight = new Sight(this.eye, this.values, () => this.shown, () => this.surfaces)
     this.center = centerOf(state)
     this.eye.lookFrom(new Vector3(...state.manifest.first.toward))
     this.scene.matrixAutoUpdate = false
@@ -152,6 +151,17 @@ export class Stage {
     return this.parts.filter((p) => p.drawn.visible)
   }
 
+  /**
+   * What hides places where a cloud is shown: the reference that it is compared with, shown or not, where the report has
+   * it, else what is shown. `null` where no cloud is.
+   */
+  private get surfaces(): Part[] | null {
+    const { shown } = this
+    if (!shown.some((p) => p.object.kind === 'points')) return null
+    const references = this.parts.filter(({ object }) => object.kind === 'mesh' && object.role === 'reference' && (object.comparison ?? this.state.comparison) === this.state.comparison)
+    return references.length > 0 ? references : shown
+  }
+
   part(object: number): Part | undefined {
     return this.parts.find((p) => p.object.id === object)
   }
@@ -170,7 +180,12 @@ export class Stage {
     const marks = this.marks.filter((m) => m.drawn.visible)
     const off = flagged.filter(([, p]) => p.off).map(([, p]) => this.placeOf(p))
     const places = [...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000)), ...off]
-    this.eye.fit(places, margin, narrow ? TOOLS : 0)
+    this.eye.fit(places, margin, narrow ? this.head() : 0)
+  }
+
+  private head(): number {
+    const tools = this.canvas.parentElement?.querySelector<HTMLElement>('.stage-tools')
+    return (tools?.offsetHeight ?? 0) + 2 * TOOLS
   }
 
   /** Place of a pick relative to the stage's centre. */
@@ -246,7 +261,7 @@ export class Stage {
     const level = this.moving ? this.pace.level(coarsest) : 0
     for (const part of this.parts) part.setLevel(level)
     this.setRatio(level === coarsest ? this.ratio * ROUGH : this.ratio)
-    this.updatePointSize()
+    for (const part of this.parts) part.setPoints(this.eye.millimetresPerPixel, this.renderer.getPixelRatio())
     for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
     for (const part of this.parts) part.setPixel(this.eye.millimetresPerPixel)
     this.renderer.setClearColor((this.ground ??= this.groundColor()), 1)
@@ -295,15 +310,6 @@ export class Stage {
     return picture
   }
 
-  private updatePointSize(): void {
-    const ratio = this.renderer.getPixelRatio()
-    for (const part of this.parts) {
-      if (part.object.kind !== 'points') continue
-      const spacing = part.spacing(part.drawn.geometry.drawRange.count)
-      part.materials.own.pointSize.value = ratio * Math.min(24, Math.max(2, spacing / this.eye.millimetresPerPixel))
-    }
-  }
-
   /** What follows when nothing more happens: the picture in full, then its values. Until then the stage is busy. */
   private rest(): void {
     this.canvas.ariaBusy = 'true'
@@ -347,7 +353,7 @@ export class Stage {
 
   private async read(): Promise<void> {
     if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
-    await this.values.draw(this.scene, this.parts, this.eye, this.marks.map((m) => m.drawn))
+    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, this.marks.map((m) => m.drawn))
     if (!this.values.ready) return
     this.canvas.ariaBusy = 'false'
     for (const listener of this.listeners) listener()

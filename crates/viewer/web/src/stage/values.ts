@@ -1,6 +1,13 @@
 import { FloatType, NearestFilter, RGBAFormat, WebGLRenderTarget, type Object3D, type Scene, type WebGLRenderer } from 'three'
 import type { Eye } from './eye'
 import type { Part } from './part'
+import { NEAR } from './sight'
+
+function sized(target: WebGLRenderTarget | null, width: number, height: number): WebGLRenderTarget {
+  if (target?.width === width && target.height === height) return target
+  target?.dispose()
+  return new WebGLRenderTarget(width, height, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer: true })
+}
 
 /** What lies under a pixel. */
 export interface Reading {
@@ -19,6 +26,7 @@ export interface Reading {
  */
 export class ValueBuffer {
   private target: WebGLRenderTarget | null = null
+  private cover: WebGLRenderTarget | null = null
   private pixels: Float32Array<ArrayBuffer> | null = null
   private generation = 0
   private width = 0
@@ -36,24 +44,45 @@ export class ValueBuffer {
     this.pixels = null
   }
 
-  /** What one looks through, and `besides`, has no values. */
-  async draw(scene: Scene, parts: Part[], eye: Eye, besides: Object3D[]): Promise<void> {
+  /**
+   * What one looks through, and `besides`, has no values. Nor have points behind `surfaces`, which stand for the clouds
+   * where there are some: one sees such points through the gaps between nearer ones, but means the part.
+   */
+  async draw(scene: Scene, parts: Part[], eye: Eye, surfaces: Part[] | null, besides: Object3D[]): Promise<void> {
     const generation = ++this.generation
     const [width, height] = [Math.max(1, Math.round(eye.width)), Math.max(1, Math.round(eye.pixels))]
-    if (!this.target || this.target.width !== width || this.target.height !== height) {
-      this.target?.dispose()
-      this.target = new WebGLRenderTarget(width, height, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer: true })
+    this.target = sized(this.target, width, height)
+    const drawn = [...besides, ...parts.map((p) => p.drawn)]
+    const before = drawn.map((d) => d.visible)
+    const show = (wanted: (part: Part, visible: boolean) => boolean) => {
+      for (const d of besides) d.visible = false
+      parts.forEach((part, i) => (part.drawn.visible = !part.translucent && wanted(part, before[besides.length + i])))
     }
-    const hidden = [...besides, ...parts.filter((p) => p.translucent).map((p) => p.drawn)].filter((d) => d.visible)
-    for (const drawn of hidden) drawn.visible = false
+    const render = (target: WebGLRenderTarget) => {
+      this.renderer.setRenderTarget(target)
+      this.renderer.clear()
+      this.renderer.render(scene, eye.camera)
+    }
     for (const part of parts) part.drawn.material = part.materials.values
-    this.renderer.setRenderTarget(this.target)
     this.renderer.setClearColor(0, 0)
-    this.renderer.clear()
-    this.renderer.render(scene, eye.camera)
+    if (surfaces) {
+      this.cover = sized(this.cover, width, height)
+      for (const part of parts) part.setPoints(eye.millimetresPerPixel, 1, true)
+      show((part) => surfaces.includes(part))
+      render(this.cover)
+      const own = Math.max(0, ...surfaces.map((p) => p.depth))
+      for (const part of parts) if (part.hasMap || surfaces.includes(part)) part.setCover(this.cover.texture, NEAR * eye.size + own)
+    }
+    for (const part of parts) part.setPoints(eye.millimetresPerPixel, 1)
+    show((_, visible) => visible)
+    render(this.target)
     this.renderer.setRenderTarget(null)
-    for (const part of parts) part.drawn.material = part.materials.picture
-    for (const drawn of hidden) drawn.visible = true
+    for (const part of parts) {
+      part.drawn.material = part.materials.picture
+      part.setCover(null, 0)
+      part.setPoints(eye.millimetresPerPixel, this.renderer.getPixelRatio())
+    }
+    drawn.forEach((d, i) => (d.visible = before[i]))
     const pixels = new Float32Array(4 * width * height)
     await this.renderer.readRenderTargetPixelsAsync(this.target, 0, 0, width, height, pixels)
     if (generation !== this.generation) return

@@ -63,6 +63,17 @@ export const layout = [
       const [shares, bars] = [await boxes(page, '.chart text.share'), await boxes(page, '.chart .bar')]
       assert.ok(shares.length >= 9 && bars.length > 50)
       for (const share of shares) assert.ok(!bars.some((bar) => bar.width > 0.5 && overlap(share, bar)), JSON.stringify(share))
+      // The longest share, where all are within tolerance; and the columns' heads stay on one line.
+      const all = await session.report('few_fit', { width: 1440, height: 900 })
+      const room = await all.evaluate(() => {
+        const bars = Math.max(...[...document.querySelectorAll('.chart .bar')].map((b) => b.getBoundingClientRect().right))
+        const share = document.querySelector('.chart text.share')
+        share.textContent = '≈100.0\u00a0%'
+        return share.getBoundingClientRect().left - bars
+      })
+      assert.ok(room >= 0, `${room}`)
+      const heads = await page.evaluate(() => [...document.querySelectorAll('.statistics thead span')].map((s) => s.getClientRects().length))
+      assert.deepEqual(heads, [1, 1, 1])
       const chart = await page.locator('.chart svg').boundingBox()
       await page.mouse.move(chart.x + chart.width / 2, chart.y + chart.height * 0.4)
       await page.mouse.down()
@@ -90,6 +101,7 @@ export const layout = [
       const flags = await boxes(sphere, '.flag')
       assert.equal(flags.length, 6)
       const tools = await sphere.locator('.stage-tools').boundingBox()
+      for (const button of await boxes(sphere, '.stage-tools button, .stage-tools select')) assert.ok(button.height >= 44 && button.width >= 44, JSON.stringify(button))
       for (const flag of flags) {
         const dx = Math.max(flag.x - middle.x, 0, middle.x - flag.x - flag.width)
         const dy = Math.max(flag.y - middle.y, 0, middle.y - flag.y - flag.height)

@@ -16,7 +16,44 @@ const only = (from, to) => {
   return `#v=${encodeURIComponent(JSON.stringify(view))}`
 }
 
+const shares = (page) => page.evaluate(() => [...document.querySelectorAll('.chart text.share')].map((t) => t.textContent.replace(/\s/g, '')))
+
 export const scale = [
+  [
+    'shares are counted: of a hundred points each is a whole number of percent, at any range',
+    async (session) => {
+      const page = await session.report('few_fit')
+      const values = await page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent).maps[0].quantiles)
+      assert.equal(values.length, 100)
+      for (const range of [null, '0.05', '0.013']) {
+        if (range) {
+          await page.locator('.controls input[type=text]').fill(range)
+          await page.locator('.controls input[type=text]').press('Enter')
+        }
+        const found = await shares(page)
+        assert.ok(found.length > 5)
+        for (const text of found) assert.match(text, /^\d+\.0%$/)
+        assert.equal(found.reduce((sum, text) => sum + parseFloat(text), 0), 100)
+      }
+      // Beyond ±0.013 mm, counted here.
+      const ends = [values.filter((v) => v > 0.013).length, values.filter((v) => v < -0.013).length]
+      assert.deepEqual((await shares(page)).map(parseFloat).filter((_, i, all) => i === 0 || i === all.length - 1).sort(), ends.sort())
+    },
+  ],
+  [
+    'shares of many values are counted on the scale as it opens, and marked where they are not counted',
+    async (session) => {
+      const page = await session.report('sphere')
+      const opening = await shares(page)
+      assert.ok(opening.length >= 9 && opening.every((text) => !text.includes('≈')), opening.join())
+      await page.locator('.controls input[type=text]').fill('0.09')
+      await page.locator('.controls input[type=text]').press('Enter')
+      const other = await shares(page)
+      assert.ok(other.filter((text) => text.startsWith('≈')).length >= 8, other.join())
+      // The zone's own share stays the result's.
+      assert.ok(other.some((text) => !text.startsWith('≈') && opening.includes(text)), other.join())
+    },
+  ],
   [
     'filtering and hiding change neither the scale nor the colours that stay',
     async (session) => {
