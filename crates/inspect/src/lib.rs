@@ -26,5 +26,6 @@ pub mod report;
 pub mod results;
 pub mod scale;
 pub mod segment;
+mod spacing;
 pub mod surface;
 pub mod tolerance;

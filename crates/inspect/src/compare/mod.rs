@@ -13,7 +13,6 @@ mod worst;
 pub(crate) use document::histogram;
 pub use document::{Inputs, document, statistics};
 pub use map::MapSurface;
-pub(crate) use map::spacing::spacing;
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;

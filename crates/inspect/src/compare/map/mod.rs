@@ -2,12 +2,11 @@
 //!
 //! The reference may have facets far larger than the points are apart, so for drawing its facets are cut into pieces
 //! ([`bisection`]) about as large as the points lie densely. While the points pass by, each piece keeps the worst of those whose
-//! nearest place lies in it. In the end ([`surface`]) pieces are put together until they match the points' spacing ([`spacing`]).
+//! nearest place lies in it. In the end ([`surface`]) pieces are put together until they match the points' spacing ([`crate::spacing`]).
 
 mod bisection;
 mod creases;
 mod fill;
-pub(crate) mod spacing;
 mod surface;
 
 pub use surface::MapSurface;

@@ -2,8 +2,8 @@
 
 use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
 use super::fill::fill;
-use super::spacing::spacing;
 use super::{Flagged, PointMap, creases, place, worse};
+use crate::spacing::spacing;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;

@@ -9,7 +9,7 @@ use super::super::marks::{Mark, Marks};
 use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
 use super::shown_objects;
-use crate::compare::spacing;
+use crate::spacing::spacing;
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};

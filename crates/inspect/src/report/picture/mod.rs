@@ -9,9 +9,9 @@ mod png;
 
 use super::documents::Pick;
 use super::{Geometry, ReportInput, ViewObject, ViewRole};
-use crate::compare::spacing;
 use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
+use crate::spacing::spacing;
 use camera::Camera;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Cancelled, Progress};

@@ -11,7 +11,7 @@ const BITS: u32 = 20;
 /// The distance of points from their neighbours, millimetres: half the side of the cubes that hold four points on average, of
 /// those that hold any. Places measured several times, or not at all, hardly change it. 0 for fewer than two places.
 /// Cost: `n log n`; does not depend on the order of the points.
-pub fn spacing(points: &[Point]) -> f64 {
+pub(crate) fn spacing(points: &[Point]) -> f64 {
     let bounds = Aabb::of(points);
     let side = if bounds.is_empty() { 0.0 } else { bounds.sides().into_iter().fold(0.0, f64::max) };
     if !(side > 0.0 && side.is_finite()) {
