@@ -145,7 +145,8 @@ impl Ears {
             out([a, b, c]);
             self.around[a as usize][1] = c;
             self.around[c as usize][0] = a;
-            (self.open.remove(&b), self.flat.remove(&b));
+            self.open.remove(&b);
+            self.flat.remove(&b);
             first = if b == first { c } else { first };
             at = c;
             if let Some(place) = self.tree.leave(b) {
@@ -156,7 +157,8 @@ impl Ears {
                     }
                 }
             }
-            (self.turned(a), self.turned(c));
+            self.turned(a);
+            self.turned(c);
         }
         let [a, b, c] = self.triangle(at);
         let mut last = [a, b, c];
