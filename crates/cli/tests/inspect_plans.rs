@@ -152,9 +152,9 @@ fn faults_of_plans_are_told_with_their_places() {
             "\"pin\" is the toleranced feature; it cannot be its own datum",
         ),
         fault(
-            "kind = \"flatness\"\nfeature = \"A\"",
-            "kind = \"distance\"\nfeature = [\"A\", \"A\"]",
-            "line 27, column 11: \"A\" is named twice; a feature is no distance from itself",
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+            "kind = \"distance\"\nfeature = [\"A\", \"A\"]\nnominal = 8\nupper = 0.1\nlower = -0.1",
+            "line 33, column 11: \"A\" is named twice; a feature is no distance from itself",
         ),
         fault(
             "datums = [\"A\"]",
