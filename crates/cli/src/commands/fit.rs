@@ -145,7 +145,9 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
 
 /// The document for people.
 fn table(document: &FitDocument) -> String {
-    let mut rows = vec![vec![String::new(), "value".into(), "± standard uncertainty".into()]];
+    let uncertainty = document.uncertainty.as_ref();
+    let heading = if uncertainty.is_some() { "± standard uncertainty" } else { "" };
+    let mut rows = vec![vec![String::new(), "value".into(), heading.into()]];
     let shown = |n: &Number| match n {
         Number::One(x) => fixed(*x, 9),
         Number::Three(v) => v.map(|x| fixed(x, 9)).join("  "),
@@ -155,8 +157,8 @@ fn table(document: &FitDocument) -> String {
         Number::Three(v) => v.map(|x| scientific(x, 2)).join("  "),
     };
     for (name, value) in &document.parameters {
-        let uncertainty = document.uncertainty.as_ref().and_then(|u| u.get(name));
-        rows.push(vec![name.replace('_', " "), shown(value), uncertainty.map_or_else(String::new, small)]);
+        let of_it = uncertainty.and_then(|u| u.get(name)).map_or_else(String::new, small);
+        rows.push(vec![name.replace('_', " "), shown(value), of_it]);
     }
     let mut out = read::notes(&document.inputs);
     let _ = writeln!(out, "{} by {}, mm and radians", document.shape, document.method);

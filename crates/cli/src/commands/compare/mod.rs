@@ -117,8 +117,11 @@ impl CompareArgs {
             return Err(Usage(format!("--inside {}: a share is from 0 to 100 percent", self.inside)).into());
         }
         let max_distance = self.max_distance.unwrap_or(f64::INFINITY);
-        if max_distance.is_nan() || max_distance < 0.0 {
-            return Err(Usage(format!("--max-distance {max_distance}: a distance is 0 mm or more")).into());
+        if self.max_distance.is_some_and(|d| !(0.0..f64::INFINITY).contains(&d)) {
+            return Err(Usage(format!(
+                "--max-distance {max_distance}: a distance is a finite number of mm, 0 or more; without the option there is no limit"
+            ))
+            .into());
         }
         Ok(Options {
             method: match self.method {

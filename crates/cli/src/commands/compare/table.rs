@@ -30,10 +30,12 @@ fn head(d: &CompareDocument) -> String {
         rows.extend(input.warnings.iter().map(|w| (String::new(), format!("! {w}"))));
     }
     if let Some(a) = &d.alignment {
+        let by_area = d.inputs.first().is_some_and(|i| i.facets.is_some());
         let what = format!(
-            "best fit to {}: rms {} mm, {} left out",
+            "best fit to {}: rms {} mm{}, {} left out",
             short(&a.reference),
             number(a.rms),
+            if by_area { " by area" } else { "" },
             grouped(a.left_out)
         );
         rows.push(("aligned".into(), what));

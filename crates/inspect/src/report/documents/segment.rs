@@ -27,7 +27,8 @@ impl Subject for SegmentDocument {
             h.count(self.regions.len() as u64);
         });
         key_number(h, "assigned", "", |h| {
-            h.percent((self.count - self.unassigned.min(self.count)) as f64 / self.count.max(1) as f64, 1);
+            // The same shares as in the list: of the area, or of the points of a cloud.
+            h.percent(self.regions.iter().map(|r| r.share).sum(), 1);
         });
         for (key, length) in [("noise", self.noise), ("tolerance.used", self.tolerance)] {
             key_number(h, key, "", |h| {
