@@ -134,11 +134,11 @@ impl Ears {
         let mut at = 0;
         let mut first = 0;
         for _ in 3..self.places.len() {
-            let b = match self.ear(at, effort) {
+            let b = match self.ear(at, effort).or_else(|| self.flat.first().copied()) {
                 Some(b) => b,
                 None => {
                     how = Cut::Somehow;
-                    self.flat.first().copied().unwrap_or(first)
+                    first
                 }
             };
             let [a, b, c] = self.triangle(b);

@@ -109,8 +109,8 @@ impl fmt::Display for Warning {
             }
             Warning::CutSomehow { count } => write!(
                 f,
-                "{count} of them cross themselves, are far from plane or have no area: their triangles may lie outside of them \
-                 or upon each other"
+                "{count} face(s) among them that cross themselves, are far from plane or have no area: their triangles may lie \
+                 outside of them or upon each other"
             ),
             Warning::Slight { count } => write!(f, "{count} face(s) of fewer than three vertices left out"),
             Warning::Joined { before, after } => {

@@ -32,19 +32,11 @@ impl Near {
 
     /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
     pub(crate) fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
-        let mut stack = vec![(0, 0..self.points.len())];
-        while let Some((node, range)) = stack.pop() {
-            if range.is_empty() || !reaches(&self.boxes[node]) {
-                continue;
-            }
-            if 2 * node + 1 >= self.boxes.len() {
-                self.points[range].iter().for_each(|(p, number)| take(p, *number));
-                continue;
-            }
-            let middle = range.start + range.len() / 2;
-            stack.push((2 * node + 2, middle..range.end));
-            stack.push((2 * node + 1, range.start..middle));
-        }
+        let look = |_: usize, b: &Aabb| if reaches(b) { Look::Into } else { Look::Past };
+        self.look(look, |p, number| {
+            take(p, number);
+            false
+        });
     }
 }
 
