@@ -72,7 +72,15 @@ fn decimal_sign(sign: &str) -> Result<char, String> {
     }
 }
 
+/// Points that a report has at its disposal.
+const SHOWN: usize = 1_000_000;
+
 impl ReportArgs {
+    /// Points that are kept for it; none where none is wanted.
+    pub fn shown(&self) -> usize {
+        if self.html.is_some() { SHOWN } else { 0 }
+    }
+
     /// Writes the report, if one was asked for.
     pub fn write(
         &self,

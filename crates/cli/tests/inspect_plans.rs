@@ -169,7 +169,11 @@ fn faults_of_plans_are_told_with_their_places() {
         ),
         fault("id = \"2\"", "id = \"1\"", "line 31, column 6: there are two characteristics \"1\""),
         fault("id = \"B\"", "id = \"A\"", "line 10, column 6: there are two features \"A\""),
-        fault("points = \"floor.xyz\"\n", "", "feature \"A\" has no points: give `points` or `nominal`"),
+        fault(
+            "points = \"floor.xyz\"\n",
+            "",
+            "feature \"A\" has no points: give `points`, `nominal` or `seed`",
+        ),
         fault(
             "shape = \"plane\"\npoints = \"floor.xyz\"",
             "points = \"floor.xyz\"",
@@ -216,7 +220,32 @@ fn faults_of_plans_are_told_with_their_places() {
             "rule \"iso14253-1\" needs the expanded uncertainty",
         ),
         fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),
-        fault("[decision]", "[align]\nmethod = \"rps\"\n[decision]", "this way of alignment is not built"),
+        fault(
+            "[decision]",
+            "[align]\nmethod = \"rps\"\n[decision]",
+            "method \"rps\" needs `points`, a list of",
+        ),
+        fault("[decision]", "[align]\nmethod = \"datum\"\n[decision]", "method \"datum\" needs `datums`"),
+        fault(
+            "[decision]",
+            "[align]\nmethod = \"datum\"\ndatums = [\"X\", \"A\"]\n[decision]",
+            "line 39, column 11: there is no feature \"X\"",
+        ),
+        fault(
+            "[decision]",
+            "[align]\nmethod = \"datum\"\ndatums = [\"A\"]\n[decision]",
+            "feature \"A\" has no `nominal`: where it should lie is not known",
+        ),
+        fault(
+            "[decision]",
+            "[align]\nmethod = \"none\"\ndatums = [\"A\"]\n[decision]",
+            "`datums` goes with method \"datum\"",
+        ),
+        fault(
+            "[decision]",
+            "[align]\nmethod = \"pairs\"\npoints = [{ measured = [0, 0, 0], nominal = [0, 0, 0] }]\n[decision]",
+            "method \"pairs\" needs at least 3 points, there are 1",
+        ),
         fault(
             "[decision]",
             "[align]\nmethod = \"best-fit\"\n[decision]",
@@ -226,6 +255,11 @@ fn faults_of_plans_are_told_with_their_places() {
             "[decision]",
             "[align]\nmethod = \"given\"\ntransform = [[1, 0], [0, 1]]\n[decision]",
             "a transform has four rows of four numbers",
+        ),
+        fault(
+            "[decision]",
+            "[deviation]\ntolerance = [-0.1, 0.1]\n[decision]",
+            "line 37, column 1: [deviation] needs `measured` and `reference`",
         ),
         fault(
             "[decision]",
@@ -331,6 +365,76 @@ fn verdicts_stand_in_every_output() {
     assert_eq!(reason, "feature \"A\": a plane needs at least 3 points, there are 2");
     assert!(answer["characteristics"][0]["value"].is_null());
     assert!(table.contains(reason) && junit.contains("not measured"), "{table}{junit}");
+}
+
+/// Deviations that a plan asks for are those of `compare`, and their verdict counts.
+#[test]
+fn deviations_of_a_plan_are_those_of_a_comparison() {
+    let folder = Folder::new();
+    // A square of 10 mm and points above it, a fifth of them 0.3 mm away, one far off.
+    folder.write("nominal.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n");
+    let points = (0..100).map(|k| {
+        let z = if k == 50 {
+            7.0
+        } else if k % 5 == 0 {
+            0.3
+        } else {
+            0.05
+        };
+        format!("{} {} {z}\n", 0.5 + f64::from(k % 10), 0.5 + f64::from(k / 10))
+    });
+    folder.write("scan.xyz", points.collect::<String>());
+    let plan = |deviation: &str| {
+        let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"nominal.obj\"\n";
+        let plan = folder.write("plan.toml", format!("{head}[deviation]\n{deviation}"));
+        let paths =
+            ["r.json", "r.csv", "r.xml", "r.html"].map(|n| folder.file(n).to_str().unwrap().to_string());
+        let [json, csv, junit, html] = paths.each_ref().map(String::as_str);
+        let arguments = ["--json", json, "--csv", csv, "--junit", junit, "--html", html];
+        let o = trueness([&["inspect", plan.to_str().unwrap()], &arguments[..]].concat());
+        let read = |p: &str| std::fs::read_to_string(p).unwrap_or_default();
+        let answer = serde_json::from_str(&read(json)).unwrap_or(serde_json::Value::Null);
+        (status(&o), stdout(&o) + &stderr(&o), answer, read(csv), read(junit))
+    };
+    let (code, table, answer, csv, junit) = plan("tolerance = [-0.1, 0.1]\nmax_distance = 5\n");
+    assert_eq!((code, answer["verdict"].as_str()), (1, Some("fail")), "{table}");
+    let found = &answer["deviation"];
+    assert_eq!(found["excluded"]["max_distance"], 1);
+    // Of 99 points 19 are beyond the tolerance.
+    assert_eq!(found["tolerance"]["inside"].as_f64(), Some(80.0 / 99.0));
+    let compared = folder.file("c.json");
+    let [scan, nominal] = ["scan.xyz", "nominal.obj"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let by_compare = ["compare", &scan, &nominal, "--tolerance", "0.1", "--max-distance", "5", "--json"];
+    let o = trueness([&by_compare[..], &[compared.to_str().unwrap()]].concat());
+    assert_eq!(status(&o), 1);
+    let compared: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&compared).unwrap()).unwrap();
+    for key in ["deviation", "tolerance", "worst", "histogram", "excluded", "verdict"] {
+        assert_eq!(found[key], compared["comparisons"][0][key], "{key}");
+    }
+    assert!(table.contains("80.808 % within −0.100000/+0.100000: fail"), "{table}");
+    assert!(csv.contains(",deviation,deviation,,,,100,100,80.8"), "{csv}");
+    assert!(
+        junit.contains("tests=\"1\" failures=\"1\"") && junit.contains("% of the points within -0.1"),
+        "{junit}"
+    );
+
+    let (code, table, answer, ..) = plan("tolerance = [-0.1, 0.1]\nmax_distance = 5\ninside = 80\n");
+    assert_eq!((code, answer["verdict"].as_str()), (0, Some("pass")), "{table}");
+    for (text, says) in [
+        ("", "nothing in the plan can be judged"),
+        ("tolerance = [0.1, -0.1]", "line 5, column 13: the tolerance is [least, greatest]"),
+        ("tolerance = 0.1", "line 5, column 13: invalid type"),
+        (
+            "tolerance = [-1, 1]\ninside = 101",
+            "line 6, column 10: inside is 101; a share is from 0 to 100 percent",
+        ),
+        ("inside = 50", "line 5, column 10: `inside` says how many points must keep a `tolerance`"),
+        ("tolerance = [-1, 1]\nmax_distance = -2", "max_distance is -2; it cannot be below 0"),
+    ] {
+        let (code, said, ..) = plan(text);
+        assert!(code == 3 && said.contains(says), "should say {says}\nsays {said}");
+    }
 }
 
 /// Lengths of a plan in inch are those of the same plan in mm.

@@ -147,3 +147,122 @@ fn the_best_fit_finds_the_same_features() {
         assert_eq!(a["verdict"], b["verdict"]);
     }
 }
+
+/// The example's plan with the model itself as the measured part and another alignment.
+fn of_the_model(folder: &Folder, align: &str) -> std::path::PathBuf {
+    let example = corpus("examples/plate");
+    let text = std::fs::read_to_string(example.join("plate.toml")).unwrap();
+    let (before, after) = text.split_once("[align]").unwrap();
+    let after = after.split_once("[[feature]]").unwrap().1;
+    let model = format!("'{}'", example.join("nominal.stl").display());
+    let plan = format!("{before}[align]\n{align}\n[[feature]]{after}")
+        .replace("\"scan.stl\"", &model)
+        .replace("\"nominal.stl\"", &model)
+        // All vertices of the model lie on its edges.
+        .replace("rim = false", "rim = true");
+    folder.write("plan.toml", plan)
+}
+
+/// Greatest difference of a 4×4 from another.
+fn apart(found: &Value, wanted: [[f64; 4]; 4]) -> f64 {
+    let at = |i: usize, j: usize| found[i][j].as_f64().unwrap();
+    let cells = (0..4).flat_map(|i| (0..4).map(move |j| (i, j)));
+    cells.fold(0.0, |m: f64, (i, j)| m.max((at(i, j) - wanted[i][j]).abs()))
+}
+
+const IDENTITY: [[f64; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// The model lies on itself by its datums, wherever it starts nearby.
+#[test]
+fn datums_bring_the_model_onto_itself() {
+    let folder = Folder::new();
+    let turned = "transform = [[1, -0.0005, 0, 0.02], [0.0005, 1, 0, -0.03], [0, 0, 1, 0.05], [0, 0, 0, 1]]";
+    for start in [turned, ""] {
+        let align = format!("method = \"datum\"\ndatums = [\"A\", \"B\", \"C\"]\n{start}");
+        let found = document(["inspect", of_the_model(&folder, &align).to_str().unwrap()]);
+        assert_eq!(found["alignment"]["method"], "datum");
+        // The file holds single precision, and its bores are polygons.
+        let off = apart(&found["alignment"]["transform"], IDENTITY);
+        assert!(off < 2e-5, "{off}: {}", found["alignment"]);
+    }
+    let minimum = "method = \"datum\"\ndatums = [\"A\", \"B\", \"C\"]\ndatum_method = \"minimum-zone\"";
+    let found = document(["inspect", of_the_model(&folder, minimum).to_str().unwrap()]);
+    assert!(apart(&found["alignment"]["transform"], IDENTITY) < 2e-5, "{}", found["alignment"]);
+}
+
+/// Pairs and reference points give the motion that made them.
+#[test]
+fn pairs_and_reference_points_bring_the_part_back() {
+    // A quarter turn about z and a shift: reference from measured.
+    let motion = [[0.0, -1.0, 0.0, 5.0], [1.0, 0.0, 0.0, -7.0], [0.0, 0.0, 1.0, 2.0], [0.0, 0.0, 0.0, 1.0]];
+    let back = |[x, y, z]: [f64; 3]| [y + 7.0, 5.0 - x, z - 2.0];
+    let places = [
+        ([0.0, 0.0, 0.0], [0, 0, 1]),
+        ([80.0, 0.0, 0.0], [0, 0, 1]),
+        ([0.0, 50.0, 0.0], [0, 0, 1]),
+        ([10.0, 0.0, 8.0], [0, 1, 0]),
+        ([70.0, 0.0, 8.0], [0, 1, 0]),
+        ([0.0, 25.0, 8.0], [1, 0, 0]),
+    ];
+    let folder = Folder::new();
+    for method in ["pairs", "rps"] {
+        let point = |(nominal, direction): &([f64; 3], [i32; 3])| {
+            let held = if method == "rps" { format!(", direction = {direction:?}") } else { String::new() };
+            format!("{{ measured = {:?}, nominal = {nominal:?}{held} }}", back(*nominal))
+        };
+        let points: Vec<String> = places.iter().map(point).collect();
+        let align = format!("method = \"{method}\"\npoints = [{}]", points.join(", "));
+        let found = document(["inspect", of_the_model(&folder, &align).to_str().unwrap()]);
+        assert!(apart(&found["alignment"]["transform"], motion) < 1e-12, "{}", found["alignment"]);
+        assert_eq!(found["alignment"]["residuals"].as_array().unwrap().len(), 6);
+        assert!(found["alignment"]["rms"].as_f64().unwrap() < 1e-12);
+    }
+}
+
+/// Features by a place on the reference are those by their written nominals.
+#[test]
+fn seeds_find_the_features_of_the_model() {
+    let seeds = [
+        ("A", "[60, 5, 0]"),
+        ("top", "[35, 5, 17]"),
+        ("B", "[24.1, 16.5, 8]"),
+        ("C", "[19.6, 41.25, 8]"),
+        ("boss", "[56.15, 27.5, 25]"),
+        ("boss end", "[45.65, 27.5, 35]"),
+        ("cone", "[73.4, 16.5, 22]"),
+        ("pocket", "[66.4, 41.25, 13]"),
+    ];
+    let example = corpus("examples/plate");
+    let mut text = std::fs::read_to_string(example.join("plate.toml")).unwrap();
+    for (id, seed) in seeds {
+        let start = text.find(&format!("id = \"{id}\"")).unwrap();
+        let from = start + text[start..].find("nominal = {").unwrap();
+        let to = from + text[from..].find('\n').unwrap();
+        text.replace_range(from..to, &format!("seed = {seed}"));
+    }
+    let at = |name: &str| format!("'{}'", example.join(name).display());
+    let plan = text.replace("\"scan.stl\"", &at("scan.stl")).replace("\"nominal.stl\"", &at("nominal.stl"));
+    let folder = Folder::new();
+    let plan_file = folder.write("plan.toml", &plan);
+    let found = document(["inspect", plan_file.to_str().unwrap()]);
+    let given = document(["inspect", example.join("plate.toml").to_str().unwrap()]);
+    for (a, b) in
+        found["characteristics"].as_array().unwrap().iter().zip(given["characteristics"].as_array().unwrap())
+    {
+        let (x, y) = (a["value"].as_f64().unwrap(), b["value"].as_f64().unwrap());
+        assert!((x - y).abs() < 2e-3, "{}: {x} and {y}", a["id"]);
+        assert_eq!(a["verdict"], b["verdict"], "{}", a["id"]);
+    }
+    for (id, _) in seeds {
+        let feature = found["features"].as_array().unwrap().iter().find(|f| f["id"] == id).unwrap();
+        assert_eq!(feature["source"], "seed");
+        assert!(feature["coverage"].as_f64().unwrap() > 0.8, "{feature}");
+    }
+    // What is not there is told with its place.
+    let wrong = folder.write("plan.toml", plan.replace("seed = [24.1, 16.5, 8]", "seed = [35, 5, 17]"));
+    let o = trueness(["inspect", wrong.to_str().unwrap()]);
+    assert_eq!(status(&o), 3);
+    let says = "feature \"B\": the reference has a plane at the seed, not a cylinder";
+    assert!(stderr(&o).contains(says), "{}", stderr(&o));
+}

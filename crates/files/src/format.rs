@@ -11,8 +11,10 @@ use crate::{
     source::Source,
     write::{MeshWriter, PointsWriter},
 };
-use std::marker::PhantomData;
-use trueness_geom::{cloud::PointStream, space::Point};
+use trueness_geom::{
+    cloud::{PointStream, Whole},
+    space::Point,
+};
 
 /// A file format.
 pub struct Format {
@@ -132,29 +134,6 @@ impl Parsed {
     /// Points that have been read already.
     pub fn cloud(variant: &'static str, points: Vec<Point>) -> Parsed {
         let warnings = if points.is_empty() { vec![Warning::Nothing] } else { vec![] };
-        Parsed { warnings, ..Parsed::points(variant, Once::new(points)) }
-    }
-}
-
-/// Points that are all there already, in one block.
-pub(crate) struct Once<E> {
-    points: Option<Vec<Point>>,
-    error: PhantomData<fn() -> E>,
-}
-
-impl<E> Once<E> {
-    pub fn new(points: Vec<Point>) -> Once<E> {
-        Once { points: Some(points), error: PhantomData }
-    }
-}
-
-impl<E> PointStream for Once<E> {
-    type Error = E;
-    fn expected(&self) -> Option<u64> {
-        Some(self.points.as_ref().map_or(0, |p| p.len() as u64))
-    }
-    fn next_block(&mut self, block: &mut Vec<Point>) -> std::result::Result<(), E> {
-        *block = self.points.take().unwrap_or_default();
-        Ok(())
+        Parsed { warnings, ..Parsed::points(variant, Whole::new(points)) }
     }
 }

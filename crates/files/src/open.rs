@@ -3,12 +3,12 @@
 use crate::{
     Body, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
     error::Located,
-    format::{Format, Once, Parts},
+    format::{Format, Parts},
     source::Source,
 };
 use std::path::Path;
 use trueness_geom::{
-    cloud::PointStream,
+    cloud::{PointStream, Whole},
     space::{Aabb, Point},
 };
 
@@ -130,7 +130,7 @@ impl Body {
     pub fn into_points(self) -> crate::PointSource {
         match self {
             Body::Points(points) => points,
-            Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Once::new(mesh.positions)),
+            Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Whole::new(mesh.positions)),
         }
     }
 }

@@ -29,17 +29,14 @@ const POOR: f64 = 0.01;
 /// Factors between units that are confused.
 const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
-/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface: of the
-/// vertices of a mesh, weighted by area, or of points; outliers do not count unless `options` say so.
+/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface: of
+/// a mesh, weighted by area, or of points; outliers do not count unless `options` say so.
 ///
 /// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
 /// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit.
 ///
 /// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.2 s for the start on two cores,
 /// then some ten closest-point searches of all points.
-///
-/// Of a measured mesh the vertices are aligned. A few vertices determine no pose among outliers: give points of the surface
-/// of a mesh of some large facets instead, else the answer is mostly an ambiguous one.
 ///
 /// # Errors
 /// [`AlignError`]: fewer than three points, all points on one line, coordinates that are no numbers, cancelled.

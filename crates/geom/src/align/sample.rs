@@ -1,7 +1,9 @@
 //! What is aligned, as weighted points: every point stands for its share of the measured surface.
 //!
 //! A vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one place and thin
-//! in another is not drawn towards the dense place. A point of a cloud stands for itself.
+//! in another is not drawn towards the dense place. A large facet is represented by places spread over it instead of its
+//! corners: what a mesh of few facets says of the surface lies between its vertices. A point of a cloud stands for
+//! itself.
 
 use crate::fit::eigen;
 use crate::mesh::Mesh;
@@ -13,7 +15,8 @@ use rayon::prelude::*;
 /// What is brought to the reference, millimetres, in a frame of its own.
 #[derive(Clone, Copy, Debug)]
 pub enum Measured<'a> {
-    /// A mesh with outward facets. Its vertices are aligned, each with the area around it as its weight.
+    /// A mesh with outward facets. Its vertices are aligned, each with the area around it as its weight; of facets of more
+    /// than a thousandth of the whole area, places spread over them.
     Mesh(&'a Mesh),
     /// Points, each of the same weight.
     Points {
@@ -53,7 +56,7 @@ impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
     pub fn all(measured: &Measured) -> Samples {
         let mut samples = match measured {
-            Measured::Mesh(mesh) => of_vertices(mesh),
+            Measured::Mesh(mesh) => of_mesh(mesh),
             Measured::Points { points, normals } => Samples {
                 points: points.to_vec(),
                 normals: normals.map(<[Vector]>::to_vec).unwrap_or_default(),
@@ -64,6 +67,34 @@ impl Samples {
         let total: f64 = samples.weights.iter().sum();
         samples.weights.iter_mut().for_each(|w| *w /= total);
         samples
+    }
+
+    fn push(&mut self, point: Point, normal: Vector, weight: f64) {
+        self.points.push(point);
+        self.normals.push(normal);
+        self.weights.push(weight);
+    }
+
+    /// Adds the middles of the equal parts into which a facet falls when each side is cut into at least `parts`: the sum
+    /// over them is exact for what is linear on the facet.
+    fn spread(&mut self, [a, b, c]: [Point; 3], double: Vector, parts: f64) {
+        let Some((normal, size)) = unit(double) else { return };
+        let n = parts.ceil();
+        let (u, v) = (minus(b, a), minus(c, a));
+        let weight = size / (n * n);
+        let rows = n as u32;
+        for i in 0..rows {
+            for j in 0..rows - i {
+                let mut add = |third: f64| {
+                    let (s, t) = ((f64::from(i) + third) / n, (f64::from(j) + third) / n);
+                    self.push(plus(a, plus(times(s, u), times(t, v))), normal, weight);
+                };
+                add(1.0 / 3.0);
+                if i + j + 1 < rows {
+                    add(2.0 / 3.0);
+                }
+            }
+        }
     }
 
     /// About `count` of them, spread evenly by weight and equal in weight; all where there are no more. They are taken in
@@ -170,22 +201,31 @@ fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
     if moments.variances[1] > 1e-6 * moments.variances[2] { moments.axes[0] } else { [0.0; 3] }
 }
 
-fn of_vertices(mesh: &Mesh) -> Samples {
+/// A facet of more than this share of the whole area is represented by places on it, each for at most this share.
+const LARGE: f64 = 1.0 / 1000.0;
+const PART: f64 = 1.0 / 4000.0;
+
+fn of_mesh(mesh: &Mesh) -> Samples {
     let mut normals = vec![[0.0; 3]; mesh.positions.len()];
     let mut areas = vec![0.0; mesh.positions.len()];
+    let mut samples = Samples { oriented: true, ..Samples::default() };
+    let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
     for face in &mesh.faces {
         let double = double_area(mesh, face);
+        let size = norm(double);
+        if size > LARGE * total {
+            let parts = (size / (PART * total)).sqrt();
+            samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
+            continue;
+        }
         for &v in face {
             normals[v as usize] = plus(normals[v as usize], double);
-            areas[v as usize] += norm(double);
+            areas[v as usize] += size / 3.0;
         }
     }
-    let mut samples = Samples { oriented: true, ..Samples::default() };
     for ((p, n), a) in mesh.positions.iter().zip(normals).zip(areas) {
         if a > 0.0 {
-            samples.points.push(*p);
-            samples.normals.push(unit(n).map_or([0.0; 3], |n| n.0));
-            samples.weights.push(a);
+            samples.push(*p, unit(n).map_or([0.0; 3], |n| n.0), a);
         }
     }
     samples

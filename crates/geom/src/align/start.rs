@@ -18,7 +18,7 @@ const REFERENCE: usize = 900;
 const TRIED: [usize; 3] = [24, 96, 400];
 /// Share of the samples' worth that a pose must have to be tried further.
 const ENOUGH: [f64; 2] = [0.25, 0.35];
-/// Pairs of the measured surface that are looked up, and poses tried.
+/// Pairs of the measured surface that are looked up, and poses tried, once of the rarest pairs and once of others.
 const LOOKED_UP: usize = 4000;
 const POSES: usize = 60_000;
 /// Counterparts tried of each.
@@ -150,12 +150,19 @@ impl Search {
             .collect();
         rare.retain(|r| r.0 > 0);
         rare.sort_unstable();
-        // The rarest tell most.
-        let mut poses = 0;
-        rare.retain(|r| {
-            poses += r.0.min(COUNTERPARTS * signs.len());
-            poses <= POSES
-        });
+        // The rarest tell most. What belongs to no part is rare too: as many poses more are of pairs as they were drawn.
+        let poses = |pairs: &[(usize, usize)]| {
+            let mut left = POSES;
+            let fits = |r: &&(usize, usize)| {
+                let cost = r.0.min(COUNTERPARTS * signs.len());
+                left.checked_sub(cost).inspect(|l| left = *l).is_some()
+            };
+            pairs.iter().take_while(fits).count()
+        };
+        let rarest = poses(&rare);
+        rare[rarest..].sort_unstable_by_key(|r| r.1);
+        let drawn = poses(&rare[rarest..]);
+        rare.truncate(rarest + drawn);
         if progress.cancelled() {
             return Err(Cancelled.into());
         }

@@ -34,6 +34,7 @@ pub fn write_all(folder: &Path) {
     let few: Vec<Point> = lobed_cylinder().into_iter().step_by(49).take(100).collect();
     written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
+    written(folder, "plan", super::plan::page(&options));
 }
 
 /// A sphere of radius 10 with a hole in front, a doubled facet, a fin, and a crumb that floats before it.
@@ -183,7 +184,8 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     (super::bytes(&ReportInput { result, objects: &objects, marks, options }), document)
 }
 
-fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
+/// A file of a mesh.
+pub fn file(role: Role, path: &str, mesh: &Mesh) -> InputRecord {
     let facets = (!mesh.faces.is_empty()).then_some(mesh.faces.len() as u64);
     super::record(role, path, mesh.positions.len(), facets)
 }

@@ -9,6 +9,7 @@
 mod answers;
 mod clouds;
 mod numbers;
+mod plan;
 
 pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
 pub use clouds::page as cloud_page;

@@ -42,13 +42,14 @@ fn system(m: &Measuring) -> Result<System, Missing> {
     {
         return Ok(System::of(&[datum])?);
     }
-    let sources: Vec<Source> = m.datums.iter().map(|d| source(d, m.feature())).collect::<Result<_, _>>()?;
+    let sources: Vec<Source> =
+        m.datums.iter().map(|d| datum_source(d, m.feature())).collect::<Result<_, _>>()?;
     Ok(System::associated(&sources, m.spec.datum_rule, m.progress)?)
 }
 
 /// The points of a datum feature. A plane that does not say where its material is has it on the side of the toleranced
 /// feature.
-fn source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'a>, Missing> {
+pub fn datum_source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'a>, Missing> {
     let points = datum.taken()?;
     let kind = match datum.class {
         Class::Plane => Kind::Plane,

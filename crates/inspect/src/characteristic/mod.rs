@@ -23,6 +23,8 @@ mod symmetry;
 mod texture;
 mod total_runout;
 
+pub(crate) use located::datum_source;
+
 use crate::inspection::Taken;
 use crate::plan::text::TextureWord;
 use crate::plan::{Class, Feature, Spec};

@@ -30,7 +30,7 @@ impl Characteristic for SurfaceProfile {
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Plane, Class::Cylinder, Class::Cone, Class::Sphere])?;
-        if q.feature()?.nominal.is_none() {
+        if !q.feature()?.has_nominal() {
             return refuse("feature", "its feature needs `nominal`, the theoretically exact surface");
         }
         Ok(())

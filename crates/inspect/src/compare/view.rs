@@ -2,7 +2,7 @@
 
 use super::{Comparisons, Reference, Values};
 use crate::check::groups;
-use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole, first_view};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison};
 use std::collections::BTreeSet;
@@ -86,6 +86,14 @@ impl<'a> View<'a> {
             (!found.is_empty()).then_some(Marks { role: ViewRole::Defects, comparison: Some(n), groups })
         };
         document.comparisons.iter().zip(self.references).enumerate().filter_map(of).collect()
+    }
+
+    /// What a comparison shows first, for a page that is about something else.
+    pub fn mapped(&self) -> Vec<ViewObject<'_>> {
+        let objects = self.objects();
+        let shown = first_view(&objects);
+        let of = |(n, o)| shown.contains(&n).then_some(ViewObject { role: ViewRole::Deviation, ..o });
+        (0..).zip(objects).filter_map(of).collect()
     }
 
     /// The objects: measured, then the references.

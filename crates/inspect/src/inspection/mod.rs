@@ -1,22 +1,24 @@
 //! A plan and measured data make verdicts: one pure function.
 
+mod align;
 pub mod decision;
+mod deviation;
+mod seed;
 mod take;
 mod taken;
 mod view;
 
+pub use align::{Alignment, Found};
+pub use deviation::Deviations;
 pub use taken::{Element, Taken};
 pub use view::View;
 
 use crate::characteristic::{Measuring, Missing, Value};
-use crate::plan::{Align, Plan};
+use crate::plan::Plan;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use trueness_geom::align::{AlignError, Alignment, BestFit, Measured, Target, best_fit};
-use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
 
 /// What was measured, in measured coordinates, millimetres.
@@ -24,8 +26,10 @@ use trueness_geom::space::Point;
 pub struct Data {
     /// The measured mesh; a cloud has no facets.
     pub measured: Option<Mesh>,
-    /// The nominal mesh, where the plan aligns to it.
+    /// The nominal mesh, where the plan aligns to it or asks for deviations from it.
     pub reference: Option<Mesh>,
+    /// Points that a report can show; 0 without a report.
+    pub shown: usize,
     /// The points of features that have files of their own, by the number of the feature.
     pub points: BTreeMap<usize, OwnPoints>,
     /// Seed of the random choices of the alignment.
@@ -58,6 +62,9 @@ pub enum Stop {
     /// The measured data could not be aligned.
     #[error("the measured data cannot be aligned to the reference: {0}")]
     Align(String),
+    /// There are no deviations from the reference.
+    #[error("the measured data cannot be compared with the reference: {0}")]
+    Deviation(String),
     /// The result is no longer wanted.
     #[error("cancelled")]
     Cancelled,
@@ -70,7 +77,6 @@ impl From<Cancelled> for Stop {
 }
 
 /// All features and values of a plan.
-#[derive(Clone, Debug)]
 pub struct Inspection {
     /// The features, in the plan's order.
     pub features: Vec<Taken>,
@@ -78,10 +84,10 @@ pub struct Inspection {
     pub values: Vec<Result<Value, String>>,
     /// The measured data where they were evaluated: aligned.
     pub measured: Option<Mesh>,
-    /// What took them there: reference from measured.
-    pub motion: Rigid,
-    /// The best fit, where that was the way.
-    pub best_fit: Option<Alignment>,
+    /// What took them there.
+    pub alignment: Alignment,
+    /// Deviations from the reference, where the plan asks for them.
+    pub deviations: Option<Deviations>,
 }
 
 /// Evaluates the plan. The data are moved by the plan's alignment first; then features are taken, then values.
@@ -107,8 +113,9 @@ pub struct Inspection {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
-    let (data, motion, best_fit) = aligned(plan, data, progress)?;
-    let features = take::features(plan, &data, progress)?;
+    let seeds = seed::seeded(plan, &data, progress)?;
+    let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
+    let features = take::features(plan, &data, &seeds, progress)?;
     let mut values = Vec::with_capacity(plan.specs.len());
     for spec in &plan.specs {
         let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
@@ -128,46 +135,9 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     if progress.cancelled() {
         return Err(Stop::Cancelled);
     }
-    Ok(Inspection { features, values, measured: data.measured, motion, best_fit })
-}
-
-/// The data where the plan's alignment takes them, the motion, and the fit that found it.
-fn aligned(
-    plan: &Plan,
-    mut data: Data,
-    progress: &dyn Progress,
-) -> Result<(Data, Rigid, Option<Alignment>), Stop> {
-    let (motion, fit) = match &plan.align {
-        Align::None => return Ok((data, Rigid::IDENTITY, None)),
-        Align::Given(motion) => (*motion, None),
-        Align::BestFit => {
-            let fit = best_fitted(&data, progress)?;
-            (fit.reference_from_measured, Some(fit))
-        }
+    let deviations = match &plan.deviation {
+        Some(asked) => Some(deviation::deviations(asked, &mut data, progress)?),
+        None => None,
     };
-    let own = data.points.values_mut().flat_map(|own| own.points.iter_mut());
-    let mesh = data.measured.iter_mut().flat_map(|mesh| mesh.positions.iter_mut());
-    for p in own.chain(mesh) {
-        *p = motion.point(*p);
-    }
-    Ok((data, motion, fit))
-}
-
-/// The best fit of the measured data onto the reference.
-fn best_fitted(data: &Data, progress: &dyn Progress) -> Result<Alignment, Stop> {
-    let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
-        return Err(Stop::Align("one of them is not there".into()));
-    };
-    let failed = |e: AlignError| match e {
-        AlignError::Cancelled(e) => e.into(),
-        e => Stop::Align(e.to_string()),
-    };
-    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()))?;
-    let points = &measured.positions;
-    let measured = match measured.faces.is_empty() {
-        true => Measured::Points { points, normals: None },
-        false => Measured::Mesh(measured),
-    };
-    let options = BestFit { seed: data.seed, ..BestFit::default() };
-    best_fit(&measured, &Target::new(reference, &tree), &options, progress).map_err(failed)
+    Ok(Inspection { features, values, measured: data.measured, alignment, deviations })
 }

@@ -1,22 +1,29 @@
 //! Taking the features of a plan from the measured data.
 
+use super::seed::Seeded;
 use super::taken::{Element, Taken};
 use super::{Data, Stop};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
+use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, Found, in_cloud, in_mesh};
+use trueness_geom::feature::{FeatureError, Found, Nominal, in_cloud, in_mesh};
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
-use trueness_geom::space::{Point, cross, minus, norm, plus, times};
+use trueness_geom::space::{Point, Vector, cross, minus, norm, plus, times};
 use trueness_geom::zone::datum::{self, Datum, mean};
 
 /// All features of the plan, in its order.
-pub(super) fn features(plan: &Plan, data: &Data, progress: &dyn Progress) -> Result<Vec<Taken>, Stop> {
-    let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal));
+pub(super) fn features(
+    plan: &Plan,
+    data: &Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Vec<Taken>, Stop> {
+    let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal | Source::Seed(_)));
     let tree = match &data.measured {
         Some(mesh) if sought && !mesh.faces.is_empty() => {
             Some(Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?)
@@ -38,8 +45,8 @@ pub(super) fn features(plan: &Plan, data: &Data, progress: &dyn Progress) -> Res
                 taken.areas = vec![1.0; taken.points.len()];
                 associated(taken, feature, progress)?
             }
-            Source::Nominal => {
-                let found = found(feature, data, tree.as_ref(), progress)?;
+            Source::Nominal | Source::Seed(_) => {
+                let found = found(feature, seeds.get(&number), data, tree.as_ref(), progress)?;
                 associated(found, feature, progress)?
             }
         };
@@ -48,13 +55,18 @@ pub(super) fn features(plan: &Plan, data: &Data, progress: &dyn Progress) -> Res
     Ok(all)
 }
 
+/// The direction out of the material that a nominal has.
+fn normal(nominal: &Nominal) -> Option<Vector> {
+    match nominal {
+        Nominal::Plane { normal, .. } => Some(*normal),
+        _ => None,
+    }
+}
+
 /// A feature that nothing was found of yet.
 fn bare(feature: &Feature) -> Taken {
-    let normal = match &feature.nominal {
-        Some(trueness_geom::feature::Nominal::Plane { normal, .. }) => Some(*normal),
-        _ => None,
-    };
-    let edge = matches!(feature.nominal, Some(trueness_geom::feature::Nominal::Edge { .. }));
+    let normal = feature.nominal.as_ref().and_then(normal);
+    let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
     Taken {
         id: feature.id.clone(),
         class: feature.class,
@@ -73,15 +85,21 @@ fn bare(feature: &Feature) -> Taken {
 /// The points that the measured data have where the model has the feature.
 fn found(
     feature: &Feature,
+    seeded: Option<&Seeded>,
     data: &Data,
     tree: Option<&Tree>,
     progress: &dyn Progress,
 ) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
-    let (Some(mesh), Some(nominal)) = (&data.measured, &feature.nominal) else { return Ok(taken) };
+    if let Some(seeded) = seeded {
+        taken.nominal = Some(seeded.nominal.clone());
+        taken.outward = taken.outward.or(normal(&seeded.nominal));
+    }
+    let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
+    let near = feature.extract.near(&nominal);
     let found = match tree {
-        Some(tree) => in_mesh(mesh, tree, nominal, &feature.near, progress),
-        None => in_cloud(&mesh.positions, nominal, &feature.near),
+        Some(tree) => in_mesh(mesh, tree, &nominal, &near, progress),
+        None => in_cloud(&mesh.positions, &nominal, &near),
     };
     let found = found.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
@@ -89,7 +107,8 @@ fn found(
     })?;
     taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
     taken.areas = areas(mesh, &found);
-    taken.coverage = nominal.area().filter(|_| tree.is_some()).map(|whole| found.area / whole);
+    let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
+    taken.coverage = whole.filter(|_| tree.is_some()).map(|whole| found.area / whole);
     taken.facets = found.facets;
     Ok(taken)
 }
@@ -116,16 +135,16 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
 fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> Result<Taken, Stop> {
     if taken.points.is_empty() {
         taken.element = Err(match feature.source {
-            Source::Nominal => "nothing was measured where the model has it".into(),
+            Source::Nominal | Source::Seed(_) => "nothing was measured where the model has it".into(),
             _ => "its file has no points".into(),
         });
         return Ok(taken);
     }
-    if let Some(share) = taken.coverage.filter(|share| *share < feature.coverage) {
+    if let Some(share) = taken.coverage.filter(|share| *share < feature.extract.coverage) {
         taken.element = Err(format!(
             "only {:.1} % of its nominal area was measured, less than {:.1} %",
             100.0 * share,
-            100.0 * feature.coverage
+            100.0 * feature.extract.coverage
         ));
         return Ok(taken);
     }

@@ -1,6 +1,7 @@
 //! What a report draws of an inspection: every feature in the color of its worst verdict, and where values are reached.
 
 use super::Inspection;
+use crate::compare;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::Verdict;
 use crate::results::inspect::InspectDocument;
@@ -19,9 +20,11 @@ pub fn color(verdict: Verdict) -> Rgb {
 }
 
 /// An inspection prepared for drawing.
-pub struct View {
+pub struct View<'a> {
     /// The measured data without the features, then a part for each drawn feature.
     parts: Vec<Part>,
+    /// The deviations from the reference as a comparison draws them.
+    deviations: Option<&'a compare::View<'a>>,
     /// Where the values are reached, one for each row of the list, in its order.
     pub marks: Vec<Marks>,
 }
@@ -32,9 +35,13 @@ struct Part {
     color: Option<Rgb>,
 }
 
-impl View {
+impl<'a> View<'a> {
     /// Of what was found, which the document tells.
-    pub fn new(document: &InspectDocument, found: &Inspection) -> View {
+    pub fn new(
+        document: &InspectDocument,
+        found: &Inspection,
+        deviations: Option<&'a compare::View<'a>>,
+    ) -> View<'a> {
         let mut parts = Vec::new();
         let whole = found.measured.as_ref();
         let mut free: Vec<bool> = vec![true; whole.map_or(0, |m| m.faces.len())];
@@ -61,31 +68,32 @@ impl View {
             parts.push(Part { name, mesh, color });
         }
         parts.retain(|p| !p.mesh.positions.is_empty());
-        View { marks: marks(document, &parts), parts }
+        View { marks: marks(document, &parts), parts, deviations }
     }
 
     /// What is drawn.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
-        let object = |part: &'_ Part| -> (ViewRole, Option<Rgb>) { (ViewRole::Part, part.color) };
-        self.parts
-            .iter()
-            .map(|part| {
-                let (role, color) = object(part);
-                ViewObject {
-                    role,
-                    name: &part.name,
-                    color,
-                    comparison: None,
-                    geometry: match part.mesh.faces.is_empty() {
-                        true => Geometry::Points(&part.mesh.positions),
-                        false => Geometry::Mesh(&part.mesh),
-                    },
-                    fields: vec![],
-                    keep: &[],
-                    gathered: None,
-                }
-            })
-            .collect()
+        let mut all: Vec<ViewObject> = self.parts.iter().map(Part::object).collect();
+        all.extend(self.deviations.into_iter().flat_map(compare::View::mapped));
+        all
+    }
+}
+
+impl Part {
+    fn object(&self) -> ViewObject<'_> {
+        ViewObject {
+            role: ViewRole::Part,
+            name: &self.name,
+            color: self.color,
+            comparison: None,
+            geometry: match self.mesh.faces.is_empty() {
+                true => Geometry::Points(&self.mesh.positions),
+                false => Geometry::Mesh(&self.mesh),
+            },
+            fields: vec![],
+            keep: &[],
+            gathered: None,
+        }
     }
 }
 

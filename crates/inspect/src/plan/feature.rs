@@ -62,14 +62,19 @@ pub struct Feature {
     pub source: Source,
     /// As the model has it.
     pub nominal: Option<Nominal>,
-    /// How near measured facets must be to the nominal one.
-    pub near: Nearness,
-    /// Least share of the nominal area that must have been measured.
-    pub coverage: f64,
+    /// What of the measured data belongs to it.
+    pub extract: Extract,
     /// How the element is associated.
     pub method: Method,
     /// A direction out of the material.
     pub outward: Option<Vector>,
+}
+
+impl Feature {
+    /// Whether it is known where it should be: written, or by the region at its seed.
+    pub fn has_nominal(&self) -> bool {
+        self.nominal.is_some() || matches!(self.source, Source::Seed(_))
+    }
 }
 
 /// Where a feature comes from.
@@ -79,6 +84,8 @@ pub enum Source {
     Points(At<String>),
     /// The measured data, by its nominal.
     Nominal,
+    /// The measured data, by the region of the reference around this place.
+    Seed(At<Point>),
     /// Other features.
     Derived {
         /// How.
@@ -101,7 +108,7 @@ pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feat
         if let Some(other) = all.iter().find(|f| f.id == value.id.value) {
             return checker.wrong(&value.id.span, format!("there are two features \"{}\"", other.id));
         }
-        all.push(feature(checker, value, span, &all, written.measured.is_some())?);
+        all.push(feature(checker, value, span, &all, written)?);
     }
     Ok(all)
 }
@@ -111,7 +118,7 @@ fn feature(
     written: &FeatureText,
     whole: &Range<usize>,
     before: &[Feature],
-    measured: bool,
+    plan: &PlanText,
 ) -> Result<Feature, PlanError> {
     let id = &written.id.value;
     let method = match written.method.as_ref().map(|m| m.value) {
@@ -133,8 +140,7 @@ fn feature(
         class: Class::Point,
         source: Source::Nominal,
         nominal: None,
-        near: Nearness { distance: 0.0, angle: 0.0, margin: 0.0, rim: true },
-        coverage: 0.0,
+        extract: extract(checker, written.extract.as_ref())?,
         method,
         outward,
     };
@@ -149,30 +155,49 @@ fn feature(
     let Some(shape) = &written.shape else {
         return checker.wrong(whole, format!("feature \"{id}\" needs `shape`, or `derived` with `of`"));
     };
-    if let Some(seed) = &written.seed {
-        return checker.wrong(
-            &seed.span,
-            "regions from a seed are not built into `inspect` yet; give `nominal` or `points`",
-        );
-    }
     made.class = class(checker, shape)?;
     if let Some(nominal) = &written.nominal {
         made.nominal = Some(self::nominal(checker, shape.value, nominal)?);
     }
-    if let Some(points) = &written.points {
+    if let Some(seed) = &written.seed {
+        if plan.reference.is_none() {
+            let what = "a seed lies on the reference, but the plan names none; add `reference`";
+            return checker.wrong(&seed.span, what);
+        }
+        made.source = seeded(checker, written, seed, made.class)?;
+    } else if let Some(points) = &written.points {
         made.source = Source::Points(points.clone());
     } else if made.nominal.is_none() {
-        return checker.wrong(whole, format!("feature \"{id}\" has no points: give `points` or `nominal`"));
-    } else if !measured {
+        return checker
+            .wrong(whole, format!("feature \"{id}\" has no points: give `points`, `nominal` or `seed`"));
+    }
+    if !matches!(made.source, Source::Points(_)) && plan.measured.is_none() {
         let what = format!(
             "feature \"{id}\" is to be found in the measured data, but the plan names none; add `measured`"
         );
         return checker.wrong(&written.id.span, what);
     }
-    if let Some(nominal) = &made.nominal {
-        (made.near, made.coverage) = near(checker, nominal, written.extract.as_ref())?;
-    }
     Ok(made)
+}
+
+/// A feature by the region of the reference around a place.
+fn seeded(
+    checker: &Checker,
+    written: &FeatureText,
+    seed: &At<[f64; 3]>,
+    class: Class,
+) -> Result<Source, PlanError> {
+    if written.nominal.is_some() || written.points.is_some() {
+        return checker.wrong(&seed.span, "give one of `seed`, `nominal` and `points`");
+    }
+    if !matches!(class, Class::Plane | Class::Cylinder | Class::Cone | Class::Sphere) {
+        let what = format!("regions are planes, cylinders, cones and spheres; a {} has none", class.word());
+        return checker.wrong(&seed.span, what);
+    }
+    if !seed.value.iter().all(|x| x.is_finite()) {
+        return checker.wrong(&seed.span, "the seed is a place of three finite numbers");
+    }
+    Ok(Source::Seed(At { value: checker.place(seed.value), span: seed.span.clone() }))
 }
 
 fn class(checker: &Checker, shape: &At<ShapeWord>) -> Result<Class, PlanError> {
@@ -305,30 +330,15 @@ fn nominal(checker: &Checker, shape: ShapeWord, at: &At<NominalText>) -> Result<
     }
 }
 
-fn near(
-    checker: &Checker,
-    nominal: &Nominal,
-    written: Option<&ExtractText>,
-) -> Result<(Nearness, f64), PlanError> {
-    let size = match nominal {
-        Nominal::Plane { boundary, .. } => trueness_geom::space::Aabb::of(boundary).diagonal(),
-        Nominal::Cylinder { radius, length, .. } => length.max(2.0 * radius),
-        Nominal::Cone { between: [from, to], .. } => (to - from).abs(),
-        Nominal::Sphere { radius, .. } => 2.0 * radius,
-        Nominal::Edge { length, .. } => *length,
-    };
+/// How near measured facets must be, as the plan has it.
+fn extract(checker: &Checker, written: Option<&ExtractText>) -> Result<Extract, PlanError> {
     let none = ExtractText::default();
     let written = written.unwrap_or(&none);
-    let or = |number: &Option<At<f64>>, what: &str, default: f64| match number {
-        Some(n) => checker.not_negative(n, what),
-        None => Ok(default),
-    };
-    let share = |number: &Option<At<f64>>| match number {
+    let coverage = match &written.coverage {
         Some(n) if !(0.0..=1.0).contains(&n.value) => {
-            checker.wrong(&n.span, format!("the coverage is {}; it is a share from 0 to 1", n.value))
+            return checker.wrong(&n.span, format!("the coverage is {}; it is a share from 0 to 1", n.value));
         }
-        Some(n) => Ok(n.value),
-        None => Ok(COVERAGE),
+        other => other.as_ref().map_or(COVERAGE, |n| n.value),
     };
     let angle = match &written.angle {
         Some(a) if !(a.value > 0.0 && a.value < 90.0) => {
@@ -337,12 +347,39 @@ fn near(
         }
         other => other.as_ref().map_or(ANGLE, |a| a.value).to_radians(),
     };
-    let distance = or(&written.distance, "the distance", DISTANCE * size)?;
-    let margin = match &written.margin {
-        Some(margin) => checker.length(margin, "the margin")?,
+    Ok(Extract {
+        distance: written.distance.as_ref().map(|d| checker.not_negative(d, "the distance")).transpose()?,
+        margin: written.margin.as_ref().map(|m| checker.length(m, "the margin")).transpose()?,
+        angle,
+        rim: written.rim.unwrap_or(true),
+        coverage,
+    })
+}
+
+/// What of the measured data belongs to a feature of the model. Lengths in millimetres.
+#[derive(Clone, Copy, Debug)]
+pub struct Extract {
+    distance: Option<f64>,
+    margin: Option<f64>,
+    angle: f64,
+    rim: bool,
+    /// Least share of the nominal area that must have been measured.
+    pub coverage: f64,
+}
+
+impl Extract {
+    /// How near measured facets must be to this nominal feature.
+    pub fn near(&self, nominal: &Nominal) -> Nearness {
+        let size = match nominal {
+            Nominal::Plane { boundary, .. } => trueness_geom::space::Aabb::of(boundary).diagonal(),
+            Nominal::Cylinder { radius, length, .. } => length.max(2.0 * radius),
+            Nominal::Cone { between: [from, to], .. } => (to - from).abs(),
+            Nominal::Sphere { radius, .. } => 2.0 * radius,
+            Nominal::Edge { length, .. } => *length,
+        };
+        let distance = self.distance.unwrap_or(DISTANCE * size);
         // A measured edge may be as far off as a measured surface.
-        None => -distance,
-    };
-    let near = Nearness { distance, angle, margin, rim: written.rim.unwrap_or(true) };
-    Ok((near, share(&written.coverage)?))
+        let margin = self.margin.unwrap_or(-distance);
+        Nearness { distance, angle: self.angle, margin, rim: self.rim }
+    }
 }

@@ -3,22 +3,26 @@
 //! [`Plan::parse`] refuses whatever could not be evaluated, with line, column and the nearest known word, before any file
 //! is read.
 
+mod align;
 mod at;
+mod deviation;
 mod error;
 mod feature;
 mod proposal;
+pub mod region;
 mod spec;
 pub mod text;
 
+pub use align::Align;
 pub use at::At;
+pub use deviation::Deviation;
 pub use error::{PlanError, unknown};
-pub use feature::{Class, Feature, Source};
+pub use feature::{Class, Extract, Feature, Source};
 pub use proposal::proposal;
 pub use spec::{Basic, Limits, Spec};
 
 use std::ops::Range;
-use text::{AlignWord, PlanText, RuleWord, UnitWord};
-use trueness_geom::rigid::Rigid;
+use text::{PlanText, RuleWord, UnitWord};
 
 /// Name of the plan's schema.
 pub const SCHEMA: &str = "trueness/plan/1";
@@ -36,34 +40,14 @@ pub struct Plan {
     pub reference: Option<At<String>>,
     /// How the measured data come to lie on the reference.
     pub align: Align,
+    /// What is asked of the deviations from the reference; nothing where absent.
+    pub deviation: Option<Deviation>,
     /// The features, in the plan's order.
     pub features: Vec<Feature>,
     /// The characteristics, in the plan's order.
     pub specs: Vec<Spec>,
     /// How verdicts are reached.
     pub decision: Decision,
-}
-
-/// How the measured data come to lie on the reference.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Align {
-    /// As measured.
-    None,
-    /// By this motion: reference from measured.
-    Given(Rigid),
-    /// By the best fit of the measured data onto the reference, from any pose.
-    BestFit,
-}
-
-impl Align {
-    /// The word for it.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Align::None => "none",
-            Align::Given(_) => "given",
-            Align::BestFit => "best-fit",
-        }
-    }
 }
 
 /// How verdicts are reached.
@@ -165,15 +149,19 @@ impl Plan {
         let features = feature::features(&checker, &written)?;
         let decision = decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;
-        if specs.is_empty() {
-            return checker.wrong(&(0..0), "the plan has no characteristic; add a [[characteristic]]");
+        let deviation = deviation::deviation(&checker, &written)?;
+        if specs.is_empty() && deviation.is_none_or(|d| d.tolerance.is_none()) {
+            let what =
+                "nothing in the plan can be judged; add a [[characteristic]] or a tolerance in [deviation]";
+            return checker.wrong(&(0..0), what);
         }
         Ok(Plan {
-            align: align(&checker, &written)?,
+            align: align::align(&checker, &written, &features)?,
             title: written.title,
             units: written.units.map(|u| u.value),
             measured: written.measured,
             reference: written.reference,
+            deviation,
             features,
             specs,
             decision,
@@ -183,38 +171,6 @@ impl Plan {
     /// Number of the feature with this id.
     pub fn feature(&self, id: &str) -> Option<usize> {
         self.features.iter().position(|f| f.id == id)
-    }
-}
-
-fn align(checker: &Checker, plan: &PlanText) -> Result<Align, PlanError> {
-    let Some(written) = &plan.align else { return Ok(Align::None) };
-    let span = &written.method.span;
-    match (written.method.value, &written.transform) {
-        (AlignWord::BestFit, None) if plan.measured.is_none() || plan.reference.is_none() => {
-            checker.wrong(span, "a best fit needs `measured` and `reference`")
-        }
-        (AlignWord::BestFit, None) => Ok(Align::BestFit),
-        (AlignWord::None, None) => Ok(Align::None),
-        (AlignWord::Given, Some(rows)) => {
-            let row = |k: usize| -> Option<[f64; 4]> { rows.value.get(k)?.as_slice().try_into().ok() };
-            let four = [row(0), row(1), row(2), row(3)];
-            let ([Some(mut a), Some(mut b), Some(mut c), Some(d)], 4) = (four, rows.value.len()) else {
-                return checker.wrong(&rows.span, "a transform has four rows of four numbers");
-            };
-            for row in [&mut a, &mut b, &mut c] {
-                row[3] *= checker.unit;
-            }
-            let motion = Rigid::from_matrix([a, b, c, d]);
-            motion.map(Align::Given).or_else(|e| checker.wrong(&rows.span, format!("the transform: {e}")))
-        }
-        (AlignWord::Given, None) => {
-            checker.wrong(span, "method \"given\" needs `transform`, four rows of four numbers")
-        }
-        (_, Some(rows)) => checker.wrong(&rows.span, "only method \"given\" takes a transform"),
-        _ => checker.wrong(
-            span,
-            "this way of alignment is not built into `inspect` yet; align first and give the transform (method \"given\")",
-        ),
     }
 }
 

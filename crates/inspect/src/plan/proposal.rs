@@ -1,11 +1,12 @@
 //! A plan proposed from the elements of a nominal mesh: every element a feature, with the usual characteristics.
 
+use super::region::{facets_of, nominal_of};
 use std::fmt::Write;
+use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::rigid::Rigid;
 use trueness_geom::segment::{Region, Segmentation};
 use trueness_geom::shape::Shape;
-use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times};
+use trueness_geom::space::dot;
 use trueness_geom::zone::datum::direction;
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
@@ -24,7 +25,7 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
     let mut features: Vec<(String, &Region)> = Vec::new();
     let mut numbers = [0usize; 4];
     for (label, region) in found.regions.iter().enumerate() {
-        let corners = corners(mesh, found, label as u32);
+        let facets = facets_of(mesh, found, label as u32);
         let (kind, class) = match region.fit.shape {
             Shape::Plane { .. } => (0, "plane"),
             Shape::Cylinder { .. } => (1, "cylinder"),
@@ -42,11 +43,12 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
         numbers[kind] += 1;
         let first_plane = kind == 0 && numbers[0] == 1;
         let id = if first_plane { "A".to_string() } else { format!("{class} {}", numbers[kind]) };
-        let Some(nominal) = nominal(&region.fit.shape, &corners) else { continue };
+        let Some(nominal) = nominal_of(&region.fit.shape, &facets) else { continue };
         let _ = write!(
             out,
-            "\n[[feature]]\nid = {}\nshape = \"{class}\"\nnominal = {{ {nominal} }}\n",
-            quoted(&id)
+            "\n[[feature]]\nid = {}\nshape = \"{class}\"\nnominal = {{ {} }}\n",
+            quoted(&id),
+            keys(&nominal)
         );
         features.push((id, region));
     }
@@ -104,65 +106,44 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
     }
 }
 
-/// The corners of the facets of a region.
-fn corners(mesh: &Mesh, found: &Segmentation, label: u32) -> Vec<[Point; 3]> {
-    let own = mesh.faces.iter().zip(&found.labels).filter(|(_, l)| **l == label);
-    let corner = |v: u32| mesh.positions.get(v as usize).copied();
-    own.filter_map(|(f, _)| Some([corner(f[0])?, corner(f[1])?, corner(f[2])?])).collect()
-}
-
-/// The keys of a nominal feature: the element, within the bounds of its facets.
-fn nominal(shape: &Shape, facets: &[[Point; 3]]) -> Option<String> {
-    let points = || facets.iter().flatten();
-    let range = |origin: Point, way: Vector| {
-        let along = points().map(|p| dot(minus(*p, origin), way));
-        let low = along.clone().fold(f64::INFINITY, f64::min);
-        (low, along.fold(f64::NEG_INFINITY, f64::max))
-    };
-    let at = |origin: Point, way: Vector, t: f64| plus(origin, times(t, way));
-    match *shape {
-        Shape::Plane { point, normal } => {
-            let facing =
-                facets.iter().fold([0.0; 3], |s, [a, b, c]| plus(s, cross(minus(*b, *a), minus(*c, *a))));
-            let normal = if dot(facing, normal) < 0.0 { times(-1.0, normal) } else { normal };
-            let [u, v, _] = Rigid::into_frame(point, normal, least_axis(normal))?.rotation();
-            let ((a, b), (c, d)) = (range(point, u), range(point, v));
-            let corner = |s: f64, t: f64| vector(at(at(point, u, s), v, t));
-            Some(format!(
-                "point = {}, normal = {}, boundary = [{}, {}, {}, {}]",
-                vector(point),
-                vector(normal),
-                corner(a, c),
-                corner(b, c),
-                corner(b, d),
-                corner(a, d)
-            ))
+/// The keys of a nominal feature.
+fn keys(nominal: &Nominal) -> String {
+    match nominal {
+        Nominal::Plane { point, normal, boundary } => {
+            let corners: Vec<String> = boundary.iter().map(|p| vector(*p)).collect();
+            format!(
+                "point = {}, normal = {}, boundary = [{}]",
+                vector(*point),
+                vector(*normal),
+                corners.join(", ")
+            )
         }
-        Shape::Cylinder { point, direction, radius } => {
-            let (from, to) = range(point, direction);
-            Some(format!(
-                "point = {}, direction = {}, radius = {}, length = {}",
-                vector(at(point, direction, from)),
-                vector(direction),
-                number_text(radius),
-                number_text(to - from)
-            ))
+        Nominal::Cylinder { point, direction, radius, length } => format!(
+            "point = {}, direction = {}, radius = {}, length = {}",
+            vector(*point),
+            vector(*direction),
+            number_text(*radius),
+            number_text(*length)
+        ),
+        Nominal::Cone { apex, direction, half_angle, between: [from, to] } => format!(
+            "apex = {}, direction = {}, half_angle = {}, between = [{}, {}]",
+            vector(*apex),
+            vector(*direction),
+            number_text(half_angle.to_degrees()),
+            number_text(*from),
+            number_text(*to)
+        ),
+        Nominal::Sphere { center, radius } => {
+            format!("center = {}, radius = {}", vector(*center), number_text(*radius))
         }
-        Shape::Cone { apex, direction, half_angle, .. } => {
-            let (from, to) = range(apex, direction);
-            Some(format!(
-                "apex = {}, direction = {}, half_angle = {}, between = [{}, {}]",
-                vector(apex),
-                vector(direction),
-                number_text(half_angle.to_degrees()),
-                number_text(from.max(0.0)),
-                number_text(to)
-            ))
-        }
-        Shape::Sphere { center, radius } => {
-            Some(format!("center = {}, radius = {}", vector(center), number_text(radius)))
-        }
-        _ => None,
+        Nominal::Edge { point, direction, length, normals: [a, b] } => format!(
+            "point = {}, direction = {}, length = {}, normals = [{}, {}]",
+            vector(*point),
+            vector(*direction),
+            number_text(*length),
+            vector(*a),
+            vector(*b)
+        ),
     }
 }
 

@@ -201,7 +201,8 @@ fn keys(w: &CharacteristicText) -> Vec<(&'static str, Range<usize>)> {
     .collect()
 }
 
-fn named(
+/// The number of a feature by its name.
+pub(super) fn named(
     checker: &Checker,
     name: &str,
     span: &Range<usize>,

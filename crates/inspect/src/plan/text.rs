@@ -22,6 +22,8 @@ pub struct PlanText {
     pub reference: Option<At<String>>,
     /// How the measured data come to lie on the reference. Without it they are taken as they are.
     pub align: Option<AlignText>,
+    /// Deviations of all that was measured from the reference.
+    pub deviation: Option<At<DeviationText>>,
     /// The features.
     #[serde(default)]
     pub feature: Vec<At<FeatureText>>,
@@ -77,8 +79,29 @@ impl UnitWord {
 pub struct AlignText {
     /// The way.
     pub method: At<AlignWord>,
-    /// With `given`: four rows of four numbers that take measured coordinates to those of the reference.
+    /// With `given`: four rows of four numbers that take measured coordinates to those of the reference. With `datum` and
+    /// `rps`: where to start.
     pub transform: Option<At<Vec<Vec<f64>>>>,
+    /// With `datum`: features with a nominal, the first one first, that hold all six degrees of freedom.
+    pub datums: Option<At<Vec<At<String>>>>,
+    /// With `datum`: how they are associated.
+    pub datum_method: Option<At<DatumMethodWord>>,
+    /// With `pairs`: places that belong together, at least three. With `rps`: held across directions, at least six.
+    pub points: Option<At<Vec<PairText>>>,
+}
+
+/// A measured place and where it belongs.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PairText {
+    /// As measured.
+    pub measured: At<[f64; 3]>,
+    /// Where it belongs.
+    pub nominal: At<[f64; 3]>,
+    /// With `rps`: the direction in which it is held there.
+    pub direction: Option<At<[f64; 3]>>,
+    /// Its weight; without it 1.
+    pub weight: Option<At<f64>>,
 }
 
 /// Ways of alignment.
@@ -97,6 +120,35 @@ pub enum AlignWord {
     Rps,
     /// By pairs of points.
     Pairs,
+}
+
+/// Deviations of all that was measured from the reference: of the vertices of a mesh, or of the points.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeviationText {
+    /// Least and greatest allowed deviation, + out of the material. Without it nothing is judged.
+    pub tolerance: Option<At<[f64; 2]>>,
+    /// Share of the points that must keep the tolerance, percent. Without it: 100.
+    pub inside: Option<At<f64>>,
+    /// Points farther from the reference than this are left out and counted.
+    pub max_distance: Option<At<f64>>,
+    /// Whether points whose nearest place is a free edge of the reference are left out and counted.
+    #[serde(default)]
+    pub skip_boundary: bool,
+}
+
+impl AlignWord {
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            AlignWord::None => "none",
+            AlignWord::Given => "given",
+            AlignWord::BestFit => "best-fit",
+            AlignWord::Datum => "datum",
+            AlignWord::Rps => "rps",
+            AlignWord::Pairs => "pairs",
+        }
+    }
 }
 
 /// A feature: where its points come from, and what it is.

@@ -19,6 +19,7 @@ mod text;
 pub use documents::Answer;
 pub use marks::{Mark, MarkGroup, Marks};
 pub use payload::NoValue;
+pub(crate) use picture::first_view;
 pub use text::Language;
 
 use crate::results::Role;
@@ -104,6 +105,8 @@ pub enum ViewRole {
     Before,
     /// A fitted element, drawn translucent.
     Element,
+    /// Deviations, on a page that is about something else: shown in place of the part.
+    Deviation,
     /// Marks: what is wrong.
     Defects,
     /// Marks: the element's rim and lines.

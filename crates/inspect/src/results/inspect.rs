@@ -1,12 +1,15 @@
 //! `trueness/inspect/1`: a plan, evaluated.
 
 use super::align::AlignNote;
+use super::compare::Comparison;
 use super::fit::{Number, named, uncertainty};
-use super::{InputRecord, UNITS, VERSION, Verdict};
+use super::{InputRecord, Role, UNITS, VERSION, Verdict};
 use crate::characteristic::Value;
+use crate::compare;
 use crate::inspection::decision::{overall, rank, utilisation, verdict};
-use crate::inspection::{Element, Inspection, Taken};
+use crate::inspection::{Element, Found, Inspection, Taken};
 use crate::plan::{Limits, Plan, Source, Spec};
+use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -37,16 +40,19 @@ pub struct InspectDocument {
     pub features: Vec<FeatureRecord>,
     /// The characteristics, in the plan's order.
     pub characteristics: Vec<CharacteristicRecord>,
-    /// Deviations from the reference; null where the plan asks for none.
-    pub deviation: Option<serde_json::Value>,
+    /// Deviations of all that was measured from the reference, as in a comparison; null where the plan asks for none.
+    pub deviation: Option<Comparison>,
     /// Why there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub deviation_reason: Option<String>,
+    /// The colors of the deviations; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub scale: Option<Scale>,
     /// How verdicts are reached: `simple` or `iso14253-1`.
     pub decision_rule: String,
     /// Number of characteristics by verdict.
     pub counts: Counts,
-    /// The worst verdict of all characteristics.
+    /// The worst verdict of all characteristics and of the deviations.
     pub verdict: Verdict,
 }
 
@@ -62,14 +68,18 @@ pub struct PlanRecord {
 /// How the measured data came to lie on the reference.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
-    /// `none`, `given` or `best-fit`.
+    /// `none`, `given`, `best-fit`, `datum`, `pairs` or `rps`.
     pub method: String,
     /// 4×4, row by row: takes measured coordinates to those of the reference.
     pub transform: [[f64; 4]; 4],
-    /// Of a best fit, root mean square distance of the points that count; null of other ways.
+    /// Root mean square distance of the points that count, of a best fit (also one that datums began with), of pairs and of
+    /// reference points; null of other ways.
     pub rms: Option<f64>,
     /// Their mean distance.
     pub mean_abs: Option<f64>,
+    /// Of pairs the distance left of each, of reference points the signed one along its direction; absent of other ways.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub residuals: Option<Vec<f64>>,
     /// Steps of the iteration.
     pub iterations: Option<u64>,
     /// Whether the iteration settled.
@@ -80,15 +90,36 @@ pub struct AlignmentRecord {
 
 impl AlignmentRecord {
     fn new(plan: &Plan, found: &Inspection) -> AlignmentRecord {
-        let fit = found.best_fit.as_ref();
-        AlignmentRecord {
+        let bare = AlignmentRecord {
             method: plan.align.word().into(),
-            transform: found.motion.matrix(),
-            rms: fit.map(|f| f.rms),
-            mean_abs: fit.map(|f| f.mean_abs),
-            iterations: fit.map(|f| f.iterations as u64),
-            converged: fit.map(|f| f.converged),
-            warnings: fit.map_or(vec![], |f| f.warnings.iter().map(AlignNote::of).collect()),
+            transform: found.alignment.motion.matrix(),
+            rms: None,
+            mean_abs: None,
+            residuals: None,
+            iterations: None,
+            converged: None,
+            warnings: vec![],
+        };
+        match &found.alignment.found {
+            Found::Nothing => bare,
+            Found::BestFit(fit) => AlignmentRecord {
+                rms: Some(fit.rms),
+                mean_abs: Some(fit.mean_abs),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                ..bare
+            },
+            Found::Rows(fit) => AlignmentRecord {
+                rms: Some(fit.rms),
+                mean_abs: Some(
+                    fit.residuals.iter().map(|r| r.abs()).sum::<f64>() / fit.residuals.len() as f64,
+                ),
+                residuals: Some(fit.residuals.clone()),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                ..bare
+            },
         }
     }
 }
@@ -100,7 +131,7 @@ pub struct FeatureRecord {
     pub id: String,
     /// `point`, `line`, `plane`, `circle`, `sphere`, `cylinder`, `cone` or `torus`.
     pub shape: String,
-    /// Where it comes from: `points`, `nominal` or `derived`.
+    /// Where it comes from: `points`, `nominal`, `seed` or `derived`.
     pub source: String,
     /// Number of its points.
     pub points: u64,
@@ -219,6 +250,7 @@ impl InspectDocument {
     ) -> InspectDocument {
         let characteristics: Vec<CharacteristicRecord> =
             plan.specs.iter().zip(&found.values).map(|(s, v)| characteristic(plan, found, s, v)).collect();
+        let (deviation, scale) = deviation(found, &inputs).unzip();
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         InspectDocument {
             schema: SCHEMA.into(),
@@ -229,8 +261,7 @@ impl InspectDocument {
             inputs,
             alignment: AlignmentRecord::new(plan, found),
             features: plan.features.iter().zip(&found.features).map(|(p, t)| feature(p, t)).collect(),
-            deviation: None,
-            deviation_reason: Some("deviations from the reference are not evaluated by a plan yet".into()),
+            deviation_reason: deviation.is_none().then(|| "the plan has no [deviation]".into()),
             decision_rule: plan.decision.rule.word().into(),
             counts: Counts {
                 pass: count(Verdict::Pass),
@@ -238,8 +269,12 @@ impl InspectDocument {
                 undecided: count(Verdict::Undecided),
                 not_measured: count(Verdict::NotMeasured),
             },
-            verdict: overall(characteristics.iter().map(|c| c.verdict)),
+            verdict: overall(
+                characteristics.iter().map(|c| c.verdict).chain(deviation.as_ref().and_then(|d| d.verdict)),
+            ),
             characteristics,
+            deviation,
+            scale,
         }
     }
 }
@@ -259,6 +294,16 @@ impl InspectDocument {
         let on = self.characteristics.iter().filter(|c| c.feature.split(JOINED).any(|f| f == feature));
         on.map(|c| c.verdict).max_by_key(|v| rank(*v))
     }
+}
+
+/// The deviations as a comparison tells them, with the scale of their colors.
+fn deviation(found: &Inspection, inputs: &[InputRecord]) -> Option<(Comparison, Scale)> {
+    let deviations = found.deviations.as_ref()?;
+    let file = |role| inputs.iter().find(|i| i.role == role).cloned();
+    let files = [file(Role::Measured), file(Role::Reference)].into_iter().flatten().collect();
+    let inputs = compare::Inputs { files, kind: deviations.kind, scale: None, reverse: vec![] };
+    let mut document = compare::document(&deviations.found, inputs, &deviations.options);
+    Some((document.comparisons.pop()?, document.scale))
 }
 
 /// Between the names of two features.
@@ -288,12 +333,8 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
     let (source, extract) = match plan.source {
         Source::Points(_) => ("points", None),
         Source::Derived { .. } => ("derived", None),
-        Source::Nominal => {
-            let near = plan.near;
-            let angle = near.angle.to_degrees();
-            let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.coverage);
-            ("nominal", Some(ExtractRecord { distance, angle, margin, rim, coverage }))
-        }
+        Source::Nominal => ("nominal", extract(plan, taken)),
+        Source::Seed(_) => ("seed", extract(plan, taken)),
     };
     FeatureRecord {
         id: taken.id.clone(),
@@ -314,6 +355,13 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         reason: taken.element.as_ref().err().cloned(),
         extract,
     }
+}
+
+/// How near facets had to be to the nominal.
+fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> {
+    let near = plan.extract.near(taken.nominal.as_ref()?);
+    let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.extract.coverage);
+    Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }
 
 fn characteristic(

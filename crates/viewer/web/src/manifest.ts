@@ -120,6 +120,22 @@ export interface Pick {
   object: number | null
   map: number | null
   value: number | null
+  /** What stands at the end of a leader to the place, where it is no value of a map. */
+  frame: Frame | null
+}
+
+/** A characteristic as a drawing has it, with what was found. */
+export interface Frame {
+  /** The sign as the path of an SVG in a square of 16. */
+  sign: string | null
+  diametral: boolean
+  lower: number | null
+  upper: number
+  datums: string[]
+  value: number | null
+  decimals: number
+  /** Key of the verdict's word, and its class. */
+  verdict: string
 }
 
 function json<T>(id: string): T {

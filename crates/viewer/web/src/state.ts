@@ -1,4 +1,4 @@
-import type { Manifest, Pick, ScaleObject } from './manifest'
+import type { AnyObject, Manifest, Pick, ScaleObject } from './manifest'
 import { Colors, limitsOf, slotOf, widened } from './scale/scale'
 import { Distribution, type Share } from './scale/distribution'
 
@@ -37,6 +37,15 @@ export class State {
   /** Places that the list leads to now, with their numbers. */
   get picks(): [number, Pick][] {
     return [...this.manifest.picks.entries()].filter(([, p]) => p.map === null || p.map === this.comparison)
+  }
+
+  /** Something is shown that has values of the current map. */
+  get mapped(): boolean {
+    return this.manifest.objects.some((o) => o.kind !== 'marks' && this.visible[o.role] && this.carries(o))
+  }
+
+  private carries(o: AnyObject): boolean {
+    return o.kind !== 'marks' && o.fields.some((f) => f.comparison === this.comparison)
   }
 
   /** There are surfaces, whose inner side can be shown. */
@@ -119,7 +128,10 @@ export class State {
   pick(number: number): void {
     this.picked = number
     const mark = this.manifest.picks[number]?.mark ?? -1
-    // What is chosen is shown.
+    // What is chosen is shown: a value on its map, what has none on the part.
+    const place = this.manifest.picks[number]
+    const carrier = place && (place.value === null ? 'part' : this.manifest.objects.find((o) => this.carries(o))?.role)
+    if (carrier && carrier in this.visible && this.mapped !== (place.value !== null)) this.show(carrier, true)
     for (const o of this.manifest.objects)
       if (o.kind === 'marks' && mark >= o.first && mark < o.first + o.groups.reduce((n, g) => n + g.count, 0)) this.show(o.role, true)
     this.tell('pick')
@@ -130,10 +142,10 @@ export class State {
     this.tell(what === 'flags' || what === 'log' ? what : 'look')
   }
 
-  /** Of before and after there is always one, so that one key swaps them. */
+  /** Of before and after, of part and deviation there is always one, so that one key swaps them. */
   show(role: string, on: boolean): void {
     this.visible[role] = on
-    const other = { before: 'after', after: 'before' }[role]
+    const other = { before: 'after', after: 'before', part: 'deviation', deviation: 'part' }[role]
     if (other && other in this.visible) this.visible[other] = !on
     this.tell('look')
   }

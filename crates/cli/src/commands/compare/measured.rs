@@ -5,14 +5,13 @@ use crate::memory;
 use crate::read::{self, Opened};
 use anyhow::Context;
 use std::path::Path;
-use trueness_files::{Body, PointSource, ReadError, ReadOptions, Weld};
+use trueness_files::{Body, PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
-use trueness_geom::cloud::PointStream;
+use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::Point;
 use trueness_geom::topology::weld;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -61,7 +60,7 @@ impl Measured {
             }
             None => (mesh.positions.clone(), "vertices"),
         };
-        Ok(Measured { points: Box::new(Once(Some(points))), mesh: Some(mesh), kind, record })
+        Ok(Measured { points: Box::new(Whole::new(points)), mesh: Some(mesh), kind, record })
     }
 }
 
@@ -74,7 +73,7 @@ impl Measured {
         seed: u64,
         progress: &dyn Progress,
     ) -> anyhow::Result<Alignment> {
-        let stream = std::mem::replace(&mut self.points, Box::new(Once(None)));
+        let stream = std::mem::replace(&mut self.points, Box::new(Whole::new(vec![])));
         let mut points = read::all_points(stream)?;
         let tree = Tree::build_watched(reference, progress)?;
         let scan = match &self.mesh {
@@ -90,7 +89,7 @@ impl Measured {
         let motion = &found.reference_from_measured;
         let own = self.mesh.iter_mut().flat_map(|m| &mut m.positions);
         own.chain(&mut points).for_each(|p| *p = motion.point(*p));
-        self.points = Box::new(Once(Some(points)));
+        self.points = Box::new(Whole::new(points));
         Ok(found)
     }
 }
@@ -108,19 +107,5 @@ fn check_memory(samples: u64) -> Result<(), Usage> {
             memory::shown(there.into())
         ))),
         _ => Ok(()),
-    }
-}
-
-/// Points that are all there, in one block.
-struct Once(Option<Vec<Point>>);
-
-impl PointStream for Once {
-    type Error = ReadError;
-    fn expected(&self) -> Option<u64> {
-        Some(self.0.as_ref().map_or(0, |p| p.len() as u64))
-    }
-    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<(), ReadError> {
-        *block = self.0.take().unwrap_or_default();
-        Ok(())
     }
 }

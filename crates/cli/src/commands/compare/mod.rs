@@ -140,16 +140,13 @@ impl CompareArgs {
             },
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
-            shown: if self.output.report.html.is_some() { SHOWN } else { 0 },
+            shown: self.output.report.shown(),
             research: self.research,
             seed: common.seed,
             ..Options::default()
         })
     }
 }
-
-/// Points that a report has at its disposal.
-const SHOWN: usize = 1_000_000;
 
 impl Run for CompareArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {

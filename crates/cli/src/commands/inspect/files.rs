@@ -9,7 +9,7 @@ use trueness_files::{Body, ReadOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 use trueness_inspect::inspection::{Data, OwnPoints};
-use trueness_inspect::plan::{Align, At, Plan, PlanError, Source};
+use trueness_inspect::plan::{At, Plan, PlanError, Source};
 use trueness_inspect::results::inspect::PlanRecord;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -77,10 +77,16 @@ impl PlanFile {
     }
 
     /// Everything measured, with `part` in place of the plan's own measured data.
-    pub fn data(&self, part: Option<&Path>, seed: u64) -> anyhow::Result<(Data, Vec<InputRecord>)> {
+    /// `shown` points are kept for a report.
+    pub fn data(
+        &self,
+        part: Option<&Path>,
+        seed: u64,
+        shown: usize,
+    ) -> anyhow::Result<(Data, Vec<InputRecord>)> {
         let units = self.plan.units.and_then(|u| u.name().parse().ok());
         let options = ReadOptions { units, ..ReadOptions::default() };
-        let (mut data, mut inputs) = (Data { seed, ..Data::default() }, Vec::new());
+        let (mut data, mut inputs) = (Data { seed, shown, ..Data::default() }, Vec::new());
         if let Some(own) = &self.plan.measured {
             let path = part.map_or_else(|| self.path_of(own), Path::to_owned);
             let taken = take(&path, &options);
@@ -91,7 +97,9 @@ impl PlanFile {
             data.measured = Some(mesh);
             inputs.push(record);
         }
-        if let (Align::BestFit, Some(written)) = (&self.plan.align, &self.plan.reference) {
+        let seeded = self.plan.features.iter().any(|f| matches!(f.source, Source::Seed(_)));
+        let wanted = seeded || self.plan.align.uses_reference() || self.plan.deviation.is_some();
+        if let Some(written) = self.plan.reference.as_ref().filter(|_| wanted) {
             let path = self.path_of(written);
             let read = read::mesh(&path, Role::Reference, &options);
             let (source, mut record) = read.with_context(|| self.at(written, "the reference"))?;

@@ -1,6 +1,7 @@
 //! The characteristics of one or several parts as CSV and as JUnit XML.
 
 use trueness_inspect::results::Verdict;
+use trueness_inspect::results::compare::ToleranceShares;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
 /// What distinguishes the part: its measured file, or the plan's.
@@ -8,7 +9,16 @@ fn part(document: &InspectDocument) -> &str {
     document.inputs.first().map_or(&document.plan.path, |i| &i.path)
 }
 
-/// One line a characteristic, numbers with all digits (RFC 4180).
+/// What the deviations from the reference are called beside the characteristics.
+const DEVIATION: &str = "deviation";
+
+/// The deviations from the reference, where they are judged: the share of points within the tolerance.
+fn judged(document: &InspectDocument) -> Option<(&ToleranceShares, Verdict)> {
+    let deviation = document.deviation.as_ref()?;
+    Some((deviation.tolerance.as_ref()?, deviation.verdict?))
+}
+
+/// One line a characteristic, and one for the deviations from the reference where they are judged; numbers with all digits (RFC 4180).
 pub fn csv(documents: &[InspectDocument]) -> String {
     let head = [
         "part",
@@ -49,6 +59,19 @@ pub fn csv(documents: &[InspectDocument]) -> String {
             out.push_str(&cells.map(quoted).join(","));
             out.push_str("\r\n");
         }
+        if let Some((t, verdict)) = judged(document) {
+            let mut cells: [String; 14] = Default::default();
+            cells[0] = part(document).into();
+            [cells[1], cells[2]] = [DEVIATION, DEVIATION].map(String::from);
+            cells[6] = (100.0 * t.required).to_string();
+            cells[7] = "100".into();
+            cells[8] = number(t.inside.map(|s| 100.0 * s));
+            cells[9] = "%".into();
+            cells[11] = verdict.word().into();
+            cells[13] = t.inside_reason.clone().unwrap_or_default();
+            out.push_str(&cells.map(quoted).join(","));
+            out.push_str("\r\n");
+        }
     }
     out
 }
@@ -61,11 +84,15 @@ fn quoted(cell: String) -> String {
     }
 }
 
-/// A test suite a part and a test case a characteristic. What fails is a failure, what nobody can tell an error, what was
+/// A test suite a part and a test case a characteristic, and one for the deviations where they are judged. What fails is a failure, what nobody can tell an error, what was
 /// not measured a failure too: a merge must not pass on it.
 pub fn junit(documents: &[InspectDocument]) -> String {
     let count = |documents: &[InspectDocument], which: &dyn Fn(Verdict) -> bool| -> usize {
-        documents.iter().flat_map(|d| &d.characteristics).filter(|c| which(c.verdict)).count()
+        let of = |d: &InspectDocument| {
+            let own = d.characteristics.iter().map(|c| c.verdict);
+            own.chain(judged(d).map(|j| j.1)).filter(|v| which(*v)).count()
+        };
+        documents.iter().map(of).sum()
     };
     let failed = |v| matches!(v, Verdict::Fail | Verdict::NotMeasured);
     let attributes = |documents: &[InspectDocument]| {
@@ -83,7 +110,18 @@ pub fn junit(documents: &[InspectDocument]) -> String {
         let name = escaped(part(document));
         out.push_str(&format!("  <testsuite name=\"{name}\" {}>\n", attributes(one)));
         for c in &document.characteristics {
-            out.push_str(&case(&name, c));
+            out.push_str(&characteristic(&name, c));
+        }
+        if let Some((t, verdict)) = judged(document) {
+            let share =
+                t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
+            let said = format!(
+                "{share} within {} to {} mm, allowed {} to 100 %",
+                t.lower,
+                t.upper,
+                100.0 * t.required
+            );
+            out.push_str(&case(&name, DEVIATION, verdict, &said));
         }
         out.push_str("  </testsuite>\n");
     }
@@ -91,9 +129,7 @@ pub fn junit(documents: &[InspectDocument]) -> String {
     out
 }
 
-fn case(class: &str, c: &CharacteristicRecord) -> String {
-    let name = escaped(&format!("{} {} {}", c.id, c.kind, c.feature));
-    let start = format!("    <testcase classname=\"{class}\" name=\"{name}\"");
+fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
     let said = match (c.value, &c.reason) {
         (Some(value), _) => {
             let lower = c.lower.map_or_else(String::new, |l| format!("{l} to "));
@@ -102,8 +138,13 @@ fn case(class: &str, c: &CharacteristicRecord) -> String {
         (None, Some(reason)) => reason.clone(),
         (None, None) => String::new(),
     };
-    let message = escaped(&format!("{}: {said}", c.verdict.word()));
-    match c.verdict {
+    case(class, &format!("{} {} {}", c.id, c.kind, c.feature), c.verdict, &said)
+}
+
+fn case(class: &str, name: &str, verdict: Verdict, said: &str) -> String {
+    let start = format!("    <testcase classname=\"{class}\" name=\"{}\"", escaped(name));
+    let message = escaped(&format!("{}: {said}", verdict.word()));
+    match verdict {
         Verdict::Pass => format!("{start}/>\n"),
         Verdict::Undecided => format!("{start}><error message=\"{message}\"/></testcase>\n"),
         Verdict::Fail | Verdict::NotMeasured => {

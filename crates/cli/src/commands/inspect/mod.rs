@@ -16,6 +16,7 @@ use clap::Args;
 use files::PlanFile;
 use std::path::{Path, PathBuf};
 use trueness_geom::progress::Cancelled;
+use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Stop, View};
 use trueness_inspect::plan::PlanError;
 use trueness_inspect::report::Answer;
@@ -115,7 +116,7 @@ fn inspect(
     part: Option<&Path>,
     common: &Common,
 ) -> anyhow::Result<InspectDocument> {
-    let (data, inputs) = plan.data(part, common.seed)?;
+    let (data, inputs) = plan.data(part, common.seed, args.report.shown())?;
     let stage = Stage::new(common.progress, "inspecting", "features", None);
     let found = inspection::run(&plan.plan, data, &stage);
     drop(stage);
@@ -128,7 +129,14 @@ fn inspect(
     })?;
     let document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
     if args.report.html.is_some() {
-        let view = View::new(&document, &found);
+        let name = document.inputs.first().map_or("", |i| &i.path);
+        let references = found.deviations.as_ref().zip(document.deviation.as_ref());
+        let references = references.map(|(d, record)| d.references(&record.reference));
+        let deviations = found.deviations.as_ref().zip(references.as_ref()).map(|(d, references)| {
+            let mesh = found.measured.as_ref().filter(|m| !m.faces.is_empty());
+            compare::View::new(name, mesh, references, &d.found)
+        });
+        let view = View::new(&document, &found, deviations.as_ref());
         args.report.write(Answer::Inspect(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;

@@ -1,9 +1,10 @@
 //! The document of an inspection for people.
 
 use crate::console;
-use crate::number::{fixed, signed, six_digits};
+use crate::number::{POINTS, counted, fixed, signed, six_digits};
 use crate::read;
 use std::fmt::Write;
+use trueness_inspect::results::compare::Comparison;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
 /// The document for people.
@@ -23,7 +24,9 @@ pub fn table(document: &InspectDocument) -> String {
         ["id", "kind", "feature", "datums", "allowed", "value", "used", "verdict"].map(String::from).to_vec(),
     ];
     rows.extend(document.characteristics.iter().map(row));
-    out.push_str(&console::columns(&rows));
+    if rows.len() > 1 {
+        out.push_str(&console::columns(&rows));
+    }
     for c in &document.characteristics {
         if let Some(reason) = &c.reason {
             let _ = writeln!(out, "! {}: {reason}", c.id);
@@ -31,6 +34,9 @@ pub fn table(document: &InspectDocument) -> String {
         for note in &c.notes {
             let _ = writeln!(out, "  {}: {note}", c.id);
         }
+    }
+    if let Some(c) = &document.deviation {
+        deviation(&mut out, c);
     }
     let n = &document.counts;
     let _ = writeln!(
@@ -44,6 +50,38 @@ pub fn table(document: &InspectDocument) -> String {
         document.decision_rule
     );
     out
+}
+
+/// The deviations from the reference in a line, with what makes them doubtful.
+fn deviation(out: &mut String, c: &Comparison) {
+    let all = &c.deviation.all;
+    let number = |x: Option<f64>| x.map_or_else(|| "–".into(), signed);
+    let _ = write!(
+        out,
+        "deviation from {}: {}, {} to {}, mean {}, rms {}",
+        c.reference,
+        counted(all.count, POINTS),
+        number(all.min),
+        number(all.max),
+        number(all.mean),
+        all.rms.map_or_else(|| "–".into(), six_digits)
+    );
+    let excluded: u64 = c.excluded.values().sum();
+    if excluded > 0 {
+        let _ = write!(out, ", {} left out", counted(excluded, POINTS));
+    }
+    if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
+        let inside = t.inside.map_or_else(|| "–".into(), |s| format!("{} %", fixed(100.0 * s, 3)));
+        let _ = write!(out, "; {inside} within {}/{}", signed(t.lower), signed(t.upper));
+        if t.required < 1.0 {
+            let _ = write!(out, ", {} % asked", six_digits(100.0 * t.required));
+        }
+        let _ = write!(out, ": {}", verdict.word());
+    }
+    out.push('\n');
+    for warning in &c.warnings {
+        let _ = writeln!(out, "! deviation: {}", warning.text);
+    }
 }
 
 fn row(c: &CharacteristicRecord) -> Vec<String> {

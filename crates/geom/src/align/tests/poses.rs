@@ -36,6 +36,54 @@ fn the_same_part_is_found_from_random_poses() {
     }
 }
 
+#[test]
+fn a_measured_mesh_of_few_facets_is_found_by_its_surface() {
+    // Whole sides of two facets each, and a tetrahedron of four: the vertices alone determine no pose among others.
+    let tetrahedron = Mesh {
+        positions: vec![[0.0, 0.0, 0.0], [40.0, 0.0, 0.0], [0.0, 70.0, 0.0], [0.0, 0.0, 110.0]],
+        faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+    };
+    let random = &mut Random::new(21);
+    for part in [tetrahedron, bracket(200.0)] {
+        for trial in 0..4 {
+            let pose = random_pose(random, 200.0);
+            let found = fit(&Measured::Mesh(&moved(&part, &pose)), &part);
+            let [angle, shift] = off(&found, &pose, MIDDLE);
+            assert!(angle < 1e-9 && shift < 1e-7, "{trial}: {angle} {shift} {found:?}");
+            assert!(found.converged && found.warnings.is_empty(), "{trial}: {:?}", found.warnings);
+        }
+    }
+}
+
+#[test]
+fn clutter_around_a_piece_of_the_part_does_not_hide_its_place() {
+    // 70 % of the surface, and a fifth of all that is measured belongs to other things: a table below, a clamp.
+    let reference = bracket(4.0);
+    let scan = bracket(1.5);
+    let random = &mut Random::new(33);
+    let mut right = 0;
+    for _ in 0..10 {
+        let normal: Point = std::array::from_fn(|_| 2.0 * random.unit() - 1.0);
+        let normal = times(1.0 / norm(normal), normal);
+        let mut along: Vec<f64> =
+            scan.faces.iter().map(|f| crate::space::dot(scan.positions[f[0] as usize], normal)).collect();
+        along.sort_by(f64::total_cmp);
+        let piece = half(&scan, normal, along[3 * along.len() / 10]);
+        let other = block([-30.0, -20.0, -28.0], [60.0, 16.0, -20.0], 1.5);
+        let clamp = block([70.0, 60.0, -20.0], [86.0, 80.0, 25.0], 1.5);
+        let other = super::parts::together(&[
+            half(&other, [0.0, 0.0, 1.0], -20.5),
+            half(&clamp, [-0.6, -0.8, 0.3], -110.0),
+        ]);
+        let pose = random_pose(random, 200.0);
+        let found = fit(&Measured::Mesh(&moved(&super::parts::together(&[piece, other]), &pose)), &reference);
+        let [angle, shift] = off(&found, &pose, MIDDLE);
+        println!("{angle} {shift} {:?}", found.warnings);
+        right += usize::from(angle < 1e-5 && shift < 1e-4);
+    }
+    assert_eq!(right, 10);
+}
+
 /// The part with waves of form, as a scan has them.
 fn wavy(mesh: &Mesh, size: f64) -> Mesh {
     let wave = |p: &Point| {

@@ -2,9 +2,12 @@
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, badge, fact, key_number, section};
-use super::super::page::symbols::symbol;
-use super::{Head, Pick, Subject};
+use super::super::page::symbols::{path, symbol};
+use super::{Frame, Head, Map, Pick, Subject, compare};
+use crate::results::Verdict;
+use crate::results::compare::Comparison;
 use crate::results::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument};
+use crate::scale::Scale;
 use serde_json::Value;
 
 impl Subject for InspectDocument {
@@ -48,11 +51,20 @@ impl Subject for InspectDocument {
         key_number(h, "characteristics", "", |h| {
             h.count(self.characteristics.len() as u64);
         });
+        if let Some(t) = self.deviation.as_ref().and_then(|d| d.tolerance.as_ref()) {
+            let failed = self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+            key_number(h, "deviations.within", if failed { "warn" } else { "" }, |h| {
+                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
+            });
+        }
         h.raw("</dl>");
     }
 
     fn list(&self, h: &mut Html) {
         section(h, "characteristics", |h| characteristics(h, self));
+        if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
+            deviations(h, c, scale.decimals as usize, self.characteristics.len());
+        }
         section(h, "features", |h| features(h, self));
         section(h, "alignment", |h| {
             h.raw("<dl class=\"facts pairs\">");
@@ -91,17 +103,41 @@ impl Subject for InspectDocument {
         let of = |(n, c): (usize, &CharacteristicRecord)| Pick {
             position: c.anchor.unwrap_or([0.0; 3]),
             mark: Some(n),
+            frame: c.anchor.map(|_| frame(c)),
             ..Pick::default()
         };
-        self.rows().into_iter().enumerate().map(of).collect()
+        let worst = self.deviation.iter().flat_map(|d| &d.worst).map(|w| compare::pick(w, 0));
+        self.rows().into_iter().enumerate().map(of).chain(worst).collect()
     }
 
-    fn important(&self, picks: &[Pick]) -> Vec<usize> {
-        (0..picks.len()).collect()
+    fn important(&self, _: &[Pick]) -> Vec<usize> {
+        (0..self.characteristics.len()).collect()
+    }
+
+    fn scale(&self) -> Option<&Scale> {
+        self.scale.as_ref()
+    }
+
+    fn maps(&self) -> Vec<Map<'_>> {
+        self.deviation.iter().map(compare::map).collect()
     }
 
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
+    }
+}
+
+/// What stands at the end of its leader.
+fn frame(c: &CharacteristicRecord) -> Frame {
+    Frame {
+        sign: path(&c.kind),
+        diametral: c.zone == "diameter",
+        lower: c.lower,
+        upper: c.upper,
+        datums: c.datums.clone(),
+        value: c.value,
+        decimals: digits(c),
+        verdict: Headline::from(c.verdict).key,
     }
 }
 
@@ -133,6 +169,34 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
         }
     }
     h.raw("</tbody></table>");
+}
+
+/// The deviations from the reference: the verdict, the worst places, the statistics.
+fn deviations(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
+    section(h, "deviations", |h| {
+        h.raw("<dl class=\"facts pairs\">");
+        if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
+            fact(h, "verdict", |h| badge(h, verdict.into()));
+            fact(h, "tolerance", |h| {
+                h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
+            });
+            fact(h, "within", |h| {
+                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
+                if t.required < 1.0 {
+                    h.raw(" (≥\u{a0}").percent(t.required, 2).raw(")");
+                }
+            });
+        }
+        fact(h, "excluded", |h| {
+            h.count(c.excluded.values().sum());
+        });
+        h.raw("</dl>");
+        for warning in &c.warnings {
+            h.raw("<p class=\"note\">⚠ ").text(&warning.text).raw("</p>");
+        }
+    });
+    compare::worst(h, c, decimals, first_pick);
+    compare::statistics(h, c, decimals);
 }
 
 fn digits(c: &CharacteristicRecord) -> usize {

@@ -18,6 +18,7 @@ use crate::results::repair::RepairDocument;
 use crate::results::segment::SegmentDocument;
 use crate::scale::Scale;
 use crate::tolerance::badness;
+use serde::Serialize;
 use serde_json::Value;
 use trueness_geom::space::{Point, Vector};
 
@@ -165,4 +166,27 @@ pub struct Pick {
     pub map: Option<usize>,
     /// The value there, for a flag.
     pub value: Option<f64>,
+    /// What stands at the end of a leader to the place, where it is no value of a map.
+    pub frame: Option<Frame>,
+}
+
+/// A characteristic as a drawing has it, with what was found: sign, what is allowed, datums, value, verdict.
+#[derive(Clone, Debug, Serialize)]
+pub struct Frame {
+    /// The sign as the path of an SVG in a square of 16; none where there is no sign.
+    pub sign: Option<&'static str>,
+    /// Whether the zone is a diameter.
+    pub diametral: bool,
+    /// Least allowed value.
+    pub lower: Option<f64>,
+    /// Greatest allowed value.
+    pub upper: f64,
+    /// Datums, the first one first.
+    pub datums: Vec<String>,
+    /// The value found.
+    pub value: Option<f64>,
+    /// Decimals of value and limits.
+    pub decimals: usize,
+    /// Key of the verdict's word.
+    pub verdict: &'static str,
 }

@@ -3,7 +3,7 @@
 use super::super::html::{Html, json};
 use super::super::payload::Payload;
 use super::super::picture::FirstView;
-use super::super::{Marks, ReportError, ReportInput, Up, ViewRole, text};
+use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale, slot};
 use rayon::prelude::*;
@@ -63,7 +63,8 @@ fn maps(input: &ReportInput) -> Value {
 
 /// The values at hand of a map, least to greatest.
 fn sorted(input: &ReportInput, map: usize) -> Vec<f64> {
-    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured);
+    let own = |o: &&ViewObject| o.role == ViewRole::Deviation && o.gathered.is_none();
+    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured || own(o));
     let mut sorted: Vec<f64> = valued
         .filter_map(|o| o.field(map))
         .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))
@@ -89,7 +90,7 @@ fn picks(input: &ReportInput, first: &FirstView) -> Value {
     let all = input.result.subject().picks().into_iter().zip(&first.off).map(|(p, off)| {
         json!({
             "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
-            "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
+            "mark": p.mark, "object": p.object, "map": p.map, "value": p.value, "frame": p.frame,
         })
     });
     all.collect::<Vec<_>>().into()

@@ -41,7 +41,7 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &Picture) -> Result
     h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n");
     h.raw("<style>").raw(&running).raw("</style>\n</head>\n");
     let scale = subject.scale();
-    h.raw(if scale.is_some() { "<body>\n" } else { "<body class=\"no-scale\">\n" });
+    h.raw(if picture.view.mapped { "<body>\n" } else { "<body class=\"no-scale\">\n" });
     header::header(&mut h, input);
     h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
     subject.list(&mut h);
@@ -81,7 +81,9 @@ fn stage(h: &mut Html, input: &ReportInput, picture: &Picture) {
     flags::hidden(h, &picture.view);
     h.raw("</section>\n");
     if let Some(scale) = subject.scale() {
-        h.raw("<figure id=\"figure\" class=\"figure\">");
+        // The colors of what the picture does not show would be taken for the picture's.
+        let hidden = if picture.view.mapped { "" } else { " hidden" };
+        h.raw(&format!("<figure id=\"figure\" class=\"figure\"{hidden}>"));
         let histogram = subject.maps().first().and_then(|m| m.histogram);
         figure::figure(h, scale, histogram, subject.quantity());
         h.raw("</figure>\n");

@@ -8,7 +8,7 @@ use super::super::documents::Pick;
 use super::super::marks::{Mark, Marks};
 use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
-use super::shown_objects;
+use super::{mapped, shown_objects};
 use crate::spacing::spacing;
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
@@ -65,7 +65,8 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
         views.into_iter().fold(usual, |best, v| if v.rank() > best.rank() { v } else { best })
     };
     let mut hidden = vec![false; picks.len()];
-    let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n])).collect();
+    let mapped = mapped(&shown);
+    let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n], mapped)).collect();
     let flags: Vec<Place> = flagged.iter().map(place).collect();
     for (n, seen) in flagged.iter().zip(&View::of(&flags, &[best.toward], &opaque).remove(0).seen) {
         hidden[*n] = seen.is_none();
@@ -74,9 +75,9 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     Direction { toward: best.toward, places, off, hidden }
 }
 
-/// A pick has a flag in the first view: a value of the first map.
-pub fn flagged(pick: &Pick) -> bool {
-    pick.value.is_some() && pick.map.unwrap_or(0) == 0
+/// A pick has a flag in the first view: a value of the first map where that is shown, else its frame.
+pub fn flagged(pick: &Pick, mapped: bool) -> bool {
+    if mapped { pick.value.is_some() && pick.map.unwrap_or(0) == 0 } else { pick.frame.is_some() }
 }
 
 /// What hides places: of a measured cloud the reference's surface, drawn or not, where there is one; else what is drawn and

@@ -7,6 +7,8 @@ mod direction;
 mod overlay;
 mod png;
 
+pub use direction::flagged;
+
 use super::documents::Pick;
 use super::{Geometry, ReportInput, ViewObject, ViewRole};
 use crate::scale::palette::Rgb;
@@ -27,6 +29,8 @@ const DARKEST: f64 = 0.72;
 const RIM: f64 = 0.2;
 /// Room for the flags on the left and on the right, where there are any.
 const FLAGS: u32 = 170;
+/// The same for the frames of characteristics.
+const FRAMES: u32 = 250;
 /// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
 /// a crease: the facet then keeps its own normal throughout.
 const CREASE: f64 = 0.965_925_826_289_068_3;
@@ -54,7 +58,7 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let shown = |o: &ViewObject| match o.role {
         ViewRole::Measured => measured || reference.is_none(),
         ViewRole::Reference => !measured && (o.comparison.unwrap_or(0) == 0),
-        ViewRole::Before => false,
+        ViewRole::Before | ViewRole::Deviation => false,
         _ => true,
     };
     (0..).zip(objects).filter(|(_, o)| shown(o)).map(|(n, _)| n).collect()
@@ -63,6 +67,11 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
 /// The objects that the first view shows.
 fn shown_objects<'a>(objects: &'a [ViewObject<'a>]) -> Vec<&'a ViewObject<'a>> {
     first_view(objects).into_iter().map(|n| &objects[n]).collect()
+}
+
+/// Whether objects show values of the first map.
+fn mapped(shown: &[&ViewObject]) -> bool {
+    shown.iter().any(|o| o.field(0).is_some())
 }
 
 /// How the report is looked at first: the direction, and where the picks lie in the stored picture.
@@ -75,6 +84,8 @@ pub struct FirstView {
     pub off: Vec<bool>,
     /// For each pick with a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
+    /// Whether it shows values as colors, and so flags.
+    pub mapped: bool,
     camera: Camera,
 }
 
@@ -83,14 +94,19 @@ impl FirstView {
     pub fn of(input: &ReportInput, picks: &[Pick]) -> FirstView {
         let direction::Direction { toward, places, off, hidden } = direction::direction(input, picks);
         let shown = shown_objects(input.objects);
+        let mapped = mapped(&shown);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-        let flagged = |n: &usize| direction::flagged(&picks[*n]);
+        let flagged = |n: &usize| flagged(&picks[*n], mapped);
         let beside = (0..picks.len()).filter(|n| off[*n] && flagged(n)).map(|n| &picks[n].position);
         let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
-        let margin = if (0..picks.len()).any(|n| flagged(&n)) { FLAGS } else { 0 };
+        let margin = match (0..picks.len()).any(|n| flagged(&n)) {
+            true if mapped => FLAGS,
+            true => FRAMES,
+            false => 0,
+        };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
-        FirstView { toward, places, off, hidden, camera }
+        FirstView { toward, places, off, hidden, mapped, camera }
     }
 
     /// Width and height of the picture in pixels.

@@ -6,7 +6,7 @@ import type { Words } from '../words'
 
 /** What switches an object or a layer of marks on and off. */
 export const ROLE_KEYS: Record<string, string> = {
-  measured: 'A', part: 'A', after: 'A', reference: 'N', before: 'N', element: 'N', defects: 'D', edges: 'E', touching: 'D', changes: 'D',
+  measured: 'A', part: 'A', after: 'A', reference: 'N', before: 'N', deviation: 'N', element: 'N', defects: 'D', edges: 'E', touching: 'D', changes: 'D',
 }
 
 interface Key {
@@ -24,7 +24,7 @@ function pageKeys(state: State): Key[] {
     ...roles.filter((r) => r.key),
     ...toggle('M', 'tool.map', 'map', maps.length > 0),
     ...toggle('L', 'tool.flat', 'flat', maps.length > 0),
-    ...toggle('G', 'tool.flags', 'flags', picks.some((p) => p.value !== null)),
+    ...toggle('G', 'tool.flags', 'flags', picks.some((p) => p.value !== null || p.frame !== null)),
     ...toggle('B', 'tool.backfaces', 'backfaces', state.meshes),
     ...toggle('P', 'tool.perspective', 'perspective', true),
   ]

@@ -57,7 +57,7 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
     for (const role of state.roles) items.push(toggle(role, state.visible[role], () => state.show(role, !state.visible[role]), ROLE_KEYS[role] ?? ''))
     if (maps.length > 0) items.push(toggle('tool.map', state.map, () => state.toggle('map'), 'M'))
     if (maps.length > 0) items.push(toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L'))
-    if (picks.some((p) => p.value !== null)) items.push(toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'))
+    if (picks.some((p) => p.value !== null || p.frame !== null)) items.push(toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'))
     if (state.meshes) items.push(toggle('tool.backfaces', state.backfaces, () => state.toggle('backfaces'), 'B'))
     items.push(act('tool.fit', () => stage.fit(), 'F'))
     const focused = [...bar.children].indexOf(document.activeElement as Element)

@@ -6,7 +6,11 @@ import { drawScale, type Drawing } from './drawing'
 /** The scale's column beside the stage, and the same lying under it for narrow screens and print. */
 export function scaleColumn(state: State, words: Words): void {
   const column = need('scale')
-  column.hidden = false
+  // Colours of what is not shown would be taken for those that are.
+  const appear = () => {
+    column.hidden = need('figure').hidden = !state.mapped
+    document.body.classList.toggle('no-scale', !state.mapped)
+  }
   const chart = svg('svg', { class: 'distribution', role: 'img' })
   const lying = svg('svg', { class: 'distribution lying', role: 'img' })
   const area = el('div', { class: 'chart' }, chart)
@@ -51,9 +55,11 @@ export function scaleColumn(state: State, words: Words): void {
   new ResizeObserver(draw).observe(area)
   state.listen((what) => {
     if (what === 'hover') for (const d of [drawing, lyingDrawing]) d.mark(state.hover)
+    else if (what === 'look') appear()
     else if (what === 'scale' || what === 'only' || what === 'comparison' || what === 'log') update()
   })
   words.onChange(update)
+  appear()
   update()
 }
 

@@ -3,6 +3,7 @@ import { el, svg } from '../dom'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
 import type { Words } from '../words'
+import { frameCells, frameText, signOf } from './frame'
 import { NARROW, type Stage } from './stage'
 
 /** Room between flags of one column, and between a flag and the stage's rim. */
@@ -16,6 +17,9 @@ const FOOT = 34
 const PAPER = { width: 124, height: 28 }
 /** And what a note beside the value takes more. */
 const PAPER_NOTE = 104
+/** Width of a sign and of a letter on paper. */
+const PAPER_SIGN = 22
+const PAPER_LETTER = 8.6
 
 interface Flag {
   number: number
@@ -52,6 +56,8 @@ export class Flags {
   private flags: Flag[] = []
   private readonly lines = svg('svg', { class: 'leaders', 'aria-hidden': 'true' })
   private narrow: boolean | null = null
+  /** Whether values were shown when the flags were made: without them there are none. */
+  private mapped = false
 
   constructor(
     private readonly overlay: HTMLElement,
@@ -63,7 +69,7 @@ export class Flags {
     stage.onDraw(() => this.place())
     words.onChange(() => this.rebuild())
     state.listen((what) => {
-      if (what === 'comparison' || what === 'flags' || what === 'scale') this.rebuild()
+      if (what === 'comparison' || what === 'flags' || what === 'scale' || (what === 'look' && this.mapped !== state.mapped)) this.rebuild()
       if (what === 'pick') this.place()
     })
     this.rebuild()
@@ -72,25 +78,31 @@ export class Flags {
   private rebuild(): void {
     for (const flag of this.flags) flag.box.remove()
     this.lines.replaceChildren()
-    const valued = this.state.flags ? this.state.picks : []
-    this.flags = valued.flatMap(([number, p], n) => (p.value === null ? [] : [this.make(number, p, p.value, n)]))
+    this.mapped = this.state.mapped
+    const picks = this.state.flags ? this.state.picks : []
+    const flagged = picks.filter(([, p]) => (this.mapped ? p.value !== null : p.frame !== null))
+    this.flags = flagged.map(([number, p], n) => this.make(number, p, n))
     this.narrow = null
     this.place()
   }
 
-  private make(number: number, pick: Pick, value: number, n: number): Flag {
+  private make(number: number, pick: Pick, n: number): Flag {
+    const { frame } = pick
+    const value = pick.value ?? 0
+    const label = String(n + 1)
+    const text = frame ? frameText(frame, this.words) : this.words.signed(value, this.state.scale.decimals)
     const zone = this.state.scale.tolerance
     const out = zone ? value < zone[0] || value > zone[1] : false
-    const label = String(n + 1)
-    const text = this.words.signed(value, this.state.scale.decimals)
+    const kind = frame ? `flag frame ${frame.verdict}` : out ? 'flag out' : 'flag'
+    const title = frame ? `${text} · ${this.words.of(`verdict.${frame.verdict}`)}` : text
     const box = el(
       'button',
-      { type: 'button', class: out ? 'flag out' : 'flag', 'data-flag': n, title: text },
+      { type: 'button', class: kind, 'data-flag': n, title },
       el('span', { class: 'number' }, label),
-      el('strong', {}, text),
+      ...(frame ? frameCells(frame, this.words) : [el('strong', {}, text)]),
       ...(pick.off ? [el('small', {}, this.words.of('flag.off'))] : []),
     )
-    box.style.setProperty('--swatch', this.state.colors.css(value))
+    if (!frame) box.style.setProperty('--swatch', this.state.colors.css(value))
     box.addEventListener('click', () => this.state.pick(number))
     const line = svg('line', { class: 'leader' })
     const way = svg('line', { class: 'way' })
@@ -118,8 +130,11 @@ export class Flags {
     const { width, pixels } = this.stage.eye
     this.lines.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     const tools = this.overlay.querySelector<HTMLElement>('.stage-tools')?.offsetHeight ?? 0
-    for (const c of this.layout((f) => f.size, tools + 2 * RIM)) {
+    const placed = this.layout((f) => f.size, tools + 2 * RIM)
+    for (const flag of this.flags) for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.add('left-out')
+    for (const c of placed) {
       const { flag, hidden, x, y, inner, top, width: wide } = c
+      for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.remove('left-out')
       flag.box.classList.toggle('hidden', hidden)
       flag.line.classList.toggle('hidden', hidden)
       flag.dot.classList.toggle('hidden', hidden)
@@ -139,10 +154,17 @@ export class Flags {
     const { width, pixels } = this.stage.eye
     target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     target.replaceChildren()
-    for (const { flag, hidden, x, y, inner, top, width: w, height: h } of this.layout((f) => ({ ...PAPER, width: PAPER.width + (f.pick.off ? PAPER_NOTE : 0) }), RIM)) {
+    const size = ({ pick, text }: Flag) => {
+      const { frame } = pick
+      const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * text.length + 16 : PAPER.width
+      return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
+    }
+    for (const { flag, hidden, x, y, inner, top, width: w, height: h } of this.layout(size, RIM)) {
       const left = inner > x ? inner : inner - w
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
-      const name = hidden ? 'hidden' : ''
+      const { frame } = flag.pick
+      const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
+      const sign = frame?.sign ? [signOf(frame.sign, { x: left + 8, y: top + h / 2 - 8 })] : []
       if (flag.surface) {
         const foot = this.stage.eye.project(flag.surface)
         target.append(svg('line', { class: 'way', x1: x, y1: y, x2: foot.x, y2: foot.y }))
@@ -151,7 +173,8 @@ export class Flags {
         svg('line', { class: `leader ${name}`, x1: inner, y1: top + h / 2, x2: x, y2: y }),
         svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 }),
         svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
-        svg('text', { class: name, x: left + 8, y: top + h / 2 }, `${flag.label}  ${text}`),
+        ...sign,
+        svg('text', { class: name, x: left + 8 + PAPER_SIGN * sign.length, y: top + h / 2 }, frame ? text : `${flag.label}  ${text}`),
       )
     }
   }
@@ -167,8 +190,14 @@ export class Flags {
       columns[side].push({ flag, hidden: sight.hidden(flag.place, flag.slack), ...own, x, y, inner, top: 0 })
     }
     const wide = eye.width >= NARROW
-    columns.forEach((column, side) => stack(column, head, eye.pixels - (side === 1 && wide ? CUBE : FOOT)))
-    return columns.flat()
+    const kept = columns.map((column, side) => {
+      const foot = eye.pixels - (side === 1 && wide ? CUBE : FOOT)
+      // The first matter most; the list has them all.
+      const some = column.slice(0, Math.max(1, Math.floor((foot - head) / (tallest(column) + GAP))))
+      stack(some, head, foot)
+      return some
+    })
+    return kept.flat()
   }
 }
 
@@ -176,10 +205,14 @@ function write(element: Element, attributes: Record<string, number>): void {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value.toFixed(1))
 }
 
+function tallest(column: Placed[]): number {
+  return Math.max(...column.map((c) => c.height), 0)
+}
+
 /** Stacks a column between two heights, each flag as near to its place as the others let it. */
 function stack(column: Placed[], head: number, foot: number): void {
   column.sort((a, b) => a.y - b.y)
-  const tall = Math.max(...column.map((c) => c.height), 0)
+  const tall = tallest(column)
   let free = head
   for (const c of column) {
     c.top = Math.max(free, c.y - tall / 2)

@@ -4,6 +4,7 @@ import { colors } from './colors.mjs'
 import { defects } from './defects.mjs'
 import { first } from './first.mjs'
 import { fit } from './fit.mjs'
+import { inspect } from './inspect.mjs'
 import { layout } from './layout.mjs'
 import { pace } from './pace.mjs'
 import { reading } from './reading.mjs'
@@ -14,4 +15,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...inspect, ...views, ...pace, ...words, ...layout]

@@ -91,7 +91,7 @@ fn paired(h: &mut Html, result: &CompareDocument) {
     }
 }
 
-fn worst(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
+pub fn worst(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
     if c.worst.is_empty() {
         return;
     }
@@ -132,7 +132,7 @@ const ROWS: [Row; 14] = [
     ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
 ];
 
-fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
+pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
     let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
     section(h, "statistics", |h| {
         in_words(h, c);

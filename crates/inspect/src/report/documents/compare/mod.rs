@@ -2,6 +2,8 @@
 
 mod list;
 
+pub use list::{statistics, worst};
+
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, key_number};
 use super::{Head, Map, Pick, Subject, check};
@@ -64,12 +66,7 @@ impl Subject for CompareDocument {
     }
 
     fn maps(&self) -> Vec<Map<'_>> {
-        fn of(c: &Comparison) -> Map<'_> {
-            let all = &c.deviation.all;
-            let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
-            Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
-        }
-        self.comparisons.iter().map(of).collect()
+        self.comparisons.iter().map(map).collect()
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -77,12 +74,7 @@ impl Subject for CompareDocument {
         let mut picks = vec![];
         for (n, c) in self.comparisons.iter().enumerate() {
             let map = Some(n);
-            let worst = |w: &Worst| {
-                let value = Some(w.deviation);
-                let surface = Some(w.nearest);
-                Pick { position: w.point, surface, normal: w.normal, map, value, ..Pick::default() }
-            };
-            picks.extend(c.worst.iter().map(worst));
+            picks.extend(c.worst.iter().map(|w| pick(w, n)));
             let found = found(&c.soundness.findings);
             picks.extend(check::picks(&found, first_mark).into_iter().map(|p| Pick { map, ..p }));
             first_mark += found.iter().map(|(_, d)| d.items.len()).sum::<usize>();
@@ -93,6 +85,19 @@ impl Subject for CompareDocument {
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
     }
+}
+
+/// The map of a comparison.
+pub fn map(c: &Comparison) -> Map<'_> {
+    let all = &c.deviation.all;
+    let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
+    Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
+}
+
+/// One of the worst places of comparison `n`.
+pub fn pick(w: &Worst, n: usize) -> Pick {
+    let (value, surface) = (Some(w.deviation), Some(w.nearest));
+    Pick { position: w.point, surface, normal: w.normal, map: Some(n), value, ..Pick::default() }
 }
 
 /// A verdict, or that there was no tolerance.

@@ -1,0 +1,164 @@
+//! The alignment of a plan.
+
+use super::seed::Seeded;
+use super::{Data, Stop, Taken, take};
+use crate::characteristic::{Missing, datum_source};
+use crate::plan::{Align, Plan};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use trueness_geom::align::{self, AlignError, BestFit, Measured, RowFit, Target, best_fit};
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::Nominal;
+use trueness_geom::progress::Progress;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::space::{Vector, dot, times};
+use trueness_geom::zone::datum::{Datum, DatumError, Rule, System};
+
+/// What brought the measured data where they are evaluated.
+#[derive(Clone, Debug)]
+pub struct Alignment {
+    /// Reference from measured.
+    pub motion: Rigid,
+    /// What was found on the way.
+    pub found: Found,
+}
+
+/// What was found on the way of an alignment.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Nothing was looked for.
+    Nothing,
+    /// A best fit, also one that an alignment by datums began with.
+    BestFit(Box<align::Alignment>),
+    /// A fit of pairs or reference points.
+    Rows(RowFit),
+}
+
+/// The data where the plan's alignment takes them, and how.
+pub(super) fn aligned(
+    plan: &Plan,
+    mut data: Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<(Data, Alignment), Stop> {
+    let rows = |fit: Result<RowFit, AlignError>| {
+        let fit = fit.map_err(failed)?;
+        Ok::<_, Stop>(Alignment { motion: fit.reference_from_measured, found: Found::Rows(fit) })
+    };
+    let mut alignment = match &plan.align {
+        Align::None => Alignment { motion: Rigid::IDENTITY, found: Found::Nothing },
+        Align::Given(motion) | Align::Datum { start: Some(motion), .. } => {
+            Alignment { motion: *motion, found: Found::Nothing }
+        }
+        Align::Datum { start: None, .. } if data.measured.is_none() || data.reference.is_none() => {
+            Alignment { motion: Rigid::IDENTITY, found: Found::Nothing }
+        }
+        Align::BestFit | Align::Datum { start: None, .. } => best_fitted(&data, progress)?,
+        Align::Pairs { measured, nominal, weights } => rows(align::pairs(measured, nominal, Some(weights)))?,
+        Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
+    };
+    if alignment.motion != Rigid::IDENTITY {
+        moved(&mut data, &alignment.motion);
+    }
+    if let Align::Datum { datums, rule, span, .. } = &plan.align {
+        let taken = take::features(plan, &data, seeds, progress)?;
+        let motion = by_datums(&taken, datums, *rule, span, progress)?;
+        moved(&mut data, &motion);
+        alignment.motion = motion.after(&alignment.motion);
+    }
+    Ok((data, alignment))
+}
+
+fn moved(data: &mut Data, motion: &Rigid) {
+    let own = data.points.values_mut().flat_map(|own| own.points.iter_mut());
+    let mesh = data.measured.iter_mut().flat_map(|mesh| mesh.positions.iter_mut());
+    for p in own.chain(mesh) {
+        *p = motion.point(*p);
+    }
+}
+
+fn failed(e: AlignError) -> Stop {
+    match e {
+        AlignError::Cancelled(e) => e.into(),
+        e => Stop::Align(e.to_string()),
+    }
+}
+
+/// The best fit of the measured data onto the reference.
+fn best_fitted(data: &Data, progress: &dyn Progress) -> Result<Alignment, Stop> {
+    let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
+        return Err(Stop::Align("one of them is not there".into()));
+    };
+    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()))?;
+    let points = &measured.positions;
+    let measured = match measured.faces.is_empty() {
+        true => Measured::Points { points, normals: None },
+        false => Measured::Mesh(measured),
+    };
+    let options = BestFit { seed: data.seed, ..BestFit::default() };
+    let fit = best_fit(&measured, &Target::new(reference, &tree), &options, progress).map_err(failed)?;
+    Ok(Alignment { motion: fit.reference_from_measured, found: Found::BestFit(Box::new(fit)) })
+}
+
+/// The motion that lays the frame of the measured datums on that of the nominal ones.
+fn by_datums(
+    taken: &[Taken],
+    datums: &[usize],
+    rule: Rule,
+    span: &Range<usize>,
+    progress: &dyn Progress,
+) -> Result<Rigid, Stop> {
+    let wrong = |what: String| Stop::Plan { span: span.clone(), what };
+    let impossible = |e: DatumError| match Missing::from(e) {
+        Missing::Cancelled => Stop::Cancelled,
+        Missing::NotMeasured(what) | Missing::Impossible(what) => {
+            wrong(format!("alignment by datums: {what}"))
+        }
+    };
+    let mut nominals = vec![];
+    let mut sources = vec![];
+    for &n in datums {
+        let of = &taken[n];
+        let nominal = of.nominal.as_ref().map(nominal_datum);
+        nominals.push(nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", of.id)))?);
+        sources.push(datum_source(of, of).map_err(|e| match e {
+            Missing::Cancelled => Stop::Cancelled,
+            Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
+        })?);
+    }
+    let nominal = System::of(&nominals).map_err(impossible)?;
+    if !nominal.free.is_none() {
+        let what = "the datums leave degrees of freedom open; name datums that hold all six";
+        return Err(wrong(what.into()));
+    }
+    let measured = System::associated(&sources, rule, progress).map_err(impossible)?;
+    // An axis has no sense of its own: it takes that of the model.
+    let facing: Vec<Datum> = measured.datums.iter().zip(&nominals).map(|(m, n)| faced(*m, *n)).collect();
+    let measured = System::of(&facing).map_err(impossible)?;
+    Ok(nominal.frame.inverse().after(&measured.frame))
+}
+
+/// The datum that a nominal feature is.
+fn nominal_datum(nominal: &Nominal) -> Datum {
+    match nominal {
+        Nominal::Plane { point, normal, .. } => Datum::Plane { point: *point, normal: *normal },
+        Nominal::Cylinder { point, direction, .. } | Nominal::Edge { point, direction, .. } => {
+            Datum::Axis { point: *point, direction: *direction }
+        }
+        Nominal::Cone { apex, direction, .. } => Datum::Axis { point: *apex, direction: *direction },
+        Nominal::Sphere { center, .. } => Datum::Point(*center),
+    }
+}
+
+fn faced(measured: Datum, nominal: Datum) -> Datum {
+    let like = |d: Vector, n: Vector| if dot(d, n) < 0.0 { times(-1.0, d) } else { d };
+    match (measured, nominal) {
+        (Datum::Axis { point, direction }, Datum::Axis { direction: n, .. }) => {
+            Datum::Axis { point, direction: like(direction, n) }
+        }
+        (Datum::Plane { point, normal }, Datum::Plane { normal: n, .. }) => {
+            Datum::Plane { point, normal: like(normal, n) }
+        }
+        _ => measured,
+    }
+}

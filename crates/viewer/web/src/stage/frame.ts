@@ -1,0 +1,34 @@
+import { el, svg } from '../dom'
+import type { Frame } from '../manifest'
+import type { Words } from '../words'
+
+/** What is allowed, as a drawing writes it: no zeros behind the last digit. */
+function allowed(frame: Frame, words: Words): string {
+  const short = (x: number) => {
+    const text = words.number(x, frame.decimals)
+    return frame.decimals > 0 ? text.replace(/0+$/, '').replace(/[.,]$/, '') : text
+  }
+  const lower = frame.lower === null ? '' : `${short(frame.lower)}\u2009…\u2009`
+  return `${frame.diametral ? '⌀' : ''}${lower}${short(frame.upper)}`
+}
+
+function found(frame: Frame, words: Words): string {
+  return frame.value === null ? '–' : words.number(frame.value, frame.decimals)
+}
+
+/** The frame in a line of text, without its sign. */
+export function frameText(frame: Frame, words: Words): string {
+  return `${[allowed(frame, words), ...frame.datums].join(' | ')}\u2002${found(frame, words)}`
+}
+
+/** The frame as cells: sign, what is allowed, datums; then the value. */
+export function frameCells(frame: Frame, words: Words): HTMLElement[] {
+  const cell = (...content: (string | Node)[]) => el('span', { class: 'cell' }, ...content)
+  const sign = frame.sign ? [cell(signOf(frame.sign, {}))] : []
+  return [el('span', { class: 'cells' }, ...sign, cell(allowed(frame, words)), ...frame.datums.map((d) => cell(d))), el('strong', {}, found(frame, words))]
+}
+
+/** A sign of a drawing in a square of 16. */
+export function signOf(path: string, attributes: Record<string, string | number>): SVGElement {
+  return svg('svg', { class: 'gdt', viewBox: '0 0 16 16', width: 16, height: 16, 'aria-hidden': 'true', ...attributes }, svg('path', { d: path }))
+}

@@ -1,0 +1,123 @@
+// An inspection: frames of characteristics with leaders, and the map of deviations in place of the features.
+import assert from 'node:assert/strict'
+import { near, screen, settled, stageBox, tool } from '../browser.mjs'
+
+const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
+const STILL = { reducedMotion: 'reduce', width: 1440, height: 900 }
+
+/** Frames or flags that are shown: text, classes, and where the leader ends. */
+const shown = (page) =>
+  page.evaluate(() => {
+    const dots = [...document.querySelectorAll('.leaders .anchor')]
+    return [...document.querySelectorAll('.flag')].map((flag, n) => {
+      const box = dots[n].getBoundingClientRect()
+      return {
+        cells: [...flag.querySelectorAll('.cell')].map((c) => c.textContent),
+        signs: flag.querySelectorAll('.cell svg').length,
+        value: flag.querySelector('strong').textContent,
+        classes: [...flag.classList],
+        x: box.x + box.width / 2,
+        y: box.y + box.height / 2,
+        hidden: flag.classList.contains('hidden'),
+        there: flag.offsetWidth > 0,
+      }
+    })
+  })
+
+const bytes = (color) => [0, 2, 4].map((k) => parseInt(color.slice(k, k + 2), 16))
+const along = (c) => c.map((x) => x / Math.hypot(...c))
+
+export const inspect = [
+  [
+    'every characteristic has its frame: sign, tolerance, datums, value and verdict as in the result',
+    async (session) => {
+      const page = await session.report('plan', STILL)
+      const { result, picks } = await manifest(page)
+      const frames = await shown(page)
+      assert.equal(frames.length, 3)
+      const wanted = {
+        flatness: { cells: ['', '0.05'], signs: 1 },
+        distance: { cells: ['9.95\u2009…\u200910.05', 'A'], signs: 0 },
+        perpendicularity: { cells: ['', '0.05', 'A'], signs: 1 },
+      }
+      for (const [n, frame] of frames.entries()) {
+        const c = result.characteristics.find((c) => c.anchor.every((x, k) => x === picks[n].position[k]) && c.verdict === picks[n].frame.verdict && c.value === picks[n].frame.value)
+        assert.deepEqual({ cells: frame.cells, signs: frame.signs }, wanted[c.kind])
+        assert.equal(Number(frame.value), Number(c.value.toFixed(4)))
+        assert.ok(frame.classes.includes(c.verdict), `${frame.classes} is not ${c.verdict}`)
+        assert.ok(frame.there)
+      }
+      // What fails comes first.
+      assert.equal(frames[0].value, '10.0800')
+      assert.ok(frames[0].classes.includes('fail'))
+    },
+  ],
+  [
+    'a leader ends on its feature, which has the colour of the verdict',
+    async (session) => {
+      const page = await session.report('plan', STILL)
+      const { objects, result } = await manifest(page)
+      const picture = await screen(page)
+      const seen = (await shown(page)).filter((f) => !f.hidden)
+      assert.ok(seen.length >= 2)
+      for (const frame of seen) {
+        const c = result.characteristics.find((c) => Number(c.value.toFixed(4)) === Number(frame.value))
+        const worst = result.characteristics.some((o) => o.feature === c.feature && o.verdict === 'fail') ? 'fail' : 'pass'
+        const color = bytes(objects.find((o) => o.name === c.feature).color)
+        assert.deepEqual(color, { fail: [0xc1, 0x1f, 0x2b], pass: [0x11, 0x6b, 0x2e] }[worst])
+        // Around the dot at its end; light and shade change no hue.
+        const around = [[9, 0], [-9, 0], [0, 9], [0, -9], [7, 7], [-7, -7], [7, -7], [-7, 7]].map(([dx, dy]) => picture.at(frame.x + dx, frame.y + dy))
+        assert.ok(around.some((p) => near(along(p), along(color), 0.12)), `${c.id}: ${around} has nothing of ${color}`)
+      }
+    },
+  ],
+  [
+    'the map stands in place of the features, with its scale and flags, and only then',
+    async (session) => {
+      const page = await session.report('plan', STILL)
+      assert.equal(await page.locator('#scale').isVisible(), false)
+      await tool(page, 'Deviation')
+      await settled(page)
+      assert.equal(await page.locator('#scale').isVisible(), true)
+      const flags = await shown(page)
+      assert.ok(flags.length > 0 && flags.every((f) => f.value === '+0.080' && f.classes.includes('out') && f.cells.length === 0), JSON.stringify(flags))
+      // From above every place is 0.08 too high; from below none is off.
+      for (const [view, value] of [['5', '+0.080'], ['6', '0.000']]) {
+        await page.keyboard.press(view)
+        await settled(page)
+        const box = await stageBox(page)
+        await page.mouse.move(box.cx + 1, box.cy + 1)
+        await page.mouse.move(box.cx, box.cy)
+        await page.waitForSelector('.hover:not([hidden])')
+        assert.match(await page.locator('.hover').first().textContent(), new RegExp(value.replace('+', '\\+')))
+      }
+      await tool(page, 'Part')
+      await settled(page)
+      assert.equal(await page.locator('#scale').isVisible(), false)
+      assert.equal((await shown(page)).filter((f) => f.cells.length > 0).length, 3)
+    },
+  ],
+  [
+    'a row of the list shows what it is about: features for a characteristic, the map for a deviation',
+    async (session) => {
+      const page = await session.report('plan', STILL)
+      const { picks } = await manifest(page)
+      const valued = picks.findIndex((p) => p.value !== null)
+      await page.locator(`tr[data-pick="${valued}"]`).click()
+      await settled(page)
+      assert.equal(await page.locator('#scale').isVisible(), true)
+      await page.locator('tr[data-pick="0"]').click()
+      await settled(page)
+      assert.equal(await page.locator('#scale').isVisible(), false)
+    },
+  ],
+  [
+    'without scripts the stored picture has the frames and no scale of what it does not show',
+    async (session) => {
+      const page = await session.report('plan', { ...STILL, scripts: false })
+      const texts = await page.evaluate(() => [...document.querySelectorAll('#flagged text')].map((t) => t.textContent))
+      assert.deepEqual(texts.toSorted(), ['0.05 | A\u20020.0000', '0.05\u20020.0000', '9.95\u2009…\u200910.05 | A\u200210.0800'].toSorted())
+      assert.equal(await page.locator('#figure').isVisible(), false)
+    },
+  ],
+]
