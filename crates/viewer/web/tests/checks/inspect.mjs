@@ -24,6 +24,9 @@ const shown = (page) =>
     })
   })
 
+/** The characteristic that a pick leads to. */
+const about = (result, pick) => result.characteristics.find((c) => c.anchor.every((x, k) => x === pick.position[k]) && c.value === pick.frame.value && c.datums.length === pick.frame.datums.length)
+
 const bytes = (color) => [0, 2, 4].map((k) => parseInt(color.slice(k, k + 2), 16))
 const along = (c) => c.map((x) => x / Math.hypot(...c))
 
@@ -41,7 +44,7 @@ export const inspect = [
         perpendicularity: { cells: ['', '0.05', 'A'], signs: 1 },
       }
       for (const [n, frame] of frames.entries()) {
-        const c = result.characteristics.find((c) => c.anchor.every((x, k) => x === picks[n].position[k]) && c.verdict === picks[n].frame.verdict && c.value === picks[n].frame.value)
+        const c = about(result, picks[n])
         assert.deepEqual({ cells: frame.cells, signs: frame.signs }, wanted[c.kind])
         assert.equal(Number(frame.value), Number(c.value.toFixed(4)))
         assert.ok(frame.classes.includes(c.verdict), `${frame.classes} is not ${c.verdict}`)
@@ -56,12 +59,13 @@ export const inspect = [
     'a leader ends on its feature, which has the colour of the verdict',
     async (session) => {
       const page = await session.report('plan', STILL)
-      const { objects, result } = await manifest(page)
+      const { objects, result, picks } = await manifest(page)
       const picture = await screen(page)
-      const seen = (await shown(page)).filter((f) => !f.hidden)
-      assert.ok(seen.length >= 2)
-      for (const frame of seen) {
-        const c = result.characteristics.find((c) => Number(c.value.toFixed(4)) === Number(frame.value))
+      const frames = await shown(page)
+      assert.ok(frames.filter((f) => !f.hidden).length >= 2)
+      for (const [n, frame] of frames.entries()) {
+        if (frame.hidden) continue
+        const c = about(result, picks[n])
         const worst = result.characteristics.some((o) => o.feature === c.feature && o.verdict === 'fail') ? 'fail' : 'pass'
         const color = bytes(objects.find((o) => o.name === c.feature).color)
         assert.deepEqual(color, { fail: [0xc1, 0x1f, 0x2b], pass: [0x11, 0x6b, 0x2e] }[worst])
