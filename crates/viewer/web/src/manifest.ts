@@ -126,6 +126,8 @@ export interface Pick {
 
 /** A characteristic as a drawing has it, with what was found. */
 export interface Frame {
+  /** Its name in the plan and the list. */
+  id: string
   /** The sign as the path of an SVG in a square of 16. */
   sign: string | null
   diametral: boolean

@@ -142,11 +142,17 @@ export class State {
     this.tell(what === 'flags' || what === 'log' ? what : 'look')
   }
 
+  private followPart(): void {
+    if ('deviation' in this.visible && 'touching' in this.visible) this.visible.touching = this.visible.part
+  }
+
   /** Of before and after, of part and deviation there is always one, so that one key swaps them. */
   show(role: string, on: boolean): void {
     this.visible[role] = on
     const other = { before: 'after', after: 'before', part: 'deviation', deviation: 'part' }[role]
     if (other && other in this.visible) this.visible[other] = !on
+    // Rims in the colours of verdicts belong to the features, not to the map in their place.
+    if (other === 'deviation' || other === 'part') this.followPart()
     this.tell('look')
   }
 }

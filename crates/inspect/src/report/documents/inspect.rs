@@ -130,6 +130,7 @@ impl Subject for InspectDocument {
 /// What stands at the end of its leader.
 fn frame(c: &CharacteristicRecord) -> Frame {
     Frame {
+        id: c.id.clone(),
         sign: path(&c.kind),
         diametral: c.zone == "diameter",
         lower: c.lower,

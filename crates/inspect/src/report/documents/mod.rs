@@ -173,6 +173,8 @@ pub struct Pick {
 /// A characteristic as a drawing has it, with what was found: sign, what is allowed, datums, value, verdict.
 #[derive(Clone, Debug, Serialize)]
 pub struct Frame {
+    /// Its name in the plan and the list.
+    pub id: String,
     /// The sign as the path of an SVG in a square of 16; none where there is no sign.
     pub sign: Option<&'static str>,
     /// Whether the zone is a diameter.

@@ -126,6 +126,9 @@ fn draw(h: &mut Html, flag: &Placed, pick: &Pick, view: &FirstView, scale: Optio
     ));
     let mut start = left + 10.0;
     if let Some(frame) = &pick.frame {
+        h.raw(&format!("<text class=\"id{class}\" x=\"{start:.1}\" y=\"{middle:.1}\">"));
+        h.text(&frame.id).raw("</text>");
+        start += LETTER * (frame.id.chars().count() + 1) as f64;
         if let Some(sign) = frame.sign {
             let y = middle - 8.0;
             h.raw(&format!(

@@ -89,7 +89,7 @@ export class Flags {
   private make(number: number, pick: Pick, n: number): Flag {
     const { frame } = pick
     const value = pick.value ?? 0
-    const label = String(n + 1)
+    const label = frame?.id ?? String(n + 1)
     const text = frame ? frameText(frame, this.words) : this.words.signed(value, this.state.scale.decimals)
     const zone = this.state.scale.tolerance
     const out = zone ? value < zone[0] || value > zone[1] : false
@@ -154,9 +154,9 @@ export class Flags {
     const { width, pixels } = this.stage.eye
     target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     target.replaceChildren()
-    const size = ({ pick, text }: Flag) => {
+    const size = ({ pick, text, label }: Flag) => {
       const { frame } = pick
-      const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * text.length + 16 : PAPER.width
+      const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
       return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
     }
     for (const { flag, hidden, x, y, inner, top, width: w, height: h } of this.layout(size, RIM)) {
@@ -164,7 +164,8 @@ export class Flags {
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
-      const sign = frame?.sign ? [signOf(frame.sign, { x: left + 8, y: top + h / 2 - 8 })] : []
+      const start = left + 8 + (frame ? PAPER_LETTER * (flag.label.length + 1) : 0)
+      const sign = frame?.sign ? [signOf(frame.sign, { x: start, y: top + h / 2 - 8 })] : []
       if (flag.surface) {
         const foot = this.stage.eye.project(flag.surface)
         target.append(svg('line', { class: 'way', x1: x, y1: y, x2: foot.x, y2: foot.y }))
@@ -174,7 +175,8 @@ export class Flags {
         svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 }),
         svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
         ...sign,
-        svg('text', { class: name, x: left + 8 + PAPER_SIGN * sign.length, y: top + h / 2 }, frame ? text : `${flag.label}  ${text}`),
+        ...(frame ? [svg('text', { class: name, x: left + 8, y: top + h / 2 }, flag.label)] : []),
+        svg('text', { class: name, x: start + PAPER_SIGN * sign.length, y: top + h / 2 }, frame ? text : `${flag.label}  ${text}`),
       )
     }
   }
