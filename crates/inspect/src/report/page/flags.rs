@@ -85,8 +85,9 @@ fn framed(style: Style, frame: &Frame) -> (String, f64) {
         text += &format!(" | {datum}");
     }
     text += &format!("\u{2002}{}", frame.value.map_or("–".into(), found));
-    let width =
-        SIGN * f64::from(u8::from(frame.sign.is_some())) + LETTER * text.chars().count() as f64 + 20.0;
+    let width = SIGN * f64::from(u8::from(frame.sign.is_some()))
+        + LETTER * (frame.id.chars().count() + 1 + text.chars().count()) as f64
+        + 20.0;
     (text, width)
 }
 

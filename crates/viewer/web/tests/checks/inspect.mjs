@@ -19,7 +19,8 @@ const shown = (page) =>
         x: box.x + box.width / 2,
         y: box.y + box.height / 2,
         hidden: flag.classList.contains('hidden'),
-        there: flag.offsetWidth > 0,
+        id: flag.querySelector('.number').textContent,
+        there: ((f, s) => f.width > 60 && f.left >= s.left && f.right <= s.right)(flag.getBoundingClientRect(), document.getElementById('stage').getBoundingClientRect()),
       }
     })
   })
@@ -48,7 +49,8 @@ export const inspect = [
         assert.deepEqual({ cells: frame.cells, signs: frame.signs }, wanted[c.kind])
         assert.equal(Number(frame.value), Number(c.value.toFixed(4)))
         assert.ok(frame.classes.includes(c.verdict), `${frame.classes} is not ${c.verdict}`)
-        assert.ok(frame.there)
+        assert.equal(frame.id, c.id)
+        assert.ok(frame.there, 'it is not within the stage')
       }
       // What fails comes first.
       assert.equal(frames[0].value, '10.0800')
@@ -119,7 +121,7 @@ export const inspect = [
     'without scripts the stored picture has the frames and no scale of what it does not show',
     async (session) => {
       const page = await session.report('plan', { ...STILL, scripts: false })
-      const texts = await page.evaluate(() => [...document.querySelectorAll('#flagged text')].map((t) => t.textContent))
+      const texts = await page.evaluate(() => [...document.querySelectorAll('#flagged text.frame')].map((t) => t.textContent))
       assert.deepEqual(texts.toSorted(), ['0.05 | A\u20020.0000', '0.05\u20020.0000', '9.95\u2009…\u200910.05 | A\u200210.0800'].toSorted())
       assert.equal(await page.locator('#figure').isVisible(), false)
     },
