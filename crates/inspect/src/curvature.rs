@@ -5,8 +5,8 @@ mod view;
 pub use view::View;
 
 use crate::compare::{histogram, statistics};
-use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, SCHEMA};
-use crate::results::surface::{MapRecord, Range};
+use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, Range, SCHEMA};
+use crate::results::surface::MapRecord;
 use crate::results::{InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
@@ -207,5 +207,5 @@ fn place(index: usize, points: &[Point], jet: &Jet) -> Place {
 }
 
 fn range(jets: &[&Jet], value: impl Fn(&Jet) -> f64) -> Option<Range> {
-    crate::surface::range(jets.iter().map(|jet| value(jet)).collect())
+    Range::of(jets.iter().map(|jet| value(jet)).collect())
 }

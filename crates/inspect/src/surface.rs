@@ -6,9 +6,10 @@ pub use view::View;
 
 use crate::compare::statistics;
 use crate::curvature::{Kind, counted, map};
+use crate::results::curvature::Range;
 use crate::results::surface::{
-    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Range, Residual, SCHEMA,
-    SupportRecord, SurfaceDocument, ToleranceRecord, WorstPoint,
+    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
+    SurfaceDocument, ToleranceRecord, WorstPoint,
 };
 use crate::results::{InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
@@ -127,7 +128,7 @@ fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRe
 fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
     let patches = Patches::new(&fit.surface);
     let found: Vec<Bend> = fit.feet.par_iter().filter_map(|p| patches.bend(p[0], p[1])).collect();
-    let range = |value: fn(&Bend) -> f64| range(found.iter().map(value).collect());
+    let range = |value: fn(&Bend) -> f64| Range::of(found.iter().map(value).collect());
     let [(a, b), (c, d)] = fit.surface.domain();
     let parameters = [0.5 * (a + b), 0.5 * (c + d)];
     let middle = fit.surface.bend(parameters[0], parameters[1]).map(|bend| PlaceCurvature {
@@ -152,17 +153,6 @@ fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
         middle,
         maps,
     }
-}
-
-/// Range of numbers; `None` of none.
-pub(crate) fn range(mut all: Vec<f64>) -> Option<Range> {
-    let (min, max) = all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
-    let middle = all.len() / 2;
-    (!all.is_empty()).then(|| Range {
-        min,
-        median: *all.select_nth_unstable_by(middle, f64::total_cmp).1,
-        max,
-    })
 }
 
 /// What makes the surface doubtful, in words.

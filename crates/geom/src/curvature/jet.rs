@@ -1,6 +1,6 @@
 //! A jet: the height over a plane as a polynomial, fitted to the neighbours of a place.
 
-use super::NoCurvature;
+use super::terms::{NoCurvature, unknowns};
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 use crate::spline::surface::{Bend, Principal};
 
@@ -39,11 +39,6 @@ impl Jet {
         let principal = [turn(lesser), turn(greater)];
         Jet { bend: Bend { normal: times(-1.0, normal), mean: -mean, gaussian, principal }, ..self }
     }
-}
-
-/// Coefficients of a jet of this degree.
-pub fn unknowns(degree: usize) -> usize {
-    (degree + 1) * (degree + 2) / 2
 }
 
 /// Fits jets, one after the other, in the same memory.

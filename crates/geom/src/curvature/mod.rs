@@ -12,6 +12,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `terms` | what is asked, and why there may be no answer |
 //! | `jet` | one neighbourhood |
 //! | `rings` | neighbours on a mesh, through edges |
 //! | `near` | neighbours in a cloud, by distance |
@@ -21,101 +22,24 @@ mod jet;
 mod near;
 mod rings;
 mod sides;
+mod terms;
 #[cfg(test)]
 mod tests;
 
-pub use jet::{Jet, unknowns};
+pub use jet::Jet;
+pub use terms::{CurvatureError, DEGREES, MOST_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
 
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
-use crate::topology::TopologyError;
-use crate::topology::weld::WeldError;
 use jet::Fitter;
 use rayon::prelude::*;
+use terms::Terms;
 
-/// Degrees of the jets that can be fitted.
-pub const DEGREES: std::ops::RangeInclusive<usize> = 2..=6;
-/// Neighbours for each unknown, where their number is not given.
-const PER_UNKNOWN: usize = 3;
-/// Most neighbours that can be asked for.
-pub const MOST_NEIGHBORS: usize = 10_000;
 /// Places answered between two questions whether to go on.
 const TASK: usize = 64;
 /// Pieces that the places are divided into, whatever the number of threads.
 const RUNS: usize = 64;
-
-/// How curvatures are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Degree of the jets, from [`DEGREES`].
-    pub degree: usize,
-    /// What is taken into a neighbourhood.
-    pub reach: Reach,
-    /// Whether places on a boundary have values, from the one side that there is.
-    pub boundary: bool,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options { degree: 3, reach: Reach::Auto, boundary: false }
-    }
-}
-
-/// What is taken into a neighbourhood.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reach {
-    /// At least three neighbours for each unknown of the jet: 18 of degree 2, 30 of degree 3.
-    Auto,
-    /// At least so many neighbours: on a mesh whole rings of them, in a cloud the nearest ones.
-    Count(usize),
-    /// All neighbours within this distance, millimetres: curvature at a scale of one's own.
-    Radius(f64),
-}
-
-impl Reach {
-    /// Fewest neighbours that are looked for with jets of this degree; `None` where a radius tells.
-    pub fn neighbors(self, degree: usize) -> Option<usize> {
-        match self {
-            Reach::Auto => Some(PER_UNKNOWN * unknowns(degree)),
-            Reach::Count(count) => Some(count),
-            Reach::Radius(_) => None,
-        }
-    }
-}
-
-/// Why a place has no curvature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum NoCurvature {
-    /// A coordinate is infinite or not a number.
-    NotFinite,
-    /// No facet uses the vertex.
-    Unused,
-    /// Facets meet there, or around it, in a way that is no surface: more than two at an edge, fans that touch, or facets whose
-    /// orientations disagree.
-    NotASurface,
-    /// The surface ends there: it has neighbours on one side only.
-    Boundary,
-    /// There are fewer neighbours than unknowns.
-    FewNeighbors,
-    /// The neighbours do not determine the jet: they lie on one line or curve, or at one place.
-    Undetermined,
-    /// The neighbourhood folds over: it is no height over any plane.
-    Folded,
-}
-
-impl NoCurvature {
-    /// All of them.
-    pub const ALL: [NoCurvature; 7] = [
-        NoCurvature::NotFinite,
-        NoCurvature::Unused,
-        NoCurvature::NotASurface,
-        NoCurvature::Boundary,
-        NoCurvature::FewNeighbors,
-        NoCurvature::Undetermined,
-        NoCurvature::Folded,
-    ];
-}
 
 /// Curvatures of all places, in their order.
 #[derive(Clone, Debug)]
@@ -124,45 +48,6 @@ pub struct Curvatures {
     pub places: Vec<Result<Jet, NoCurvature>>,
     /// Of a cloud: parts that hang together, each with its normals to one side; 0 of a mesh, whose facets tell the side.
     pub parts: usize,
-}
-
-/// Why there are no curvatures.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum CurvatureError {
-    /// The degree is not offered.
-    #[error("degree {0}: it must be from {first} to {last}", first = DEGREES.start(), last = DEGREES.end())]
-    Degree(usize),
-    /// Too few neighbours for the degree, or too many.
-    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MOST_NEIGHBORS}")]
-    Neighbors {
-        /// Asked for.
-        asked: usize,
-        /// The degree.
-        degree: usize,
-        /// Unknowns of the jet.
-        needed: usize,
-    },
-    /// The radius is no length.
-    #[error("radius {0}: it must be a length above 0")]
-    Radius(f64),
-    /// More points than can be numbered.
-    #[error("{0} points are more than can be numbered with 32 bits")]
-    TooMany(usize),
-    /// A facet names a vertex that does not exist, or there are too many.
-    #[error(transparent)]
-    Mesh(#[from] WeldError),
-    /// Stopped through the progress argument.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-impl From<TopologyError> for CurvatureError {
-    fn from(e: TopologyError) -> CurvatureError {
-        match e {
-            TopologyError::Weld(e) => e.into(),
-            TopologyError::Cancelled(e) => e.into(),
-        }
-    }
 }
 
 /// Curvatures at the `V` vertices of a mesh, millimetres.
@@ -195,7 +80,7 @@ impl From<TopologyError> for CurvatureError {
 pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Curvatures, CurvatureError> {
     let terms = Terms::of(options)?;
     let rings = rings::Rings::new(mesh, progress)?;
-    let places = terms.all(mesh.positions.len(), progress, || {
+    let places = all(terms.degree, mesh.positions.len(), progress, || {
         let mut walk = rings.walk();
         let terms = &terms;
         move |fitter: &mut Fitter, v: u32| walk.jet(v, terms, fitter)
@@ -224,7 +109,7 @@ pub fn cloud(
         return Err(CurvatureError::TooMany(points.len()));
     }
     let near = near::Near::new(points);
-    let found = terms.all(points.len(), progress, || {
+    let found = all(terms.degree, points.len(), progress, || {
         let (near, terms) = (&near, &terms);
         move |fitter: &mut Fitter, i: u32| near.jet(i, terms, fitter)
     })?;
@@ -233,67 +118,34 @@ pub fn cloud(
     Ok(Curvatures { places, parts })
 }
 
-/// Options with what follows from them.
-struct Terms {
+/// The answer of each place. `worker` makes what answers: it is called at most some dozens of times.
+fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     degree: usize,
-    unknowns: usize,
-    reach: Taken,
-    boundary: bool,
-}
-
-/// [`Reach`] without what must be worked out.
-#[derive(Clone, Copy)]
-enum Taken {
-    Count(usize),
-    Radius(f64),
-}
-
-impl Terms {
-    fn of(options: &Options) -> Result<Terms, CurvatureError> {
-        let degree = options.degree;
-        if !DEGREES.contains(&degree) {
-            return Err(CurvatureError::Degree(degree));
-        }
-        let unknowns = unknowns(degree);
-        let reach = match (options.reach, options.reach.neighbors(degree)) {
-            (_, Some(count)) if (unknowns..=MOST_NEIGHBORS).contains(&count) => Taken::Count(count),
-            (_, Some(asked)) => return Err(CurvatureError::Neighbors { asked, degree, needed: unknowns }),
-            (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => Taken::Radius(r),
-            (Reach::Radius(r), _) => return Err(CurvatureError::Radius(r)),
-            (Reach::Auto | Reach::Count(_), None) => return Err(CurvatureError::Degree(degree)),
-        };
-        Ok(Terms { degree, unknowns, reach, boundary: options.boundary })
-    }
-
-    /// The answer of each place. `worker` makes what answers: it is called at most some dozens of times.
-    fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
-        &self,
-        count: usize,
-        progress: &dyn Progress,
-        worker: impl Fn() -> W + Sync,
-    ) -> Result<Vec<T>, Cancelled> {
-        // Few workers, for each has room for a mark a place.
-        let run = count.div_ceil(RUNS).max(4 * TASK);
-        let parts: Vec<Vec<T>> = (0..count.div_ceil(run))
-            .into_par_iter()
-            .map(|part| {
-                let (mut fitter, mut answer) = (Fitter::new(self.degree), worker());
-                let (from, to) = (part * run, count.min((part + 1) * run));
-                let mut answers = Vec::with_capacity(to - from);
-                for first in (from..to).step_by(TASK) {
-                    if progress.cancelled() {
-                        break;
-                    }
-                    let last = to.min(first + TASK);
-                    answers.extend((first..last).map(|i| answer(&mut fitter, i as u32)));
-                    progress.advance((last - first) as u64);
+    count: usize,
+    progress: &dyn Progress,
+    worker: impl Fn() -> W + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    // Few workers, for each has room for a mark a place.
+    let run = count.div_ceil(RUNS).max(4 * TASK);
+    let parts: Vec<Vec<T>> = (0..count.div_ceil(run))
+        .into_par_iter()
+        .map(|part| {
+            let (mut fitter, mut answer) = (Fitter::new(degree), worker());
+            let (from, to) = (part * run, count.min((part + 1) * run));
+            let mut answers = Vec::with_capacity(to - from);
+            for first in (from..to).step_by(TASK) {
+                if progress.cancelled() {
+                    break;
                 }
-                answers
-            })
-            .collect();
-        if progress.cancelled() {
-            return Err(Cancelled);
-        }
-        Ok(parts.into_iter().flatten().collect())
+                let last = to.min(first + TASK);
+                answers.extend((first..last).map(|i| answer(&mut fitter, i as u32)));
+                progress.advance((last - first) as u64);
+            }
+            answers
+        })
+        .collect();
+    if progress.cancelled() {
+        return Err(Cancelled);
     }
+    Ok(parts.into_iter().flatten().collect())
 }

@@ -1,7 +1,7 @@
 //! Neighbours in a cloud, by distance.
 
 use super::jet::{Fitter, Jet};
-use super::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, Taken, Terms};
 use crate::fit::Scatter;
 use crate::space::{Aabb, Point, Vector, dot, minus};
 use crate::spatial::neighbours::{Neighbour, PointTree};

@@ -1,7 +1,7 @@
 //! Neighbours on a mesh: rings around a vertex, through edges.
 
 use super::jet::{Fitter, Jet};
-use super::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, Taken, Terms};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Vector, cross, dot, minus, norm, plus, unit};

@@ -1,7 +1,7 @@
 //! Normals of a cloud to one side.
 
-use super::NoCurvature;
 use super::jet::Jet;
+use super::terms::NoCurvature;
 use crate::num::sum::Sum;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm};

@@ -2,7 +2,6 @@
 
 use super::InputRecord;
 use super::compare::{Histogram, Statistics};
-use super::surface::Range;
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -147,5 +146,29 @@ impl From<&Bend> for BendRecord {
             mean: bend.mean,
             gaussian: bend.gaussian,
         }
+    }
+}
+
+/// Range of a quantity.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Range {
+    /// Least.
+    pub min: f64,
+    /// Half of the values are below.
+    pub median: f64,
+    /// Greatest.
+    pub max: f64,
+}
+
+impl Range {
+    /// Of numbers; `None` of none.
+    pub fn of(mut all: Vec<f64>) -> Option<Range> {
+        let (min, max) =
+            all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+        let middle = all.len() / 2;
+        (!all.is_empty()).then(|| {
+            let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
+            Range { min, median, max }
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::InputRecord;
 use super::compare::{Histogram, Statistics};
-use super::curvature::BendRecord;
+use super::curvature::{BendRecord, Range};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -134,17 +134,6 @@ pub struct ToleranceRecord {
     pub outside: u64,
     /// Why no more knots were set: `tolerance`, `noise`, `points` or `memory`.
     pub stopped_by: String,
-}
-
-/// Range of a quantity.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Range {
-    /// Least.
-    pub min: f64,
-    /// Half of the values are below.
-    pub median: f64,
-    /// Greatest.
-    pub max: f64,
 }
 
 /// Curvatures, positive where the surface bends towards its normal; `null` where no place has any.

@@ -17,8 +17,9 @@ const VERTICES: f64 = 160_000.0;
 const STEPS: [f64; 2] = [3.0, 24.0];
 /// Iso-lines drawn in a direction: of more knots some are passed over.
 const LINES: usize = 41;
-/// Steps of an iso-line for each of the drawn surface are these many, so that it lies in it.
+/// The control net.
 const NET: Rgb = [0x5b, 0x3d, 0xc4];
+/// Iso-lines.
 const LINE: Rgb = [0x22, 0x26, 0x2b];
 
 /// A surface prepared for drawing.

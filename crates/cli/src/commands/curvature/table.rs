@@ -4,8 +4,7 @@ use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_d
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::curvature::Kind;
-use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place};
-use trueness_inspect::results::surface::Range;
+use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place, Range};
 
 /// The document as text.
 pub fn table(document: &CurvatureDocument) -> String {

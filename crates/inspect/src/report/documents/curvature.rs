@@ -4,8 +4,7 @@ use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
 use super::{Head, Map, Pick, Subject};
 use crate::curvature::Kind;
-use crate::results::curvature::{CurvatureDocument, Neighborhood, Place};
-use crate::results::surface::Range;
+use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Range};
 use crate::scale::Scale;
 use serde_json::Value;
 
@@ -214,7 +213,7 @@ fn extremes(h: &mut Html, d: &CurvatureDocument) {
     for (n, kind) in Kind::ALL.into_iter().enumerate() {
         let digits = CurvatureDocument::quantity(d, kind).scale.decimals as usize;
         h.raw(&format!("<div data-comparison=\"{n}\"")).raw(if n == 0 { ">" } else { " hidden>" });
-        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word(words(kind)[0]);
+        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("value");
         h.raw("</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>");
         for (k, (place, value)) in ends(d, kind).into_iter().enumerate() {
             h.raw(&format!("<tr data-pick=\"{}\"><td title=\"{}\">", 2 * n + k, place.index));

@@ -114,7 +114,8 @@ export const curvature = [
       let met = 0
       for (let k = 0; k < 60; k++) {
         const found = await read(page, Math.round(box.x + 160 + (k * (box.width - 320)) / 60), Math.round(box.cy + 37))
-        if (!found) continue
+        // Discs of points reach a little beyond the body's outline.
+        if (!found || Math.abs(Math.hypot(Math.hypot(found.place[0], found.place[1]) - 10, found.place[2]) - 4) > 0.1) continue
         // The pixel may lie half the spacing of the points from the point whose disc it shows.
         assert.ok(Math.abs(found.value - known(found.place)[0]) < 0.012, `${found.value} at ${found.place}`)
         met++
@@ -157,7 +158,11 @@ export const curvature = [
       await page.keyboard.press('e')
       await tool(page, 'Flat')
       await agree(page, maps.slice(1), bent, [4e-4, 2e-5, 4e-4, 4e-4], 1)
-      assert.ok(Math.abs(result.deviation.rms - 0.02) < 1e-3)
+      // At right angles to a sloping surface 0.02 mm of height are less.
+      let sum = 0
+      for (let i = 0; i <= 120; i++) for (let j = 0; j <= 80; j++) sum += 4e-4 / (1 + ((i / 2 - 30) / 40) ** 2 + ((j / 2 - 20) / 60) ** 2)
+      const rms = Math.sqrt(sum / (121 * 81))
+      assert.ok(Math.abs(result.deviation.rms - rms) < 3e-4, `${result.deviation.rms} ${rms}`)
       assert.deepEqual(page.seen.errors, [])
     },
   ],
