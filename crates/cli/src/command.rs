@@ -3,6 +3,7 @@
 use crate::commands::align::AlignArgs;
 use crate::commands::check::CheckArgs;
 use crate::commands::compare::CompareArgs;
+use crate::commands::curvature::CurvatureArgs;
 use crate::commands::fit::FitArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::plan::PlanArgs;
@@ -35,6 +36,7 @@ pub enum Command {
     Align(AlignArgs),
     Check(CheckArgs),
     Compare(Box<CompareArgs>),
+    Curvature(Box<CurvatureArgs>),
     Fit(FitArgs),
     Inspect(Box<InspectArgs>),
     Plan(PlanArgs),
@@ -59,6 +61,7 @@ impl Command {
             Command::Align(args) => args,
             Command::Check(args) => args,
             Command::Compare(args) => args.as_ref(),
+            Command::Curvature(args) => args.as_ref(),
             Command::Fit(args) => args,
             Command::Inspect(args) => args.as_ref(),
             Command::Plan(args) => args,

@@ -109,6 +109,36 @@ fn models_are_written_the_same_on_any_threads() {
 }
 
 #[test]
+fn a_report_says_what_the_document_says() {
+    let folder = Folder::new();
+    let file = folder.write("wave.xyz", wave(0.0));
+    let report = |words: &[&str], name: &str| {
+        let (html, json) = (folder.file(&format!("{name}.html")), folder.file(&format!("{name}.json")));
+        let files =
+            [file.to_str().unwrap(), "--html", html.to_str().unwrap(), "--json", json.to_str().unwrap()];
+        let o = trueness([&["surface"][..], &files, words].concat());
+        let document: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+        (status(&o), std::fs::read_to_string(html).unwrap(), document)
+    };
+    let (done, one, document) = report(&["--threads", "1"], "one");
+    assert_eq!(done, 0);
+    assert!(one.contains(">Surface through the points · wave.xyz</title>"));
+    // A row for the deviation and for each curvature.
+    assert_eq!(one.matches("<tr data-choose=").count(), 5);
+    assert_eq!(document["curvature"]["maps"].as_object().unwrap().len(), 4);
+    assert_eq!(document["map"]["scale"]["unit"], "mm");
+    let bars = &document["map"]["histogram"];
+    let counts = bars["counts"].as_array().unwrap().iter().chain([&bars["below"], &bars["above"]]);
+    let sum: u64 = counts.map(|n| n.as_u64().unwrap()).sum();
+    assert_eq!(sum, 2400);
+    assert!(one == report(&["--threads", "3"], "three").1);
+    let (done, text, document) = report(&["--tolerance", "1e-9"], "tight");
+    assert_eq!((done, &document["map"]["scale"]["tolerance"]), (1, &serde_json::json!([-1e-9, 1e-9])));
+    assert!(text.contains(">Fail · wave.xyz</title>"));
+}
+
+#[test]
 fn wrong_input_is_refused_with_a_remedy() {
     let folder = Folder::new();
     let good = folder.write("good.xyz", wave(0.0));
@@ -131,7 +161,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![good, "--tolerance", "0"], 2, "tolerance 0: it must be a length above 0"),
         (vec![good, "--tolerance", "1", "--spans", "3"], 2, "cannot be used with"),
         (vec![good, "--fairness", "-1"], 2, "it is auto, or a number from 0 upwards"),
-        (vec![good, "--base", "mesh"], 2, "maps of meshes are not built yet"),
+        (vec![good, "--base", "mesh"], 2, "facets are not unrolled; take plane, xy, cylinder or sphere"),
         (vec![good, "--spans", "80x80", "--fairness", "0"], 3, "ask for fewer spans or a fairness above 0"),
         (vec![good, "--knots", open], 3, "open.json: the knots of u are not clamped"),
         (vec![good, "--knots", other], 3, "other.json: no knots; it must be"),

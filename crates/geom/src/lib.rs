@@ -19,6 +19,7 @@
 //! | lines, arcs and curves of a section, and their joins | [`section`] |
 //! | B-splines and NURBS | [`spline`] |
 //! | B-spline surfaces through scattered points | [`surface`] |
+//! | curvatures of meshes and clouds | [`curvature`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | mending them | [`repair`] |
 //! | instruction sets | [`simd`] |
@@ -32,6 +33,7 @@ pub mod arrange;
 pub mod check;
 pub mod closest;
 pub mod cloud;
+pub mod curvature;
 pub mod deviation;
 pub mod feature;
 pub mod fit;

@@ -5,6 +5,7 @@
 //! | defects of a mesh | [`check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
+//! | curvatures of meshes and clouds | [`curvature`] |
 //! | elements through points | [`fit`] |
 //! | surfaces through points | [`surface`] |
 //! | inspection plans, as people write them | [`plan`] |
@@ -18,6 +19,7 @@
 pub mod characteristic;
 pub mod check;
 pub mod compare;
+pub mod curvature;
 pub mod fit;
 pub mod inspection;
 pub mod plan;

@@ -28,7 +28,7 @@ pub struct Scale {
     pub palette: String,
     /// Digits after the point in the legend.
     pub decimals: u32,
-    /// Always `mm`.
+    /// `mm` of deviations; `mm⁻¹` or `mm⁻²` of curvatures.
     pub unit: String,
 }
 
@@ -67,6 +67,14 @@ impl Scale {
             decimals: decimals(upper),
             unit: "mm".into(),
         }
+    }
+
+    /// The range of values of another unit: up to `most` in size, rounded up as in [`Scale::for_deviations`], and symmetric. As many
+    /// digits as show a hundredth of it, however small it is.
+    pub fn for_values(most: f64, unit: &str) -> Scale {
+        let scale = Scale::for_deviations(most, None);
+        let decimals = (2.0 - scale.upper.log10().floor()).clamp(3.0, 15.0) as u32;
+        Scale { decimals, unit: unit.into(), ..scale }
     }
 
     /// Where the colour changes, rising; one more than there are bands, the caps lie beyond.
@@ -262,6 +270,14 @@ mod tests {
         ] {
             assert_eq!(Scale::for_deviations(p95, None).upper, upper, "{p95}");
         }
+    }
+
+    #[test]
+    fn values_of_another_unit_have_the_digits_they_need() {
+        let s = Scale::for_values(2.3e-8, "mm⁻²");
+        assert_eq!((s.lower, s.upper, s.decimals, s.unit.as_str()), (-3e-8, 3e-8, 10, "mm⁻²"));
+        assert_eq!(Scale::for_values(0.6, "mm⁻¹").decimals, 3);
+        assert!(s.check().is_ok());
     }
 
     #[test]

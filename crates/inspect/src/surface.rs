@@ -1,15 +1,22 @@
 //! From a surface fitted to points to its result document.
 
+mod view;
+
+pub use view::View;
+
 use crate::compare::statistics;
+use crate::curvature::{Kind, counted, map};
+use crate::results::curvature::Range;
 use crate::results::surface::{
-    BaseRecord, CurvatureRecord, KnotsRecord, PlaceCurvature, Range, Residual, SCHEMA, SupportRecord,
+    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
     SurfaceDocument, ToleranceRecord, WorstPoint,
 };
 use crate::results::{InputRecord, UNITS, VERSION};
+use crate::scale::Scale;
 use rayon::prelude::*;
-use trueness_geom::space::Point;
+use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
-use trueness_geom::stats::statistics::Summary;
+use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_geom::surface::{Base, Fairness, Layout, Options, Reached, SurfaceFit};
 
 /// Share of points in layers beyond which the surface is doubtful.
@@ -28,6 +35,7 @@ pub fn document(
     let [_, n] = surface.counts();
     let [u, v] = surface.knots();
     let total = fit.support.control_points;
+    let all = Summary::of(&fit.deviations).all;
     SurfaceDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -41,7 +49,8 @@ pub fn document(
         fairness_from: if options.fairness == Fairness::Auto { "auto" } else { "given" }.into(),
         degrees_of_freedom: fit.degrees_of_freedom,
         degrees_of_freedom_reason: fit.degrees_of_freedom.is_none().then(|| "the fairness was given".into()),
-        deviation: statistics(&Summary::of(&fit.deviations).all, 0.0),
+        map: deviation_map(&all, fit, options),
+        deviation: statistics(&all, 0.0),
         worst: worst(fit, points),
         residual: Residual {
             sum_of_squares: fit.sum_of_squares,
@@ -49,7 +58,7 @@ pub fn document(
             max: fit.max_residual,
         },
         tolerance: tolerance(fit, options),
-        curvature: curvature(fit),
+        curvature: curvature(fit, points),
         unsupported_share: fit.support.unsupported as f64 / total as f64,
         support: SupportRecord {
             control_points: total as u64,
@@ -100,42 +109,49 @@ fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
     Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: stopped_by.into() })
 }
 
-fn curvature(fit: &SurfaceFit) -> CurvatureRecord {
+/// The deviations' counts and colours: by the tolerance, where there is one.
+fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRecord {
+    // A few points far off must not hide how the rest lies.
+    let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
+    let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
+    let zone = match options.layout {
+        Layout::Tolerance(t) => Some([-t, t]),
+        _ => None,
+    };
+    MapRecord {
+        histogram: counted(all, &fit.deviations),
+        mean: all.mean.ok(),
+        scale: Scale::for_deviations(most, zone),
+    }
+}
+
+fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
     let patches = Patches::new(&fit.surface);
     let found: Vec<Bend> = fit.feet.par_iter().filter_map(|p| patches.bend(p[0], p[1])).collect();
-    let range = |value: &dyn Fn(&Bend) -> f64| {
-        let mut all: Vec<f64> = found.iter().map(value).collect();
-        let (min, max) =
-            all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
-        let middle = all.len() / 2;
-        (!all.is_empty()).then(|| Range {
-            min,
-            median: *all.select_nth_unstable_by(middle, f64::total_cmp).1,
-            max,
-        })
-    };
+    let range = |value: fn(&Bend) -> f64| Range::of(found.iter().map(value).collect());
     let [(a, b), (c, d)] = fit.surface.domain();
     let parameters = [0.5 * (a + b), 0.5 * (c + d)];
     let middle = fit.surface.bend(parameters[0], parameters[1]).map(|bend| PlaceCurvature {
         parameters,
         position: fit.surface.at(parameters[0], parameters[1]),
-        normal: bend.normal,
-        k1: bend.principal[0].curvature,
-        k2: bend.principal[1].curvature,
-        k1_direction: bend.principal[0].direction,
-        k2_direction: bend.principal[1].direction,
-        mean: bend.mean,
-        gaussian: bend.gaussian,
+        bend: (&bend).into(),
     });
+    let size = Aabb::of(points).diagonal();
+    let drawn = |kind: Kind| {
+        let values: Vec<f64> = found.iter().map(|bend| kind.of(bend)).collect();
+        (kind.name().to_string(), map(&values, kind, size).1)
+    };
+    let maps = Kind::ALL.into_iter().filter(|_| !found.is_empty()).map(drawn).collect();
     let missing = found.is_empty() || middle.is_none();
     CurvatureRecord {
         count: found.len() as u64,
         reason: missing.then(|| "the surface has no normal there: its derivatives span no plane".into()),
-        k1: range(&|b| b.principal[0].curvature),
-        k2: range(&|b| b.principal[1].curvature),
-        mean: range(&|b| b.mean),
-        gaussian: range(&|b| b.gaussian),
+        k1: range(|b| b.principal[0].curvature),
+        k2: range(|b| b.principal[1].curvature),
+        mean: range(|b| b.mean),
+        gaussian: range(|b| b.gaussian),
         middle,
+        maps,
     }
 }
 

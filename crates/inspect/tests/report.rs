@@ -7,7 +7,7 @@
 mod fixtures;
 
 use fixtures::{check_document, check_page, defects, fit_page, lobed_cylinder, page, repair_page, sphere};
-use fixtures::{cloud_page, heard};
+use fixtures::{cloud_page, curvature_page, heard, surface_page, torus};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use trueness_geom::fit::Method;
 use trueness_geom::mesh::Mesh;
@@ -113,6 +113,8 @@ fn every_word_is_in_the_table() {
         (check_page(&defects(), &options), ["Nicht fehlerfrei", "Löcher"]),
         (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinster Zone"]),
         (repair_page(&defects(), &options), ["Repariert: fehlerfrei", "Loch gefüllt"]),
+        (curvature_page(&torus(), &options), ["Gaußsche Krümmung", "Nachbarn"]),
+        (surface_page(&options), ["Fläche durch die Punkte", "Kontrollpunkte"]),
         (inspect_page(&options), ["Nicht in Ordnung", "Ebenheit"]),
     ];
     for (page, known) in pages {
@@ -243,6 +245,48 @@ fn a_fit_shows_what_its_document_says() {
     assert_eq!(picks.len(), 2 + document.touching.len());
     assert_eq!(picks[2]["position"], serde_json::json!(document.touching[0].position.unwrap()));
     assert_eq!(picks[0]["value"], document.maximum.distance);
+}
+
+#[test]
+fn curvatures_have_maps_of_their_own() {
+    let manifest = manifest(&curvature_page(&torus(), &ReportOptions::default()));
+    let maps = manifest["maps"].as_array().unwrap();
+    let units: Vec<&str> = maps.iter().map(|m| m["scale"]["unit"].as_str().unwrap()).collect();
+    assert_eq!(units, ["mm⁻¹", "mm⁻²", "mm⁻¹", "mm⁻¹"]);
+    let fields = manifest["objects"][0]["fields"].as_array().unwrap();
+    for ((map, field), kind) in maps.iter().zip(fields).zip(["mean", "gaussian", "k1", "k2"]) {
+        let scale = &map["scale"];
+        let width = scale["upper"].as_f64().unwrap() - scale["lower"].as_f64().unwrap();
+        // Stored as finely as this map's own scale asks for.
+        assert!(field["step"].as_f64().unwrap() <= width / 500.0, "{kind}");
+        assert_eq!(map["histogram"], manifest["result"][kind]["histogram"]);
+        let counted: u64 = map["slots"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).sum();
+        assert_eq!((counted, &map["count"]), (180 * 90, &counted.into()));
+    }
+    let picks = manifest["picks"].as_array().unwrap();
+    assert_eq!((picks.len(), &picks[2]["map"]), (8, &1.into()));
+    assert_eq!(picks[2]["value"], manifest["result"]["gaussian"]["maximum"]["gaussian"]);
+}
+
+#[test]
+fn a_surface_is_drawn_with_its_points_lines_and_net() {
+    let manifest = manifest(&surface_page(&ReportOptions::default()));
+    let objects = manifest["objects"].as_array().unwrap();
+    let roles: Vec<&str> = objects.iter().map(|o| o["role"].as_str().unwrap()).collect();
+    assert_eq!(roles, ["measured", "surface", "iso_lines", "net"]);
+    let shown: Vec<bool> = objects.iter().map(|o| o["shown"].as_bool().unwrap()).collect();
+    assert_eq!(shown, [true, true, true, false]);
+    // Points have their deviation alone and are there for it alone; the surface has the four curvatures.
+    assert_eq!((&objects[0]["comparison"], objects[0]["fields"].as_array().unwrap().len()), (&0.into(), 1));
+    let maps = |o: &serde_json::Value| -> Vec<u64> {
+        o["fields"].as_array().unwrap().iter().map(|f| f["comparison"].as_u64().unwrap()).collect()
+    };
+    assert_eq!(maps(&objects[1]), [1, 2, 3, 4]);
+    // 7 by 6 control points; lines at 5 and 4 knots.
+    assert_eq!((&objects[3]["points"], &objects[3]["segments"]), (&42.into(), &(7 * 5 + 6 * 6).into()));
+    assert_eq!(manifest["maps"].as_array().unwrap().len(), 5);
+    assert!(manifest["maps"][1]["slots"].is_null(), "what was not counted is not told as counted");
+    assert_eq!(manifest["picks"][0]["position"], manifest["result"]["worst"]["position"]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 pub mod align;
 pub mod check;
 pub mod compare;
+pub mod curvature;
 pub mod fit;
 pub mod inspect;
 pub mod plan;

@@ -6,6 +6,7 @@ mod regions;
 #[cfg(test)]
 pub(crate) mod scratch;
 pub(crate) mod spool;
+mod values;
 mod writable;
 
 use crate::{
@@ -19,6 +20,7 @@ pub use regions::{Pieces, regions};
 use spool::Spool;
 use std::path::{Path, PathBuf};
 use trueness_geom::{mesh::Mesh, space::Point};
+pub use values::{Values, values};
 pub use writable::Writable;
 
 /// Which values go with the points.

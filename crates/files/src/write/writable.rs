@@ -15,6 +15,8 @@ pub enum Writable {
     Mesh,
     /// Facets or points with the number of their region.
     Regions,
+    /// Vertices or points with named numbers.
+    Values,
 }
 
 impl Writable {
@@ -23,10 +25,10 @@ impl Writable {
         let writes = |f: &&&Format| match self {
             Writable::Points => f.writes_points(),
             Writable::Mesh => f.writes_meshes(),
-            Writable::Regions => false,
+            Writable::Regions | Writable::Values => false,
         };
         match self {
-            Writable::Regions => vec!["ply", "csv"],
+            Writable::Regions | Writable::Values => vec!["ply", "csv"],
             _ => FORMATS.iter().filter(writes).flat_map(|f| f.written_as.iter().copied()).collect(),
         }
     }
@@ -55,6 +57,7 @@ impl Writable {
             Writable::Points => "points",
             Writable::Mesh => "a mesh",
             Writable::Regions => "regions",
+            Writable::Values => "numbers of points",
         };
         WriteFault::UnknownFormat { what, known: self.shown() }
     }
@@ -66,7 +69,7 @@ mod tests {
 
     #[test]
     fn every_ending_listed_is_written() {
-        for what in [Writable::Points, Writable::Mesh, Writable::Regions] {
+        for what in [Writable::Points, Writable::Mesh, Writable::Regions, Writable::Values] {
             assert!(!what.endings().is_empty());
             for ending in what.endings() {
                 let name = format!("a.{}", ending.to_uppercase());

@@ -53,6 +53,7 @@ use crate::space::Point;
 pub(crate) use dense::{eigen, solve};
 pub(crate) use linear::{Function, lowest};
 pub use request::{FitError, Method, Options};
+pub(crate) use scatter::Scatter;
 pub use solution::{Covariance, Fit, Residuals, Touching};
 
 /// Calls the function with the family of the kind and its number of unknowns.

@@ -6,7 +6,7 @@ use crate::space::{Point, Vector, cross, minus, plus, times};
 
 /// Mean of points and the eigenvectors of their scatter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scatter {
+pub(crate) struct Scatter {
     pub mean: Point,
     /// Variances, ascending.
     pub variance: [f64; 3],
@@ -16,7 +16,7 @@ pub(super) struct Scatter {
 
 impl Scatter {
     /// Of points in space.
-    pub(super) fn of(points: &[Point]) -> Scatter {
+    pub(crate) fn of(points: &[Point]) -> Scatter {
         let mean = mean(points);
         let mut matrix = [[0.0; 3]; 3];
         for &p in points {

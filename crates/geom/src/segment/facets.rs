@@ -3,6 +3,7 @@
 use super::surface::{Pieces, Surface};
 use crate::mesh::Mesh;
 use crate::space::{Vector, cross, minus, norm, plus, times, unit};
+use crate::spatial::lists::lists;
 use rayon::prelude::*;
 
 /// The facets of a mesh whose corners exist and are finite.
@@ -44,18 +45,4 @@ fn neighbours(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
         .flat_map(|w| [[w[0].1, w[1].1], [w[1].1, w[0].1]])
         .collect();
     lists(mesh.faces.len(), pairs)
-}
-
-/// The second of each pair, listed by the first.
-pub(super) fn lists(count: usize, mut pairs: Vec<[u32; 2]>) -> (Vec<u32>, Vec<u32>) {
-    pairs.par_sort_unstable();
-    pairs.dedup();
-    let mut first = vec![0u32; count + 1];
-    for pair in &pairs {
-        first[pair[0] as usize + 1] += 1;
-    }
-    for i in 0..count {
-        first[i + 1] += first[i];
-    }
-    (first, pairs.into_iter().map(|p| p[1]).collect())
 }

@@ -1,9 +1,9 @@
 //! The surface of a cloud: points, normals by local planes, neighbours by nearness.
 
-use super::facets::lists;
 use super::surface::{Pieces, Surface};
 use crate::fit::eigen;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use crate::spatial::lists::lists;
 use crate::spatial::neighbours::{Neighbour, PointTree};
 use rayon::prelude::*;
 use std::f64::consts::TAU;

@@ -1,3 +1,4 @@
 //! Search among points.
 
+pub(crate) mod lists;
 pub mod neighbours;

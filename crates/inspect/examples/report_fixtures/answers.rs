@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_geom::check::check;
+use trueness_geom::curvature;
 use trueness_geom::fit::{self, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
@@ -12,6 +13,7 @@ use trueness_geom::repair;
 use trueness_geom::segment;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
+use trueness_geom::surface;
 use trueness_inspect::repair::Around;
 use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::check::CheckDocument;
@@ -35,6 +37,15 @@ pub fn write_all(folder: &Path) {
     written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
     written(folder, "plan", super::plan::page(&options));
+    written(folder, "curvature", curvature_page(&torus(), &options));
+    let points = Mesh { faces: vec![], ..torus() };
+    written(folder, "curvature_cloud", curvature_page(&points, &options));
+    written(folder, "surface", surface_page(&options));
+    // Half of it: it has a boundary.
+    let mut half = torus();
+    let places = half.positions.clone();
+    half.faces.retain(|f| f.iter().all(|v| places[*v as usize][1] < 0.01));
+    written(folder, "curvature_half", curvature_page(&half, &options));
 }
 
 /// A sphere of radius 10 with a hole in front, a doubled facet, a fin, and a crumb that floats before it.
@@ -182,6 +193,61 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let (objects, marks) = (view.objects(), &view.marks[..]);
     let result = Answer::Segment(&document);
     (super::bytes(&ReportInput { result, objects: &objects, marks, options }), document)
+}
+
+/// Radii 10 and 4, the axis is z; the curvatures differ all over.
+pub fn torus() -> Mesh {
+    let (n, m) = (180, 90);
+    let mut mesh = Mesh::default();
+    for (i, j) in (0..m).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        let (u, v) = (TAU * f64::from(i) / f64::from(n), TAU * f64::from(j) / f64::from(m));
+        let rho = 10.0 + 4.0 * v.cos();
+        mesh.positions.push([rho * u.cos(), rho * u.sin(), 4.0 * v.sin()]);
+        let at = |i: u32, j: u32| (j % m) * n + i % n;
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+/// The report of curvatures, of a mesh or, without facets, of a cloud.
+pub fn curvature_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
+    let wish = curvature::Options { degree: 4, ..curvature::Options::default() };
+    let of_mesh = !mesh.faces.is_empty();
+    let found = match of_mesh {
+        true => curvature::mesh(mesh, &wish, &Silent),
+        false => curvature::cloud(&mesh.positions, &wish, &Silent),
+    };
+    let found = found.unwrap();
+    let name = if of_mesh { "torus.stl" } else { "torus.xyz" };
+    let inputs = vec![file(Role::Measured, name, mesh)];
+    let document =
+        trueness_inspect::curvature::document(&found, &mesh.positions, of_mesh, &wish, inputs).unwrap();
+    let view = trueness_inspect::curvature::View::new(&document, name, mesh, &found);
+    let result = Answer::Curvature(&document);
+    super::bytes(&ReportInput { result, objects: &view.objects(), marks: &[], options })
+}
+
+/// z = x² / 80 − y² / 120 over 60 by 40 mm, each point 0.02 mm above or below it by turns.
+pub fn surface_page(options: &ReportOptions) -> Vec<u8> {
+    let place = |k: u32| -> Point {
+        let (i, j) = (k % 121, k / 121);
+        let (x, y) = (0.5 * f64::from(i) - 30.0, 0.5 * f64::from(j) - 20.0);
+        [x, y, x * x / 80.0 - y * y / 120.0 + if (i + j) % 2 == 0 { 0.02 } else { -0.02 }]
+    };
+    let points: Vec<Point> = (0..121 * 81).map(place).collect();
+    let wish = surface::Options {
+        layout: surface::Layout::Spans([4, 3]),
+        base: surface::BaseKind::Xy,
+        fairness: surface::Fairness::Weight(0.0),
+        ..surface::Options::default()
+    };
+    let found = surface::fit(&points, &wish, &Silent).unwrap();
+    let inputs = vec![super::record(Role::Measured, "sheet.xyz", points.len(), None)];
+    let document = trueness_inspect::surface::document(&found, &points, &wish, inputs);
+    let view = trueness_inspect::surface::View::new(&document, &found, "sheet.xyz", &points);
+    let (objects, marks) = (view.objects(), &view.marks[..]);
+    super::bytes(&ReportInput { result: Answer::Surface(&document), objects: &objects, marks, options })
 }
 
 /// A file of a mesh.

@@ -11,7 +11,8 @@ mod clouds;
 mod numbers;
 mod plan;
 
-pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
+pub use answers::{check_document, check_page, curvature_page, defects, fit_page, lobed_cylinder};
+pub use answers::{repair_page, surface_page, torus};
 pub use clouds::page as cloud_page;
 use numbers::{histogram, quantile, sorted, statistics};
 

@@ -40,6 +40,11 @@ pub struct Mark {
 }
 
 impl Marks {
+    /// Whether the first view has them.
+    pub fn shown(&self) -> bool {
+        self.comparison.is_none() && self.role != ViewRole::Net
+    }
+
     /// All marks, in the order of their numbers.
     pub fn items(&self) -> impl Iterator<Item = &Mark> {
         self.groups.iter().flat_map(|g| &g.items)

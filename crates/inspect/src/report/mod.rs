@@ -23,6 +23,7 @@ pub(crate) use picture::first_view;
 pub use text::Language;
 
 use crate::results::Role;
+use crate::scale::Scale;
 use crate::scale::palette::Rgb;
 use payload::{Payload, Purpose};
 use serde::Serialize;
@@ -103,6 +104,12 @@ pub enum ViewRole {
     After,
     /// The same before.
     Before,
+    /// A surface fitted to points.
+    Surface,
+    /// Marks: lines of a surface.
+    IsoLines,
+    /// Marks: the control points of a surface and the lines between them; shown when asked for.
+    Net,
     /// A fitted element, drawn translucent.
     Element,
     /// Deviations, on a page that is about something else: shown in place of the part.
@@ -133,13 +140,13 @@ impl ViewRole {
     /// Marks that are seen through the part: what is wrong or was changed must never be missed. Edges of the part itself
     /// are hidden by it.
     pub fn shows_through(self) -> bool {
-        self != ViewRole::Edges
+        !matches!(self, ViewRole::Edges | ViewRole::IsoLines)
     }
 
     /// Colour of what has no map: warm grey for what was measured, blue-grey for what it is compared with.
     pub fn color(self) -> Rgb {
         match self {
-            ViewRole::Reference | ViewRole::Before => [0x8f, 0xa3, 0xbf],
+            ViewRole::Reference | ViewRole::Before | ViewRole::Surface => [0x8f, 0xa3, 0xbf],
             ViewRole::Element => [0x2f, 0x6f, 0xd6],
             _ => [0xb9, 0xb4, 0xaa],
         }
@@ -302,10 +309,12 @@ pub fn write(
             return Err(ReportError::FieldLength { object, values: f.values.len(), places });
         }
     }
-    let scale = input.result.subject().scale();
-    let zone = scale.and_then(|s| s.tolerance);
-    let range = scale.map_or(1.0, |s| zone.map_or(s.upper - s.lower, |[l, u]| u - l));
-    let purpose = Purpose { range, zone, progress };
+    let subject = input.result.subject();
+    let zone = subject.scale().and_then(|s| s.tolerance);
+    let range = |s: &Scale| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l);
+    let scales = subject.maps().into_iter().filter_map(|m| m.scale.or(subject.scale()));
+    let ranges: Vec<f64> = scales.map(range).collect();
+    let purpose = Purpose { ranges: &ranges, zone, progress };
     let draw = || {
         let view = picture::FirstView::of(input, &input.result.subject().picks());
         picture::png(input, &view, progress).map(|png| page::Picture { png: payload::base64(&png), view })

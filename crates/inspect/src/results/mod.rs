@@ -6,6 +6,7 @@
 pub mod align;
 pub mod check;
 pub mod compare;
+pub mod curvature;
 pub mod fit;
 pub mod inspect;
 pub mod repair;
@@ -164,6 +165,7 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("align", text(schemars::schema_for!(align::AlignDocument))),
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+        ("curvature", text(schemars::schema_for!(curvature::CurvatureDocument))),
         ("inspect", text(schemars::schema_for!(inspect::InspectDocument))),
         ("plan", text(schemars::schema_for!(crate::plan::text::PlanText))),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),

@@ -1,9 +1,12 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
 use super::InputRecord;
-use super::compare::Statistics;
+use super::compare::{Histogram, Statistics};
+use super::curvature::{BendRecord, Range};
+use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
@@ -39,6 +42,8 @@ pub struct SurfaceDocument {
     /// Signed distances of all points from the surface, at their nearest places; positive on the side of the normal, which is the
     /// derivative by `u` times the derivative by `v`.
     pub deviation: Statistics,
+    /// Counts and colours of the deviations.
+    pub map: MapRecord,
     /// Point farthest from the surface.
     pub worst: WorstPoint,
     /// Differences between the points and the surface at the parameters that the control points were found with.
@@ -131,17 +136,6 @@ pub struct ToleranceRecord {
     pub stopped_by: String,
 }
 
-/// Range of a quantity.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Range {
-    /// Least.
-    pub min: f64,
-    /// Half of the values are below.
-    pub median: f64,
-    /// Greatest.
-    pub max: f64,
-}
-
 /// Curvatures, positive where the surface bends towards its normal; `null` where no place has any.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct CurvatureRecord {
@@ -160,6 +154,20 @@ pub struct CurvatureRecord {
     pub gaussian: Option<Range>,
     /// In the middle of the domain.
     pub middle: Option<PlaceCurvature>,
+    /// Counts and colours of each: `mean`, `gaussian`, `k1`, `k2`; those of which no place has a value are absent.
+    pub maps: BTreeMap<String, MapRecord>,
+}
+
+/// What a report draws values by.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct MapRecord {
+    /// Counts of the values.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub histogram: Option<Histogram>,
+    /// Mean of the values.
+    pub mean: Option<f64>,
+    /// Their colours.
+    pub scale: Scale,
 }
 
 /// Curvatures at a place.
@@ -169,20 +177,9 @@ pub struct PlaceCurvature {
     pub parameters: [f64; 2],
     /// Where it lies.
     pub position: [f64; 3],
-    /// Unit normal.
-    pub normal: [f64; 3],
-    /// Greater principal curvature and its direction.
-    pub k1: f64,
-    /// Lesser principal curvature.
-    pub k2: f64,
-    /// Direction of the greater one.
-    pub k1_direction: [f64; 3],
-    /// Direction of the lesser one.
-    pub k2_direction: [f64; 3],
-    /// Mean curvature.
-    pub mean: f64,
-    /// Gaussian curvature, 1/mm².
-    pub gaussian: f64,
+    /// How it bends there.
+    #[serde(flatten)]
+    pub bend: BendRecord,
 }
 
 /// How well the points hold the control points.

@@ -8,13 +8,16 @@ export interface Manifest {
   scale: ScaleObject | null
   /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
   quantity: [string, string, string]
-  palettes: Record<string, { bands: string; ramp: string; go_no_go: string }> | null
+  palettes: Palettes | null
   maps: MapEntry[]
   picks: Pick[]
   objects: AnyObject[]
   simplified: boolean
   display_error: number
 }
+
+/** Colours of each palette, hexadecimal. */
+export type Palettes = Record<string, { bands: string; ramp: string; go_no_go: string }>
 
 export type AnyObject = ViewObject | MarksObject
 
@@ -103,6 +106,10 @@ export interface MapEntry {
   quantiles: number[]
   /** How many values have each colour of the scale as the page opens; absent where not all values are at hand. */
   slots: number[] | null
+  /** Where maps differ in it: their own scale, the colours of that, and the words as in the manifest. */
+  scale: ScaleObject | null
+  palettes: Palettes | null
+  quantity: [string, string, string] | null
 }
 
 /** A place that a row of the list leads to. */

@@ -24,14 +24,28 @@ export class State {
   private readonly listeners: ((what: Change) => void)[] = []
 
   constructor(readonly manifest: Manifest) {
-    this.scale = widened({ ...(manifest.scale ?? NO_SCALE) })
-    this.colors = new Colors(manifest, this.scale)
+    this.scale = widened({ ...this.opening })
+    this.colors = new Colors(this.palettes, this.scale)
     for (const { role, shown } of manifest.objects) this.visible[role] ||= shown && role !== 'before'
     this.backfaces = 'part' in this.visible || 'after' in this.visible
   }
 
   get current() {
     return this.manifest.maps[this.comparison]
+  }
+
+  /** The scale that the map opens with. */
+  get opening(): ScaleObject {
+    return this.current?.scale ?? this.manifest.scale ?? NO_SCALE
+  }
+
+  private get palettes() {
+    return this.current?.palettes ?? this.manifest.palettes
+  }
+
+  /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
+  get quantity(): [string, string, string] {
+    return this.current?.quantity ?? this.manifest.quantity
   }
 
   /** Places that the list leads to now, with their numbers. */
@@ -80,8 +94,8 @@ export class State {
     const distribution = this.distribution
     if (distribution.complete) return { share: distribution.share((v) => slotOf(limits, v) === slot), exact: true }
     const counted = this.current?.slots
-    const opening = this.manifest.scale && limitsOf(widened({ ...this.manifest.scale }))
-    if (counted && opening && counted.length === limits.length + 1 && limits.every((limit, i) => limit === opening[i]))
+    const opening = limitsOf(widened({ ...this.opening }))
+    if (counted && counted.length === limits.length + 1 && limits.every((limit, i) => limit === opening[i]))
       return { share: counted[slot] / counted.reduce((sum, n) => sum + n, 0), exact: true }
     return distribution.known ? distribution.between(limits[slot - 1] ?? -Infinity, limits[slot] ?? Infinity) : null
   }
@@ -100,12 +114,12 @@ export class State {
 
   setScale(part: Partial<ScaleObject>): void {
     this.scale = widened({ ...this.scale, ...part })
-    this.colors = new Colors(this.manifest, this.scale)
+    this.colors = new Colors(this.palettes, this.scale)
     this.tell('scale')
   }
 
   resetScale(): void {
-    this.setScale(this.manifest.scale ?? NO_SCALE)
+    this.setScale(this.opening)
   }
 
   setOnly(range: [number, number] | null): void {
@@ -120,8 +134,16 @@ export class State {
   }
 
   choose(comparison: number): void {
+    const before = this.opening
     this.comparison = comparison
     this.picked = -1
+    // Another quantity has another scale; what the reader chose of its look stays.
+    if (this.opening !== before) {
+      const { palette, mode } = this.scale
+      this.scale = widened({ ...this.opening, palette, mode: mode === 'go_no_go' && !this.opening.tolerance ? this.opening.mode : mode })
+      this.colors = new Colors(this.palettes, this.scale)
+      this.only = null
+    }
     this.tell('comparison')
   }
 

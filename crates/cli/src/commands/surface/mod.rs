@@ -9,12 +9,15 @@ use crate::exit::{Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
 use crate::read::{self, Opened};
+use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_files::Body;
 use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
+use trueness_inspect::surface::View;
 
 /// A B-spline surface through scattered points, with its deviation and its curvature
 ///
@@ -24,7 +27,7 @@ use trueness_inspect::results::Role;
 #[command(after_help = "\
 Examples:
   trueness surface scan.asc --spans 12x8 --step surface.stp
-  trueness surface scan.ply --tolerance 0.02 --json result.json
+  trueness surface scan.ply --tolerance 0.02 --json result.json --html report.html
   trueness surface heights.xyz --base xy --knots knots.json --fairness 0")]
 pub struct SurfaceArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
@@ -59,6 +62,8 @@ pub struct SurfaceArgs {
     document: DocumentArgs,
     #[command(flatten)]
     models: write::Models,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -71,7 +76,8 @@ enum BaseArg {
     Cylinder,
     /// The least-squares sphere.
     Sphere,
-    /// A map of the mesh; not built yet.
+    /// Refused; the others are named.
+    #[value(hide = true)]
     Mesh,
 }
 
@@ -100,7 +106,7 @@ impl SurfaceArgs {
             BaseArg::Sphere => BaseKind::Sphere,
             BaseArg::Mesh => {
                 return Err(Usage(
-                    "--base mesh: maps of meshes are not built yet; take plane, xy, cylinder or sphere"
+                    "--base mesh: facets are not unrolled; take plane, xy, cylinder or sphere, and a part of the mesh that does not fold over on it"
                         .into(),
                 )
                 .into());
@@ -127,7 +133,8 @@ impl Run for SurfaceArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
         self.models.check_endings()?;
         let inputs = std::iter::once(&self.points).chain(&self.knots);
-        Ok(self.models.files(RunFiles::of(inputs).document(self.document.json.as_ref())))
+        let files = RunFiles::of(inputs).document(self.document.json.as_ref());
+        Ok(self.models.files(files.report(self.report.html.as_ref())))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         run(self, common)
@@ -161,6 +168,10 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = trueness_inspect::surface::document(&fit, &points, &options, vec![record]);
     args.models.write(&fit.surface, &stage)?;
     drop(stage);
+    if args.report.html.is_some() {
+        let view = View::new(&document, &fit, &document.inputs[0].path, &points);
+        args.report.write(Answer::Surface(&document), &view.objects(), &view.marks, common.progress)?;
+    }
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     let out = document.tolerance.as_ref().is_some_and(|t| !t.reached);

@@ -3,7 +3,8 @@
 use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
-use trueness_inspect::results::surface::{Range, SurfaceDocument};
+use trueness_inspect::results::curvature::Range;
+use trueness_inspect::results::surface::SurfaceDocument;
 
 /// The document as text.
 pub fn table(document: &SurfaceDocument) -> String {

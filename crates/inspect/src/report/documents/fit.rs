@@ -118,7 +118,7 @@ impl Subject for FitDocument {
 
     fn maps(&self) -> Vec<Map<'_>> {
         let (count, histogram) = (self.count + self.outliers, self.histogram.as_ref());
-        vec![Map { name: &self.shape, count, mean: None, tolerance: None, histogram }]
+        vec![Map { name: &self.shape, count, histogram, ..Map::default() }]
     }
 
     fn picks(&self) -> Vec<Pick> {

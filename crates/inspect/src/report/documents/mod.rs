@@ -2,20 +2,24 @@
 
 mod check;
 mod compare;
+mod curvature;
 mod fit;
 mod inspect;
 mod repair;
 mod segment;
+mod surface;
 
 use super::html::Html;
 use super::page::blocks::Headline;
 use crate::results::InputRecord;
 use crate::results::check::CheckDocument;
 use crate::results::compare::{CompareDocument, Histogram, ToleranceShares};
+use crate::results::curvature::CurvatureDocument;
 use crate::results::fit::FitDocument;
 use crate::results::inspect::InspectDocument;
 use crate::results::repair::RepairDocument;
 use crate::results::segment::SegmentDocument;
+use crate::results::surface::SurfaceDocument;
 use crate::scale::Scale;
 use crate::tolerance::badness;
 use serde::Serialize;
@@ -29,6 +33,8 @@ pub enum Answer<'a> {
     Check(&'a CheckDocument),
     /// How far is the measured from the reference?
     Compare(&'a CompareDocument),
+    /// How does this mesh or cloud bend?
+    Curvature(&'a CurvatureDocument),
     /// Which element lies through these points?
     Fit(&'a FitDocument),
     /// Does this part keep its tolerances?
@@ -37,6 +43,8 @@ pub enum Answer<'a> {
     Repair(&'a RepairDocument),
     /// Which elements are in this mesh or cloud?
     Segment(&'a SegmentDocument),
+    /// Which surface lies through these points?
+    Surface(&'a SurfaceDocument),
 }
 
 impl Answer<'_> {
@@ -45,10 +53,12 @@ impl Answer<'_> {
         match self {
             Answer::Check(d) => *d,
             Answer::Compare(d) => *d,
+            Answer::Curvature(d) => *d,
             Answer::Fit(d) => *d,
             Answer::Inspect(d) => *d,
             Answer::Repair(d) => *d,
             Answer::Segment(d) => *d,
+            Answer::Surface(d) => *d,
         }
     }
 }
@@ -102,7 +112,7 @@ pub trait Subject {
     fn seed(&self) -> Option<u64> {
         None
     }
-    /// The colour scale, if values are mapped.
+    /// The colour scale, if values are mapped; that of the first map, where they have several.
     fn scale(&self) -> Option<&Scale> {
         None
     }
@@ -134,6 +144,7 @@ pub trait Subject {
 }
 
 /// Values that can be shown as colours.
+#[derive(Default)]
 pub struct Map<'a> {
     /// What distinguishes it from the others.
     pub name: &'a str,
@@ -145,6 +156,10 @@ pub struct Map<'a> {
     pub tolerance: Option<ToleranceShares>,
     /// Their counts.
     pub histogram: Option<&'a Histogram>,
+    /// Their own colour scale, where maps differ in it.
+    pub scale: Option<&'a Scale>,
+    /// Their own words, as in [`Subject::quantity`].
+    pub quantity: Option<[&'static str; 3]>,
 }
 
 /// A place that a row of the list leads to.

@@ -55,7 +55,8 @@ fn maps(input: &ReportInput) -> Value {
     let all = maps.into_iter().enumerate().map(|(n, m)| {
         json!({
             "name": m.name, "count": m.count, "mean": m.mean, "tolerance": m.tolerance, "histogram": m.histogram,
-            "quantiles": quantiles(&values[n]), "slots": slots(&values[n], m.count, subject.scale()),
+            "quantiles": quantiles(&values[n]), "slots": slots(&values[n], m.count, m.scale.or(subject.scale())),
+            "scale": m.scale, "palettes": m.scale.map(palettes), "quantity": m.quantity,
         })
     });
     all.collect::<Vec<_>>().into()
@@ -63,8 +64,13 @@ fn maps(input: &ReportInput) -> Value {
 
 /// The values at hand of a map, least to greatest.
 fn sorted(input: &ReportInput, map: usize) -> Vec<f64> {
-    let own = |o: &&ViewObject| o.role == ViewRole::Deviation && o.gathered.is_none();
-    let valued = input.objects.iter().filter(|o| o.role == ViewRole::Measured || own(o));
+    // What a reference or a surface shows is not what was counted.
+    let counted = |o: &&ViewObject| match o.role {
+        ViewRole::Measured | ViewRole::Part => true,
+        ViewRole::Deviation => o.gathered.is_none(),
+        _ => false,
+    };
+    let valued = input.objects.iter().filter(counted);
     let mut sorted: Vec<f64> = valued
         .filter_map(|o| o.field(map))
         .flat_map(|f| f.values.iter().copied().filter(|v| v.is_finite()))

@@ -12,12 +12,28 @@ pub enum NoValue {
     FreeEdge = 2,
     /// No measured point lies near this place of the reference.
     NotMeasured = 3,
+    /// The surface ends there.
+    Boundary = 4,
+    /// It has too few neighbours.
+    FewNeighbors = 5,
+    /// Its neighbours do not determine the value.
+    Undetermined = 6,
+    /// It lies on no surface, or not on one alone.
+    NoSurface = 7,
 }
 
 impl NoValue {
     /// All of them, in the order of their codes.
-    pub const ALL: [NoValue; 4] =
-        [NoValue::Unknown, NoValue::MaxDistance, NoValue::FreeEdge, NoValue::NotMeasured];
+    pub const ALL: [NoValue; 8] = [
+        NoValue::Unknown,
+        NoValue::MaxDistance,
+        NoValue::FreeEdge,
+        NoValue::NotMeasured,
+        NoValue::Boundary,
+        NoValue::FewNeighbors,
+        NoValue::Undetermined,
+        NoValue::NoSurface,
+    ];
 
     /// Name in the manifest and in the text table (`reason.<name>`).
     pub fn name(self) -> &'static str {
@@ -26,6 +42,10 @@ impl NoValue {
             NoValue::MaxDistance => "max_distance",
             NoValue::FreeEdge => "free_edge",
             NoValue::NotMeasured => "not_measured",
+            NoValue::Boundary => "boundary",
+            NoValue::FewNeighbors => "few_neighbors",
+            NoValue::Undetermined => "undetermined",
+            NoValue::NoSurface => "no_surface",
         }
     }
 }

@@ -46,7 +46,7 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         .collect();
     json!({
         "role": marks.role, "kind": "marks", "vertices": all.len(), "origin": grid.origin, "step": grid.step,
-        "shown": marks.comparison.is_none(), "comparison": marks.comparison, "first": first, "groups": groups, "triangles": total(counts[0]),
+        "shown": marks.shown(), "comparison": marks.comparison, "first": first, "groups": groups, "triangles": total(counts[0]),
         "segments": total(counts[1]), "points": total(counts[2]),
         "positions": {"blob": part.add(&positions, Kind::Differences)}, "items": {"blob": part.add(&numbers, Kind::Differences)},
     })

@@ -78,12 +78,19 @@ struct Quality {
 /// What objects are packed for.
 #[derive(Clone, Copy)]
 pub struct Purpose<'a> {
-    /// What the deviations are looked at in, millimetres: the width of the tolerance zone or of the scale.
-    pub range: f64,
+    /// What the values of each map are looked at in: the width of the tolerance zone or of the scale. The last one is that of all
+    /// further maps.
+    pub ranges: &'a [f64],
     /// The tolerance, by which the worst of several points is told.
     pub zone: Option<[f64; 2]>,
     /// Hears of places, and is asked whether to go on.
     pub progress: &'a dyn Progress,
+}
+
+impl Purpose<'_> {
+    fn range(&self, map: usize) -> f64 {
+        self.ranges.get(map).or(self.ranges.last()).copied().unwrap_or(1.0)
+    }
 }
 
 /// All objects as they probably fit, before it is known how much room there is.
@@ -339,7 +346,7 @@ fn pack_mesh(
     });
     let mut fields = vec![];
     for field in &object.fields {
-        let codes = Codes::for_values(field.values, purpose.range);
+        let codes = Codes::for_values(field.values, purpose.range(field.comparison));
         let worst = owners.as_ref().map(|owners| gather::worst(field.values, owners, purpose.zone));
         let at = |v: usize| match &worst {
             Some(worst) => (worst[v], field.at(v).1),
@@ -392,7 +399,7 @@ fn pack_points(
         .fields
         .iter()
         .map(|field| {
-            let codes = Codes::for_values(field.values, purpose.range);
+            let codes = Codes::for_values(field.values, purpose.range(field.comparison));
             let at = |i: usize| {
                 let (value, reason) = field.at(finite[levels.order[i] as usize] as usize);
                 codes.code(value, reason)

@@ -141,7 +141,7 @@ pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Re
     }
     progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
     // The first marks lie over the others.
-    for marks in input.marks.iter().filter(|m| m.comparison.is_none()).rev() {
+    for marks in input.marks.iter().filter(|m| m.shown()).rev() {
         let all: Vec<_> = marks.colored().collect();
         for (mark, color) in all.into_iter().rev() {
             overlay::draw(&mut canvas, mark, color, camera, marks.role.shows_through());

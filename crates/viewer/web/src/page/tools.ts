@@ -71,11 +71,13 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
   fill()
 }
 
-/** Which reference the part is compared with. */
+/** Which reference the part is compared with, or which quantity is shown. */
 function chooser(state: State, words: Words): HTMLSelectElement {
   const name = (path: string) => path.split(/[/\\]/).pop() ?? path
-  const options = state.manifest.maps.map((m, i) => el('option', { value: i, selected: i === state.comparison }, name(m.name)))
-  const box = el('select', { 'aria-label': words.of('tool.reference'), title: words.of('tool.reference') }, ...options)
+  const { maps } = state.manifest
+  const options = maps.map((m, i) => el('option', { value: i, selected: i === state.comparison }, m.quantity ? words.of(m.quantity[0]) : name(m.name)))
+  const label = words.of(maps.some((m) => m.quantity) ? 'tool.quantity' : 'tool.reference')
+  const box = el('select', { 'aria-label': label, title: label }, ...options)
   box.addEventListener('change', () => state.choose(Number(box.value)))
   return box
 }

@@ -29,8 +29,8 @@ export function scaleColumn(state: State, words: Words): void {
     drawing = drawScale(chart, state, words, Math.max(80, Math.round(box.height)), Math.max(100, Math.round(box.width)), true)
     lyingDrawing = drawScale(lying, state, words, 760, 130, false)
   }
-  const [quantity, highEnd, lowEnd] = state.manifest.quantity
   const say = () => {
+    const [quantity, highEnd, lowEnd] = state.quantity
     column.querySelector('.axis')?.replaceChildren(`${words.of(quantity)} / ${state.scale.unit}`)
     low.textContent = words.of(lowEnd)
     high.textContent = words.of(highEnd)

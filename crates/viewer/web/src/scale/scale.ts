@@ -1,4 +1,4 @@
-import type { Manifest, ScaleObject } from '../manifest'
+import type { Palettes, ScaleObject } from '../manifest'
 
 export type Rgb = [number, number, number]
 
@@ -37,10 +37,10 @@ export class Colors {
   readonly ramp: Rgb[]
 
   constructor(
-    manifest: Manifest,
+    palettes: Palettes | null,
     readonly scale: ScaleObject,
   ) {
-    const palette = manifest.palettes?.[scale.palette] ?? { bands: '', ramp: '', go_no_go: '' }
+    const palette = palettes?.[scale.palette] ?? { bands: '', ramp: '', go_no_go: '' }
     this.limits = limitsOf(scale)
     this.slots = parse(scale.mode === 'go_no_go' ? palette.go_no_go : palette.bands)
     this.ramp = parse(palette.ramp)

@@ -73,5 +73,5 @@ function what(part: Part, valued: boolean, words: Words): string {
 
 /** No more digits than the stored step carries, and no fewer than the scale's. */
 function digits(step: number, least: number): number {
-  return step > 0 ? Math.min(6, Math.max(least, Math.floor(-Math.log10(step)))) : least
+  return step > 0 ? Math.max(least, Math.min(6, Math.floor(-Math.log10(step)))) : least
 }

@@ -17,7 +17,7 @@ export interface Cover {
  * Pixels that objects of a role are drawn farther from the eye than they are: a surface shown together with one it agrees
  * with lies behind that, wherever both are the same within a pixel, instead of through it.
  */
-const SINKING: Record<string, number> = { reference: 1.5, before: 1.5 }
+const SINKING: Record<string, number> = { reference: 1.5, before: 1.5, surface: 1.5 }
 
 /** Points that stand for a cloud which hides something. */
 const COVER_POINTS = 60_000

@@ -1,6 +1,7 @@
 // Every check of the page: a name and what it does in a browser session.
 import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
+import { curvature } from './curvature.mjs'
 import { defects } from './defects.mjs'
 import { first } from './first.mjs'
 import { fit } from './fit.mjs'
@@ -15,4 +16,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...inspect, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...views, ...pace, ...words, ...layout]

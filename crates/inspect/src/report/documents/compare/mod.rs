@@ -91,7 +91,7 @@ impl Subject for CompareDocument {
 pub fn map(c: &Comparison) -> Map<'_> {
     let all = &c.deviation.all;
     let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
-    Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram }
+    Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram, ..Map::default() }
 }
 
 /// One of the worst places of comparison `n`.

@@ -1,0 +1,242 @@
+//! `trueness curvature`: principal, mean and Gaussian curvature of a mesh or cloud.
+
+mod table;
+
+use crate::command::Run;
+use crate::exit::{Outcome, Usage};
+use crate::options::{Common, DocumentArgs, PointInputArgs};
+use crate::progress::Stage;
+use crate::read::{self, Opened};
+use crate::report::ReportArgs;
+use crate::run_files::RunFiles;
+use anyhow::bail;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use trueness_files::Body;
+use trueness_files::write::{Values, Writable, values};
+use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
+use trueness_geom::mesh::Mesh;
+use trueness_inspect::curvature::{Kind, View, document, reason, without};
+use trueness_inspect::report::Answer;
+use trueness_inspect::results::Role;
+use trueness_inspect::results::curvature::CurvatureDocument;
+
+/// Principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
+///
+/// By polynomials fitted to the neighbourhoods (jets). A curvature is positive where the surface bends towards its normal: on a convex
+/// body with outward normals both principal curvatures are negative. Places where the surface ends, or that their neighbours do not
+/// determine, have no value and are counted.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness curvature scan.stl
+  trueness curvature scan.ply --radius 2 --out curvature.ply --color gaussian
+  trueness curvature cloud.xyz --neighbors 60 --json curvature.json --html curvature.html")]
+pub struct CurvatureArgs {
+    /// A mesh, or points; `-` reads stdin
+    input: PathBuf,
+    /// Degree of the polynomials, from 2 to 6
+    #[arg(long, value_name = "D", default_value = "3")]
+    degree: usize,
+    /// Fewest neighbours: whole rings of a mesh, the nearest ones of a cloud [default: 3 for each unknown, 30 of degree 3]
+    #[arg(long, value_name = "N", conflicts_with = "radius")]
+    neighbors: Option<usize>,
+    /// All neighbours within this distance, mm: curvature at a scale of your own
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    radius: Option<f64>,
+    /// Places on a boundary have values too, from the one side that there is
+    #[arg(long)]
+    boundary: bool,
+    #[command(flatten)]
+    reading: PointInputArgs,
+    #[command(flatten)]
+    document: DocumentArgs,
+    /// Write the vertices or points with their curvatures
+    #[arg(long, value_name = "FILE", help = out_help())]
+    out: Option<PathBuf>,
+    /// The curvature that a .ply file of --out is coloured by
+    #[arg(long, value_enum, value_name = "WHICH", default_value = "mean")]
+    color: ColorArg,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ColorArg {
+    Mean,
+    Gaussian,
+    K1,
+    K2,
+}
+
+impl From<ColorArg> for Kind {
+    fn from(color: ColorArg) -> Kind {
+        match color {
+            ColorArg::Mean => Kind::Mean,
+            ColorArg::Gaussian => Kind::Gaussian,
+            ColorArg::K1 => Kind::K1,
+            ColorArg::K2 => Kind::K2,
+        }
+    }
+}
+
+fn out_help() -> String {
+    format!("Write the vertices or points with their curvatures ({})", Writable::Values.shown())
+}
+
+impl CurvatureArgs {
+    fn options(&self) -> Options {
+        let reach = match (self.neighbors, self.radius) {
+            (_, Some(radius)) => Reach::Radius(radius),
+            (Some(count), None) => Reach::Count(count),
+            (None, None) => Reach::Auto,
+        };
+        Options { degree: self.degree, reach, boundary: self.boundary }
+    }
+}
+
+impl Run for CurvatureArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([&self.input])
+            .out(self.out.as_ref(), Writable::Values)
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref()))
+    }
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        run(self, common)
+    }
+}
+
+fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
+    let options = args.options();
+    let shown = args.input.display();
+    let Opened { mut record, body, planar, .. } =
+        read::open(&args.input, Role::Measured, &args.reading.reading())?;
+    if planar {
+        return Err(Usage(format!("{shown}: it has two columns; curvatures need x, y and z")).into());
+    }
+    let (mesh, of_mesh) = match body {
+        Body::Mesh(source) => (source.mesh, true),
+        Body::Points(source) => (Mesh { positions: read::all_points(source)?, faces: vec![] }, false),
+    };
+    read::describe(&mut record, &mesh.positions);
+    let stage = Stage::new(common.progress, "fitting", "places", Some(mesh.positions.len() as u64));
+    let (hash, found) = rayon::join(
+        || read::hash(&mut record, &args.input),
+        || match of_mesh {
+            true => curvature::mesh(&mesh, &options, &stage),
+            false => curvature::cloud(&mesh.positions, &options, &stage),
+        },
+    );
+    drop(stage);
+    hash?;
+    let found = found.map_err(|e| match e {
+        CurvatureError::Cancelled(e) => e.into(),
+        e @ (CurvatureError::Degree(_) | CurvatureError::Neighbors { .. } | CurvatureError::Radius(_)) => {
+            Usage(e.to_string()).into()
+        }
+        e => anyhow::anyhow!("{shown}: {e}"),
+    })?;
+    let Some(document) = document(&found, &mesh.positions, of_mesh, &options, vec![record]) else {
+        bail!("{shown}: {}", nothing(&found, of_mesh));
+    };
+    if let Some(path) = &args.out {
+        write(path, &mesh, &found, &document, args.color.into())?;
+    }
+    if args.report.html.is_some() {
+        let view = View::new(&document, &document.inputs[0].path, &mesh, &found);
+        args.report.write(Answer::Curvature(&document), &view.objects(), &[], common.progress)?;
+    }
+    args.document.write(&document)?;
+    args.document.table(|| table::table(&document))?;
+    Ok(Outcome::Conforming)
+}
+
+/// Why there is not a single value, and what to do.
+fn nothing(found: &Curvatures, of_mesh: bool) -> String {
+    let reasons = without(found);
+    let Some((most, _)) = reasons.iter().max_by_key(|(_, count)| **count) else {
+        return "it holds nothing that could have a curvature".into();
+    };
+    let remedy = match most.as_str() {
+        "boundary" => "--boundary gives them values from one side",
+        "few_neighbors" => "give a smaller --degree or --neighbors, or a larger --radius",
+        "undetermined" if !of_mesh => {
+            "they lie on lines or at one place; give a larger --radius or more --neighbors"
+        }
+        _ => "`trueness check` tells what is wrong with a mesh",
+    };
+    let told: Vec<String> =
+        reasons.iter().map(|(reason, count)| format!("{count} {}", reason.replace('_', " "))).collect();
+    format!("no place has a curvature ({}); {remedy}", told.join(", "))
+}
+
+/// The words for the reasons in files; the first is of those that have a value.
+fn reasons() -> Vec<&'static str> {
+    [""].into_iter().chain(NoCurvature::ALL.map(reason)).collect()
+}
+
+fn write(
+    path: &std::path::Path,
+    mesh: &Mesh,
+    found: &Curvatures,
+    document: &CurvatureDocument,
+    kind: Kind,
+) -> anyhow::Result<()> {
+    let scale = &document.quantity(kind).scale;
+    let row = |i: usize| -> [f64; 17] {
+        let Ok(jet) = &found.places[i] else { return [f64::NAN; 17] };
+        let [first, second] = jet.bend.principal;
+        let ([a, b, c], [d, e, f], [g, h, j]) = (jet.bend.normal, first.direction, second.direction);
+        [
+            a,
+            b,
+            c,
+            first.curvature,
+            second.curvature,
+            jet.bend.mean,
+            jet.bend.gaussian,
+            d,
+            e,
+            f,
+            g,
+            h,
+            j,
+            jet.uncertainty,
+            jet.residual,
+            jet.condition,
+            f64::from(jet.neighbors),
+        ]
+    };
+    let code = |i: usize| {
+        let place = |why: &NoCurvature| NoCurvature::ALL.iter().position(|r| r == why);
+        found.places[i].as_ref().err().and_then(place).map_or(0, |n| n as u8 + 1)
+    };
+    let color = |i: usize| scale.color(found.places[i].as_ref().map_or(f64::NAN, |jet| kind.of(&jet.bend)));
+    let columns = Values {
+        names: [
+            "nx",
+            "ny",
+            "nz",
+            "k1",
+            "k2",
+            "mean",
+            "gaussian",
+            "k1_x",
+            "k1_y",
+            "k1_z",
+            "k2_x",
+            "k2_y",
+            "k2_z",
+            "uncertainty",
+            "residual",
+            "condition",
+            "neighbors",
+        ],
+        of: &row,
+        reason: &code,
+        reasons: &reasons(),
+        color: &color,
+    };
+    Ok(values(path, &mesh.positions, &mesh.faces, &columns)?)
+}

@@ -1,0 +1,190 @@
+//! Points or vertices, each with named numbers.
+
+use super::{Writable, push_number};
+use crate::{
+    AtomicFile,
+    error::{WriteError, WriteFault},
+};
+use rayon::prelude::*;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use trueness_geom::space::Point;
+
+/// Rows made into bytes by one task.
+const CHUNK: usize = 1 << 12;
+
+/// What is known of each point.
+pub struct Values<'a, const N: usize> {
+    /// Names of the numbers.
+    pub names: [&'a str; N],
+    /// The numbers of a point, NaN where there is none.
+    pub of: &'a (dyn Fn(usize) -> [f64; N] + Sync),
+    /// Why a point lacks its numbers: a place in `reasons`, 0 where it has them.
+    pub reason: &'a (dyn Fn(usize) -> u8 + Sync),
+    /// The words for it; the first is empty.
+    pub reasons: &'a [&'a str],
+    /// The colour of a point.
+    pub color: &'a (dyn Fn(usize) -> [u8; 3] + Sync),
+}
+
+/// Writes `points` (millimetres), the facets between them if there are any, and what is known of each point.
+///
+/// A `.ply` file has a property of each name, `reason` as a number that the header explains, a colour, and the facets. A `.csv` file
+/// has a column of each name, empty where there is no number, and `reason` as a word.
+///
+/// # Errors
+/// An extension other than .ply and .csv; a facet that names no point; those of the system.
+pub fn values<const N: usize>(
+    path: &Path,
+    points: &[Point],
+    faces: &[[u32; 3]],
+    values: &Values<N>,
+) -> Result<(), WriteError> {
+    let write = || -> Result<(), WriteFault> {
+        let ending = Writable::Values.ending_of(path)?;
+        let lost = |face: &[u32; 3]| face.iter().any(|v| *v as usize >= points.len());
+        if let Some(face) = faces.iter().position(lost) {
+            return Err(WriteFault::NoSuchVertex { face });
+        }
+        let mut file = BufWriter::new(AtomicFile::create(path)?);
+        if ending == "ply" {
+            ply(&mut file, points, faces, values)?;
+        } else {
+            csv(&mut file, points, values)?;
+        }
+        file.into_inner().map_err(|e| e.into_error())?.commit()?;
+        Ok(())
+    };
+    write().map_err(|e| e.in_file(path))
+}
+
+/// Writes the rows of all points, some of them at a time.
+fn rows(
+    file: &mut impl Write,
+    count: usize,
+    row: impl Fn(usize, &mut Vec<u8>) + Sync,
+) -> Result<(), WriteFault> {
+    let starts: Vec<usize> = (0..count).step_by(CHUNK).collect();
+    for group in starts.chunks(4 * rayon::current_num_threads().max(1)) {
+        let bytes = |start: &usize| {
+            let mut bytes = vec![];
+            (*start..count.min(start + CHUNK)).for_each(|i| row(i, &mut bytes));
+            bytes
+        };
+        let parts: Vec<Vec<u8>> = group.par_iter().map(bytes).collect();
+        for part in parts {
+            file.write_all(&part)?;
+        }
+    }
+    Ok(())
+}
+
+fn ply<const N: usize>(
+    file: &mut impl Write,
+    points: &[Point],
+    faces: &[[u32; 3]],
+    values: &Values<N>,
+) -> Result<(), WriteFault> {
+    writeln!(file, "ply\nformat binary_little_endian 1.0\ncomment millimetres")?;
+    for (code, word) in values.reasons.iter().enumerate().skip(1) {
+        writeln!(file, "comment reason {code}: {word}")?;
+    }
+    writeln!(file, "element vertex {}", points.len())?;
+    for name in ["x", "y", "z"].iter().chain(&values.names) {
+        writeln!(file, "property double {name}")?;
+    }
+    for name in ["reason", "red", "green", "blue"] {
+        writeln!(file, "property uchar {name}")?;
+    }
+    if !faces.is_empty() {
+        writeln!(file, "element face {}\nproperty list uchar uint vertex_indices", faces.len())?;
+    }
+    writeln!(file, "end_header")?;
+    rows(file, points.len(), |i, bytes| {
+        points[i].iter().chain(&(values.of)(i)).for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes.push((values.reason)(i));
+        bytes.extend((values.color)(i));
+    })?;
+    rows(file, faces.len(), |i, bytes| {
+        bytes.push(3);
+        faces[i].iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+    })
+}
+
+fn csv<const N: usize>(
+    file: &mut impl Write,
+    points: &[Point],
+    values: &Values<N>,
+) -> Result<(), WriteFault> {
+    writeln!(file, "x,y,z,{},reason", values.names.join(","))?;
+    rows(file, points.len(), |i, text| {
+        for x in points[i].iter().chain(&(values.of)(i)) {
+            if x.is_finite() {
+                push_number(text, *x);
+            }
+            text.push(b',');
+        }
+        let word = values.reasons.get(usize::from((values.reason)(i))).copied().unwrap_or_default();
+        text.extend(word.as_bytes());
+        text.push(b'\n');
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::scratch::Folder;
+    use crate::{Body, ReadOptions, open};
+
+    const POINTS: [Point; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.5]];
+    const FACES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
+
+    fn known(write: impl Fn(&Values<2>)) {
+        write(&Values {
+            names: ["k1", "k2"],
+            of: &|i| if i == 1 { [f64::NAN; 2] } else { [0.5 * i as f64, -0.25] },
+            reason: &|i| u8::from(i == 1),
+            reasons: &["", "boundary"],
+            color: &|i| [i as u8, 7, 9],
+        });
+    }
+
+    #[test]
+    fn a_mesh_is_read_back_with_its_numbers() {
+        let folder = Folder::new();
+        let path = folder.path().join("k.ply");
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        let Body::Mesh(mesh) = open(&path, &ReadOptions::default()).unwrap().body else { panic!() };
+        assert_eq!((&mesh.mesh.positions[..], &mesh.mesh.faces[..]), (&POINTS[..], &FACES[..]));
+        let bytes = std::fs::read(&path).unwrap();
+        assert!(bytes.windows(27).any(|w| w == b"comment reason 1: boundary\n"));
+        // A vertex is 5 numbers and 4 bytes, a facet 13 bytes.
+        let last = &bytes[bytes.len() - 26 - 44..bytes.len() - 26];
+        assert_eq!(last[24..40], [1.5f64.to_le_bytes(), (-0.25f64).to_le_bytes()].concat());
+        assert_eq!(last[40..], [0, 3, 7, 9]);
+    }
+
+    #[test]
+    fn a_table_has_empty_cells_and_the_reason() {
+        let folder = Folder::new();
+        let path = folder.path().join("k.csv");
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(
+            text,
+            "x,y,z,k1,k2,reason\n0,0,0,0,-0.25,\n1,0,0,,,boundary\n0,3,0,1,-0.25,\n0,0,1.5,1.5,-0.25,\n"
+        );
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let folder = Folder::new();
+        known(|v| {
+            let write = |name: &str, faces: &[[u32; 3]]| {
+                values(&folder.path().join(name), &POINTS, faces, v).unwrap_err().to_string()
+            };
+            assert!(write("k.stl", &FACES).contains(".ply .csv"));
+            assert!(write("k.ply", &[[0, 1, 9]]).contains("face 0"));
+        });
+    }
+}

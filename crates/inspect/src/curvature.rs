@@ -1,0 +1,211 @@
+//! From the curvatures of a mesh or cloud to the result document, and to what a report draws of them.
+
+mod view;
+
+pub use view::View;
+
+use crate::compare::{histogram, statistics};
+use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, Range, SCHEMA};
+use crate::results::surface::MapRecord;
+use crate::results::{InputRecord, UNITS, VERSION};
+use crate::scale::Scale;
+use std::collections::BTreeMap;
+use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
+use trueness_geom::space::{Aabb, Point};
+use trueness_geom::spline::surface::Bend;
+use trueness_geom::stats::histogram::{Histogram, nice_edges};
+use trueness_geom::stats::statistics::{Statistics, Summary};
+
+/// One of the curvatures of a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Mean of the principal curvatures.
+    Mean,
+    /// Their product.
+    Gaussian,
+    /// The greater one.
+    K1,
+    /// The lesser one.
+    K2,
+}
+
+impl Kind {
+    /// All of them, in the order in which reports show them.
+    pub const ALL: [Kind; 4] = [Kind::Mean, Kind::Gaussian, Kind::K1, Kind::K2];
+
+    /// Name in documents and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Mean => "mean",
+            Kind::Gaussian => "gaussian",
+            Kind::K1 => "k1",
+            Kind::K2 => "k2",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        if self == Kind::Gaussian { "mm⁻²" } else { "mm⁻¹" }
+    }
+
+    /// What is drawn flat on a body of this size, millimetres: less than that is rounding or noise. Over the whole body the surface
+    /// then bows by no more than an 80,000th of the size.
+    pub fn least(self, size: f64) -> f64 {
+        const FLAT: f64 = 1e-4;
+        if size == 0.0 {
+            return 0.0;
+        }
+        if self == Kind::Gaussian { FLAT / (size * size) } else { FLAT / size }
+    }
+
+    /// The value of a place.
+    pub fn of(self, bend: &Bend) -> f64 {
+        match self {
+            Kind::Mean => bend.mean,
+            Kind::Gaussian => bend.gaussian,
+            Kind::K1 => bend.principal[0].curvature,
+            Kind::K2 => bend.principal[1].curvature,
+        }
+    }
+}
+
+impl CurvatureDocument {
+    /// What was found of a curvature.
+    pub fn quantity(&self, kind: Kind) -> &Quantity {
+        match kind {
+            Kind::Mean => &self.mean,
+            Kind::Gaussian => &self.gaussian,
+            Kind::K1 => &self.k1,
+            Kind::K2 => &self.k2,
+        }
+    }
+}
+
+/// Name of a reason in documents, files and text tables.
+pub fn reason(reason: NoCurvature) -> &'static str {
+    match reason {
+        NoCurvature::NotFinite => "not_finite",
+        NoCurvature::Unused => "unused",
+        NoCurvature::NotASurface => "not_a_surface",
+        NoCurvature::Boundary => "boundary",
+        NoCurvature::FewNeighbors => "few_neighbors",
+        NoCurvature::Undetermined => "undetermined",
+        NoCurvature::Folded => "folded",
+    }
+}
+
+/// The document of the curvatures at `points`, which are the vertices of a mesh or the points of a cloud, as `inputs` has them.
+/// `None` where no place has curvatures; [`without`] tells why.
+///
+/// Cost: some passes over the places, and one number a place.
+pub fn document(
+    found: &Curvatures,
+    points: &[Point],
+    of_mesh: bool,
+    options: &Options,
+    inputs: Vec<InputRecord>,
+) -> Option<CurvatureDocument> {
+    let jets: Vec<&Jet> = found.places.iter().flatten().collect();
+    let size =
+        Aabb::of(found.places.iter().zip(points).filter(|(p, _)| p.is_ok()).map(|(_, p)| p)).diagonal();
+    let [mean, gaussian, k1, k2] = Kind::ALL.map(|kind| quantity(found, points, size, kind));
+    Some(CurvatureDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs,
+        places: if of_mesh { "vertices" } else { "points" }.into(),
+        degree: options.degree as u64,
+        neighborhood: neighborhood(options),
+        boundary: options.boundary,
+        sign: "positive towards the normal".into(),
+        normals: if of_mesh { "facets" } else { "neighbors" }.into(),
+        parts: found.parts as u64,
+        total: points.len() as u64,
+        count: jets.len() as u64,
+        without: without(found),
+        mean: mean?,
+        gaussian: gaussian?,
+        k1: k1?,
+        k2: k2?,
+        uncertainty: range(&jets, |j| j.uncertainty)?,
+        residual: range(&jets, |j| j.residual)?,
+        condition: range(&jets, |j| j.condition)?,
+        neighbors: range(&jets, |j| f64::from(j.neighbors))?,
+        reach: range(&jets, |j| j.reach)?,
+    })
+}
+
+fn neighborhood(options: &Options) -> Neighborhood {
+    match (options.reach, options.reach.neighbors(options.degree)) {
+        (Reach::Radius(radius), _) => Neighborhood::Radius { radius },
+        (_, count) => Neighborhood::Count { neighbors: count.unwrap_or(0) as u64 },
+    }
+}
+
+/// How many places have no curvatures, by reason.
+pub fn without(found: &Curvatures) -> BTreeMap<String, u64> {
+    let mut all = BTreeMap::new();
+    for why in found.places.iter().filter_map(|p| p.as_ref().err()) {
+        *all.entry(reason(*why).to_string()).or_insert(0) += 1;
+    }
+    all
+}
+
+/// The values of all places, NaN where there is none.
+pub fn values(found: &Curvatures, kind: Kind) -> Vec<f64> {
+    found.places.iter().map(|p| p.as_ref().map_or(f64::NAN, |jet| kind.of(&jet.bend))).collect()
+}
+
+fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Option<Quantity> {
+    let all = values(found, kind);
+    let known: Vec<f64> = all.iter().copied().filter(|v| !v.is_nan()).collect();
+    let (all_known, map) = map(&known, kind, size);
+    let extreme = |better: fn(f64, f64) -> bool| {
+        let known = (0..all.len()).filter(|i| !all[*i].is_nan());
+        known.reduce(|best, i| if better(all[i], all[best]) { i } else { best })
+    };
+    let place = |index: usize| Some(place(index, points, found.places[index].as_ref().ok()?));
+    Some(Quantity {
+        statistics: statistics(&all_known, 0.0),
+        histogram: map.histogram,
+        maximum: place(extreme(|a, b| a > b)?)?,
+        minimum: place(extreme(|a, b| a < b)?)?,
+        scale: map.scale,
+    })
+}
+
+/// Statistics of the known values of a curvature on a body of this size, and what reports draw them by.
+pub(crate) fn map(known: &[f64], kind: Kind, size: f64) -> (Statistics, MapRecord) {
+    let all = Summary::of(known).all;
+    // A single edge must not hide how the rest bends.
+    let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
+    let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
+    let scale = Scale::for_values(most.max(kind.least(size)), kind.unit());
+    let mean = all.mean.ok();
+    let record = MapRecord { histogram: counted(&all, known), mean, scale };
+    (all, record)
+}
+
+/// Counts of values between round edges.
+pub(crate) fn counted(all: &Statistics, values: &[f64]) -> Option<crate::results::compare::Histogram> {
+    let mut counted = Histogram::new(nice_edges(all)?).ok()?;
+    counted.push(values);
+    Some(histogram(&counted))
+}
+
+fn place(index: usize, points: &[Point], jet: &Jet) -> Place {
+    Place {
+        index: index as u64,
+        position: points[index],
+        bend: (&jet.bend).into(),
+        uncertainty: jet.uncertainty,
+        residual: jet.residual,
+        condition: jet.condition,
+        neighbors: u64::from(jet.neighbors),
+    }
+}
+
+fn range(jets: &[&Jet], value: impl Fn(&Jet) -> f64) -> Option<Range> {
+    Range::of(jets.iter().map(|jet| value(jet)).collect())
+}

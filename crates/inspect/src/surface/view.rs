@@ -1,0 +1,168 @@
+//! What a report draws of a fitted surface: the surface in the colours of its curvatures, the points over it in those of their
+//! deviations, the control net, and the iso-lines at the knots.
+
+use crate::curvature::Kind;
+use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::results::surface::SurfaceDocument;
+use crate::scale::palette::Rgb;
+use rayon::prelude::*;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+use trueness_geom::spline::surface::{Bend, Patches, Surface};
+use trueness_geom::surface::SurfaceFit;
+
+/// Vertices of the drawn surface, about.
+const VERTICES: f64 = 160_000.0;
+/// Fewest and most steps of a span: curvatures of a cubic change within it as straight lines do at most.
+const STEPS: [f64; 2] = [3.0, 24.0];
+/// Iso-lines drawn in a direction: of more knots some are passed over.
+const LINES: usize = 41;
+/// The control net.
+const NET: Rgb = [0x5b, 0x3d, 0xc4];
+/// Iso-lines.
+const LINE: Rgb = [0x22, 0x26, 0x2b];
+
+/// A surface prepared for drawing.
+pub struct View<'a> {
+    name: &'a str,
+    points: &'a [Point],
+    deviations: &'a [f64],
+    keep: [u32; 1],
+    mesh: Mesh,
+    /// Curvatures at the vertices, in the order of [`Kind::ALL`].
+    curvatures: [Vec<f64>; 4],
+    reasons: Vec<NoValue>,
+    /// Iso-lines, then the control net.
+    pub marks: Vec<Marks>,
+}
+
+impl<'a> View<'a> {
+    /// Of a fit to `points`, whose file is shown to the reader as `name`.
+    pub fn new(
+        document: &SurfaceDocument,
+        fit: &'a SurfaceFit,
+        name: &'a str,
+        points: &'a [Point],
+    ) -> View<'a> {
+        let patches = Patches::new(&fit.surface);
+        let lines = lines(&fit.surface);
+        let (mesh, bends) = drawn(&patches, &lines);
+        let curvatures =
+            Kind::ALL.map(|kind| bends.iter().map(|b| b.map_or(f64::NAN, |b| kind.of(&b))).collect());
+        let group = |key: &str, color, mark: Mark| {
+            vec![MarkGroup { key: key.into(), color, items: vec![mark.finite()] }]
+        };
+        let marks = |role, groups| Marks { role, comparison: None, groups };
+        View {
+            name,
+            points,
+            deviations: &fit.deviations,
+            keep: [document.worst.point as u32],
+            reasons: vec![NoValue::Undetermined; mesh.positions.len()],
+            marks: vec![
+                marks(
+                    ViewRole::IsoLines,
+                    group("iso_lines", LINE, iso_lines(&fit.surface, &patches, &lines)),
+                ),
+                marks(ViewRole::Net, group("net", NET, net(&fit.surface))),
+            ],
+            mesh,
+            curvatures,
+        }
+    }
+
+    /// The points with their deviations, which are map 0, and the surface with its curvatures, the maps after it.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let deviations = ViewField { comparison: 0, values: self.deviations, reasons: &[] };
+        let fields = (1..).zip(&self.curvatures);
+        let curvatures =
+            fields.map(|(comparison, values)| ViewField { comparison, values, reasons: &self.reasons });
+        vec![
+            ViewObject {
+                role: ViewRole::Measured,
+                name: self.name,
+                color: None,
+                // Over a map of the surface points without values would be in the way.
+                comparison: Some(0),
+                geometry: Geometry::Points(self.points),
+                fields: vec![deviations],
+                keep: &self.keep,
+                gathered: None,
+            },
+            ViewObject {
+                role: ViewRole::Surface,
+                name: "",
+                color: None,
+                comparison: None,
+                geometry: Geometry::Mesh(&self.mesh),
+                fields: curvatures.collect(),
+                keep: &[],
+                gathered: None,
+            },
+        ]
+    }
+}
+
+/// Parameters of the drawn vertices in both directions: every span in equal steps.
+fn lines(surface: &Surface<Point>) -> [Vec<f64>; 2] {
+    let knots = surface.knots().each_ref().map(|k| k.distinct());
+    let spans: f64 = knots.iter().map(|k| (k.len() - 1) as f64).product();
+    let steps = (VERTICES / spans).sqrt().floor().clamp(STEPS[0], STEPS[1]) as usize;
+    knots.map(|knots| {
+        let inner = knots.windows(2).flat_map(|w| {
+            let (from, length) = (w[0], w[1] - w[0]);
+            (0..steps).map(move |i| from + length * i as f64 / steps as f64)
+        });
+        inner.chain(knots.last().copied()).collect()
+    })
+}
+
+/// The surface as facets that look the way of its normal, and normal and curvatures at the vertices.
+fn drawn(patches: &Patches, [us, vs]: &[Vec<f64>; 2]) -> (Mesh, Vec<Option<Bend>>) {
+    let places: Vec<(Point, Option<Bend>)> = us
+        .par_iter()
+        .flat_map_iter(|u| vs.iter().map(|v| (patches.at(*u, *v), patches.bend(*u, *v))))
+        .collect();
+    let n = vs.len() as u32;
+    let cells = (0..us.len() as u32 - 1).flat_map(|i| (0..n - 1).map(move |j| i * n + j));
+    let faces = cells.flat_map(|a| [[a, a + n, a + n + 1], [a, a + n + 1, a + 1]]).collect();
+    let (positions, bends) = places.into_iter().unzip();
+    (Mesh { positions, faces }, bends)
+}
+
+/// The lines of the surface at its knots, through the drawn vertices.
+fn iso_lines(surface: &Surface<Point>, patches: &Patches, [us, vs]: &[Vec<f64>; 2]) -> Mark {
+    let mut mark = Mark::default();
+    let held = surface.knots().each_ref().map(|k| {
+        let all = k.distinct();
+        let step = (all.len() - 1).div_ceil(LINES - 1);
+        let last = all.len() - 1;
+        all.into_iter()
+            .enumerate()
+            .filter(|(n, _)| n % step == 0 || *n == last)
+            .map(|(_, t)| t)
+            .collect::<Vec<_>>()
+    });
+    for u in &held[0] {
+        mark.add_line(&vs.iter().map(|v| patches.at(*u, *v)).collect::<Vec<_>>(), false);
+    }
+    for v in &held[1] {
+        mark.add_line(&us.iter().map(|u| patches.at(*u, *v)).collect::<Vec<_>>(), false);
+    }
+    mark
+}
+
+/// The control points and the lines between neighbours.
+fn net(surface: &Surface<Point>) -> Mark {
+    let [m, n] = surface.counts();
+    let points = surface.points();
+    let mut mark = Mark { points: points.to_vec(), ..Mark::default() };
+    for row in points.chunks(n) {
+        mark.add_line(row, false);
+    }
+    for j in 0..n {
+        let column: Vec<Point> = (0..m).map(|i| points[i * n + j]).collect();
+        mark.add_line(&column, false);
+    }
+    mark
+}
