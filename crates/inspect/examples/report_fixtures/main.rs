@@ -10,6 +10,7 @@ mod answers;
 mod clouds;
 mod numbers;
 mod plan;
+mod sections;
 
 pub use answers::{check_document, check_page, defects, fit_page, lobed_cylinder, repair_page};
 pub use clouds::page as cloud_page;
@@ -47,6 +48,7 @@ fn main() {
     write(folder, "four", &four(), tolerance, "points.xyz", "fine.stl");
     answers::write_all(folder);
     clouds::write_all(folder);
+    sections::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 

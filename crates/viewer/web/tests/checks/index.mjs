@@ -9,10 +9,11 @@ import { layout } from './layout.mjs'
 import { pace } from './pace.mjs'
 import { reading } from './reading.mjs'
 import { repair } from './repair.mjs'
+import { plan } from './plan.mjs'
 import { scale } from './scale.mjs'
 import { segment } from './segment.mjs'
 import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...inspect, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...inspect, ...plan, ...views, ...pace, ...words, ...layout]
