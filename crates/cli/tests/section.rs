@@ -48,6 +48,30 @@ fn a_profile_has_its_segments_and_joins() {
     assert!(stdout(&again).contains("r 5.000000"), "{}", stdout(&again));
 }
 
+/// The report carries the document that is written, and draws a path for each segment and a sign for each join.
+#[test]
+fn a_section_has_a_report() {
+    let folder = Folder::new();
+    let profile = folder.write("profile.txt", profile());
+    let cube = folder.write("cube.off", common::CUBE);
+    let html = folder.file("report.html");
+    for words in [vec![profile.to_str().unwrap()], vec![cube.to_str().unwrap(), "--plane", "1,2,3,0.1"]] {
+        let answer = document([&["section"][..], &words, &["--html", html.to_str().unwrap()]].concat());
+        let page = std::fs::read_to_string(&html).unwrap();
+        let manifest = page.split_once("id=\"manifest\">").unwrap().1.split_once("</script>").unwrap().0;
+        let manifest: serde_json::Value = serde_json::from_str(manifest).unwrap();
+        assert_eq!(manifest["result"], answer);
+        let contour = &answer["contours"][0];
+        let count = |key: &str| contour[key].as_array().unwrap().len();
+        assert_eq!(page.matches("<path class=\"segment k-").count(), count("segments"));
+        assert_eq!(page.matches("<g class=\"join g").count(), count("joins"));
+        assert_eq!(manifest["picks"].as_array().unwrap().len(), count("segments") + count("joins"));
+        assert!(!page.contains("src=\"data:image/png"));
+    }
+    let own = trueness(["section", profile.to_str().unwrap(), "--html", profile.to_str().unwrap()]);
+    assert_eq!(status(&own), 2, "{}", stderr(&own));
+}
+
 #[test]
 fn wrong_input_is_refused_with_a_remedy() {
     let folder = Folder::new();

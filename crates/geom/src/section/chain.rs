@@ -163,6 +163,12 @@ impl Layout {
     }
 }
 
+/// The length along an arc from the origin of a frame, which it leaves along the first axis, to the foot of a place.
+pub(super) fn arc_to(place: [f64; 2], curvature: f64) -> f64 {
+    let angle = libm::atan2(curvature * place[0], 1.0 - curvature * place[1]);
+    if angle.abs() < 1e-9 { place[0] } else { angle / curvature }
+}
+
 /// The end of an arc in the frame of its start. By the half angle: no digits are lost where it is nearly straight.
 pub(super) fn arc_end(length: f64, turn: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(0.5 * turn);

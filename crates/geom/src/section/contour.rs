@@ -22,6 +22,10 @@ const SHARP: f64 = 0.6;
 const POLLUTED: f64 = 0.3;
 /// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
 const RESOLUTION: f64 = 1e-4;
+/// A crossing is followed this far from the chains' ends, in distances between points.
+const FARTHEST: f64 = 20.0;
+/// From where the points end a corner lies no farther than this share of it, beyond what is uncertain.
+const NEAR: f64 = 0.25;
 
 /// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
 /// uncertainties.
@@ -281,7 +285,7 @@ impl Plan<'_> {
                     return None;
                 }
                 let (a, b) = (&founds[k], &founds[(k + 1) % count]);
-                Some(crossing(a, b, quantile(a), 20.0 * self.spacing))
+                Some(crossing(a, b, quantile(a), FARTHEST * self.spacing * self.step as f64))
             })
             .collect();
         for k in 0..count {
@@ -352,6 +356,12 @@ fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
     );
     let across = |f: &Found, end: usize| f.spread.as_ref().map_or(f.noise, |s| s.ends[end] * f.noise);
     let (direction, uncertainty) = ellipse(&p, &q, across(a, 1), across(b, 0));
+    let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
+    // Where the points end, the corner is.
+    let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
+    if (u - a.last_foot()).abs().max((v - b.first_foot()).abs()) > near {
+        return between(feet, turn, uncertainty.min(farthest));
+    }
     let reach = quantile * uncertainty;
     let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
     Join {
@@ -360,6 +370,20 @@ fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
         interval: [end(-1.0), end(1.0)],
         uncertainty,
         open: [false; 2],
+        turn,
+    }
+}
+
+/// The corner of two chains that do not cross where their points end: anywhere between the last point of the one and the
+/// first of the other.
+fn between(feet: [[f64; 2]; 2], turn: f64, uncertainty: f64) -> Join {
+    let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
+    Join {
+        point: [0, 1].map(|k| 0.5 * (feet[0][k] + feet[1][k])),
+        continuity: Continuity::G0,
+        interval: feet,
+        uncertainty: uncertainty.max(width * (1.0 / 12.0_f64).sqrt()),
+        open: [true; 2],
         turn,
     }
 }

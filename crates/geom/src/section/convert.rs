@@ -1,6 +1,6 @@
 //! Pieces of a chain as lines, arcs and B-splines.
 
-use super::chain::{Kind, Layout, Piece, arc_end};
+use super::chain::{Kind, Layout, Piece, arc_end, arc_to};
 use super::result::{Continuity, Contour, Geometry, Join, Segment};
 use super::span::{Found, single};
 use crate::spline::basis::Knots;
@@ -25,39 +25,35 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
     let pieces = found.pieces();
     let closed = found.state.chain.closed;
     let n = pieces.len();
-    let starts = found.state.chain.stations();
     let count = found.span.points.len();
     // Lengths that the first and last piece are longer by.
     let along = |join: usize, at: [f64; 2]| {
         let pose = found.layout.poses[join];
-        pose.into_frame([at[0] - pose.at[0], at[1] - pose.at[1]])[0]
+        let bend = if join == 0 { pieces[0].curvature(0.0) } else { pieces[join - 1].curvature(1.0) };
+        arc_to(pose.into_frame([at[0] - pose.at[0], at[1] - pose.at[1]]), bend)
     };
     let (mut before, mut after) = (0.0, 0.0);
     if found.circle {
         after = std::f64::consts::TAU / pieces[0].curvature(0.0).abs() - pieces[0].length;
     } else if !closed {
-        let first = found.stations[found.state.breaks[0] % count];
-        let last = found.stations[(found.state.breaks[n] + count - 1) % count];
-        before = corners[0].map_or(-first, |c| -along(0, c));
-        after = corners[1].map_or(last - starts[n], |c| along(n, c));
+        before = corners[0].map_or(-found.first_foot(), |c| -along(0, c));
+        after = corners[1].map_or(found.last_foot(), |c| along(n, c));
     }
     let mut segments: Vec<Segment> = vec![];
     for (g, piece) in pieces.iter().enumerate() {
         let from = if g == 0 { -before } else { 0.0 };
         let to = piece.length + if g + 1 == n { after } else { 0.0 };
-        let mut segment = segment(&found.layout, g, piece, [from, to], found.noise.max(1e-4 * spacing));
+        let at = [corners[0].filter(|_| g == 0), corners[1].filter(|_| g + 1 == n)];
+        let tolerance = found.noise.max(1e-4 * spacing);
+        let mut segment = segment(&found.layout, g, piece, [from, to], at, tolerance);
+        let unit = found.spread.as_ref().and_then(|s| s.pieces[g]);
+        segment.uncertainty = unit.map(|u| u.times(found.noise));
         let own = (found.state.breaks[g]..found.state.breaks[g + 1]).map(|i| i % count);
         let distances: Vec<f64> =
             own.filter(|i| found.span.weights[*i] > 0.0).map(|i| found.residuals[i]).collect();
         segment.count = distances.len();
         segment.rms = (distances.iter().map(|d| d * d).sum::<f64>() / distances.len().max(1) as f64).sqrt();
         segment.max = distances.iter().fold(0.0, |m, d| m.max(d.abs()));
-        if let Some(corner) = corners[0].filter(|_| g == 0) {
-            segment.start = corner;
-        }
-        if let Some(corner) = corners[1].filter(|_| g + 1 == n) {
-            segment.end = corner;
-        }
         segments.push(segment);
     }
     let length = segments.iter().map(|s| s.length).sum();
@@ -89,7 +85,15 @@ fn joins(found: &Found) -> Vec<Join> {
         .collect()
 }
 
-fn segment(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], tolerance: f64) -> Segment {
+/// Piece `g` from one length along it to another; its ends are the `corners`, where these are given.
+fn segment(
+    layout: &Layout,
+    g: usize,
+    piece: &Piece,
+    [from, to]: [f64; 2],
+    corners: [Option<[f64; 2]>; 2],
+    tolerance: f64,
+) -> Segment {
     let pose = layout.poses[g];
     let length = to - from;
     let at = |s: f64| match piece.kind {
@@ -102,7 +106,7 @@ fn segment(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], toler
             pose.place(arc_end(s, s * k))
         }
     };
-    let (start, end) = (at(from), at(to));
+    let [start, end] = [corners[0].unwrap_or(at(from)), corners[1].unwrap_or(at(to))];
     let geometry = match piece.kind {
         Kind::Line => Geometry::Line,
         Kind::Arc => {
@@ -113,23 +117,27 @@ fn segment(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], toler
             let angle = libm::atan2(start[1] - center[1], start[0] - center[0]);
             Geometry::Arc { center, radius, start: angle, sweep: length * curvature }
         }
-        Kind::Spline => spline(layout, g, piece, [from, to], 0.05 * tolerance),
+        Kind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    Segment { geometry, start, end, length, count: 0, rms: 0.0, max: 0.0, curvature: ends }
+    Segment { geometry, start, end, length, count: 0, rms: 0.0, max: 0.0, curvature: ends, uncertainty: None }
 }
 
-/// A cubic B-spline along a free piece, with its ends and the directions there.
-fn spline(layout: &Layout, g: usize, piece: &Piece, [from, to]: [f64; 2], tolerance: f64) -> Geometry {
+/// A cubic B-spline along a free piece, with these ends and the directions there.
+fn spline(
+    layout: &Layout,
+    g: usize,
+    piece: &Piece,
+    [from, to]: [f64; 2],
+    [start, end]: [[f64; 2]; 2],
+    tolerance: f64,
+) -> Geometry {
     let (pose, table) = (&layout.poses[g], &layout.tables[g]);
     let samples = 16 * piece.coefficients.len() + 33;
     let place = |i: usize| table.place((from + (to - from) * i as f64 / (samples - 1) as f64) / piece.length);
     let points: Vec<[f64; 2]> = (0..samples).map(|i| pose.place(place(i).at)).collect();
     let along = |i: usize| pose.out(place(i).along);
-    let ends = Ends {
-        start: End::Tangent(points[0], along(0)),
-        end: End::Tangent(points[samples - 1], along(samples - 1)),
-    };
+    let ends = Ends { start: End::Tangent(start, along(0)), end: End::Tangent(end, along(samples - 1)) };
     match curve::approximate(&points, 3, ends, tolerance) {
         Ok(fitted) => Geometry::Spline { curve: fitted.curve, deviation: fitted.max },
         // Points of a curve are different: there is always one.

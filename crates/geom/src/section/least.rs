@@ -6,7 +6,8 @@
 
 mod normal;
 
-use super::chain::{Chain, Kind, Layout, Pose, arc_end};
+use super::chain::{Chain, Kind, Layout, Pose, arc_end, arc_to};
+use super::result::Uncertainty;
 use crate::num::cholesky::Cholesky;
 use normal::end_coefficient;
 
@@ -52,7 +53,12 @@ pub(super) struct Spread {
     pub jumps: Vec<f64>,
     /// Of the first and last point of the chain, across it.
     pub ends: [f64; 2],
+    /// Of each line and arc; of a free piece `None`.
+    pub pieces: Vec<Option<Uncertainty>>,
 }
+
+/// Share of the least gain of a step below which a step is not taken.
+const NEGLIGIBLE: f64 = 0.01;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -290,6 +296,12 @@ impl Work {
             };
             let mut step = self.right.clone();
             factor.solve(&mut step);
+            // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
+            // nothing is measured any more.
+            let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum();
+            if fresh && gain <= NEGLIGIBLE * stop.gain * cost {
+                break;
+            }
             let mut next = state.clone();
             self.step(&mut next.chain, &step, stop.shortest);
             self.measure(row, &mut next, true);
@@ -343,6 +355,7 @@ impl Work {
             let held = Held { join, along: self.layout.poses[join].normal(), value: 0.0 };
             *end = deviation(self.conditions(chain, Some(&held)).pop()?);
         }
+        all.pieces = (0..n).map(|g| self.uncertainty(chain, g, &deviation)).collect();
         Some(all)
     }
 
@@ -373,8 +386,7 @@ impl Work {
                         let k = piece.coefficients[0];
                         let middle = Pose::new(pose.place(arc_end(half, half * k)), pose.heading + half * k);
                         let v = middle.into_frame([p[0] - middle.at[0], p[1] - middle.at[1]]);
-                        let angle = libm::atan2(k * v[0], 1.0 - k * v[1]);
-                        half + if k.abs() * half < 1e-9 { v[0] } else { angle / k }
+                        half + arc_to(v, k)
                     }
                 };
                 all[i] = starts[g] + own;

@@ -40,6 +40,6 @@ pub use chain::Kind;
 pub use contour::contour;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut};
 pub use paper::{Method, Search, line_and_curve, method_contour};
-pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken};
+pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
 pub use slab::{Ordered, order, slab};
 pub use tessellated::{chain_contour, rounding};

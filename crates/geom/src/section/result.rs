@@ -39,6 +39,35 @@ impl Geometry {
     }
 }
 
+/// Standard uncertainties of what a segment is known by, from the scatter of the points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uncertainty {
+    /// Of a line.
+    Line {
+        /// Of the angle of its direction, radians.
+        angle: f64,
+    },
+    /// Of an arc.
+    Arc {
+        /// Of the coordinates of its center.
+        center: [f64; 2],
+        /// Of its radius.
+        radius: f64,
+    },
+}
+
+impl Uncertainty {
+    /// All of them so many times as large.
+    pub(super) fn times(self, factor: f64) -> Uncertainty {
+        match self {
+            Uncertainty::Line { angle } => Uncertainty::Line { angle: factor * angle },
+            Uncertainty::Arc { center, radius } => {
+                Uncertainty::Arc { center: center.map(|x| factor * x), radius: factor * radius }
+            }
+        }
+    }
+}
+
 /// A segment of a contour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
@@ -58,6 +87,9 @@ pub struct Segment {
     pub max: f64,
     /// Curvature at its start and end, positive where it turns to the left.
     pub curvature: [f64; 2],
+    /// How well the points determine the line or arc; `None` of a spline, of exact facets, and where the points hardly
+    /// determine it.
+    pub uncertainty: Option<Uncertainty>,
 }
 
 impl Segment {

@@ -188,6 +188,16 @@ impl Found {
     pub fn pieces(&self) -> &[Piece] {
         &self.state.chain.pieces
     }
+    /// Where the foot of the first point lies from the chain's start, along it.
+    pub fn first_foot(&self) -> f64 {
+        self.stations[self.state.breaks[0] % self.stations.len()]
+    }
+    /// Where the foot of the last point lies from the chain's end, along it.
+    pub fn last_foot(&self) -> f64 {
+        let (n, count) = (self.pieces().len(), self.stations.len());
+        let length: f64 = self.pieces().iter().map(|p| p.length).sum();
+        self.stations[(self.state.breaks[n] + count - 1) % count] - length
+    }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {
         let n = self.pieces().len();

@@ -328,6 +328,7 @@ impl Sheet<'_> {
             rms: 0.0,
             max: 0.0,
             curvature: [0.0; 2],
+            uncertainty: None,
         };
         let Shape::Arc(center, curvature) = item.shape else { return base };
         let out = |i: usize| {

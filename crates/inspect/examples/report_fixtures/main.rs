@@ -10,6 +10,7 @@ mod answers;
 mod clouds;
 mod numbers;
 mod plan;
+mod sections;
 
 pub use answers::{check_document, check_page, curvature_page, defects, fit_page, lobed_cylinder};
 pub use answers::{repair_page, surface_page, torus};
@@ -48,6 +49,7 @@ fn main() {
     write(folder, "four", &four(), tolerance, "points.xyz", "fine.stl");
     answers::write_all(folder);
     clouds::write_all(folder);
+    sections::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 

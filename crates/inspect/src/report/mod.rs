@@ -16,7 +16,7 @@ mod payload;
 mod picture;
 mod text;
 
-pub use documents::Answer;
+pub use documents::{Answer, flat};
 pub use marks::{Mark, MarkGroup, Marks};
 pub use payload::NoValue;
 pub(crate) use picture::first_view;
@@ -25,6 +25,7 @@ pub use text::Language;
 use crate::results::Role;
 use crate::scale::Scale;
 use crate::scale::palette::Rgb;
+use documents::Drawn;
 use payload::{Payload, Purpose};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -36,7 +37,8 @@ use trueness_geom::space::Point;
 pub struct ReportInput<'a> {
     /// The answer; every number on the page is from here.
     pub result: Answer<'a>,
-    /// What is drawn, the first being what the marks lie on. In a comparison: the measured object, then the references.
+    /// What is drawn, the first being what the marks lie on. In a comparison: the measured object, then the references. Of
+    /// sections: the points of each contour in its plane, the third coordinate 0 (`flat`).
     pub objects: &'a [ViewObject<'a>],
     /// What is drawn over it, in the order of the numbers that the list's rows lead to.
     pub marks: &'a [Marks],
@@ -210,6 +212,20 @@ impl ViewField<'_> {
 }
 
 impl<'a> ViewObject<'a> {
+    /// Measured points without name or values.
+    pub fn measured(places: &'a [Point]) -> ViewObject<'a> {
+        ViewObject {
+            role: ViewRole::Measured,
+            name: "",
+            color: None,
+            comparison: None,
+            geometry: Geometry::Points(places),
+            fields: vec![],
+            keep: &[],
+            gathered: None,
+        }
+    }
+
     fn mesh(&self) -> Option<&'a Mesh> {
         match self.geometry {
             Geometry::Mesh(mesh) => Some(mesh),
@@ -310,6 +326,9 @@ pub fn write(
         }
     }
     let subject = input.result.subject();
+    if let Some(drawing) = subject.drawing() {
+        return write_drawing(input, drawing, progress, out);
+    }
     let zone = subject.scale().and_then(|s| s.tolerance);
     let range = |s: &Scale| s.tolerance.map_or(s.upper - s.lower, |[l, u]| u - l);
     let scales = subject.maps().into_iter().filter_map(|m| m.scale.or(subject.scale()));
@@ -323,10 +342,35 @@ pub fn write(
         rayon::join(draw, || payload::pack(input.objects, &purpose, FIRST * input.options.budget / 10));
     let picture = picture?;
     // What the page takes without its 3D part is left of the budget first.
-    let bare = page::page(input, &Payload::default(), &picture)?.len() + MANIFEST_ENTRY * input.objects.len();
+    let bare = page::page(input, &Payload::default(), &page::Stage::Part(&picture))?.len()
+        + MANIFEST_ENTRY * input.objects.len();
     let room = input.options.budget.saturating_sub(bare);
     let payload = first?.within(room, input.objects, input.marks, &purpose)?;
-    let html = page::page(input, &payload, &picture)?;
+    let html = page::page(input, &payload, &page::Stage::Part(&picture))?;
+    finish(&html, &payload, progress, out)
+}
+
+/// The report of what draws itself: as many of the measured points as the budget leaves room for.
+fn write_drawing(
+    input: &ReportInput,
+    drawing: &dyn Drawn,
+    progress: &dyn Progress,
+    out: &mut impl Write,
+) -> Result<ReportSummary, ReportError> {
+    let bare = page::page(input, &Payload::default(), &page::Stage::Drawing(drawing, 0))?.len();
+    let room = input.options.budget.saturating_sub(bare);
+    let payload = Payload { points: drawing.shown(input.objects, room), ..Payload::default() };
+    progress.advance(work(input.objects));
+    let html = page::page(input, &payload, &page::Stage::Drawing(drawing, room))?;
+    finish(&html, &payload, progress, out)
+}
+
+fn finish(
+    html: &str,
+    payload: &Payload,
+    progress: &dyn Progress,
+    out: &mut impl Write,
+) -> Result<ReportSummary, ReportError> {
     if progress.cancelled() {
         return Err(Cancelled.into());
     }

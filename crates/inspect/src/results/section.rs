@@ -3,7 +3,7 @@
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Contour, Geometry, Method, Options, Search, Segment};
+use trueness_geom::section::{Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
@@ -144,6 +144,8 @@ pub struct ContourRecord {
     pub residuals: Vec<f64>,
     /// Number of the segment of each point.
     pub labels: Vec<u32>,
+    /// Length along the contour from the start of the first segment to the foot of each point.
+    pub stations: Vec<f64>,
 }
 
 /// A segment.
@@ -166,6 +168,29 @@ pub struct SegmentRecord {
     pub max: f64,
     /// Curvature at its start and end, positive where it turns to the left.
     pub curvature: [f64; 2],
+    /// Standard uncertainty of its angle, or of its center and radius, from the scatter of the points.
+    pub uncertainty: Option<UncertaintyRecord>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncertainty_reason: Option<String>,
+}
+
+/// Standard uncertainties of what a segment is known by.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum UncertaintyRecord {
+    /// Of a line.
+    Line {
+        /// Of its angle.
+        angle: f64,
+    },
+    /// Of an arc.
+    Arc {
+        /// Of its center.
+        center: [f64; 2],
+        /// Of its radius.
+        radius: f64,
+    },
 }
 
 /// What a segment is.
@@ -322,7 +347,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         })
         .collect();
     let reason = match &found.segments[..] {
-        [one] if one.geometry.kind() != trueness_geom::section::Kind::Line => {
+        [one] if one.geometry.kind() != Kind::Line => {
             Some("one segment fits all points; no line segment found")
         }
         [_] => Some("one line fits all points"),
@@ -336,7 +361,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         noise: found.noise,
         spacing: found.spacing,
         points: found.labels.len() as u64,
-        segments: found.segments.iter().map(segment).collect(),
+        segments: found.segments.iter().map(|s| segment(s, found.taken)).collect(),
         joins,
         joins_reason: reason.map(Into::into),
         outliers: numbers(&found.outliers),
@@ -344,10 +369,12 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         gaps: numbers(&found.gaps),
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),
+        stations: found.stations.clone(),
     }
 }
 
-fn segment(found: &Segment) -> SegmentRecord {
+/// A segment of a contour whose points were `taken` for this.
+fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
     let (start, end) = (found.start, found.end);
     let geometry = match &found.geometry {
         Geometry::Line => GeometryRecord::Line { angle: found.angle() },
@@ -361,6 +388,16 @@ fn segment(found: &Segment) -> SegmentRecord {
             deviation: *deviation,
         },
     };
+    let uncertainty = found.uncertainty.map(|u| match u {
+        Uncertainty::Line { angle } => UncertaintyRecord::Line { angle },
+        Uncertainty::Arc { center, radius } => UncertaintyRecord::Arc { center, radius },
+    });
+    let reason = match (found.geometry.kind(), taken) {
+        _ if uncertainty.is_some() => None,
+        (Kind::Spline, _) => Some("a spline is not known by single numbers"),
+        (_, Taken::Facets) => Some("facets of a drawing carry no random noise"),
+        _ => Some("the points alone do not tell it"),
+    };
     SegmentRecord {
         geometry,
         start,
@@ -370,5 +407,7 @@ fn segment(found: &Segment) -> SegmentRecord {
         rms: found.rms,
         max: found.max,
         curvature: found.curvature,
+        uncertainty,
+        uncertainty_reason: reason.map(Into::into),
     }
 }

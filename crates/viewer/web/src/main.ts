@@ -5,6 +5,7 @@ import { keys } from './page/keys'
 import { keepView, restoreView } from './page/link'
 import { list } from './page/list'
 import { printStage } from './page/print'
+import { openPlan } from './plan/plan'
 import { headerTools, stageTools } from './page/tools'
 import { scaleColumn } from './scale/column'
 import { control } from './stage/controls'
@@ -23,7 +24,8 @@ headerTools(words, state)
 if (manifest.scale) scaleColumn(state, words)
 const rows = list(state)
 announcer(state)
-void openStage()
+if (state.planar) openPlan(state, words, rows.step)
+else void openStage()
 
 /** Puts the 3D stage over the stored picture; where that fails the picture stays, with the reason. */
 async function openStage(): Promise<void> {

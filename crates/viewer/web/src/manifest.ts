@@ -4,7 +4,8 @@ export interface Manifest {
   language: string
   decimal: string | null
   up: 'y' | 'z'
-  first: FirstView
+  /** Absent on a page that is a drawing. */
+  first: FirstView | null
   scale: ScaleObject | null
   /** Keys of the words for what is mapped, and for the high and the low end of the scale. */
   quantity: [string, string, string]

@@ -62,6 +62,11 @@ export class State {
     return o.kind !== 'marks' && o.fields.some((f) => f.comparison === this.comparison)
   }
 
+  /** The page is a drawing in the plane, without a part in space. */
+  get planar(): boolean {
+    return this.manifest.first === null
+  }
+
   /** There are surfaces, whose inner side can be shown. */
   get meshes(): boolean {
     return this.manifest.objects.some((o) => o.kind === 'mesh' && o.role !== 'element')

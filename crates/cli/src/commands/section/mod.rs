@@ -10,12 +10,14 @@ use crate::exit::{Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
 use crate::read::{self, Opened};
+use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_files::Body;
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
+use trueness_inspect::report::{Answer, ViewObject, flat};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
 
@@ -28,6 +30,7 @@ use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
+  trueness section profile.csv --html report.html
   trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
   trueness section part.stl --stack 0,0,1,0,40,5
   trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4")]
@@ -59,6 +62,8 @@ pub struct SectionArgs {
     document: DocumentArgs,
     #[command(flatten)]
     drawings: write::Drawings,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -89,7 +94,8 @@ impl SectionArgs {
 
 impl Run for SectionArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        Ok(self.drawings.files(RunFiles::of([&self.input]).document(self.document.json.as_ref())))
+        let files = RunFiles::of([&self.input]).document(self.document.json.as_ref());
+        Ok(self.drawings.files(files.report(self.report.html.as_ref())))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         run(self, common)
@@ -142,9 +148,25 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         document = document.with_methods(chosen, interval, &table);
     }
     args.drawings.write(&sections, &rows)?;
+    report(args, common, &document, &rows)?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     Ok(Outcome::Conforming)
+}
+
+/// The report, with the points of each contour.
+fn report(
+    args: &SectionArgs,
+    common: &Common,
+    document: &SectionDocument,
+    rows: &[Vec<[f64; 2]>],
+) -> anyhow::Result<()> {
+    if args.report.html.is_none() {
+        return Ok(());
+    }
+    let places: Vec<Vec<Point>> = rows.iter().map(|row| flat(row)).collect();
+    let objects: Vec<ViewObject> = places.iter().map(|p| ViewObject::measured(p)).collect();
+    args.report.write(Answer::Section(document), &objects, &[], common.progress)
 }
 
 /// What was found: contours by section, and the points of each contour.

@@ -1,6 +1,7 @@
 //! The normal equations of a chain: what each unknown does to all that follows, and what must vanish.
 
 use super::super::chain::{Chain, Kind};
+use super::super::result::Uncertainty;
 use super::{Held, Variable, Work};
 
 impl Work {
@@ -87,6 +88,39 @@ impl Work {
             Variable::Coefficient { piece, index } => add(piece, 1 + index, 1.0),
         }
         (motion, own)
+    }
+
+    /// Standard deviations of a line's direction, or of an arc's center and radius; `deviation` is that of a number which the
+    /// unknowns move so.
+    pub(super) fn uncertainty(
+        &self,
+        chain: &Chain,
+        g: usize,
+        deviation: &dyn Fn(Vec<f64>) -> f64,
+    ) -> Option<Uncertainty> {
+        let of = |f: &dyn Fn([f64; 3], Option<(usize, f64)>) -> f64| -> f64 {
+            let each = self.variables.iter().map(|v| self.effect(chain, *v, g));
+            deviation(each.map(|(motion, own)| f(motion, own)).collect())
+        };
+        match chain.pieces[g].kind {
+            Kind::Line => Some(Uncertainty::Line { angle: of(&|m, _| m[2]) }),
+            Kind::Arc => {
+                // The center moves with the piece as a rigid body, and along the normal of its start with the radius.
+                let curvature = chain.pieces[g].coefficients[0];
+                let (pose, radius) = (&self.layout.poses[g], 1.0 / curvature);
+                let normal = pose.normal();
+                let center = [0, 1].map(|k| pose.at[k] + radius * normal[k]);
+                let stretch = |own: Option<(usize, f64)>| own.map_or(0.0, |(_, x)| -radius * radius * x);
+                Some(Uncertainty::Arc {
+                    center: [
+                        of(&|m, own| m[0] - m[2] * center[1] + stretch(own) * normal[0]),
+                        of(&|m, own| m[1] + m[2] * center[0] + stretch(own) * normal[1]),
+                    ],
+                    radius: of(&|_, own| stretch(own)),
+                })
+            }
+            Kind::Spline => None,
+        }
     }
 
     /// The normal equations of all unknowns.

@@ -308,6 +308,9 @@ impl System {
     }
 }
 
+/// Distances at parameters that were not found anew come down by this factor at most, as a rule.
+const FAR: f64 = 2.0;
+
 /// A curve of as few control points as keep every point within `tolerance`: from many to few.
 ///
 /// The number of spans is doubled until the tolerance holds, then knots are taken out while it still does, the one of least
@@ -345,6 +348,19 @@ pub fn approximate<const D: usize>(
             return Ok(best);
         };
         let Some(fewer) = knots.without(index) else { return Ok(best) };
+        // The parameters are those of the nearest places of a curve that is hardly another: most often they will do, and
+        // where the distances at them are far too large, nearer places would not help.
+        match fit(points, &parameters, &fewer, ends, 0.0) {
+            Ok(fitted) if fitted.max <= tolerance => {
+                best = fitted;
+                continue;
+            }
+            Ok(fitted) if fitted.max > FAR * tolerance => {
+                kept.push(knots.values()[index]);
+                continue;
+            }
+            _ => {}
+        }
         let mut own = parameters.clone();
         match corrected(points, &mut own, &fewer, ends) {
             Ok(fitted) if fitted.max <= tolerance => (best, parameters) = (fitted, own),

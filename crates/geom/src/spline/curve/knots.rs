@@ -17,6 +17,32 @@ impl<V: Value> Curve<V> {
         Ok(self.over(&self.knots.with(t)?))
     }
 
+    /// Control points of the Bézier curves that the curve consists of, one after the other, ends shared: of degree `p` and
+    /// `n` spans `p n + 1`.
+    ///
+    /// ```
+    /// use trueness_geom::spline::{basis::Knots, curve::Curve};
+    /// let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 1.0], [4.0, 0.0]];
+    /// let curve = Curve::new(Knots::uniform(3, 2, 0.0, 1.0), points).unwrap();
+    /// let (control, middle) = (curve.bezier(), curve.at(0.5));
+    /// assert_eq!(control.len(), 7);
+    /// assert!((0..2).all(|k| (control[3][k] - middle[k]).abs() < 1e-15));
+    /// ```
+    pub fn bezier(&self) -> Vec<V> {
+        let degree = self.knots.degree();
+        let mut curve = self.clone();
+        let distinct = curve.knots.distinct();
+        for knot in &distinct[1..distinct.len() - 1] {
+            while curve.knots.multiplicity(*knot) < degree {
+                match curve.insert(*knot) {
+                    Ok(finer) => curve = finer,
+                    Err(_) => break,
+                }
+            }
+        }
+        curve.points
+    }
+
     /// The same curve over knots that hold all of its own.
     fn over(&self, knots: &Knots) -> Curve<V> {
         let p = knots.degree();

@@ -41,6 +41,23 @@ fn inserting_and_elevating_change_nothing() {
 }
 
 #[test]
+fn a_curve_is_the_bezier_curves_it_consists_of() {
+    for degree in 1..=5 {
+        let curve = wild(degree, 11);
+        let (control, knots) = (curve.bezier(), curve.knots().distinct());
+        assert_eq!(control.len(), degree * (knots.len() - 1) + 1);
+        for (span, ends) in knots.windows(2).enumerate() {
+            let own = control[span * degree..=(span + 1) * degree].to_vec();
+            let piece = Curve::new(Knots::uniform(degree, 1, 0.0, 1.0), own).unwrap();
+            for t in places() {
+                let off = piece.at(t).minus(curve.at(ends[0] + t * (ends[1] - ends[0]))).size();
+                assert!(off < 1e-12, "{degree} {span} {t}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_was_inserted_can_be_removed_and_nothing_else() {
     for degree in 2..=5 {
         let curve = wild(degree, 7);

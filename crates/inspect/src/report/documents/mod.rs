@@ -6,9 +6,13 @@ mod curvature;
 mod fit;
 mod inspect;
 mod repair;
+mod section;
 mod segment;
 mod surface;
 
+pub use section::flat;
+
+use super::ViewObject;
 use super::html::Html;
 use super::page::blocks::Headline;
 use crate::results::InputRecord;
@@ -18,6 +22,7 @@ use crate::results::curvature::CurvatureDocument;
 use crate::results::fit::FitDocument;
 use crate::results::inspect::InspectDocument;
 use crate::results::repair::RepairDocument;
+use crate::results::section::SectionDocument;
 use crate::results::segment::SegmentDocument;
 use crate::results::surface::SurfaceDocument;
 use crate::scale::Scale;
@@ -41,6 +46,8 @@ pub enum Answer<'a> {
     Inspect(&'a InspectDocument),
     /// What was mended in this mesh?
     Repair(&'a RepairDocument),
+    /// Which lines, arcs and curves is this section made of?
+    Section(&'a SectionDocument),
     /// Which elements are in this mesh or cloud?
     Segment(&'a SegmentDocument),
     /// Which surface lies through these points?
@@ -57,6 +64,7 @@ impl Answer<'_> {
             Answer::Fit(d) => *d,
             Answer::Inspect(d) => *d,
             Answer::Repair(d) => *d,
+            Answer::Section(d) => *d,
             Answer::Segment(d) => *d,
             Answer::Surface(d) => *d,
         }
@@ -139,8 +147,20 @@ pub trait Subject {
         valued.sort_by(|a, b| size(b).total_cmp(&size(a)));
         valued
     }
+    /// What it draws in the plane; without, the page has a part in space.
+    fn drawing(&self) -> Option<&dyn Drawn> {
+        None
+    }
     /// The whole document.
     fn json(&self) -> serde_json::Result<Value>;
+}
+
+/// A document that draws itself, in the plane.
+pub trait Drawn {
+    /// Of the places of the objects how many are drawn in so many bytes, and how many there are.
+    fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize);
+    /// Writes the drawing, with as many places of the objects as `room` bytes hold.
+    fn draw(&self, h: &mut Html, objects: &[ViewObject], room: usize);
 }
 
 /// Values that can be shown as colours.

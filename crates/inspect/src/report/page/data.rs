@@ -17,7 +17,7 @@ pub fn data(
     h: &mut Html,
     input: &ReportInput,
     payload: &Payload,
-    first: &FirstView,
+    first: Option<&FirstView>,
 ) -> Result<(), ReportError> {
     let subject = input.result.subject();
     let manifest = json!({
@@ -25,10 +25,10 @@ pub fn data(
         "language": input.options.language.code(),
         "decimal": input.options.decimal,
         "up": if input.options.up == Up::Y { "y" } else { "z" },
-        "first": {
+        "first": first.map(|first| json!({
             "toward": first.toward,
             "places": first.places.iter().map(|(n, _)| n).collect::<Vec<_>>(),
-        },
+        })),
         "scale": subject.scale(),
         "quantity": subject.quantity(),
         "palettes": subject.scale().map(palettes),
@@ -91,9 +91,10 @@ fn slots(sorted: &[f64], count: u64, scale: Option<&Scale>) -> Option<Vec<u64>> 
 }
 
 /// The places of the list, in the order of its rows.
-fn picks(input: &ReportInput, first: &FirstView) -> Value {
+fn picks(input: &ReportInput, first: Option<&FirstView>) -> Value {
     let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
-    let all = input.result.subject().picks().into_iter().zip(&first.off).map(|(p, off)| {
+    let all = input.result.subject().picks().into_iter().enumerate().map(|(n, p)| {
+        let off = first.is_some_and(|f| f.off[n]);
         json!({
             "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
             "mark": p.mark, "object": p.object, "map": p.map, "value": p.value, "frame": p.frame,

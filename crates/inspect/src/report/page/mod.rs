@@ -8,6 +8,7 @@ mod header;
 mod policy;
 pub mod symbols;
 
+use super::documents::Drawn;
 use super::html::{Html, escaped};
 use super::number::Style;
 use super::payload::Payload;
@@ -22,8 +23,16 @@ pub struct Picture {
     pub view: FirstView,
 }
 
-/// The page around the payload and the picture.
-pub fn page(input: &ReportInput, payload: &Payload, picture: &Picture) -> Result<String, ReportError> {
+/// What the middle of the page shows.
+pub enum Stage<'a> {
+    /// A part in space.
+    Part(&'a Picture),
+    /// A drawing in the plane, with as many measured points as so many bytes hold.
+    Drawing(&'a dyn Drawn, usize),
+}
+
+/// The page around the payload and what is on its stage.
+pub fn page(input: &ReportInput, payload: &Payload, on: &Stage) -> Result<String, ReportError> {
     let (options, subject) = (input.options, input.result.subject());
     let mut h = Html::new(Style { language: options.language, decimal: options.decimal });
     h.raw("<!doctype html>\n<html lang=\"")
@@ -41,7 +50,11 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &Picture) -> Result
     h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n");
     h.raw("<style>").raw(&running).raw("</style>\n</head>\n");
     let scale = subject.scale();
-    h.raw(if picture.view.mapped { "<body>\n" } else { "<body class=\"no-scale\">\n" });
+    h.raw(match on {
+        Stage::Drawing(..) => "<body class=\"no-scale drawn\">\n",
+        Stage::Part(picture) if !picture.view.mapped => "<body class=\"no-scale\">\n",
+        Stage::Part(_) => "<body>\n",
+    });
     header::header(&mut h, input);
     h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
     subject.list(&mut h);
@@ -56,13 +69,24 @@ pub fn page(input: &ReportInput, payload: &Payload, picture: &Picture) -> Result
         h.raw("</p>");
     });
     h.raw("</aside>\n");
-    stage(&mut h, input, picture);
+    match on {
+        Stage::Part(picture) => stage(&mut h, input, picture),
+        Stage::Drawing(drawing, room) => {
+            h.raw("<section id=\"stage\" class=\"stage flat\">\n");
+            drawing.draw(&mut h, input.objects, *room);
+            h.raw("</section>\n");
+        }
+    }
     if scale.is_some() {
         h.raw("<aside id=\"scale\" class=\"scale\" hidden></aside>\n");
     }
     h.raw("</main>\n");
     header::status(&mut h, input, payload);
-    data::data(&mut h, input, payload, &picture.view)?;
+    let first = match on {
+        Stage::Part(picture) => Some(&picture.view),
+        Stage::Drawing(..) => None,
+    };
+    data::data(&mut h, input, payload, first)?;
     if trueness_viewer::BUILT {
         h.raw("<script>").raw(trueness_viewer::SCRIPT).raw("</script>\n");
     }

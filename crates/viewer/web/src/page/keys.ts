@@ -1,6 +1,7 @@
 import { el } from '../dom'
 import type { Stage } from '../stage/stage'
 import { STANDARD } from '../stage/eye'
+import { LAYERS } from '../plan/layers'
 import type { State } from '../state'
 import type { Words } from '../words'
 
@@ -54,20 +55,24 @@ export function keys(stage: Stage, state: State, words: Words, step: (by: number
 
 /** The list of all keys. */
 export function showKeys(words: Words, state: State): void {
+  const moves: [string, string][] = state.planar
+    ? [['← → ↑ ↓', 'keys.pan']]
+    : [['← → ↑ ↓', 'keys.turn'], ['Shift ← → ↑ ↓', 'keys.pan'], ['1 … 7', 'tool.views']]
+  const own: [string, string][] = state.planar
+    ? LAYERS.map(([, key, word]) => [key, word])
+    : pageKeys(state).map((k) => [k.key, k.word])
   const rows: [string, string][] = [
-    ['← → ↑ ↓', 'keys.turn'],
-    ['Shift ← → ↑ ↓', 'keys.pan'],
+    ...moves,
     ['+ −', 'keys.zoom'],
     ['F', 'tool.fit'],
-    ['1 … 7', 'tool.views'],
     ['J K', 'keys.next'],
-    ...pageKeys(state).map((k): [string, string] => [k.key, k.word]),
+    ...own,
     ['Esc', 'keys.escape'],
     ['?', 'tool.keys'],
   ]
   const list = el('dl', {}, ...rows.flatMap(([key, word]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, words.of(word))]))
   const close = el('button', { type: 'button' }, words.of('tool.close'))
-  const dialog = el('dialog', { class: 'keys' }, el('h2', {}, words.of('keys.title')), list, el('p', {}, words.of('keys.mouse')), close)
+  const dialog = el('dialog', { class: 'keys' }, el('h2', {}, words.of('keys.title')), list, el('p', {}, words.of(state.planar ? 'keys.mouse.flat' : 'keys.mouse')), close)
   close.addEventListener('click', () => dialog.close())
   dialog.addEventListener('close', () => dialog.remove())
   document.body.append(dialog)

@@ -68,7 +68,7 @@ export class Stage {
     this.eye = new Eye(state.manifest.up)
     this.sight = new Sight(this.eye, this.values, () => this.shown, () => this.surfaces)
     this.center = centerOf(state)
-    this.eye.lookFrom(new Vector3(...state.manifest.first.toward))
+    this.eye.lookFrom(new Vector3(...(state.manifest.first?.toward ?? [0, 0, 1])))
     this.scene.matrixAutoUpdate = false
     applyLook(state)
   }

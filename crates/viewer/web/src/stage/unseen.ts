@@ -7,7 +7,7 @@ import type { Stage } from './stage'
 export function unseen(stage: Stage, state: State, words: Words): void {
   const line = need('unseen')
   const say = () => {
-    const all = state.manifest.first.places.map((n) => state.manifest.picks[n])
+    const all = (state.manifest.first?.places ?? []).map((n) => state.manifest.picks[n])
     const places = all.filter((p) => p.map === null || p.map === state.comparison)
     const hidden = places.filter((p) => stage.sight.hidden(stage.placeOf(p), stage.slackOf(p))).length
     line.hidden = hidden === 0

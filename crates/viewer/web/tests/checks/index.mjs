@@ -4,6 +4,7 @@ import { colors } from './colors.mjs'
 import { curvature } from './curvature.mjs'
 import { defects } from './defects.mjs'
 import { first } from './first.mjs'
+import { drawing } from './drawing.mjs'
 import { fit } from './fit.mjs'
 import { inspect } from './inspect.mjs'
 import { layout } from './layout.mjs'
@@ -16,4 +17,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...pace, ...words, ...layout]

@@ -1,0 +1,192 @@
+//! The page of sections: the contours drawn to scale, their segments and joins with uncertainties, their residuals.
+
+mod course;
+mod path;
+mod sheet;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use super::super::html::Html;
+use super::super::page::blocks::{Headline, Tone, fact, key_number, section};
+use super::{Drawn, Head, Pick, Subject};
+use crate::report::ViewObject;
+use crate::results::section::{ContourRecord, FrameRecord, GeometryRecord, SectionDocument, SegmentRecord};
+use serde_json::Value;
+use trueness_geom::space::Point;
+
+/// Bytes that a measured point takes in the drawing.
+const DOT: usize = 26;
+
+impl Subject for SectionDocument {
+    fn head(&self) -> Head<'_> {
+        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
+    }
+
+    fn headline(&self) -> Headline {
+        Headline { key: "sectioned", tone: Tone::Neutral }
+    }
+
+    fn convention(&self) -> Option<&'static str> {
+        Some("sign.section")
+    }
+
+    fn picture(&self) -> &'static str {
+        "picture.section"
+    }
+
+    fn numbers(&self, h: &mut Html) {
+        let count = |f: &dyn Fn(&ContourRecord) -> usize| self.contours.iter().map(f).sum::<usize>() as u64;
+        h.raw("<dl class=\"key-numbers\">");
+        for (key, class, n) in [
+            ("segments", "lead", count(&|c| c.segments.len())),
+            ("joins", "", count(&|c| c.joins.len())),
+            ("contours", "", self.contours.len() as u64),
+            ("planes", "", self.planes.len() as u64),
+            ("outliers", "warn", count(&|c| c.outliers.len())),
+            ("gaps", "warn", count(&|c| c.gaps.len())),
+        ] {
+            if n > 0 {
+                key_number(h, key, class, |h| {
+                    h.count(n);
+                });
+            }
+        }
+        if let [one] = &self.contours[..] {
+            key_number(h, "noise", "", |h| {
+                tables::small(h, one.noise).raw("\u{a0}mm");
+            });
+        }
+        h.raw("</dl>");
+    }
+
+    fn list(&self, h: &mut Html) {
+        section(h, "contours", |h| tables::contours(h, self));
+        if let Some(methods) = &self.methods {
+            section(h, "methods", |h| tables::methods(h, methods));
+        }
+        if !self.planes.is_empty() {
+            section(h, "planes", |h| tables::planes(h, &self.planes));
+        }
+        section(h, "model", |h| {
+            h.raw("<dl class=\"facts pairs\">");
+            fact(h, "level", |h| {
+                h.percent(self.level, 1);
+            });
+            if let Some(noise) = self.noise_given {
+                fact(h, "noise.given", |h| {
+                    tables::small(h, noise).raw("\u{a0}mm");
+                });
+            }
+            if let Some(continuity) = &self.continuity_given {
+                fact(h, "continuity.given", |h| {
+                    h.word(&format!("join.{continuity}"));
+                });
+            }
+            h.raw("</dl>");
+        });
+    }
+
+    fn method(&self, h: &mut Html) {
+        for key in ["method.section.text", "method.section.join", "method.section.comb"] {
+            h.raw("<p>").word(key).raw("</p>");
+        }
+    }
+
+    fn how(&self, h: &mut Html) {
+        h.word("fit.gaussian").raw(" · ").word("orthogonal");
+    }
+
+    fn points(&self) -> Option<u64> {
+        Some(self.contours.iter().map(|c| c.points).sum())
+    }
+
+    fn picks(&self) -> Vec<Pick> {
+        let mut all = vec![];
+        for contour in &self.contours {
+            let frame = self.frame_of(contour);
+            all.extend(contour.segments.iter().map(|s| Pick {
+                position: frame.place([0, 1].map(|k| 0.5 * (s.start[k] + s.end[k]))),
+                reach: Some(0.5 * s.length),
+                ..Pick::default()
+            }));
+            all.extend(contour.joins.iter().map(|j| Pick { position: j.position, ..Pick::default() }));
+        }
+        all.into_iter().enumerate().map(|(n, pick)| Pick { mark: Some(n), ..pick }).collect()
+    }
+
+    fn json(&self) -> serde_json::Result<Value> {
+        serde_json::to_value(self)
+    }
+
+    fn drawing(&self) -> Option<&dyn Drawn> {
+        Some(self)
+    }
+}
+
+impl Drawn for SectionDocument {
+    fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize) {
+        let shown = stride(objects, room)
+            .map_or(0, |stride| objects.iter().map(|o| o.places().len().div_ceil(stride)).sum());
+        (shown, count(objects))
+    }
+
+    fn draw(&self, h: &mut Html, objects: &[ViewObject], room: usize) {
+        let stride = stride(objects, room);
+        h.raw("<div id=\"drawing\" class=\"drawing\">\n");
+        for (n, sheet) in sheet::sheets(self).iter().enumerate() {
+            let plane = sheet.plane.map_or_else(String::new, |p| format!(" data-plane=\"{p}\""));
+            let hidden = if n > 0 { " hidden" } else { "" };
+            h.raw(&format!("<div class=\"sheet\"{plane}{hidden}>\n"));
+            sheet.draw(h, self, objects, stride);
+            h.raw("</div>\n");
+        }
+        h.raw("</div>\n<div id=\"courses\" class=\"courses\">\n");
+        for (n, contour) in self.contours.iter().enumerate() {
+            course::course(h, n, contour);
+        }
+        h.raw("</div>\n");
+    }
+}
+
+fn count(objects: &[ViewObject]) -> usize {
+    objects.iter().map(|o| o.places().len()).sum()
+}
+
+/// Every which point is drawn in so many bytes; `None` where there is no room for any.
+fn stride(objects: &[ViewObject], room: usize) -> Option<usize> {
+    let fit = (room / DOT).checked_sub(objects.len()).filter(|n| *n > 0)?;
+    Some(count(objects).div_ceil(fit).max(1))
+}
+
+impl SectionDocument {
+    fn frame_of(&self, contour: &ContourRecord) -> &FrameRecord {
+        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
+        plane.map_or(&self.frame, |p| &p.frame)
+    }
+}
+
+/// The word for a segment's kind.
+fn kind(segment: &SegmentRecord) -> &'static str {
+    match segment.geometry {
+        GeometryRecord::Line { .. } => "line",
+        GeometryRecord::Arc { .. } => "arc",
+        GeometryRecord::Spline { .. } => "spline",
+    }
+}
+
+/// The number of the first pick of each contour: its segments, then its joins.
+fn pick_numbers(document: &SectionDocument) -> Vec<usize> {
+    let counts = document.contours.iter().map(|c| c.segments.len() + c.joins.len());
+    counts
+        .scan(0, |sum, n| {
+            *sum += n;
+            Some(*sum - n)
+        })
+        .collect()
+}
+
+/// Points of a row, for a report: places in the plane of the section, the third coordinate 0.
+pub fn flat(row: &[[f64; 2]]) -> Vec<Point> {
+    row.iter().map(|p| [p[0], p[1], 0.0]).collect()
+}

@@ -1,0 +1,224 @@
+//! The contours of one plane, drawn to scale as SVG.
+//!
+//! Places are millimetres from the middle of the drawing (`data-origin` says where that is), so that single precision, in
+//! which browsers draw, has digits enough; y points down in SVG and is negated. Strokes and signs keep their size on the
+//! screen however near one looks.
+
+use super::super::super::html::Html;
+use super::super::super::text::word;
+use super::path::{Path, Tooth, teeth};
+use super::{kind, pick_numbers};
+use crate::report::ViewObject;
+use crate::results::section::{ContourRecord, SectionDocument};
+use std::fmt::Write;
+
+/// Length of the longest tooth of the comb, in sizes of the drawing.
+const COMB: f64 = 0.1;
+/// Distance between teeth, in sizes of the drawing.
+const STEP: f64 = 1.0 / 150.0;
+/// Pixels that the drawing is taken to be wide until the script measures it.
+const PIXELS: f64 = 800.0;
+/// More joins than this have no numbers until the script finds room for them.
+const NUMBERED: usize = 40;
+
+/// The contours of one plane.
+pub struct Sheet<'a> {
+    /// Number of the plane; of points in order none.
+    pub plane: Option<u64>,
+    /// Numbers of the contours in the document.
+    contours: Vec<(usize, &'a ContourRecord)>,
+}
+
+/// What is drawn of a sheet, and how large that is.
+struct Plan {
+    /// Of each segment of each contour.
+    paths: Vec<Vec<Path>>,
+    teeth: Vec<Vec<Vec<Tooth>>>,
+    /// Middle, and half the width and height of all.
+    middle: [f64; 2],
+    half: [f64; 2],
+    /// Greatest curvature, and millimetres of a tooth for each unit of it.
+    curvature: f64,
+    comb: f64,
+}
+
+/// The sheets of a document: a plane each.
+pub fn sheets(document: &SectionDocument) -> Vec<Sheet<'_>> {
+    let mut all: Vec<Sheet> = vec![];
+    for (n, contour) in document.contours.iter().enumerate() {
+        match all.last_mut() {
+            Some(sheet) if sheet.plane == contour.plane => sheet.contours.push((n, contour)),
+            _ => all.push(Sheet { plane: contour.plane, contours: vec![(n, contour)] }),
+        }
+    }
+    all
+}
+
+/// Middle of the box around places, and half its sides.
+fn frame(places: impl Iterator<Item = [f64; 2]>) -> ([f64; 2], [f64; 2]) {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in places {
+        for k in 0..2 {
+            low[k] = low[k].min(p[k]);
+            high[k] = high[k].max(p[k]);
+        }
+    }
+    if low[0] > high[0] {
+        return ([0.0; 2], [1.0; 2]);
+    }
+    ([0, 1].map(|k| 0.5 * (low[k] + high[k])), [0, 1].map(|k| 0.5 * (high[k] - low[k])))
+}
+
+impl Plan {
+    fn of(sheet: &Sheet) -> Plan {
+        let each = |c: &ContourRecord| c.segments.iter().map(Path::of).collect::<Vec<_>>();
+        let paths: Vec<Vec<Path>> = sheet.contours.iter().map(|(_, c)| each(c)).collect();
+        let (_, half) = frame(paths.iter().flatten().flat_map(|p| p.places()).copied());
+        let size = 2.0 * libm::hypot(half[0], half[1]);
+        let of = |c: &ContourRecord| c.segments.iter().map(|s| teeth(s, STEP * size)).collect::<Vec<_>>();
+        let teeth: Vec<Vec<Vec<Tooth>>> = sheet.contours.iter().map(|(_, c)| of(c)).collect();
+        let curvature = teeth.iter().flatten().flatten().map(|t| t.curvature.abs()).fold(0.0, f64::max);
+        let comb = if curvature > 0.0 { COMB * size / curvature } else { 0.0 };
+        let drawn = paths.iter().flatten().flat_map(|p| p.places()).copied();
+        let (middle, half) = frame(drawn.chain(teeth.iter().flatten().flatten().map(|t| tip(t, comb))));
+        let least = 0.02 * half[0].max(half[1]).max(1e-9);
+        Plan { paths, teeth, middle, half: half.map(|x| 1.06 * x.max(least)), curvature, comb }
+    }
+
+    /// A place as SVG has it.
+    fn at(&self, p: [f64; 2]) -> [f64; 2] {
+        // 0 and no minus 0.
+        [p[0] - self.middle[0], self.middle[1] - p[1] + 0.0]
+    }
+
+    /// Millimetres of a pixel at first sight.
+    fn pixel(&self) -> f64 {
+        2.0 * self.half[0].max(self.half[1]) / PIXELS
+    }
+}
+
+/// Outside of the curve: on the right where it turns to the left.
+fn tip(tooth: &Tooth, comb: f64) -> [f64; 2] {
+    [0, 1].map(|k| tooth.at[k] - comb * tooth.curvature * tooth.normal[k])
+}
+
+impl Sheet<'_> {
+    /// Writes the drawing; of the measured points every `stride`-th, or none.
+    pub fn draw(
+        &self,
+        h: &mut Html,
+        document: &SectionDocument,
+        objects: &[ViewObject],
+        stride: Option<usize>,
+    ) {
+        let plan = Plan::of(self);
+        let ([w, v], [x, y]) = (plan.half, plan.middle);
+        h.raw(&format!(
+            "<svg class=\"plan\" viewBox=\"{} {} {} {}\" data-origin=\"{x} {y}\" role=\"img\"><title>",
+            -w,
+            -v,
+            2.0 * w,
+            2.0 * v
+        ));
+        h.text(word("picture.section", h.language())).raw("</title>\n");
+        for (n, (_, contour)) in self.contours.iter().enumerate() {
+            comb(h, &plan, n, contour);
+        }
+        for (number, _) in &self.contours {
+            if let Some((object, stride)) = objects.get(*number).zip(stride) {
+                dots(h, &plan, object, stride);
+            }
+        }
+        let numbers = pick_numbers(document);
+        for (n, (number, contour)) in self.contours.iter().enumerate() {
+            for (i, (segment, path)) in contour.segments.iter().zip(&plan.paths[n]).enumerate() {
+                let mark = numbers[*number] + i;
+                h.raw(&format!("<path class=\"segment k-{}\" data-mark=\"{mark}\" d=\"", kind(segment)));
+                h.raw(&draw(&plan, path)).raw("\"/>\n");
+            }
+        }
+        let total: usize = self.contours.iter().map(|(_, c)| c.joins.len()).sum();
+        for (number, contour) in &self.contours {
+            joins(h, &plan, contour, numbers[*number] + contour.segments.len(), total <= NUMBERED);
+        }
+        h.raw("</svg>\n");
+        if plan.curvature > 0.0 {
+            h.raw("<p class=\"comb-scale\">").word("comb.scale").raw(" ");
+            h.number(plan.curvature, digits(plan.curvature), false).raw("\u{a0}mm⁻¹ (r ");
+            let radius = 1.0 / plan.curvature;
+            h.number(radius, digits(radius), false).raw("\u{a0}mm)</p>\n");
+        }
+    }
+}
+
+/// Digits after the point that show three of a number.
+fn digits(x: f64) -> usize {
+    (2.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize
+}
+
+fn draw(plan: &Plan, path: &Path) -> String {
+    let mut d = String::new();
+    let places = path.places();
+    for (i, p) in places.iter().enumerate() {
+        let [x, y] = plan.at(*p);
+        let letter = match path {
+            _ if i == 0 => "M",
+            Path::Straight(_) => "L",
+            Path::Cubic(_) if i % 3 == 1 => "C",
+            Path::Cubic(_) => "",
+        };
+        let _ = write!(d, "{letter}{x} {y} ");
+    }
+    d.truncate(d.trim_end().len());
+    d
+}
+
+/// Teeth of a contour's segments, and the line over their tips.
+fn comb(h: &mut Html, plan: &Plan, n: usize, contour: &ContourRecord) {
+    for (segment, teeth) in contour.segments.iter().zip(&plan.teeth[n]) {
+        let (mut d, mut over) = (String::new(), String::new());
+        for (i, tooth) in teeth.iter().enumerate() {
+            let ([x, y], [u, v]) = (plan.at(tooth.at), plan.at(tip(tooth, plan.comb)));
+            let _ = write!(d, "M{x:.6} {y:.6}L{u:.6} {v:.6}");
+            let _ = write!(over, "{}{u:.6} {v:.6}", if i == 0 { "M" } else { "L" });
+        }
+        if !d.is_empty() {
+            h.raw(&format!("<path class=\"comb k-{}\" d=\"{d}{over}\"/>\n", kind(segment)));
+        }
+    }
+}
+
+/// Measured points: dots of one path.
+fn dots(h: &mut Html, plan: &Plan, object: &ViewObject, stride: usize) {
+    // A ten-millionth of the drawing: finer than what can be seen of it however near one looks.
+    let size = plan.half[0].max(plan.half[1]);
+    let decimals = (7.0 - libm::log10(size).floor()).clamp(0.0, 12.0) as usize;
+    let mut d = String::new();
+    for p in object.places().iter().step_by(stride) {
+        let [x, y] = plan.at([p[0], p[1]]);
+        let _ = write!(d, "M{x:.decimals$} {y:.decimals$}h0");
+    }
+    h.raw(&format!("<path class=\"dots\" d=\"{d}\"/>\n"));
+}
+
+/// Where each join may lie, and its sign with its number.
+fn joins(h: &mut Html, plan: &Plan, contour: &ContourRecord, first: usize, numbered: bool) {
+    for (n, join) in contour.joins.iter().enumerate() {
+        let [[a, b], [c, d]] = join.interval.map(|p| plan.at(p));
+        let reach = libm::hypot(c - a, d - b);
+        h.raw(&format!("<path class=\"interval\" d=\"M{a} {b} L{c} {d}\"/>\n"));
+        let [x, y] = plan.at(join.point);
+        h.raw(&format!(
+            "<g class=\"join {}\" data-mark=\"{}\" data-at=\"{x} {y}\" data-reach=\"{reach}\" transform=\"translate({x} {y}) scale({})\">",
+            join.continuity,
+            first + n,
+            plan.pixel()
+        ));
+        h.raw(match join.continuity.as_str() {
+            "g0" => "<path d=\"M0 -5 L5 0 L0 5 L-5 0 Z\"/>",
+            _ => "<circle r=\"4.5\"/>",
+        });
+        let hidden = if numbered { "" } else { " visibility=\"hidden\"" };
+        h.raw(&format!("<text x=\"8\" y=\"-7\"{hidden}>{}</text></g>\n", n + 1));
+    }
+}

@@ -1,0 +1,182 @@
+// Sections drawn in the plane: what is drawn lies where the exact lines and arcs do, in the colours of their kinds.
+import assert from 'node:assert/strict'
+import { near as alike, screen } from '../browser.mjs'
+
+const [SEGMENTS, JOINS] = [4, 3]
+
+/** From a place of the section to a pixel of the page, by the drawing's frame alone. */
+async function mapping(page) {
+  const { origin, seen, box } = await page.evaluate(() => {
+    const plan = [...document.querySelectorAll('svg.plan')].find((p) => p.getClientRects().length)
+    const b = plan.getBoundingClientRect()
+    return {
+      origin: plan.dataset.origin.split(' ').map(Number),
+      seen: plan.getAttribute('viewBox').split(' ').map(Number),
+      box: [b.x, b.y, b.width, b.height],
+    }
+  })
+  const pixel = Math.max(seen[2] / box[2], seen[3] / box[3])
+  const at = ([x, y]) => [
+    box[0] + box[2] / 2 + (x - origin[0] - seen[0] - seen[2] / 2) / pixel,
+    box[1] + box[3] / 2 + (origin[1] - y - seen[1] - seen[3] / 2) / pixel,
+  ]
+  return { at, pixel, box }
+}
+
+const token = (page, name) =>
+  page.evaluate((name) => {
+    const c = getComputedStyle(document.documentElement).getPropertyValue(name).trim()
+    return [1, 3, 5].map((k) => parseInt(c.slice(k, k + 2), 16))
+  }, name)
+
+/** Whether a colour is on the screen within a pixel of a place. */
+const has = (picture, [x, y], color) => [-1, 0, 1].some((dx) => [-1, 0, 1].some((dy) => alike(picture.at(x + dx, y + dy), color, 40)))
+
+const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
+
+/** Places of the profile of the fixtures, away from its joins. */
+const line = [3, 8, 13, 18].map((s) => [1000 + s, -500])
+const arc = [0.3, 0.6, 0.9, 1.2].map((a) => [1020 + 8 * Math.sin(a), -492 - 8 * Math.cos(a)])
+const rest = [[1028, -490], [1028, -483], [1022, -480], [1016, -480]]
+
+/** Points and comb hide the colours of the segments: they are taken away. */
+async function bare(page) {
+  await page.keyboard.press('c')
+  await page.keyboard.press('d')
+  await page.keyboard.press('v')
+}
+
+async function drawnRight(page, places = [line, arc, rest]) {
+  const { at } = await mapping(page)
+  const [ofLine, ofArc, ground] = [await token(page, '--k-line'), await token(page, '--k-arc'), await token(page, '--paper')]
+  const picture = await screen(page)
+  for (const p of [...places[0], ...places[2]]) assert.ok(has(picture, at(p), ofLine), `line at ${p}: ${picture.at(...at(p))}`)
+  for (const p of places[1]) {
+    assert.ok(has(picture, at(p), ofArc), `arc at ${p}: ${picture.at(...at(p))}`)
+    // 8 pixels inside of the arc there is nothing.
+    const { pixel } = await mapping(page)
+    const inner = [1020 + (p[0] - 1020) * (1 - pixel), -492 + (p[1] + 492) * (1 - pixel)]
+    assert.ok(alike(picture.at(...at(inner)), ground, 12), `inside at ${inner}`)
+  }
+}
+
+export const drawing = [
+  [
+    'a section lies where its exact lines and arcs do, in their colours, light and dark, wide and narrow',
+    async (session) => {
+      for (const colorScheme of ['light', 'dark'])
+        for (const [width, height] of [[1280, 800], [390, 844]]) {
+          const page = await session.report('section', { width, height, colorScheme, live: false })
+          await page.waitForSelector('.stage.live')
+          await bare(page)
+          await drawnRight(page)
+          assert.deepEqual(page.seen.errors, [])
+          assert.deepEqual(await page.evaluate(() => window.violations), [])
+        }
+    },
+  ],
+  [
+    'it is drawn with scripts off too, with its tables',
+    async (session) => {
+      const page = await session.report('section', { scripts: false })
+      assert.equal(await page.locator('.segment').count(), SEGMENTS)
+      const text = await page.locator('.list').innerText()
+      assert.match(text, /tangent/)
+      assert.match(text, /corner/)
+      assert.match(text, /r\s7\.99|r\s8\.00/)
+      assert.match(await page.locator('h1').innerText(), /Segments found/)
+    },
+  ],
+  [
+    'wheel and drag keep the place under the cursor, signs keep their size, F shows all',
+    async (session) => {
+      const page = await session.report('section', { live: false })
+      await page.waitForSelector('.stage.live')
+      const before = await mapping(page)
+      const near = before.at([1012, -500])
+      // Events tell whole pixels.
+      const [x, y] = near.map(Math.round)
+      const place = [1012 + (x - near[0]) * before.pixel, -500 - (y - near[1]) * before.pixel]
+      const size = () => page.evaluate(() => document.querySelector('.join circle').getBoundingClientRect().width)
+      const first = await size()
+      await page.mouse.move(x, y)
+      for (let i = 0; i < 5; i++) await page.mouse.wheel(0, -300)
+      await page.waitForFunction((p) => Number(document.querySelector('svg.plan').getAttribute('viewBox').split(' ')[2]) < p, before.pixel * before.box[2] * 0.5)
+      const after = await mapping(page)
+      const now = after.at(place)
+      assert.ok(Math.hypot(now[0] - x, now[1] - y) < 0.5, `${now} ${x} ${y}`)
+      assert.ok(Math.abs((await size()) - first) < 0.2)
+      const [u, v] = (await page.locator('#readout').innerText()).match(/−?[\d,]+\.\d+/g).map((s) => Number(s.replace('−', '-').replace(',', '')))
+      assert.ok(Math.hypot(u - place[0], v - place[1]) < 2 * before.pixel, `${u} ${v} ${place}`)
+      await page.mouse.down()
+      await page.mouse.move(x + 40, y - 30, { steps: 4 })
+      await page.mouse.up()
+      const dragged = (await mapping(page)).at(place)
+      assert.ok(Math.hypot(dragged[0] - x - 40, dragged[1] - y + 30) < 0.5, `${dragged}`)
+      await page.keyboard.press('f')
+      assert.ok(Math.abs((await mapping(page)).pixel - before.pixel) < 1e-9)
+    },
+  ],
+  [
+    'a row leads to its segment or join, a click on a segment to its row',
+    async (session) => {
+      const page = await session.report('section', { live: false })
+      await page.waitForSelector('.stage.live')
+      const { picks, result } = await manifest(page)
+      assert.equal(picks.length, SEGMENTS + JOINS)
+      const join = result.contours[0].joins[1]
+      await page.locator(`tr[data-pick="${SEGMENTS + 1}"]`).click()
+      const { at, box } = await mapping(page)
+      const [x, y] = at(join.point)
+      assert.ok(Math.hypot(x - box[0] - box[2] / 2, y - box[1] - box[3] / 2) < 1, 'the join is in the middle')
+      await page.keyboard.press('f')
+      const back = await mapping(page)
+      await page.mouse.click(...back.at(arc[1]))
+      assert.equal(await page.locator('tr[data-pick="1"]').getAttribute('aria-selected'), 'true')
+      assert.equal(await page.locator('.segment.chosen').getAttribute('data-mark'), '1')
+    },
+  ],
+  [
+    'the ruler is as long as it says',
+    async (session) => {
+      const page = await session.report('section', { live: false })
+      await page.waitForSelector('.stage.live')
+      const { pixel } = await mapping(page)
+      const [length, width, text] = await page.evaluate(() => {
+        const bar = document.querySelector('.ruler')
+        return [Number(bar.dataset.length), bar.getBoundingClientRect().width, bar.innerText]
+      })
+      assert.ok(Math.abs(width * pixel - length) < 0.02 * length, `${width * pixel} ${length}`)
+      assert.equal(text, `${length} mm`)
+    },
+  ],
+  [
+    'of several planes one is drawn at a time, and rows of the others change it',
+    async (session) => {
+      const page = await session.report('stack', { live: false })
+      await page.waitForSelector('.stage.live')
+      const seen = () => page.evaluate(() => [...document.querySelectorAll('.sheet')].map((s) => !s.hidden))
+      assert.deepEqual(await seen(), [true, false])
+      assert.equal(await page.locator('.sheet').first().locator('.segment').count(), 2)
+      await page.locator('tr[data-pick="2"]').click()
+      assert.deepEqual(await seen(), [false, true])
+      const courses = await page.evaluate(() => [...document.querySelectorAll('.course')].map((s) => !s.hidden))
+      assert.deepEqual(courses, [false, false, true])
+      await page.locator('.stage-tools select').selectOption('0')
+      assert.deepEqual(await seen(), [true, false])
+    },
+  ],
+  [
+    'paper: drawing, residuals and tables on few pages, nothing of the tools',
+    async (session) => {
+      const page = await session.report('section', { width: 800, height: 1100, live: false, colorScheme: 'dark' })
+      await page.waitForSelector('.stage.live')
+      const pages = (await page.pdf({ format: 'A4', printBackground: true })).toString('latin1').match(/\/Type\s*\/Page\b/g).length
+      assert.ok(pages <= 2, `${pages} pages`)
+      await page.emulateMedia({ media: 'print' })
+      assert.ok(await page.locator('.plan').isVisible() && await page.locator('.course').isVisible())
+      assert.ok(!(await page.locator('.stage-tools').isVisible()))
+      assert.deepEqual(await token(page, '--paper'), [255, 255, 255])
+    },
+  ],
+]
