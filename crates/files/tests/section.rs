@@ -48,7 +48,7 @@ fn through(normal: [f64; 3], point: Point) -> Plane {
 /// beside what they were meant to pass.
 fn planes(mesh: &Mesh, random: &mut Random) -> Vec<Plane> {
     let mut all = vec![];
-    let mut index = |random: &mut Random, n: usize| ((random.unit() * n as f64) as usize).min(n - 1);
+    let index = |random: &mut Random, n: usize| ((random.unit() * n as f64) as usize).min(n - 1);
     for _ in 0..PLANES {
         let face = mesh.faces[index(random, mesh.faces.len())].map(|v| mesh.positions[v as usize]);
         let other = mesh.faces[index(random, mesh.faces.len())].map(|v| mesh.positions[v as usize]);
