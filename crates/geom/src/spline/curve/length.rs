@@ -10,10 +10,15 @@ const GAUSS: [(f64, f64); 3] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
+/// Roundings of the greatest coordinate that the length of a span is uncertain by.
+const ROUNDINGS: f64 = 16.0;
+
 impl<const D: usize> Curve<[f64; D]> {
     /// Length of the curve between two parameters, to about twelve digits; negative where `to < from`.
     ///
-    /// Each span is halved until two halves and the whole agree.
+    /// Each span is halved until two halves and the whole agree, or differ by no more than the rounding of the control points'
+    /// coordinates: of a curve far shorter than it is away from the origin, fewer digits are known. Not a number, where a
+    /// control point is none.
     pub fn length(&self, from: f64, to: f64) -> f64 {
         if to < from {
             return -self.length(to, from);
@@ -21,7 +26,9 @@ impl<const D: usize> Curve<[f64; D]> {
         let mut places = vec![from];
         places.extend(self.knots.distinct().into_iter().filter(|k| *k > from && *k < to));
         places.push(to);
-        places.windows(2).map(|w| self.halved(w[0], w[1], self.rule(w[0], w[1]), 40)).sum()
+        let greatest = self.points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let lost = ROUNDINGS * f64::EPSILON * greatest;
+        places.windows(2).map(|w| self.halved(w[0], w[1], self.rule(w[0], w[1]), lost, 40)).sum()
     }
 
     fn speed(&self, t: f64) -> f64 {
@@ -37,13 +44,14 @@ impl<const D: usize> Curve<[f64; D]> {
         half * GAUSS.iter().map(|(x, w)| w * pair(*x)).sum::<f64>()
     }
 
-    fn halved(&self, from: f64, to: f64, whole: f64, depth: u32) -> f64 {
+    fn halved(&self, from: f64, to: f64, whole: f64, lost: f64, depth: u32) -> f64 {
         let middle = 0.5 * (from + to);
         let (a, b) = (self.rule(from, middle), self.rule(middle, to));
-        if depth == 0 || (a + b - whole).abs() <= 1e-13 * (a + b) {
+        let off = (a + b - whole).abs();
+        if depth == 0 || off.is_nan() || off <= (1e-13 * (a + b)).max(lost) {
             return a + b;
         }
-        self.halved(from, middle, a, depth - 1) + self.halved(middle, to, b, depth - 1)
+        self.halved(from, middle, a, lost, depth - 1) + self.halved(middle, to, b, lost, depth - 1)
     }
 
     /// The parameter at which the curve is `length` long from its start; the ends where it is shorter or negative.

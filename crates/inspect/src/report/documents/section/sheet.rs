@@ -16,6 +16,8 @@ use std::fmt::Write;
 const COMB: f64 = 0.1;
 /// Distance between teeth, in sizes of the drawing.
 const STEP: f64 = 1.0 / 150.0;
+/// Width of what is seen, in widths of the drawing: signs and numbers at the rim have room.
+const MARGIN: f64 = 1.12;
 /// Pixels that the drawing is taken to be wide until the script measures it.
 const PIXELS: f64 = 800.0;
 /// More joins than this have no numbers until the script finds room for them.
@@ -82,7 +84,7 @@ impl Plan {
         let drawn = paths.iter().flatten().flat_map(|p| p.places()).copied();
         let (middle, half) = frame(drawn.chain(teeth.iter().flatten().flatten().map(|t| tip(t, comb))));
         let least = 0.02 * half[0].max(half[1]).max(1e-9);
-        Plan { paths, teeth, middle, half: half.map(|x| 1.06 * x.max(least)), curvature, comb }
+        Plan { paths, teeth, middle, half: half.map(|x| MARGIN * x.max(least)), curvature, comb }
     }
 
     /// A place as SVG has it.
