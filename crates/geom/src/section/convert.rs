@@ -123,6 +123,9 @@ fn segment(
     Segment { geometry, start, end, length, count: 0, rms: 0.0, max: 0.0, curvature: ends, uncertainty: None }
 }
 
+/// Power with which the ends of a free piece lead to its corners.
+const LEAD: i32 = 8;
+
 /// A cubic B-spline along a free piece, with these ends and the directions there.
 fn spline(
     layout: &Layout,
@@ -135,9 +138,24 @@ fn spline(
     let (pose, table) = (&layout.poses[g], &layout.tables[g]);
     let samples = 16 * piece.coefficients.len() + 33;
     let place = |i: usize| table.place((from + (to - from) * i as f64 / (samples - 1) as f64) / piece.length);
-    let points: Vec<[f64; 2]> = (0..samples).map(|i| pose.place(place(i).at)).collect();
-    let along = |i: usize| pose.out(place(i).along);
-    let ends = Ends { start: End::Tangent(start, along(0)), end: End::Tangent(end, along(samples - 1)) };
+    let mut points: Vec<[f64; 2]> = (0..samples).map(|i| pose.place(place(i).at)).collect();
+    // A corner lies a little beside the piece: its ends lead there, with powers of the share of the length, which few knots
+    // can follow. A step at the end would take as many knots as there may be.
+    let off = |to: [f64; 2], at: [f64; 2]| [to[0] - at[0], to[1] - at[1]];
+    let (first, last) = (off(start, points[0]), off(end, points[samples - 1]));
+    for (i, p) in points.iter_mut().enumerate() {
+        let t = i as f64 / (samples - 1) as f64;
+        let (u, v) = ((1.0 - t).powi(LEAD), t.powi(LEAD));
+        *p = [p[0] + u * first[0] + v * last[0], p[1] + u * first[1] + v * last[1]];
+    }
+    let along = |i: usize, shift: [f64; 2], sign: f64| {
+        let (way, rate) = (pose.out(place(i).along), sign * f64::from(LEAD) / (to - from));
+        [way[0] + rate * shift[0], way[1] + rate * shift[1]]
+    };
+    let ends = Ends {
+        start: End::Tangent(start, along(0, first, -1.0)),
+        end: End::Tangent(end, along(samples - 1, last, 1.0)),
+    };
     match curve::approximate(&points, 3, ends, tolerance) {
         Ok(fitted) => Geometry::Spline { curve: fitted.curve, deviation: fitted.max },
         // Points of a curve are different: there is always one.
