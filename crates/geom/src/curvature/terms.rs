@@ -10,6 +10,7 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 2..=6;
 const PER_UNKNOWN: usize = 3;
 /// Most neighbours that can be asked for.
 pub const MOST_NEIGHBORS: usize = 10_000;
+
 /// How curvatures are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
