@@ -6,7 +6,7 @@ use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::Clean;
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
-use super::start::{Part, Penalty, halves, noise, partition, scatter};
+use super::start::{Part, Penalty, noise, partition, scatter, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 
@@ -167,7 +167,7 @@ impl Plan<'_> {
                 // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
                 found.circle = found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc;
                 if !found.circle {
-                    let halves = halves(&self.clean.points, self.weights);
+                    let halves = shares(&self.clean.points, self.weights, 2);
                     found = span().find(&halves, &self.task(true, true, n), progress)?;
                 }
             }
@@ -357,12 +357,15 @@ fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
     let across = |f: &Found, end: usize| f.spread.as_ref().map_or(f.noise, |s| s.ends[end] * f.noise);
     let (direction, uncertainty) = ellipse(&p, &q, across(a, 1), across(b, 0));
     let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
+    // Two parts that head nearly the same way do not tell where they cross, by more than the shorter of the two segments is long.
+    let most =
+        [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
+    let reach = quantile * uncertainty;
     // Where the points end, the corner is.
     let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
-    if (u - a.last_foot()).abs().max((v - b.first_foot()).abs()) > near {
-        return between(feet, turn, uncertainty.min(farthest));
+    if reach > most || (u - a.last_foot()).abs().max((v - b.first_foot()).abs()) > near {
+        return between(feet, turn, uncertainty.min(most));
     }
-    let reach = quantile * uncertainty;
     let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
     Join {
         point,

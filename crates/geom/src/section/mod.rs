@@ -21,6 +21,7 @@ mod contour;
 mod convert;
 mod cut;
 mod facets;
+mod follow;
 mod foot;
 mod free;
 mod least;

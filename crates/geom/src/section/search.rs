@@ -144,7 +144,11 @@ impl Search<'_> {
         Model { cost: if cost.is_nan() { f64::INFINITY } else { cost }, state }
     }
 
-    /// Converged.
+    fn follows(&mut self, state: &mut State) -> bool {
+        self.work.follows(&self.row, state, self.spacing)
+    }
+
+    /// Converged; as it was where that runs into a loop.
     pub fn settle(&mut self, model: &Model) -> Model {
         let mut state = model.state.clone();
         let stop = self.stop(60, 1e-11);
@@ -152,7 +156,11 @@ impl Search<'_> {
         if state.chain.closed || state.chain.even {
             self.work.improve(&self.row, &mut state, None, &Stop { stiff: STIFF, ..stop });
         }
-        self.model(state)
+        let mut before = model.state.clone();
+        match self.follows(&mut state) || !self.follows(&mut before) {
+            true => self.model(state),
+            false => self.model(before),
+        }
     }
 
     /// The model made of `plans` on `base`; given up early where a few steps leave it far above the cost `bar`.
@@ -248,8 +256,8 @@ impl Search<'_> {
         let mut best: Option<Model> = None;
         for change in base.changes(&plans, self) {
             let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));
-            let model = self.build(base, &change, bar);
-            if best.as_ref().is_none_or(|b| model.cost < b.cost) {
+            let mut model = self.build(base, &change, bar);
+            if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.follows(&mut model.state) {
                 best = Some(model);
             }
         }

@@ -4,12 +4,18 @@ use super::chain::{Layout, Piece, Pose, arc_end};
 use super::least::{Row, Spread, State, Work};
 use super::profile::Interval;
 use super::search::{Criterion, Model, Search};
-use super::start::Part;
+use super::start::{Part, shares};
 use crate::progress::{Cancelled, Progress};
 
 /// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
 /// its own shape for certain, and intervals come out too short.
 const LOOSER: usize = 2;
+
+/// A chain whose points lie farther off than this many times their noise went astray on the way, and is looked for from another
+/// start: so many equal parts, while each has so many points.
+const ASTRAY: f64 = 10.0;
+const STARTS: [usize; 3] = [4, 8, 16];
+const EACH: usize = 4;
 
 /// More points than this are thinned while pieces are looked for.
 const SEARCHED: usize = 1500;
@@ -82,18 +88,37 @@ impl Span {
 
     /// Finds the pieces and the intervals of the joins.
     pub fn find(self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Found, Cancelled> {
-        let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
-        let best = match thin {
-            1 => {
-                let mut search = self.search(task);
-                let first = search.first(parts, task.closed);
-                search.run(first, progress)?
+        let mut best = self.search_from(parts, task, progress)?;
+        let starts = STARTS.iter().take_while(|count| **count * EACH <= self.points.len());
+        for count in starts {
+            if !self.is_astray(&best, task) {
+                break;
             }
-            _ => self.find_thinned(parts, task, thin, progress)?,
-        };
+            let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;
+            if other.cost < best.cost {
+                best = other;
+            }
+        }
         let mut search = self.search(task);
         let found = settle(&mut search, best, task, progress)?;
         Ok(self.found(found))
+    }
+
+    fn is_astray(&self, model: &Model, task: &Task) -> bool {
+        let count = self.weights.iter().sum::<f64>().max(1.0);
+        let scatter = task.criterion.noise.max(10.0 * task.criterion.resolution);
+        model.cost.is_infinite() || (model.state.sum / count).sqrt() > ASTRAY * scatter
+    }
+
+    /// The pieces found from a start of these parts.
+    fn search_from(&self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Model, Cancelled> {
+        let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
+        if thin > 1 {
+            return self.find_thinned(parts, task, thin, progress);
+        }
+        let mut search = self.search(task);
+        let first = search.first(parts, task.closed);
+        search.run(first, progress)
     }
 
     /// The pieces by every `step`-th point alone, then refined by all.

@@ -241,10 +241,10 @@ pub(super) fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f
     (radius.is_finite() && cov > 1e-12 * z * z).then_some((x.max(0.0), center, radius))
 }
 
-/// A row as two arcs of as many points.
-pub(super) fn halves(points: &[[f64; 2]], weights: &[f64]) -> Vec<Part> {
+/// So many parts of as many points each, as arcs.
+pub(super) fn shares(points: &[[f64; 2]], weights: &[f64], count: usize) -> Vec<Part> {
     let (sums, n) = (Sums::new(points, weights), points.len());
-    [(0, n / 2), (n / 2, n)].map(|(from, to)| sums.part(points, Kind::Arc, from, to)).to_vec()
+    (0..count).map(|k| sums.part(points, Kind::Arc, k * n / count, (k + 1) * n / count)).collect()
 }
 
 /// Standard deviation of the points about the parts of a partition.

@@ -384,3 +384,40 @@ fn segments_of_wild_rows_follow_each_other() {
         }
     }
 }
+
+/// Along every segment the drawn curve is about as long as the way from point to point.
+fn runs_along_its_points(points: &[[f64; 2]], contour: &Contour) {
+    let n = contour.segments.len();
+    for (k, segment) in contour.segments.iter().enumerate() {
+        let own: Vec<[f64; 2]> =
+            (0..points.len()).filter(|i| contour.labels[*i] == k as u32).map(|i| points[i]).collect();
+        let way = own.windows(2).map(|w| far(w[0], w[1])).sum::<f64>();
+        let ends = far(segment.start, own[0]) + far(segment.end, own[own.len() - 1]);
+        assert!(segment.length <= 1.5 * (way + ends), "{k} of {n}: {} along {way} + {ends}", segment.length);
+    }
+}
+
+#[test]
+fn wavy_closed_rows_are_followed() {
+    // Few points a wave and much noise. A loop between two points costs a sum of squares nothing, and a chain that was laid out
+    // wrong may shrink to nothing where it is closed by force.
+    for (count, noise) in [(110, 0.25), (60, 0.3), (40, 0.3)] {
+        for seed in 0..8 {
+            let mut random = Random::new(900 + seed);
+            let waves: Vec<[f64; 3]> =
+                (2..9).map(|k| [f64::from(k), 4.0 * random.unit(), 6.3 * random.unit()]).collect();
+            let points: Vec<[f64; 2]> = (0..count)
+                .map(|i| {
+                    let a = f64::from(i) * std::f64::consts::TAU / f64::from(count);
+                    let wave = |[k, size, phase]: &[f64; 3]| size / k * libm::sin(k * a + phase);
+                    let r = 45.0 + waves.iter().map(wave).sum::<f64>() + noise * normal(&mut random);
+                    [r * libm::cos(a), r * libm::sin(a)]
+                })
+                .collect();
+            let found = found(&points);
+            runs_along_its_points(&points, &found);
+            assert!(found.noise < 4.0, "{count} {seed}: {}", found.noise);
+            assert!((240.0..340.0).contains(&found.length()), "{count} {seed}: {}", found.length());
+        }
+    }
+}

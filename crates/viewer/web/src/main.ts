@@ -91,7 +91,7 @@ async function openStage(): Promise<void> {
     restoreView(stage, state)
     keepView(stage, state)
     // Drawn before it is seen: flags laid out without the part would show what it hides.
-    stage.settle()
+    stage.show()
     section.classList.add('live')
     say(null)
   } catch {

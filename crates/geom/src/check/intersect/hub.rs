@@ -7,20 +7,20 @@
 //! those around the facets; `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do two
 //! fans that do not lie upon each other.
 //!
-//! Facets at one edge of very many are a hub of their own, a *book*: seen from its ends all of them begin at the same
-//! place. Two of its pages meet only where they are folded flat onto each other, so they are sorted by their angle.
+//! Facets at one edge of very many are a hub of their own, a [`Book`].
 
+use super::book::Book;
 use super::seen;
 use crate::mesh::Mesh;
-use crate::space::{Aabb, Point, cross, dot, minus, norm, times, unit};
+use crate::space::{Aabb, Point};
 use crate::topology::Topology;
 use std::ops::Range;
 
 /// Facets at a vertex with very many, but for flat ones, as arcs around it.
 pub(super) struct Hub {
     center: u32,
-    /// The other end of the edge that all facets have in common, if they are a book.
-    spine: Option<u32>,
+    /// Where all facets have an edge in common.
+    book: Option<Book>,
     /// Neighbours stand near each other.
     arcs: Vec<Arc>,
     root: Node,
@@ -106,7 +106,8 @@ impl Hub {
         };
         let mut arcs: Vec<Arc> = facets.iter().map(arc).collect();
         let root = node(&mut arcs, 0);
-        Hub { center, spine, arcs, root }
+        let book = spine.map(|spine| Book::new(mesh, [center, spine], facets));
+        Hub { center, book, arcs, root }
     }
 
     /// Its facets.
@@ -120,9 +121,9 @@ impl Hub {
     }
 
     /// Calls `decide` with all pairs of its facets that may meet where they should not, until that says no.
-    pub fn pairs(&self, mesh: &Mesh, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        match self.spine {
-            Some(spine) => self.pages(mesh, spine, decide),
+    pub fn pairs(&self, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        match &self.book {
+            Some(book) => book.pairs(decide),
             None => self.within(&self.root, decide),
         }
     }
@@ -132,6 +133,10 @@ impl Hub {
         let bounds = Aabb::of(&corners(mesh, facet));
         if !overlap(&bounds, &self.root.bounds) {
             return true;
+        }
+        if let Some(mut pages) = self.book.as_ref().and_then(|book| book.near(mesh, facet)) {
+            return pages
+                .all(|page| !overlap(&bounds, &Aabb::of(&corners(mesh, page))) || decide(facet, page));
         }
         let other = Arc { facet, seen: seen_from(mesh, self.center, facet), bounds };
         self.one_below(&other, &self.root, decide)
@@ -181,43 +186,6 @@ impl Hub {
     fn one_with(&self, one: &Arc, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
         let near = |o: &&Arc| overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds);
         self.arcs[others].iter().filter(near).all(|other| decide(one.facet, other.facet))
-    }
-
-    /// Pairs of pages whose angles at the spine are equal to rounding.
-    fn pages(&self, mesh: &Mesh, spine: u32, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        /// Pages so low that rounding may turn them by more than this are compared with all.
-        const VAGUE: f64 = 1e-6;
-        let at = |v: u32| mesh.positions[v as usize];
-        let (from, to) = (at(self.center), at(spine));
-        let size = minus(to, from).iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let axis = unit(times(1.0 / size, minus(to, from))).map_or([0.0; 3], |(axis, _)| axis);
-        let mut frame: Option<(Point, Point)> = None;
-        let (mut sure, mut vague) = (vec![], vec![]);
-        for facet in self.facets() {
-            let third = mesh.faces[facet as usize].into_iter().find(|v| *v != self.center && *v != spine);
-            let to_third = third.map_or([0.0; 3], |v| times(1.0 / size, minus(at(v), from)));
-            let arm = minus(to_third, times(dot(to_third, axis), axis));
-            let turn = 1e-14 * (1.0 + norm(to_third)) / norm(arm);
-            if turn.is_nan() || turn >= VAGUE {
-                vague.push(facet);
-                continue;
-            }
-            let (x, y) = *frame.get_or_insert((arm, cross(axis, arm)));
-            sure.push((libm::atan2(dot(arm, y), dot(arm, x)), facet));
-        }
-        sure.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // Once more behind the end: angles go round.
-        let again: Vec<(f64, u32)> = (sure.iter().take_while(|p| p.0 < 2.0 * VAGUE - std::f64::consts::PI))
-            .map(|p| (p.0 + std::f64::consts::TAU, p.1))
-            .collect();
-        let round: Vec<(f64, u32)> = sure.iter().copied().chain(again).collect();
-        (0..sure.len()).all(|i| {
-            let near = round[i + 1..].iter().take_while(|p| p.0 <= sure[i].0 + 2.0 * VAGUE);
-            near.filter(|p| p.1 != sure[i].1).all(|p| decide(sure[i].1, p.1))
-        }) && (0..vague.len()).all(|i| {
-            let others = vague[i + 1..].iter().copied().chain(sure.iter().map(|p| p.1));
-            others.into_iter().all(|other| decide(vague[i], other))
-        })
     }
 }
 

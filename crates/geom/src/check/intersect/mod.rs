@@ -8,6 +8,7 @@
 //! the facets of the tree. *Copies*: of facets with the same three corners only the first is searched (see `pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
+mod book;
 mod filter;
 mod hub;
 mod masks;
@@ -187,7 +188,7 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
         !walk.is_over()
     };
     for (i, hub) in hubs.iter().enumerate() {
-        if !hub.pairs(walk.mesh, &mut |a, b| decide(pairs, a, b)) || walk.is_over() {
+        if !hub.pairs(&mut |a, b| decide(pairs, a, b)) || walk.is_over() {
             return;
         }
         let mut others = walk.tree.reaching(hub.bounds());

@@ -211,13 +211,23 @@ fn crowds_take_n_log_n() {
         (0..n).flat_map(of).collect()
     };
     let book = |n: usize| (0..n).map(|i| [[0.0; 3], [0.0, 0.0, 1.0], rim(i, n, 0.5)]).collect();
+    // Every second gap between pages is closed by a facet at either end of the spine.
+    let closed_book = |n: usize| -> Vec<Facet> {
+        let of = |i: usize| {
+            let (a, b) = (rim(i, n, 0.5), rim(i + 1, n, 0.5));
+            let lids = [[[0.0; 3], a, b], [[0.0, 0.0, 1.0], b, a]].into_iter().filter(move |_| i % 2 == 0);
+            std::iter::once([[0.0; 3], [0.0, 0.0, 1.0], a]).chain(lids)
+        };
+        (0..n / 2).flat_map(of).collect()
+    };
     let coincident = |n: usize| -> Vec<Facet> {
         let block = crate::topology::tests::block(1, 1.0);
         let facets = block.faces.iter().map(|f| f.map(|v| block.positions[v as usize]));
         facets.cycle().take(12 * (n / 12)).collect()
     };
     type Shape<'a> = (&'a str, &'a dyn Fn(usize) -> Vec<Facet>);
-    let shapes: [Shape; 3] = [("bicone", &bicone), ("book", &book), ("coincident", &coincident)];
+    let shapes: [Shape; 4] =
+        [("bicone", &bicone), ("book", &book), ("closed book", &closed_book), ("coincident", &coincident)];
     for (name, shape) in shapes {
         let work = [2000, 8000, 32_000].map(|n| {
             let facets = shape(n);
@@ -244,6 +254,12 @@ fn books_and_copies_that_cross() {
             facets.push([[0.0; 3], [0.0, 0.0, 4.0], [whole + 1.0, whole + 1.0, 2.0]]);
             facets.push([[0.0; 3], [0.5, whole / 9.0, 3.0], [0.75, 0.5, whole / 9.0]]);
             facets.push([[-1.0, 0.5, whole / 7.0], [2.0, 0.5, 1.0], [0.5, 2.0, 2.0]]);
+            // At an end of the spine, narrow, wide, across the angle at which numbers jump, and around the spine.
+            let at = |turn: f64| [libm::cos(whole + turn), libm::sin(whole + turn), whole / 8.0];
+            facets.push([[0.0; 3], at(0.0), at(0.03)]);
+            facets.push([[0.0, 0.0, 4.0], at(0.0), at(2.0)]);
+            facets.push([[0.0, 0.0, 4.0], at(0.5), at(0.5 + std::f64::consts::PI)]);
+            facets.push([at(0.0), at(2.1), at(4.2)]);
         }
     }
     assert!(check("book", &facets) > 500);

@@ -247,8 +247,8 @@ impl Canvas {
         }
     }
 
-    /// Calls `put` for every sample within `radius` of a place.
-    fn disc(&mut self, [cx, cy]: [f64; 2], radius: f64, put: impl Fn(&mut Canvas, u32, u32)) {
+    /// Calls `put` with place and squared distance for every sample within `radius` of a place.
+    fn disc(&mut self, [cx, cy]: [f64; 2], radius: f64, put: impl Fn(&mut Canvas, u32, u32, f64)) {
         let span = |c: f64, limit: u32| {
             let from = (c - radius).ceil().max(0.0) as u32;
             from..((c + radius).floor().max(-1.0) + 1.0).min(f64::from(limit)) as u32
@@ -256,8 +256,9 @@ impl Canvas {
         let (columns, rows) = (span(cx, self.width), span(cy, self.height));
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
             let (dx, dy) = (f64::from(x) - cx, f64::from(y) - cy);
-            if dx * dx + dy * dy <= radius * radius {
-                put(self, x, y);
+            let square = dx * dx + dy * dy;
+            if square <= radius * radius {
+                put(self, x, y, square);
             }
         }
     }
@@ -283,11 +284,16 @@ impl Canvas {
             }
             let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
             // As cones: each sample belongs to the point whose middle is nearest, and none is lost under its neighbours.
-            self.disc([x, y], radius, |canvas, px, py| {
-                let off = (f64::from(px) - x).hypot(f64::from(py) - y) / radius;
+            let tip = (z + radius) as f32;
+            self.disc([x, y], radius, |canvas, px, py, square| {
+                // Most points of a scan are behind others.
+                if tip <= canvas.depth[(py * canvas.width + px) as usize] {
+                    return;
+                }
+                let off = square.sqrt() / radius;
                 let shade = 1.0 - RIM * off * off;
                 canvas.put(px, py, (z + radius * (1.0 - off)) as f32, || {
-                    color.map(|c| (f64::from(c) * shade).round() as u8)
+                    color.map(|c| (f64::from(c) * shade + 0.5) as u8)
                 });
             });
         }
@@ -364,5 +370,5 @@ fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
 /// Diffuse light from the eye.
 fn shade(color: [u8; 3], cosine: f64) -> [u8; 3] {
     let factor = DARKEST + (1.0 - DARKEST) * cosine.clamp(0.0, 1.0);
-    color.map(|c| (f64::from(c) * factor).round() as u8)
+    color.map(|c| (f64::from(c) * factor + 0.5) as u8)
 }

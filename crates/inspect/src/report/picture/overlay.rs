@@ -25,12 +25,12 @@ pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, throu
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            canvas.disc([x, y], LINE, |canvas, x, y| canvas.blend(x, y, z + lift, color, through));
+            canvas.disc([x, y], LINE, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
         }
     }
     for p in &mark.points {
         let [x, y, z] = camera.project(p);
-        canvas.disc([x, y], DOT, |canvas, x, y| canvas.blend(x, y, z + lift, color, through));
+        canvas.disc([x, y], DOT, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
     }
 }
 

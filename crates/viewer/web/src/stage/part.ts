@@ -229,8 +229,12 @@ export class Part {
       const v = 4 * Math.floor((probe * count) / Math.min(PROBES, count))
       // The place itself is among them.
       const least = new Float64Array(NEIGHBOUR + 1).fill(Infinity)
+      const [x, y, z] = [packed[v], packed[v + 1], packed[v + 2]]
       for (let p = 0; p < packed.length; p += 4) {
-        const d = (packed[p] - packed[v]) ** 2 + (packed[p + 1] - packed[v + 1]) ** 2 + (packed[p + 2] - packed[v + 2]) ** 2
+        // One product tells most of them.
+        const along = (packed[p] - x) ** 2
+        if (along >= least[NEIGHBOUR]) continue
+        const d = along + (packed[p + 1] - y) ** 2 + (packed[p + 2] - z) ** 2
         if (d >= least[NEIGHBOUR]) continue
         let i = NEIGHBOUR
         for (; i > 0 && least[i - 1] > d; i--) least[i] = least[i - 1]

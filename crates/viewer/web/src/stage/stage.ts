@@ -44,6 +44,8 @@ export class Stage {
   readonly center: Vector3
   private readonly pace: Pace
   private moving = false
+  /** Nothing is drawn before everything is there: large objects take seconds on slow machines. */
+  private open = false
   /** The view is a fitted one that the reader has not moved since. */
   private fitted = true
   private ground: number | null = null
@@ -73,7 +75,7 @@ export class Stage {
     applyLook(state)
   }
 
-  /** Decodes and shows all objects; the first view appears as soon as its objects are there. */
+  /** Decodes all objects, those of the first view first. */
   async load(): Promise<void> {
     // What the first view shows comes first.
     const wanted = [...this.state.manifest.objects].sort((a, b) => Number(this.state.visible[b.role]) - Number(this.state.visible[a.role]))
@@ -138,6 +140,12 @@ export class Stage {
     this.renderer.setSize(this.eye.width, this.eye.pixels, true)
     if (first) this.frameAll()
     this.pace.forget()
+    if (this.open) this.settle()
+  }
+
+  /** Draws from now on. */
+  show(): void {
+    this.open = true
     this.settle()
   }
 
@@ -247,6 +255,7 @@ export class Stage {
 
   /** Draws in the browser's next frame, but never more than one frame ahead of the GPU: the hand would be followed late. */
   draw(): void {
+    if (!this.open) return
     this.wanted = this.pace.busy
     if (this.frame || this.wanted) return
     this.frame = requestAnimationFrame(() => {
@@ -313,6 +322,7 @@ export class Stage {
   /** What follows when nothing more happens: the picture in full, then its values. Until then the stage is busy. */
   private rest(): void {
     this.canvas.ariaBusy = 'true'
+    if (!this.open) return
     clearTimeout(this.restTimer)
     this.restTimer = window.setTimeout(() => this.still(), REST)
   }

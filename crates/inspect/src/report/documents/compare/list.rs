@@ -132,6 +132,16 @@ const ROWS: [Row; 14] = [
     ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
 ];
 
+/// Digits after the decimal sign with which a number fits its column: from a thousand on six in all.
+fn column_digits(value: Option<f64>, wanted: usize) -> usize {
+    match value.map_or(0.0, f64::abs) {
+        size if size < 1e3 => wanted,
+        size if size < 1e4 => wanted.min(2),
+        size if size < 1e5 => wanted.min(1),
+        _ => 0,
+    }
+}
+
 pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
     let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
     section(h, "statistics", |h| {
@@ -151,7 +161,8 @@ pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
             h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
             for s in sides {
                 let (value, reason) = of(s);
-                h.raw("<td class=\"r\">").optional(value, reason, decimals + more, signed).raw("</td>");
+                let digits = column_digits(value, decimals + more);
+                h.raw("<td class=\"r\">").optional(value, reason, digits, signed).raw("</td>");
             }
             h.raw("</tr>");
         }
