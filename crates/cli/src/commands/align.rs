@@ -26,7 +26,7 @@ use trueness_inspect::results::{InputRecord, Role};
 ///
 /// The best fit has the least mean square distance to the surface of the reference, weighted by area where the scan is a
 /// mesh; outliers do not count. Whole and partial scans, meshes and points. The exit status is 0 if the result can be
-/// relied on, 1 if it is poor, ambiguous, of a wrong unit or did not settle (it is written all the same).
+/// relied on, 1 if it is poor, ambiguous, of a wrong unit, of few points or did not settle (it is written all the same).
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Tables of --points, one row a line, mm: of pairs, x y z measured and x y z of the reference; of 3-2-1 and rps, these six and

@@ -2,14 +2,14 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::Outcome;
+use crate::exit::{Outcome, Usage};
 use crate::options::{Common, InputArgs};
 use crate::output::whole_file;
 use crate::progress::Stage;
 use crate::read;
 use crate::run_files::RunFiles;
 use clap::{Args, Subcommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueness_geom::segment::{self, Options, SegmentError};
 use trueness_inspect::plan::proposal;
 use trueness_inspect::results::Role;
@@ -36,7 +36,7 @@ struct InitArgs {
     nominal: PathBuf,
     #[command(flatten)]
     reading: InputArgs,
-    /// Where the plan goes [default: standard output]
+    /// Where the plan goes, a new file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -53,6 +53,12 @@ impl Run for PlanArgs {
 }
 
 fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
+    // A plan is written by hand in the end: it is never replaced.
+    if let Some(path) = args.out.as_ref().filter(|path| path.exists()) {
+        return Err(
+            Usage(format!("--out {}: the file exists; name another or remove it", path.display())).into()
+        );
+    }
     let (source, _) = read::mesh(&args.nominal, Role::Reference, &args.reading.reading())?;
     let mesh = source.mesh;
     let stage = Stage::new(common.progress, "segmenting", "facets", Some(mesh.faces.len() as u64));
@@ -63,11 +69,24 @@ fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
         SegmentError::Cancelled(e) => anyhow::Error::from(e),
         e => anyhow::anyhow!("{}: {e}", args.nominal.display()),
     })?;
-    let name = args.nominal.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    let text = proposal(&mesh, &found, &name);
+    let text = proposal(&mesh, &found, &reference(args));
     match &args.out {
         Some(path) => whole_file(path, |file| file.write_all(text.as_bytes()))?,
         None => console::document(&text)?,
     }
     Ok(Outcome::Conforming)
+}
+
+/// The nominal as the plan names it: relative to its folder where it lies beside it.
+fn reference(args: &InitArgs) -> String {
+    let folder = |path: &Path| match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.canonicalize().ok(),
+        _ => Path::new(".").canonicalize().ok(),
+    };
+    let beside = args.out.as_ref().is_none_or(|out| folder(out) == folder(&args.nominal));
+    let name = match beside {
+        true => args.nominal.file_name().map(PathBuf::from),
+        false => args.nominal.canonicalize().ok(),
+    };
+    name.unwrap_or_else(|| args.nominal.clone()).to_string_lossy().into_owned()
 }

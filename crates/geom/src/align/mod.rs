@@ -117,6 +117,11 @@ pub enum AlignWarning {
         /// 25.4, 10, 1000 or their inverses.
         factor: f64,
     },
+    /// So few points that a pose which fits them may be found by chance, or the right one missed.
+    Few {
+        /// Points given.
+        count: usize,
+    },
     /// The iteration did not settle.
     NotConverged,
 }

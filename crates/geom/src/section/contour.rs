@@ -1,7 +1,8 @@
 //! Whole contours: corners first, then the chains between them, then corners as the places where chains cross.
 
-use super::chain::{Kind, Pose};
+use super::chain::Kind;
 use super::convert::segments;
+use super::corner::crossing;
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::Clean;
 use super::search::Criterion;
@@ -9,6 +10,8 @@ use super::span::{Found, Span, Task, single};
 use super::start::{Part, Penalty, noise, partition, scatter, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
+use std::collections::VecDeque;
+use std::ops::Range;
 
 /// Places at which a part may start in the first partition.
 const PLACES: usize = 1200;
@@ -24,8 +27,6 @@ const POLLUTED: f64 = 0.3;
 const RESOLUTION: f64 = 1e-4;
 /// A crossing is followed this far from the chains' ends, in distances between points.
 const FARTHEST: f64 = 20.0;
-/// From where the points end a corner lies no farther than this share of it, beyond what is uncertain.
-const NEAR: f64 = 0.25;
 
 /// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
 /// uncertainties.
@@ -158,21 +159,28 @@ impl Plan<'_> {
         let mut ends: Vec<usize> = (0..parts.len() - 1).filter(|k| corner(*k)).map(|k| k + 1).collect();
         let seam = closed && parts.len() > 1 && corner(parts.len() - 1);
         // Parts of a closed row go on over the seam, unless there is a corner.
-        let mut founds = vec![];
-        let mut corners: Vec<Corner> = vec![];
         if closed && ends.is_empty() && !seam {
             let span = || Span::new(&self.clean.points, self.weights, (0..n).collect());
             let mut found = span().find(parts, &self.task(parts.len() > 1, true, n), progress)?;
             if parts.len() == 1 {
                 // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
-                found.circle = found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc;
+                found.circle =
+                    found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc && !found.astray;
                 if !found.circle {
                     let halves = shares(&self.clean.points, self.weights, 2);
                     found = span().find(&halves, &self.task(true, true, n), progress)?;
                 }
             }
-            founds.push(found);
-            return Ok((founds, corners));
+            if !found.astray {
+                return Ok((vec![found], vec![]));
+            }
+            if forced.is_some() {
+                return Err(SectionError::Astray);
+            }
+            // No closed curve runs along the points: it has corners that the partition does not tell.
+            let quarters = shares(&self.clean.points, self.weights, 4.min(n / 2));
+            let order = if parts.len() == 1 { quarters } else { parts.to_vec() };
+            return self.spans(&order, 0, (1..=order.len()).collect(), progress);
         }
         let mut order: Vec<Part> = parts.to_vec();
         let mut shift = 0;
@@ -183,9 +191,23 @@ impl Plan<'_> {
             ends = ends.iter().map(|e| e - by).filter(|e| *e > 0).collect();
         }
         ends.push(order.len());
-        let mut from = 0;
-        for to in ends {
-            let own = &order[from..to];
+        self.spans(&order, shift, ends, progress)
+    }
+
+    /// The chains of groups of parts: each ends before one of `ends`, and the first begins at point `shift`.
+    fn spans(
+        &self,
+        order: &[Part],
+        shift: usize,
+        ends: Vec<usize>,
+        progress: &dyn Progress,
+    ) -> Result<(Vec<Found>, Vec<Corner>), SectionError> {
+        let n = self.clean.points.len();
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let mut groups: VecDeque<Range<usize>> = starts.zip(&ends).map(|(from, to)| from..*to).collect();
+        let (mut founds, mut corners): (Vec<Found>, Vec<Corner>) = (vec![], vec![]);
+        while let Some(group) = groups.pop_front() {
+            let own = &order[group.clone()];
             let start = (own[0].from + n - shift) % n;
             let count: usize = own.iter().map(|p| p.to - p.from).sum();
             let numbers: Vec<usize> = (start..start + count).map(|i| (i + shift) % n).collect();
@@ -198,13 +220,22 @@ impl Plan<'_> {
                     part
                 })
                 .collect();
-            if from > 0 || closed {
-                corners.push(numbers[0]);
-            }
+            let first = numbers[0];
             let task = self.task(false, count == n, count);
             let span = Span::new(&self.clean.points, self.weights, numbers);
-            founds.push(span.find(&local, &task, progress)?);
-            from = to;
+            let found = span.find(&local, &task, progress)?;
+            if found.astray && own.len() > 1 {
+                if matches!(self.options.continuity, Some(Continuity::G1 | Continuity::G2)) {
+                    return Err(SectionError::Astray);
+                }
+                // No curve without corners runs along these points.
+                group.rev().for_each(|k| groups.push_front(k..k + 1));
+                continue;
+            }
+            if group.start > 0 || self.clean.closed {
+                corners.push(first);
+            }
+            founds.push(found);
         }
         Ok((founds, corners))
     }
@@ -225,7 +256,15 @@ impl Plan<'_> {
         let even = self.options.continuity == Some(Continuity::G2);
         let criterion = Criterion { noise, degrees, resolution: self.resolution(), count: count as f64 };
         let closed = closed && whole;
-        Task { criterion, spacing: self.spacing, step: self.step, closed, even, level: self.options.level }
+        Task {
+            criterion,
+            scatter: noise.max(self.own),
+            spacing: self.spacing,
+            step: self.step,
+            closed,
+            even,
+            level: self.options.level,
+        }
     }
 
     /// Whether the row turns between two parts by more than their own uncertainty, and enough to matter.
@@ -328,82 +367,6 @@ fn heading(part: &Part, at: [f64; 2]) -> [f64; 2] {
     let out = [at[0] - center[0], at[1] - center[1]];
     let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE) * part.curvature.signum();
     [-out[1] / length, out[0] / length]
-}
-
-/// The corner between two chains: where they cross, each going on as its end does.
-fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
-    let (mut u, mut v) = (0.0, 0.0);
-    let (mut p, mut q) = (a.beyond(true, 0.0), b.beyond(false, 0.0));
-    for _ in 0..30 {
-        let d = [q.at[0] - p.at[0], q.at[1] - p.at[1]];
-        let det = p.along[0] * -q.along[1] + p.along[1] * q.along[0];
-        if det.abs() < 1e-9 {
-            break;
-        }
-        let du = (d[0] * -q.along[1] + d[1] * q.along[0]) / det;
-        let dv = (p.along[0] * d[1] - p.along[1] * d[0]) / det;
-        u = (u + du).clamp(-farthest, farthest);
-        v = (v + dv).clamp(-farthest, farthest);
-        (p, q) = (a.beyond(true, u), b.beyond(false, v));
-        if du.abs() + dv.abs() < 1e-13 * farthest {
-            break;
-        }
-    }
-    let point = [0.5 * (p.at[0] + q.at[0]), 0.5 * (p.at[1] + q.at[1])];
-    let turn = libm::atan2(
-        p.along[0] * q.along[1] - p.along[1] * q.along[0],
-        p.along[0] * q.along[0] + p.along[1] * q.along[1],
-    );
-    let across = |f: &Found, end: usize| f.spread.as_ref().map_or(f.noise, |s| s.ends[end] * f.noise);
-    let (direction, uncertainty) = ellipse(&p, &q, across(a, 1), across(b, 0));
-    let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
-    // Two parts that head nearly the same way do not tell where they cross, by more than the shorter of the two segments is long.
-    let most =
-        [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
-    let reach = quantile * uncertainty;
-    // Where the points end, the corner is.
-    let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
-    if reach > most || (u - a.last_foot()).abs().max((v - b.first_foot()).abs()) > near {
-        return between(feet, turn, uncertainty.min(most));
-    }
-    let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
-    Join {
-        point,
-        continuity: Continuity::G0,
-        interval: [end(-1.0), end(1.0)],
-        uncertainty,
-        open: [false; 2],
-        turn,
-    }
-}
-
-/// The corner of two chains that do not cross where their points end: anywhere between the last point of the one and the
-/// first of the other.
-fn between(feet: [[f64; 2]; 2], turn: f64, uncertainty: f64) -> Join {
-    let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
-    Join {
-        point: [0, 1].map(|k| 0.5 * (feet[0][k] + feet[1][k])),
-        continuity: Continuity::G0,
-        interval: feet,
-        uncertainty: uncertainty.max(width * (1.0 / 12.0_f64).sqrt()),
-        open: [true; 2],
-        turn,
-    }
-}
-
-/// Direction and standard deviation of the greatest uncertainty of the crossing of two lines that are each uncertain across.
-fn ellipse(p: &Pose, q: &Pose, a: f64, b: f64) -> ([f64; 2], f64) {
-    let (n, m) = (p.normal(), q.normal());
-    let det = n[0] * m[1] - n[1] * m[0];
-    // Moving the one line by 1 moves the crossing along the other.
-    let (x, y) = ([m[1] / det, -m[0] / det], [-n[1] / det, n[0] / det]);
-    let entry = |i: usize, j: usize| a * a * x[i] * x[j] + b * b * y[i] * y[j];
-    let (xx, xy, yy) = (entry(0, 0), entry(0, 1), entry(1, 1));
-    let half = 0.5 * (xx - yy);
-    let greatest = 0.5 * (xx + yy) + (half * half + xy * xy).sqrt();
-    let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
-    let (sin, cos) = libm::sincos(angle);
-    ([cos, sin], greatest.max(0.0).sqrt())
 }
 
 /// A contour while it is put together.

@@ -19,6 +19,7 @@
 mod chain;
 mod contour;
 mod convert;
+mod corner;
 mod cut;
 mod facets;
 mod follow;

@@ -237,6 +237,11 @@ pub enum SectionError {
         /// Median distance of neighbors in the row over that of nearest points.
         ratio: f64,
     },
+    /// Joins were to be tangent throughout, and no such curve runs along the points.
+    #[error(
+        "no curve whose joins are all tangent runs along the points: they have corners; leave --continuity out"
+    )]
+    Astray,
     /// Neither end of the row is a line that a curve follows.
     #[error(
         "no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out"

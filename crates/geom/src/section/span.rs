@@ -11,9 +11,14 @@ use crate::progress::{Cancelled, Progress};
 /// its own shape for certain, and intervals come out too short.
 const LOOSER: usize = 2;
 
-/// A chain whose points lie farther off than this many times their noise went astray on the way, and is looked for from another
-/// start: so many equal parts, while each has so many points.
+/// A chain went astray whose points lie farther off than this many times their noise, or than this many times this share of the
+/// distance between them where that is more (the larger one where the row is too short to tell its noise) ...
 const ASTRAY: f64 = 10.0;
+const SHARES: [f64; 2] = [0.005, 0.02];
+/// ... or that is not about as long as the way from point to point, where noise does not make that longer.
+const LENGTHS: std::ops::Range<f64> = 0.6..1.6;
+const QUIET: f64 = 0.25;
+/// It is then looked for from so many equal parts, while each has so many points.
 const STARTS: [usize; 3] = [4, 8, 16];
 const EACH: usize = 4;
 
@@ -33,6 +38,8 @@ pub(super) struct Span {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Task {
     pub criterion: Criterion,
+    /// Standard deviation of the noise, given or of local fits, whichever is more.
+    pub scatter: f64,
     pub spacing: f64,
     /// Step at which points are followed.
     pub step: usize,
@@ -45,6 +52,8 @@ pub(super) struct Task {
 /// A chain found.
 pub(super) struct Found {
     pub span: Span,
+    /// The chain does not run along its points.
+    pub astray: bool,
     /// One arc that is a whole circle.
     pub circle: bool,
     pub state: State,
@@ -65,7 +74,7 @@ impl Span {
     }
 
     fn search(&self, task: &Task) -> Search<'_> {
-        let row = Row { points: &self.points, weights: &self.weights };
+        let row = self.row();
         let criterion = Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion };
         let (work, kinds) = (Work::default(), [true, true]);
         Search {
@@ -89,25 +98,54 @@ impl Span {
     /// Finds the pieces and the intervals of the joins.
     pub fn find(self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Found, Cancelled> {
         let mut best = self.search_from(parts, task, progress)?;
-        let starts = STARTS.iter().take_while(|count| **count * EACH <= self.points.len());
-        for count in starts {
-            if !self.is_astray(&best, task) {
+        let mut astray = self.is_astray(&best.state, task);
+        for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {
+            if !astray {
                 break;
             }
             let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;
-            if other.cost < best.cost {
-                best = other;
+            let lost = self.is_astray(&other.state, task);
+            if !lost || other.cost < best.cost {
+                (best, astray) = (other, lost);
             }
         }
         let mut search = self.search(task);
         let found = settle(&mut search, best, task, progress)?;
-        Ok(self.found(found))
+        let astray = self.is_astray(&found.0, task);
+        Ok(Found { astray, ..self.found(found) })
     }
 
-    fn is_astray(&self, model: &Model, task: &Task) -> bool {
+    /// Whether a chain does not run along its points.
+    fn is_astray(&self, state: &State, task: &Task) -> bool {
+        let n = self.points.len();
         let count = self.weights.iter().sum::<f64>().max(1.0);
-        let scatter = task.criterion.noise.max(10.0 * task.criterion.resolution);
-        model.cost.is_infinite() || (model.state.sum / count).sqrt() > ASTRAY * scatter
+        let noise = task.scatter;
+        let least = SHARES[usize::from(noise <= 0.0)] * task.spacing;
+        let off = (state.sum / count).sqrt();
+        if !state.sum.is_finite()
+            || off > ASTRAY * noise.max(least)
+            || state.breaks.windows(2).any(|w| w[0] >= w[1])
+        {
+            return true;
+        }
+        if noise > QUIET * task.spacing || n < 3 {
+            return false;
+        }
+        let kept: Vec<[f64; 2]> = (0..n).filter(|i| self.weights[*i] > 0.0).map(|i| self.points[i]).collect();
+        let far = |a: [f64; 2], b: [f64; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
+        let mut way: f64 = kept.windows(2).map(|w| far(w[0], w[1])).sum();
+        let length = if state.chain.closed {
+            way += far(kept[kept.len() - 1], kept[0]);
+            state.chain.pieces.iter().map(|p| p.length).sum()
+        } else {
+            let stations = Work::default().stations(&self.row(), &mut state.clone());
+            (stations[n - 1] - stations[0]).abs()
+        };
+        way > 0.0 && !LENGTHS.contains(&(length / way))
+    }
+
+    fn row(&self) -> Row<'_> {
+        Row { points: &self.points, weights: &self.weights }
     }
 
     /// The pieces found from a start of these parts.
@@ -156,12 +194,13 @@ impl Span {
     }
 
     fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {
-        let row = Row { points: &self.points, weights: &self.weights };
+        let row = self.row();
         let mut state = state;
         let spread = work.spread(&row, &mut state);
         let residuals = work.residuals(&row, &mut state).to_vec();
         let stations = work.stations(&row, &mut state);
         Found {
+            astray: false,
             circle: false,
             state,
             layout: std::mem::take(&mut work.layout),

@@ -421,3 +421,53 @@ fn wavy_closed_rows_are_followed() {
         }
     }
 }
+
+/// Corners of a closed polygon on an ellipse, as a plane cuts them out of a cylinder with flat sides.
+fn ellipse(count: usize, flat: f64, noise: f64, seed: u64) -> Vec<[f64; 2]> {
+    let mut random = Random::new(seed);
+    let turn = random.unit();
+    let at = |i: usize| (i as f64 + turn) * std::f64::consts::TAU / count as f64;
+    (0..count)
+        .map(|i| [10.0 * libm::cos(at(i)), 10.0 * flat * libm::sin(at(i))])
+        .map(|p| [p[0] + noise * normal(&mut random), p[1] + noise * normal(&mut random)])
+        .collect()
+}
+
+#[test]
+fn short_closed_rows_are_followed() {
+    for count in [8, 10, 12, 16, 20, 24, 32, 48, 59, 90] {
+        for (k, flat) in [0.35, 0.6, 0.8, 0.97].into_iter().enumerate() {
+            for noise in [0.0, 1e-3, 0.02] {
+                let points = ellipse(count, flat, noise, 40 + k as u64);
+                let options = Options { closed: Some(true), ..Options::default() };
+                let found = contour(&points, &options, &Silent).unwrap();
+                let way: f64 = (0..count).map(|i| far(points[i], points[(i + 1) % count])).sum();
+                let name = format!("{count} {flat} {noise}: {} along {way}", found.length());
+                assert!((0.97..1.15).contains(&(found.length() / way)), "{name}");
+                let worst = found.residuals.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+                assert!(worst < 0.3 * way / count as f64, "{name}, {worst} off");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_square_has_no_tangent_joins() {
+    let mut random = Random::new(77);
+    let side = |k: usize, t: f64| [[t, 0.0], [10.0, t], [10.0 - t, 10.0], [0.0, 10.0 - t]][k];
+    let points: Vec<[f64; 2]> = (0..160)
+        .map(|i| side(i / 40, (i % 40) as f64 * 0.25))
+        .map(|p| [p[0] + 0.01 * normal(&mut random), p[1] + 0.01 * normal(&mut random)])
+        .collect();
+    let free = found(&points);
+    assert_eq!((kinds(&free), free.joins.len()), (vec![Kind::Line; 4], 4));
+    for continuity in [Continuity::G1, Continuity::G2] {
+        let forced =
+            contour(&points, &Options { continuity: Some(continuity), ..Options::default() }, &Silent);
+        match forced {
+            Err(SectionError::Astray) => {}
+            Err(e) => panic!("{e}"),
+            Ok(c) => runs_along_its_points(&points, &c),
+        }
+    }
+}

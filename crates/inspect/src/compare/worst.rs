@@ -45,12 +45,15 @@ impl WorstPlaces {
         vec![None; 2 * SIDE * SIDE * SIDE]
     }
 
-    /// Takes a block of points whose first has number `start`. A NaN deviation is passed over.
+    /// Takes a block of points whose first has number `start`. A deviation that is none, NaN or infinite, is passed over.
     pub fn add(&mut self, start: u64, points: &[Point], deviations: &[f64]) {
         let sort = |n: usize, (points, deviations): (&[Point], &[f64])| {
             let mut cells = Self::empty();
             for (i, (point, &deviation)) in points.iter().zip(deviations).enumerate() {
                 let place = Place { index: start + (n * TASK + i) as u64, point: *point, deviation };
+                if !deviation.is_finite() {
+                    continue;
+                }
                 if deviation > 0.0 {
                     keep(&mut cells[2 * self.cell(point)], place);
                 } else if deviation < 0.0 {
@@ -126,6 +129,9 @@ mod tests {
         let points: Vec<Point> =
             (0..20_000).map(|i| [(i % 200) as f64 * 0.5, (i / 200) as f64, 0.0]).collect();
         let deviations: Vec<f64> = points.iter().map(|p| height(p[0], p[1])).collect();
+        // Two that have none.
+        let mut deviations = deviations;
+        (deviations[5], deviations[700]) = (f64::NAN, f64::INFINITY);
         w.add(0, &points[..9_000], &deviations[..9_000]);
         w.add(9_000, &points[9_000..], &deviations[9_000..]);
         let [high, low] = w.pick(2);

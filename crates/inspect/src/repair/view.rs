@@ -101,7 +101,8 @@ impl Surface<'_> {
     }
 }
 
-/// Facets of `mesh` whose three places are those of no facet of `other`, whichever way round; not more than can be drawn.
+/// Facets of `mesh` whose three places are those of no facet of `other`, whichever way round; not more than can be drawn. Places
+/// are compared in single precision: a mesh mended for a format that holds no more is rounded throughout.
 fn only_in(mesh: &Mesh, other: &Mesh) -> Vec<[Point; 3]> {
     let corners = |mesh: &Mesh, f: &[u32; 3]| -> Option<[Point; 3]> {
         let [a, b, c] = f.map(|v| mesh.positions.get(v as usize).copied());
@@ -109,7 +110,7 @@ fn only_in(mesh: &Mesh, other: &Mesh) -> Vec<[Point; 3]> {
     };
     // Zero has no sign, and the order of the corners does not matter.
     let key = |t: [Point; 3]| {
-        let mut bits = t.map(|p| p.map(|x| (x + 0.0).to_bits()));
+        let mut bits = t.map(|p| p.map(|x| (x as f32 + 0.0).to_bits()));
         bits.sort_unstable();
         bits
     };
@@ -134,5 +135,14 @@ mod tests {
         assert_eq!(only_in(&after, &before), [[[1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]]]);
         assert_eq!(only_in(&before, &after), [[[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, -0.0]]]);
         assert_eq!(only_in(&before, &before), Vec::<[Point; 3]>::new());
+        let fine = |x: f64| Mesh {
+            positions: before.positions.iter().map(|p| p.map(|c| c * x)).collect(),
+            ..before.clone()
+        };
+        let single = |m: Mesh| Mesh {
+            positions: m.positions.iter().map(|p| p.map(|c| f64::from(c as f32))).collect(),
+            ..m
+        };
+        assert_eq!(only_in(&single(fine(0.1)), &fine(0.1)), Vec::<[Point; 3]>::new());
     }
 }

@@ -93,7 +93,9 @@ impl AlignedTo {
 
 /// Whether an alignment with these warnings may be relied on.
 fn sound(warnings: &[AlignNote]) -> bool {
-    !warnings.iter().any(|w| matches!(w.kind.as_str(), "poor" | "ambiguous" | "scale" | "not_converged"))
+    !warnings
+        .iter()
+        .any(|w| matches!(w.kind.as_str(), "poor" | "ambiguous" | "scale" | "few" | "not_converged"))
 }
 
 /// What a best fit tells.
@@ -157,7 +159,7 @@ pub struct PairRecord {
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale` or `not_converged`.
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`.
     pub kind: String,
     /// One sentence for people.
     pub text: String,
@@ -212,6 +214,13 @@ impl AlignNote {
                 "scale",
                 format!(
                     "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units)"
+                ),
+            ),
+            AlignWarning::Few { count } => (
+                "few",
+                format!(
+                    "{count} points are few for a search from any pose: look at the result, or align roughly and start \
+                     --from-here, or give --method pairs"
                 ),
             ),
             AlignWarning::NotConverged => ("not_converged", "the iteration did not settle".into()),
