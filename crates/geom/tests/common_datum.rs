@@ -202,7 +202,10 @@ fn common_datums_keep_the_attitude_of_those_before() {
         let (point, direction) = axis(&[first.clone(), vec![cylinder(&a), cylinder(&b)]], rule);
         assert!(norm(cross(direction, [0.0, 0.0, 1.0])) < 1e-12);
         // Seen along the normal the centers lie at 0, 0.01, 0.02, 0.03.
-        assert!((point[0] - 0.015).abs() < 1e-8 && point[1].abs() < 1e-9, "{rule:?} {point:?}");
+        assert!((point[0] - 0.015).abs() < 1e-8, "{rule:?} {point:?}");
+        // The zone is held by points along x: its radii take up what a place along y changes.
+        let told = if rule == Rule::Gaussian { 1e-9 } else { 0.01 };
+        assert!(point[1].abs() < told, "{rule:?} {point:?}");
 
         // A slot whose sides lean over the floor and turn about its normal.
         let side = |x0: f64| grid(|y, z| [x0 + 1e-3 * z + 2e-3 * y, y, z + 20.0]);
