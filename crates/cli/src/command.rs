@@ -11,6 +11,7 @@ use crate::commands::repair::RepairArgs;
 use crate::commands::section::SectionArgs;
 use crate::commands::segment::SegmentArgs;
 use crate::commands::surface::SurfaceArgs;
+use crate::commands::trend::TrendArgs;
 use crate::exit::Outcome;
 use crate::options::Common;
 use crate::run_files::RunFiles;
@@ -44,6 +45,7 @@ pub enum Command {
     Section(Box<SectionArgs>),
     Segment(SegmentArgs),
     Surface(Box<SurfaceArgs>),
+    Trend(TrendArgs),
 }
 
 /// A command with its words.
@@ -69,6 +71,7 @@ impl Command {
             Command::Section(args) => args.as_ref(),
             Command::Segment(args) => args,
             Command::Surface(args) => args.as_ref(),
+            Command::Trend(args) => args,
         }
     }
 }

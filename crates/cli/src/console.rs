@@ -73,6 +73,14 @@ pub fn columns(rows: &[Vec<String>]) -> String {
     out
 }
 
+/// A cell of a table of text, in quotes where it holds what parts cells (RFC 4180).
+pub fn cell(text: String) -> String {
+    match text.contains([',', '"', '\r', '\n']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

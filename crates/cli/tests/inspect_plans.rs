@@ -157,11 +157,15 @@ fn faults_of_plans_are_told_with_their_places() {
             "line 33, column 11: \"A\" is named twice; a feature is no distance from itself",
         ),
         fault(
-            "datums = [\"A\"]",
-            "datums = [\"A\", \"B\"]",
-            "line 34, column 10: perpendicularity: it is evaluated for a single datum only",
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+            "kind = \"coaxiality\"\nfeature = \"pin\"\ndatums = [\"A\", \"B\"]",
+            "line 34, column 10: coaxiality: it is evaluated for a single datum only",
         ),
-        fault("datums = [\"A\"]", "datums = [\"A-B\"]", "common datums (\"A-B\") are not built yet"),
+        fault(
+            "datums = [\"A\"]",
+            "datums = [\"A-C\"]",
+            "line 34, column 11: there is no feature \"C\"; did you mean \"A\"?",
+        ),
         fault(
             "kind = \"flatness\"",
             "kind = \"flatness\"\nsize = \"GG\"",

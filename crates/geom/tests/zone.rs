@@ -143,7 +143,7 @@ fn three_planes_make_a_frame() {
     let planes =
         [plane(outward[0], 0.0, 1), plane([-1.0, 2e-4, 1e-4], 0.0, 2), plane([1e-4, -1.0, 2e-4], 0.0, 3)];
     let source = |k: usize| Source { points: &planes[k], kind: Kind::Plane, outward: outward[k] };
-    let sources = [source(0), source(1), source(2)];
+    let sources = [source(0), source(1), source(2)].map(|s| vec![s]);
     for rule in [Rule::Gaussian, Rule::MinimumZone] {
         let system = System::associated(&sources, rule, &Silent).unwrap();
         assert!(system.free.is_none());
@@ -179,7 +179,8 @@ fn datums_that_hold_nothing_are_refused() {
     let z = [0.0, 0.0, 1.0];
     let (a, b, c) = (plane(z, 0.0, 1), plane(z, 9.0, 2), plane([1.0, 0.0, 1.0], 0.0, 3));
     let source = |points| Source { points, kind: Kind::Plane, outward: z };
-    let system = |second| System::associated(&[source(&a), source(second)], Rule::Gaussian, &Silent);
+    let system =
+        |second| System::associated(&[vec![source(&a)], vec![source(second)]], Rule::Gaussian, &Silent);
     assert!(matches!(system(&b), Err(DatumError::Idle { datum: 1, .. })));
     let oblique = system(&c);
     assert!(
@@ -197,8 +198,9 @@ fn the_placed_sphere_is_the_best_near_it() {
             plus([0.03, -0.02, 0.05], times(25.0 + 0.02 * random.unit(), way))
         })
         .collect();
-    let distance = |p: Point| unit(p).map(|(way, length)| (length - 25.0, way));
-    let search = Search { start: Rigid::IDENTITY, free: Freedom::ALL, middle: 0.0, floating: false };
+    let distance = |_, p: Point| unit(p).map(|(way, length)| (length - 25.0, way));
+    let search =
+        Search { start: Rigid::IDENTITY, free: Freedom::ALL, middle: 0.0, floating: false, outer: false };
     let best = placed(&points, &distance, &search, &Silent).unwrap();
     let center = best.motion.inverse().point([0.0; 3]);
     let half = |c: Point| points.iter().map(|p| (norm(minus(*p, c)) - 25.0).abs()).fold(0.0, f64::max);

@@ -15,6 +15,7 @@
 //! | reports, one HTML file each | [`report`] |
 //! | colour scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
+//! | tolerance classes by letters | [`tolerance_class`] |
 
 pub mod characteristic;
 pub mod check;
@@ -31,3 +32,4 @@ pub mod segment;
 mod spacing;
 pub mod surface;
 pub mod tolerance;
+pub mod tolerance_class;

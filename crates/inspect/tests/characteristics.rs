@@ -2,8 +2,11 @@
 //! squares.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
+mod common;
+
+use common::{far, grid, round};
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::rigid::Rigid;
@@ -22,21 +25,8 @@ struct Case {
 
 const H: f64 = 0.01;
 
-fn grid(f: impl Fn(f64, f64) -> Point) -> Vec<Point> {
-    (0..25).map(|k| f(f64::from(k % 5) * 10.0, f64::from(k / 5) * 10.0)).collect()
-}
-
 fn floor() -> Vec<Point> {
     grid(|x, y| [x, y, 0.0])
-}
-
-/// A cylinder or circles about an axis along z, its radius as a function of the number of the point around.
-fn round(center: [f64; 2], levels: &[f64], around: usize, radius: impl Fn(usize) -> f64) -> Vec<Point> {
-    let at = |k: usize, z: f64| {
-        let angle = TAU * k as f64 / around as f64;
-        [center[0] + radius(k) * angle.cos(), center[1] + radius(k) * angle.sin(), z]
-    };
-    levels.iter().flat_map(|z| (0..around).map(move |k| at(k, *z))).collect()
 }
 
 const LEVELS: [f64; 4] = [0.0, 5.0, 10.0, 20.0];
@@ -114,6 +104,75 @@ fn oriented() -> Vec<Case> {
             one,
             0.02,
         ),
+    ]
+}
+
+/// Zones that a second datum locks further, and common datums.
+fn systems() -> Vec<Case> {
+    let floor = ("A", "plane", floor());
+    let wall = ("B", "plane", grid(|y, z| [0.0, y, z]));
+    let two = "datums = [\"A\", \"B\"]";
+    // Upright, but turned about the normal of the floor: with the floor alone its value is 0.
+    let turned = ("F", "plane", grid(|y, z| [30.0 + 1e-3 * y, y, z]));
+    // A slope of 30° that dips towards the wall, turned about the vertical by a small angle.
+    let (angle, off) = (PI / 6.0, 1e-3f64);
+    let slope = |azimuth: f64| -> Vec<Point> {
+        grid(|s, t| {
+            let (x, y, z) = (s * angle.cos(), t - 20.0, s * angle.sin());
+            [x * azimuth.cos() - y * azimuth.sin(), x * azimuth.sin() + y * azimuth.cos(), z]
+        })
+    };
+    // The normal of the slope and that of the zone are `off` apart about the vertical: seen along the zone's normal the
+    // corners of the slope spread by their places across and along the slope.
+    let spread = |off: f64| {
+        let height = |s: f64, t: f64| {
+            let x = s * angle.cos() * off.cos() - (t - 20.0) * off.sin();
+            x * -angle.sin() + s * angle.sin() * angle.cos()
+        };
+        let corners = [height(0.0, 0.0), height(40.0, 0.0), height(0.0, 40.0), height(40.0, 40.0)];
+        let most = corners.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
+        most - corners.iter().fold(f64::INFINITY, |m, x| m.min(*x))
+    };
+    let level = vec![[0.0, 20.0, 5.0], [40.0, 20.03, 5.04]];
+    // Two seats of a shaft, off to either side: their common axis goes through the middle between them.
+    let e = 2e-3;
+    let (seat, other) =
+        (round([e, 0.0], &[0.0, 10.0], 8, |_| 9.0), round([-e, 0.0], &[90.0, 100.0], 8, |_| 7.0));
+    let (seat, other) = (("A", "cylinder", seat), ("B", "cylinder", other));
+    let ring = ("F", "circle", round([0.0, 0.03], &[50.0], 8, |_| 12.0));
+    let pads = [
+        ("F", "plane", grid(|x, y| [x + 50.0, y, 9.0 + 1e-3 * x])),
+        ("A", "plane", grid(|x, y| [x, y, 0.0])),
+        ("B", "plane", grid(|x, y| [x + 200.0, y, 0.0])),
+    ];
+    let slot = [
+        ("F", "plane", grid(|y, z| [10.02, y, z])),
+        ("A", "plane", grid(|y, z| [0.0, y, z])),
+        ("B", "plane", grid(|y, z| [20.0, y, z])),
+    ];
+    vec![
+        case("perpendicularity", &[turned, floor.clone(), wall.clone()], two, 0.04),
+        case(
+            "angularity",
+            &[("F", "plane", slope(off)), floor.clone(), wall.clone()],
+            "basic = { angle = 30 }\ndatums = [\"A\", \"B\"]",
+            spread(off),
+        ),
+        case(
+            "angularity",
+            &[("F", "plane", slope(PI / 4.0 + off)), floor.clone(), wall.clone()],
+            "basic = { angle = 30, turn = 45 }\ndatums = [\"A\", \"B\"]",
+            spread(off),
+        ),
+        case(
+            "parallelism",
+            &[("F", "line", level), floor, wall],
+            "diametral = true\ndatums = [\"A\", \"B\"]",
+            0.05,
+        ),
+        case("coaxiality", &[ring, seat, other], "datums = [\"A-B\"]", 0.06),
+        case("parallelism", &pads, "datums = [\"A-B\"]", 0.04),
+        case("symmetry", &slot, "datums = [\"A-B\"]", 0.04),
     ]
 }
 
@@ -200,7 +259,7 @@ impl Case {
 }
 
 fn cases() -> Vec<Case> {
-    forms().into_iter().chain(oriented()).chain(located()).collect()
+    forms().into_iter().chain(oriented()).chain(systems()).chain(located()).collect()
 }
 
 #[test]
@@ -218,14 +277,44 @@ fn every_kind_has_its_closed_form() {
 
 #[test]
 fn values_do_not_depend_on_the_frame() {
-    let far = Rigid::rotation_about([1.0, 2.0, 3.0], [0.7, -1.9, 0.4]);
-    let far = Rigid::translation_by([120.0, -340.0, 56.0]).after(&far);
+    let far = far();
     // A nominal surface does not move with the data: it is found again after a small motion.
     let small = Rigid::rotation_about([1.0, 2.0, 3.0], [1e-3, 2e-3, -1e-3]);
     for c in cases() {
         let motion = if c.kind == "surface-profile" { small } else { far };
         let value = c.value("", |points| points.iter().map(|p| motion.point(*p)).collect());
         assert!((value - c.value).abs() < 1e-8, "{} {}: {value} instead of {}", c.kind, c.more, c.value);
+    }
+}
+
+/// What a second datum locks is free without it: the value can only fall.
+#[test]
+fn a_second_datum_locks_the_zone_further() {
+    let values = [("perpendicularity", 0.0), ("angularity", 0.0), ("parallelism", 0.04)];
+    for (kind, value) in values {
+        let mut c = systems().into_iter().find(|c| c.kind == kind).unwrap();
+        let both = c.value("", <[Point]>::to_vec);
+        c.more = c.more.replace(", \"B\"", "");
+        let alone = c.value("", <[Point]>::to_vec);
+        assert!((alone - value).abs() < 1e-9 && alone < both, "{kind}: {alone} {both}");
+    }
+    // The second datum lies across the first one's axis: it locks no turn, and that is said.
+    let shaft = ("A", "cylinder", round([0.0; 2], &LEVELS, 8, |_| 9.0));
+    let end = ("B", "plane", grid(|x, y| [x, y, 20.0]));
+    let side = ("F", "plane", grid(|y, z| [9.0 + 1e-3 * z, y, z]));
+    let c = case("parallelism", &[side, shaft, end], "datums = [\"A\", \"B\"]", 0.04);
+    let found = c.run("", <[Point]>::to_vec).unwrap();
+    let value = found.values[0].as_ref().unwrap();
+    assert!((value.value - 0.04).abs() < 1e-9, "{}", value.value);
+    assert!(value.notes[0].contains("lock the zone no further"), "{:?}", value.notes);
+    // A wall at 20° to the second datum is neither along nor across it.
+    let askew = grid(|y, z| [y * 20f64.to_radians().sin(), y * 20f64.to_radians().cos(), z]);
+    let two = "datums = [\"A\", \"B\"]";
+    let datums = [("A", "plane", floor()), ("B", "plane", grid(|y, z| [0.0, y, z]))];
+    let features = [("F", "plane", askew), datums[0].clone(), datums[1].clone()];
+    match case("perpendicularity", &features, two, 0.0).run("", <[Point]>::to_vec) {
+        Err(Stop::Plan { what, .. }) => assert!(what.contains("not as drawn"), "{what}"),
+        other => panic!("{:?}", other.map(|f| f.values)),
     }
 }
 

@@ -11,3 +11,4 @@ pub mod repair;
 pub mod section;
 pub mod segment;
 pub mod surface;
+pub mod trend;

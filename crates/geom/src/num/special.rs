@@ -1,4 +1,4 @@
-//! Distribution functions for tests and intervals: normal, Student's t, binomial with even odds.
+//! Distribution functions for tests and intervals: normal, Student's t, χ², binomial with even odds.
 //!
 //! The elementary functions are those of `libm`, so that the numbers are the same on every machine.
 
@@ -32,6 +32,17 @@ pub fn student_quantile(p: f64, degrees: f64) -> f64 {
         high *= 2.0;
     }
     bisect(0.0, high, |t| student_p(t, degrees) > p)
+}
+/// The value with this share of the χ² distribution of `degrees` of freedom below it; 0 and infinity at the ends.
+pub fn chi_square_quantile(share: f64, degrees: f64) -> f64 {
+    if share <= 0.0 || share >= 1.0 {
+        return if share <= 0.0 { 0.0 } else { f64::INFINITY };
+    }
+    let mut high = degrees.max(1.0);
+    while gamma_share(0.5 * degrees, 0.5 * high) < share && high < 1e300 {
+        high *= 2.0;
+    }
+    bisect(0.0, high, |x| gamma_share(0.5 * degrees, 0.5 * x) < share)
 }
 /// Two-sided p value of `heads` among `tosses` of a fair coin, exactly.
 pub fn coin_p(heads: u64, tosses: u64) -> f64 {
@@ -86,6 +97,43 @@ fn beta_share_below(a: f64, b: f64, x: f64) -> f64 {
         }
     }
     front * fraction
+}
+
+/// The lower incomplete gamma function as a share of the complete one, for positive `a` and `x`.
+///
+/// Series 8.11.4 of the NIST Digital Library of Mathematical Functions below `a + 1`, continued fraction 8.9.2 above, by
+/// Lentz's method as modified by Thompson and Barnett (1986); some √a steps.
+pub fn gamma_share(a: f64, x: f64) -> f64 {
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let front = libm::exp(a * libm::log(x) - x - libm::lgamma(a));
+    if x < a + 1.0 {
+        let (mut term, mut sum) = (1.0 / a, 1.0 / a);
+        for k in 1..1_000_000 {
+            term *= x / (a + f64::from(k));
+            sum += term;
+            if term < 1e-17 * sum {
+                break;
+            }
+        }
+        return front * sum;
+    }
+    let mut b = x + 1.0 - a;
+    let (mut c, mut d) = (1e300, 1.0 / b);
+    let mut fraction = d;
+    for k in 1..1_000_000 {
+        let k = f64::from(k);
+        let n = -k * (k - a);
+        b += 2.0;
+        d = 1.0 / (n * d + b);
+        c = b + n / c;
+        fraction *= d * c;
+        if (d * c - 1.0).abs() < 1e-16 {
+            break;
+        }
+    }
+    1.0 - front * fraction
 }
 
 /// Logarithm of the complete beta function.

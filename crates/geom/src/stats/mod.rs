@@ -6,6 +6,7 @@
 //! | mean, variance, skewness, kurtosis | [`moments`] |
 //! | percentiles, of numbers held and of a stream | [`quantiles`], [`sketch`] |
 //! | histogram | [`histogram`] |
+//! | control limits and capability of a series | [`process`] |
 //! | which of two series is the smaller | [`paired`] |
 //! | bootstrap, normality, distributions, spatial autocorrelation | [`research`] |
 
@@ -13,6 +14,7 @@ pub mod histogram;
 pub mod moments;
 pub mod paired;
 mod part;
+pub mod process;
 pub mod quantiles;
 pub mod research;
 pub mod sketch;

@@ -13,8 +13,9 @@ use crate::space::{Aabb, Point, Vector, cross, minus, norm, plus, times};
 use rayon::prelude::*;
 
 /// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient: a unit vector
-/// where the distance is not zero. `None` where the geometry has no answer.
-pub type Distance<'a> = dyn Fn(Point) -> Option<(f64, Vector)> + Sync + 'a;
+/// where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that came to lie
+/// there: points may have geometries of their own.
+pub type Distance<'a> = dyn Fn(usize, Point) -> Option<(f64, Vector)> + Sync + 'a;
 
 /// Where the points come to lie.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +49,16 @@ pub struct Search {
     pub middle: f64,
     /// The middle is free: the zone may lie anywhere (offset zones, ISO 1101 `OZ`).
     pub floating: bool,
+    /// Distances count on the outer side only: the greatest one is the least, whatever its sign, and `half` may be negative.
+    /// For boundaries that points must not pass.
+    pub outer: bool,
+}
+
+impl Search {
+    /// How far a distance is out of the middle, on the sides that count.
+    fn off(&self, d: f64, middle: f64) -> f64 {
+        if self.outer { d - middle } else { (d - middle).abs() }
+    }
 }
 
 /// The least greatest distance of `points` (mm) over the free motions, and the motion that has it.
@@ -65,8 +76,9 @@ pub struct Search {
 /// use trueness_geom::zone::motion::{Search, placed};
 /// // Four points of the plane z = 0, one of them 0.4 too high, held in height alone.
 /// let points = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [9.0, 9.0, 0.4]];
-/// let height = |p: [f64; 3]| Some((p[2], [0.0, 0.0, 1.0]));
-/// let search = Search { start: Rigid::IDENTITY, free: Freedom::NONE, middle: 0.0, floating: false };
+/// let height = |_, p: [f64; 3]| Some((p[2], [0.0, 0.0, 1.0]));
+/// let start = Rigid::IDENTITY;
+/// let search = Search { start, free: Freedom::NONE, middle: 0.0, floating: false, outer: false };
 /// assert_eq!(placed(&points, &height, &search, &Silent)?.half, 0.4);
 /// // Free to tilt and to rise, it is a minimum zone: two points above, two below by 0.1 seen along z, at a slope of 0.2 / 9
 /// // in both directions.
@@ -102,8 +114,8 @@ pub fn placed(
         let before = working.len();
         if all.half > low.half {
             let mut out: Vec<usize> =
-                (0..points.len()).filter(|&i| (all.values[i] - middle).abs() > low.half).collect();
-            let far = |i: &usize| (all.values[*i] - middle).abs();
+                (0..points.len()).filter(|&i| search.off(all.values[i], middle) > low.half).collect();
+            let far = |i: &usize| search.off(all.values[*i], middle);
             out.sort_by(|i, j| far(j).total_cmp(&far(i)).then(i.cmp(j)));
             out.truncate(JOINING);
             out.retain(|i| !working.contains(i));
@@ -156,22 +168,33 @@ const UNKNOWNS: usize = 7;
 
 impl Work<'_> {
     fn surveyed(&self, middle: f64, motion: &Rigid) -> Result<Surveyed, ZoneError> {
-        let one = |p: &Point| (self.distance)(motion.point(*p)).map(|d| d.0).filter(|d| d.is_finite());
-        let values: Vec<Option<f64>> = self.points.par_iter().map(one).collect();
+        let one = |(i, p): (usize, &Point)| {
+            (self.distance)(i, motion.point(*p)).map(|d| d.0).filter(|d| d.is_finite())
+        };
+        let values: Vec<Option<f64>> = self.points.par_iter().enumerate().map(one).collect();
         let lost = values.iter().position(Option::is_none);
         if let Some(index) = lost {
             return Err(ZoneError::NotFinite { index });
         }
         let values: Vec<f64> = values.into_iter().flatten().collect();
-        let half = values.iter().fold(0.0f64, |m, d| m.max((d - middle).abs()));
+        let half = values.iter().fold(f64::NEG_INFINITY, |m, d| m.max(self.search.off(*d, middle)));
         Ok(Surveyed { values, half })
     }
 
     fn greatest(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<f64> {
-        working.iter().try_fold(0.0f64, |most, &i| {
-            let (d, _) = (self.distance)(motion.point(self.points[i]))?;
-            d.is_finite().then(|| most.max((d - middle).abs()))
+        working.iter().try_fold(f64::NEG_INFINITY, |most, &i| {
+            let (d, _) = (self.distance)(i, motion.point(self.points[i]))?;
+            d.is_finite().then(|| most.max(self.search.off(d, middle)))
         })
+    }
+
+    /// How far the distances that count range: the size of the first box.
+    fn range(&self, working: &[usize], motion: &Rigid, middle: f64, half: f64) -> f64 {
+        if !self.search.outer {
+            return half;
+        }
+        let at = |i: &usize| (self.distance)(*i, motion.point(self.points[*i])).map_or(0.0, |d| d.0 - middle);
+        half - working.iter().map(at).fold(f64::INFINITY, f64::min)
     }
 
     /// Both sides of each point's zone, and how they answer to the free motions.
@@ -179,7 +202,7 @@ impl Work<'_> {
         let mut all = Vec::with_capacity(2 * working.len());
         for &i in working {
             let p = motion.point(self.points[i]);
-            let (d, gradient) = (self.distance)(p)?;
+            let (d, gradient) = (self.distance)(i, p)?;
             let lever = times(1.0 / self.reach, cross(minus(p, self.turning()), gradient));
             let free = self.search.free;
             let held = |free: bool, x: f64| if free { x } else { 0.0 };
@@ -190,7 +213,9 @@ impl Work<'_> {
             });
             slope[6] = if self.search.floating { -1.0 } else { 0.0 };
             all.push(Function { level: d - middle, slope });
-            all.push(Function { level: middle - d, slope: slope.map(|x| -x) });
+            if !self.search.outer {
+                all.push(Function { level: middle - d, slope: slope.map(|x| -x) });
+            }
         }
         Some(all)
     }
@@ -227,13 +252,13 @@ impl Work<'_> {
         let (mut motion, mut middle) = (start, start_middle);
         let lost = ZoneError::NotSettled;
         let mut half = self.greatest(working, &motion, middle).ok_or(lost)?;
-        let mut reach = 4.0 * half.max(1e-9);
+        let mut reach = 4.0 * self.range(working, &motion, middle, half).max(1e-9);
         for _ in 0..STEPS {
             let functions = self.functions(working, &motion, middle).ok_or(lost)?;
             let program = lowest(&functions, reach).ok_or(lost)?;
             let step = self.freed(program.x);
             let fall = half - program.value;
-            if fall <= 1e-15 * (half + norm(self.center)).max(1e-3) || reach < 1e-14 {
+            if fall <= 1e-15 * (half.abs() + norm(self.center)).max(1e-3) || reach < 1e-14 {
                 break;
             }
             let next = self.stepped(&motion, &step);

@@ -4,6 +4,7 @@ use super::located::single;
 use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value};
 use crate::plan::Class;
 use crate::plan::text::TextureWord;
+use crate::tolerance_class::Table;
 use trueness_geom::shape::derived::angle;
 use trueness_geom::zone::datum::Datum;
 
@@ -22,13 +23,16 @@ impl Characteristic for Angle {
         "ISO 14405-3:2016"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["nominal", "upper", "lower", "datums", "datum_method"]
+        &["nominal", "upper", "lower", "class", "length", "datums", "datum_method"]
     }
     fn allowed(&self) -> Allowed {
         Allowed::Between
     }
     fn unit(&self, _: TextureWord) -> &'static str {
         "deg"
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Angular)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&DIRECTED)?;

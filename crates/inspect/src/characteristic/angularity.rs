@@ -17,14 +17,14 @@ impl Characteristic for Angularity {
         "ISO 1101:2017, 17.12"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "datums", "datum_method", "diametral", "basic"]
+        &["tolerance", "datums", "datum_method", "diametral", "basic", "material"]
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         let Some(angle) = q.spec.basic.angle else {
             return refuse("kind", "it needs the theoretically exact angle: basic = { angle = 60 }");
         };
         if q.spec.basic.place.iter().any(Option::is_some) {
-            return refuse("basic", "an angle is all it takes");
+            return refuse("basic", "it takes an angle, and a turn with a second datum");
         }
         orientation::check(q, angle)
     }

@@ -4,6 +4,7 @@ use super::located::single;
 use super::total_runout::reading;
 use super::{AXES, Characteristic, Measuring, Missing, Question, Refusal, Value};
 use crate::plan::Class;
+use crate::tolerance_class::Table;
 
 /// In one section, the range of the distances from the datum axis (radial), or of the places along it (axial). The section
 /// is a feature of its own: a circle.
@@ -21,7 +22,10 @@ impl Characteristic for CircularRunout {
         "ISO 1101:2017, 17.16"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "datums", "datum_method", "direction"]
+        &["tolerance", "class", "datums", "datum_method", "direction"]
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Runout)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Circle])?;

@@ -4,6 +4,7 @@
 
 use super::located::single;
 use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
+use crate::tolerance_class::Table;
 use trueness_geom::space::{cross, dot, minus, norm};
 use trueness_geom::zone::datum::Datum;
 
@@ -20,10 +21,13 @@ impl Characteristic for Distance {
         "ISO 14405-2:2018"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["nominal", "upper", "lower", "datums", "datum_method"]
+        &["nominal", "upper", "lower", "class", "datums", "datum_method"]
     }
     fn allowed(&self) -> Allowed {
         Allowed::Between
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Linear)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.feature()?;

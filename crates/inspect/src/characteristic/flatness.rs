@@ -2,6 +2,7 @@
 
 use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
 use crate::plan::Class;
+use crate::tolerance_class::Table;
 use trueness_geom::shape::Kind;
 
 /// The distance of the two nearest parallel planes that hold the surface.
@@ -19,7 +20,10 @@ impl Characteristic for Flatness {
         "ISO 1101:2017, 17.3; ISO 12781-1:2011"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "method"]
+        &["tolerance", "class", "length", "method"]
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Form)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Plane]).map(|_| ())

@@ -20,11 +20,10 @@ pub(super) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
 /// The only datum.
 pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
     let none = || Missing::Impossible("it has no datum".into());
-    let first = m.datums.first().ok_or_else(none)?;
-    if let Some(datum) = first.derived_datum()? {
-        return Ok(datum);
-    }
-    if first.class == Class::Sphere {
+    if let Some([first]) = m.datums.first().map(Vec::as_slice)
+        && first.class == Class::Sphere
+        && first.derived_datum()?.is_none()
+    {
         let method = match m.spec.datum_rule {
             Rule::Gaussian => Method::Gaussian,
             Rule::MinimumZone => Method::MinimumZone,
@@ -36,14 +35,19 @@ pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
     system(m)?.datums.first().copied().ok_or_else(none)
 }
 
-fn system(m: &Measuring) -> Result<System, Missing> {
+/// The system of all datums.
+pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
     if let [only] = m.datums
+        && let [only] = only.as_slice()
         && let Some(datum) = only.derived_datum()?
     {
         return Ok(System::of(&[datum])?);
     }
-    let sources: Vec<Source> =
-        m.datums.iter().map(|d| datum_source(d, m.feature())).collect::<Result<_, _>>()?;
+    let mut sources: Vec<Vec<Source>> = Vec::with_capacity(m.datums.len());
+    for datum in m.datums {
+        let features = datum.iter().map(|f| datum_source(f, m.feature()));
+        sources.push(features.collect::<Result<_, _>>()?);
+    }
     Ok(System::associated(&sources, m.spec.datum_rule, m.progress)?)
 }
 

@@ -11,6 +11,7 @@ mod cylindricity;
 mod distance;
 mod flatness;
 mod located;
+mod material;
 mod orientation;
 mod parallelism;
 mod perpendicularity;
@@ -28,6 +29,7 @@ pub(crate) use located::datum_source;
 use crate::inspection::Taken;
 use crate::plan::text::TextureWord;
 use crate::plan::{Class, Feature, Spec};
+use crate::tolerance_class::Table;
 use std::fmt::Debug;
 use trueness_geom::fit::FitError;
 use trueness_geom::progress::Progress;
@@ -68,6 +70,14 @@ pub trait Characteristic: Sync + Debug {
     fn standard(&self) -> &'static str;
     /// The keys it takes beyond `id`, `kind`, `feature` and `uncertainty`.
     fn keys(&self) -> &'static [&'static str];
+    /// The table of tolerance classes that its limits may be taken from.
+    fn class_table(&self) -> Option<Table> {
+        None
+    }
+    /// Whether its datums may have a material requirement.
+    fn material_datums(&self) -> bool {
+        false
+    }
     /// How its limits are given.
     fn allowed(&self) -> Allowed {
         Allowed::Greatest
@@ -140,25 +150,31 @@ impl<'a> Question<'a> {
         refuse("feature", format!("feature \"{id}\" is a {is}; it is defined for: {}", words.join(", ")))
     }
 
-    /// Classes of the datums.
+    /// Classes of the datums; of a common datum, that of its features.
     fn datums(&self) -> Vec<Class> {
-        self.spec.datums.iter().map(|d| self.features[*d].class).collect()
+        self.spec.datums.iter().filter_map(|d| Some(self.features[*d.features.first()?].class)).collect()
+    }
+
+    /// The class of the first of one or several datums, which are all of these.
+    fn system(&self, known: &[Class]) -> Result<Class, Refusal> {
+        let datums = self.datums();
+        let words = || known.iter().map(|c| c.word()).collect::<Vec<_>>().join(", ");
+        if let Some(other) = datums.iter().find(|d| !known.contains(d)) {
+            let what = format!("the datum is a {}; it must be one of: {}", other.word(), words());
+            return refuse("datums", what);
+        }
+        match datums.first() {
+            None => refuse("kind", "it needs a datum: give `datums`"),
+            Some(first) => Ok(*first),
+        }
     }
 
     /// The only datum, one of these.
     fn datum(&self, known: &[Class]) -> Result<Class, Refusal> {
-        match self.datums().as_slice() {
-            [] => refuse("kind", "it needs a datum: give `datums`"),
-            [one] if known.contains(one) => Ok(*one),
-            [one] => {
-                let words: Vec<&str> = known.iter().map(|c| c.word()).collect();
-                refuse(
-                    "datums",
-                    format!("the datum is a {}; it must be one of: {}", one.word(), words.join(", ")),
-                )
-            }
-            _ => refuse("datums", "it is evaluated for a single datum only"),
+        if self.spec.datums.len() > 1 {
+            return refuse("datums", "it is evaluated for a single datum only");
         }
+        self.system(known)
     }
 }
 
@@ -175,8 +191,8 @@ pub struct Measuring<'a> {
     pub spec: &'a Spec,
     /// The toleranced features.
     pub features: &'a [&'a Taken],
-    /// The datum features, in their order.
-    pub datums: &'a [&'a Taken],
+    /// The features of each datum, in their order.
+    pub datums: &'a [Vec<&'a Taken>],
     /// Hears nothing of progress, but asked whether to stop.
     pub progress: &'a dyn Progress,
 }
@@ -192,6 +208,8 @@ impl Measuring<'_> {
 pub struct Value {
     /// The value.
     pub value: f64,
+    /// What a material requirement adds to the greatest allowed value; below 0 where the size is beyond its limit.
+    pub bonus: f64,
     /// Whether the zone is a cylinder or sphere.
     pub diametral: bool,
     /// Places where the value is reached.

@@ -17,7 +17,7 @@ impl Characteristic for Parallelism {
         "ISO 1101:2017, 17.10"
     }
     fn keys(&self) -> &'static [&'static str] {
-        orientation::KEYS
+        &["tolerance", "datums", "datum_method", "diametral", "material"]
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         orientation::check(q, 0.0)

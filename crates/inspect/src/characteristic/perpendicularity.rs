@@ -1,6 +1,7 @@
 //! Perpendicularity: ISO 1101:2017, 17.11. ASME Y14.5-2018, section 9 agrees for surfaces and axes.
 
 use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, orientation};
+use crate::tolerance_class::Table;
 
 /// The width, with the sign ∅ the diameter, of the least zone perpendicular to the datum.
 #[derive(Debug)]
@@ -17,7 +18,10 @@ impl Characteristic for Perpendicularity {
         "ISO 1101:2017, 17.11"
     }
     fn keys(&self) -> &'static [&'static str] {
-        orientation::KEYS
+        &["tolerance", "class", "length", "datums", "datum_method", "diametral", "material"]
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Perpendicularity)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         orientation::check(q, std::f64::consts::FRAC_PI_2)

@@ -2,7 +2,7 @@
 
 use super::located::frame;
 use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, is_axis, refuse};
-use crate::plan::Class;
+use crate::plan::{Class, Spec};
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::zone::motion::{Search, placed};
 
@@ -11,7 +11,8 @@ use trueness_geom::zone::motion::{Search, placed};
 ///
 /// Of a cylinder or cone: of both ends of the associated axis, over the extent of the points. Of a line: of all its points.
 /// Of a plane: of all its points. Of a sphere, circle or point: of its center. Coordinates that `basic` does not give do not
-/// count: x and y place an axis along z (zone ∅), one of them alone holds it between two planes.
+/// count: x and y place an axis along z (zone ∅), one of them alone holds it between two planes. With a material requirement
+/// it is the surface that is looked at, as `material.rs` says.
 #[derive(Debug)]
 pub struct Position;
 
@@ -26,7 +27,10 @@ impl Characteristic for Position {
         "ISO 1101:2017, 17.13; ISO 5458:2018"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "datums", "datum_method", "frame", "basic", "diametral"]
+        &["tolerance", "datums", "datum_method", "frame", "basic", "diametral", "material"]
+    }
+    fn material_datums(&self) -> bool {
+        true
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         let class = q.class(&[
@@ -61,6 +65,7 @@ impl Characteristic for Position {
         if class == Class::Plane && count != 1 {
             return refuse("basic", "a plane across an axis of the datum system is placed by one coordinate");
         }
+        material(q, class, given)?;
         match q.spec.diametral {
             Some(true) if count == 1 => {
                 refuse("diametral", "a zone about one coordinate lies between planes")
@@ -72,11 +77,14 @@ impl Characteristic for Position {
         }
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
+        if let ([Some(x), Some(y), None], true) = (m.spec.basic.place, required(m.spec)) {
+            return super::material::located(m, [x, y]);
+        }
         let (start, free) = frame(m)?;
         let points = m.feature().zoned()?;
         let place = m.spec.basic.place;
-        let distance = |p: Point| Some(from_place(p, place));
-        let search = Search { start, free, middle: 0.0, floating: false };
+        let distance = |_: usize, p: Point| Some(from_place(p, place));
+        let search = Search { start, free, middle: 0.0, floating: false, outer: false };
         let found = placed(&points, &distance, &search, m.progress)?;
         let far = if found.max.0.abs() >= found.min.0.abs() { found.max.1 } else { found.min.1 };
         let mut value = Value { value: 2.0 * found.half, witness: vec![points[far]], ..Value::default() };
@@ -87,6 +95,33 @@ impl Characteristic for Position {
             value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (names[k], at[k])).collect();
         }
         Ok(value)
+    }
+}
+
+/// Whether the tolerance or a datum has a material requirement.
+fn required(spec: &Spec) -> bool {
+    spec.material.is_some() || spec.datums.iter().any(|d| d.material.is_some())
+}
+
+/// Refuses material requirements that are not evaluated.
+fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal> {
+    let spec = q.spec;
+    if !required(spec) {
+        return Ok(());
+    }
+    let key = if spec.material.is_some() { "material" } else { "datums" };
+    if !is_axis(class) || given != [true, true, false] {
+        return refuse(key, "a material requirement is evaluated for an axis along z, placed by x and y");
+    }
+    let marked = spec.datums.iter().position(|d| d.material.is_some());
+    let first = q.datums().first().copied();
+    match (marked, spec.datums.len()) {
+        (None, _) | (Some(0), 1) => Ok(()),
+        (Some(1), 2) if first == Some(Class::Plane) => Ok(()),
+        _ => refuse(
+            "datums",
+            "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
+        ),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
 use crate::plan::Class;
 use crate::plan::text::SizeWord;
+use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::zone::datum::mean;
@@ -21,10 +22,13 @@ impl Characteristic for Size {
         "ISO 14405-1:2016, 3.7"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["nominal", "upper", "lower", "size"]
+        &["nominal", "upper", "lower", "size", "class"]
     }
     fn allowed(&self) -> Allowed {
         Allowed::Between
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Size)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         let size = match q.spec.size {

@@ -2,6 +2,7 @@
 
 use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
 use crate::plan::Class;
+use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::Kind;
 
@@ -21,7 +22,10 @@ impl Characteristic for Straightness {
         "ISO 1101:2017, 17.2; ISO 12780-1:2011"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "method"]
+        &["tolerance", "class", "length", "method"]
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Form)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Line]).map(|_| ())

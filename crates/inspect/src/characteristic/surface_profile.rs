@@ -44,9 +44,9 @@ impl Characteristic for SurfaceProfile {
             Some(_) => frame(m)?,
             None => (Rigid::IDENTITY, Freedom::ALL),
         };
-        let distance = |p: Point| -> Option<(f64, Vector)> { surface.distance(p) };
+        let distance = |_: usize, p: Point| -> Option<(f64, Vector)> { surface.distance(p) };
         let points = feature.taken()?;
-        let search = Search { start, free, middle: 0.0, floating: false };
+        let search = Search { start, free, middle: 0.0, floating: false, outer: false };
         let found = placed(points, &distance, &search, m.progress)?;
         Ok(Value {
             value: 2.0 * found.half,

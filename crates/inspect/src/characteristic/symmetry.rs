@@ -3,6 +3,7 @@
 use super::located::single;
 use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
 use crate::plan::Class;
+use crate::tolerance_class::Table;
 use trueness_geom::space::{dot, minus};
 use trueness_geom::zone::datum::Datum;
 
@@ -22,7 +23,10 @@ impl Characteristic for Symmetry {
         "ISO 1101:2017, 17.15"
     }
     fn keys(&self) -> &'static [&'static str] {
-        &["tolerance", "datums", "datum_method"]
+        &["tolerance", "class", "length", "datums", "datum_method"]
+    }
+    fn class_table(&self) -> Option<Table> {
+        Some(Table::Symmetry)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Plane, Class::Line, Class::Cylinder, Class::Circle, Class::Sphere, Class::Point])?;

@@ -121,10 +121,11 @@ fn by_datums(
         let of = &taken[n];
         let nominal = of.nominal.as_ref().map(nominal_datum);
         nominals.push(nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", of.id)))?);
-        sources.push(datum_source(of, of).map_err(|e| match e {
+        let source = datum_source(of, of).map_err(|e| match e {
             Missing::Cancelled => Stop::Cancelled,
             Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
-        })?);
+        })?;
+        sources.push(vec![source]);
     }
     let nominal = System::of(&nominals).map_err(impossible)?;
     if !nominal.free.is_none() {

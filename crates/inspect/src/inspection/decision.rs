@@ -28,6 +28,8 @@ pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<f64>) -> Verdi
 /// Share of what is allowed that the value takes up: 1 at a limit.
 pub fn utilisation(value: f64, limits: &Limits) -> Option<f64> {
     let share = match *limits {
+        // A bonus below zero may leave nothing: then there is no share of it.
+        Limits::Greatest(t) if t < 0.0 => f64::INFINITY,
         Limits::Greatest(t) => value / t,
         Limits::Between { nominal, lower, upper } => {
             let middle = nominal + 0.5 * (lower + upper);

@@ -119,7 +119,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let mut values = Vec::with_capacity(plan.specs.len());
     for spec in &plan.specs {
         let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
-        let (own, datums) = (of(&spec.features), of(&spec.datums));
+        let own = of(&spec.features);
+        let datums: Vec<Vec<&Taken>> = spec.datums.iter().map(|d| of(&d.features)).collect();
         let measuring = Measuring { spec, features: &own, datums: &datums, progress };
         values.push(match spec.kind.measure(&measuring) {
             Ok(value) if value.value.is_finite() => Ok(value),

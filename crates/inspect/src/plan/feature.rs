@@ -68,6 +68,8 @@ pub struct Feature {
     pub method: Method,
     /// A direction out of the material.
     pub outward: Option<Vector>,
+    /// Of a cylinder, whether the material is around it.
+    pub internal: Option<bool>,
 }
 
 impl Feature {
@@ -143,11 +145,15 @@ fn feature(
         extract: extract(checker, written.extract.as_ref())?,
         method,
         outward,
+        internal: written.internal.as_ref().map(|i| i.value),
     };
     if let Some(derived) = &written.derived {
         if let Some(shape) = &written.shape {
             return checker
                 .wrong(&shape.span, "a derived feature takes no shape; it follows from its features");
+        }
+        if let Some(internal) = &written.internal {
+            return checker.wrong(&internal.span, "`internal` is for cylinders: bores and shafts");
         }
         (made.class, made.source) = self::derived(checker, derived, written.of.as_ref(), before)?;
         return Ok(made);
@@ -156,6 +162,9 @@ fn feature(
         return checker.wrong(whole, format!("feature \"{id}\" needs `shape`, or `derived` with `of`"));
     };
     made.class = class(checker, shape)?;
+    if let Some(internal) = written.internal.as_ref().filter(|_| made.class != Class::Cylinder) {
+        return checker.wrong(&internal.span, "`internal` is for cylinders: bores and shafts");
+    }
     if let Some(nominal) = &written.nominal {
         made.nominal = Some(self::nominal(checker, shape.value, nominal)?);
     }

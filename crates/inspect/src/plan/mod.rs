@@ -5,9 +5,11 @@
 
 mod align;
 mod at;
+mod datum;
 mod deviation;
 mod error;
 mod feature;
+mod material;
 mod proposal;
 pub mod region;
 mod spec;
@@ -15,9 +17,11 @@ pub mod text;
 
 pub use align::Align;
 pub use at::At;
+pub use datum::DatumSpec;
 pub use deviation::Deviation;
 pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};
+pub use material::Boundary;
 pub use proposal::proposal;
 pub use spec::{Basic, Limits, Spec};
 

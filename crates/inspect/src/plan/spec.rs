@@ -1,11 +1,13 @@
 //! The characteristics of a plan.
 
 use super::at::At;
+use super::datum::{self as datums, DatumSpec};
 use super::error::{PlanError, unknown};
-use super::feature::{Class, Feature, Source};
+use super::feature::Feature;
+use super::material::{self, Boundary};
 use super::text::{
-    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OneOrTwo, PlanText, RunoutWord, SizeWord,
-    TextureWord,
+    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, MaterialWord, OneOrTwo, PlanText,
+    RunoutWord, SizeWord, TextureWord,
 };
 use super::{Checker, Decision, Rule};
 use crate::characteristic::{self, Allowed, Characteristic, Question};
@@ -25,8 +27,8 @@ pub struct Spec {
     pub kind: &'static dyn Characteristic,
     /// Numbers of the features: one, or two of a size.
     pub features: Vec<usize>,
-    /// Numbers of the datum features, the first datum first.
-    pub datums: Vec<usize>,
+    /// The datums, the first one first.
+    pub datums: Vec<DatumSpec>,
     /// How datums are associated.
     pub datum_rule: datum::Rule,
     /// The datum system as given: frame from measured.
@@ -41,10 +43,16 @@ pub struct Spec {
     pub size: Option<SizeWord>,
     /// What is allowed.
     pub limits: Limits,
+    /// The tolerance class that it comes from.
+    pub class: Option<String>,
     /// Whether a run-out is read along the datum axis.
     pub axial: bool,
     /// Which parameter of a texture.
     pub parameter: TextureWord,
+    /// Its material requirement.
+    pub material: Option<MaterialWord>,
+    /// The boundary that the requirement sets.
+    pub boundary: Option<Boundary>,
     /// Expanded uncertainty of the value, as the plan gives it for this characteristic or for all.
     pub uncertainty: Option<f64>,
 }
@@ -56,6 +64,8 @@ pub struct Basic {
     pub place: [Option<f64>; 3],
     /// Angle.
     pub angle: Option<f64>,
+    /// Angle about the first datum from the direction of the second.
+    pub turn: Option<f64>,
 }
 
 /// What is allowed; the limits belong to it. Millimetres; degrees for angles.
@@ -89,6 +99,14 @@ impl Limits {
             Limits::Between { nominal, lower, upper } => (Some(nominal + lower), nominal + upper),
         }
     }
+
+    /// With this much added to the greatest allowed value.
+    pub fn widened(&self, bonus: f64) -> Limits {
+        match *self {
+            Limits::Greatest(t) => Limits::Greatest(t + bonus),
+            between => between,
+        }
+    }
 }
 
 pub(super) fn specs(
@@ -105,6 +123,7 @@ pub(super) fn specs(
         }
         all.push(spec(checker, value, span, features, decision)?);
     }
+    material::resolve(checker, written, features, &mut all)?;
     Ok(all)
 }
 
@@ -131,11 +150,19 @@ fn spec(
     let parameter = written.parameter.as_ref().map_or(TextureWord::Sa, |p| p.value);
     let unit = kind.unit(parameter);
     let toleranced = toleranced(checker, &written.feature, features)?;
+    let datums = datums::datums(checker, written, &toleranced, features)?;
+    if let Some(n) = datums.iter().position(|d| d.material.is_some())
+        && !kind.material_datums()
+    {
+        let span = written.datums.as_ref().and_then(|d| Some(d.value.get(n)?.span.clone()));
+        let what = format!("{word} takes no material requirement on a datum");
+        return checker.wrong(&span.unwrap_or(whole.clone()), what);
+    }
     let made = Spec {
         id: written.id.value.clone(),
         span: written.id.span.clone(),
         kind,
-        datums: datums(checker, written, &toleranced, features)?,
+        datums,
         features: toleranced,
         datum_rule: match written.datum_method.as_ref().map(|m| m.value) {
             Some(DatumMethodWord::MinimumZone) => datum::Rule::MinimumZone,
@@ -150,8 +177,11 @@ fn spec(
         },
         size: written.size.as_ref().map(|s| s.value),
         limits: limits(checker, written, whole, kind, unit)?,
+        class: written.class.as_ref().map(|c| c.value.clone()),
         axial: written.direction.as_ref().is_some_and(|d| d.value == RunoutWord::Axial),
         parameter,
+        material: written.material.as_ref().map(|m| m.value),
+        boundary: None,
         uncertainty: match &written.uncertainty {
             Some(u) => Some(number(checker, u, unit, "the uncertainty")?),
             // The plan's common uncertainty is a length.
@@ -195,6 +225,9 @@ fn keys(w: &CharacteristicText) -> Vec<(&'static str, Range<usize>)> {
         of("lower", &w.lower),
         of("direction", &w.direction),
         of("parameter", &w.parameter),
+        of("class", &w.class),
+        of("length", &w.length),
+        of("material", &w.material),
     ]
     .into_iter()
     .flatten()
@@ -232,45 +265,6 @@ fn toleranced(checker: &Checker, at: &At<OneOrTwo>, features: &[Feature]) -> Res
     names.iter().map(|name| named(checker, name, &at.span, features)).collect()
 }
 
-fn datums(
-    checker: &Checker,
-    written: &CharacteristicText,
-    own: &[usize],
-    features: &[Feature],
-) -> Result<Vec<usize>, PlanError> {
-    let Some(list) = &written.datums else { return Ok(vec![]) };
-    if list.value.len() > 3 {
-        return checker.wrong(&list.span, "a datum system has up to three datums");
-    }
-    let mut numbers = Vec::new();
-    for name in &list.value {
-        if name.value.contains('-') && !features.iter().any(|f| f.id == name.value) {
-            return checker
-                .wrong(&name.span, format!("common datums (\"{}\") are not built yet", name.value));
-        }
-        let number = named(checker, &name.value, &name.span, features)?;
-        let class = features[number].class;
-        if matches!(class, Class::Circle | Class::Torus | Class::Surface) {
-            return checker.wrong(&name.span, format!("a {} cannot be a datum here", class.word()));
-        }
-        if own.contains(&number) {
-            return checker.wrong(
-                &name.span,
-                format!("\"{}\" is the toleranced feature; it cannot be its own datum", name.value),
-            );
-        }
-        if numbers.contains(&number) {
-            return checker.wrong(&name.span, format!("datum \"{}\" is named twice", name.value));
-        }
-        if list.value.len() > 1 && matches!(features[number].source, Source::Derived { .. }) {
-            return checker
-                .wrong(&name.span, "a derived feature can be a datum alone, but not in a system yet");
-        }
-        numbers.push(number);
-    }
-    Ok(numbers)
-}
-
 fn frame(checker: &Checker, written: &CharacteristicText) -> Result<Option<Rigid>, PlanError> {
     let Some(at) = &written.frame else { return Ok(None) };
     if written.datums.is_some() {
@@ -287,15 +281,17 @@ fn frame(checker: &Checker, written: &CharacteristicText) -> Result<Option<Rigid
 fn basic(checker: &Checker, at: Option<&At<BasicText>>) -> Result<Basic, PlanError> {
     let Some(At { value, span }) = at else { return Ok(Basic::default()) };
     let place = [value.x, value.y, value.z].map(|x| x.map(|x| x * checker.unit));
-    if place.iter().flatten().chain(value.angle.iter()).any(|x| !x.is_finite()) {
+    let angles = [("angle", value.angle), ("turn", value.turn)];
+    if place.into_iter().chain(angles.map(|a| a.1)).flatten().any(|x| !x.is_finite()) {
         return checker.wrong(span, "a theoretically exact dimension must be a finite number");
     }
-    match value.angle {
-        Some(angle) if !(0.0..=90.0).contains(&angle) => {
-            checker.wrong(span, format!("the angle is {angle}; give degrees from 0 to 90"))
+    for (name, angle) in angles {
+        if let Some(angle) = angle.filter(|a| !(0.0..=90.0).contains(a)) {
+            return checker.wrong(span, format!("the {name} is {angle}; give degrees from 0 to 90"));
         }
-        angle => Ok(Basic { place, angle: angle.map(f64::to_radians) }),
     }
+    let [angle, turn] = angles.map(|a| a.1.map(f64::to_radians));
+    Ok(Basic { place, angle, turn })
 }
 
 /// A number in the unit of the kind's values: angles and ratios are not lengths.
@@ -318,6 +314,9 @@ fn limits(
     let word = kind.word();
     match kind.allowed() {
         Allowed::Greatest => {
+            if let Some([_, t]) = by_class(checker, w, kind, 0.0, ["tolerance"])? {
+                return Ok(Limits::Greatest(t));
+            }
             let Some(t) = &w.tolerance else {
                 return checker.wrong(whole, format!("{word} needs `tolerance`"));
             };
@@ -325,11 +324,18 @@ fn limits(
         }
         Allowed::Between => {
             let signed = in_unit(checker, unit);
-            let (Some(nominal), Some(upper), Some(lower)) = (&w.nominal, &w.upper, &w.lower) else {
+            let Some(nominal) = &w.nominal else {
+                return checker.wrong(whole, format!("{word} needs `nominal`, `upper` and `lower`"));
+            };
+            let middle = signed.length(nominal, "the nominal value")?;
+            if let Some([lower, upper]) = by_class(checker, w, kind, middle, ["upper", "lower"])? {
+                return Ok(Limits::Between { nominal: middle, lower, upper });
+            }
+            let (Some(upper), Some(lower)) = (&w.upper, &w.lower) else {
                 return checker.wrong(whole, format!("{word} needs `nominal`, `upper` and `lower`"));
             };
             let made = Limits::Between {
-                nominal: signed.length(nominal, "the nominal value")?,
+                nominal: middle,
                 lower: signed.length(lower, "the lower limit deviation")?,
                 upper: signed.length(upper, "the upper limit deviation")?,
             };
@@ -345,4 +351,32 @@ fn limits(
             }
         }
     }
+}
+
+/// Limit deviations by a tolerance class, where the plan gives one in place of the keys `instead`.
+fn by_class<const N: usize>(
+    checker: &Checker,
+    w: &CharacteristicText,
+    kind: &dyn Characteristic,
+    nominal: f64,
+    instead: [&str; N],
+) -> Result<Option<[f64; 2]>, PlanError> {
+    let (Some(class), Some(table)) = (&w.class, kind.class_table()) else {
+        return match &w.length {
+            Some(length) => checker.wrong(&length.span, "`length` goes with `class`"),
+            None => Ok(None),
+        };
+    };
+    if let Some((key, span)) = keys(w).into_iter().find(|(key, _)| instead.contains(key)) {
+        return checker.wrong(&span, format!("give `class` or `{key}`, not both"));
+    }
+    let length = match &w.length {
+        Some(length) if !table.takes_length() => {
+            return checker.wrong(&length.span, "the class of this kind goes by no length");
+        }
+        Some(length) => Some(checker.not_negative(length, "the length")?),
+        None => None,
+    };
+    let limits = table.limits(&class.value, nominal, length);
+    limits.map(Some).or_else(|e| checker.wrong(&class.span, e.to_string()))
 }

@@ -8,6 +8,7 @@ use crate::characteristic::Value;
 use crate::compare;
 use crate::inspection::decision::{overall, rank, utilisation, verdict};
 use crate::inspection::{Element, Found, Inspection, Taken};
+use crate::plan::text::MaterialWord;
 use crate::plan::{Limits, Plan, Source, Spec};
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -187,9 +188,9 @@ pub struct CharacteristicRecord {
     pub symbol: String,
     /// The toleranced feature; of a size of two planes, both, with a dash between.
     pub feature: String,
-    /// The datum features, the first one first.
+    /// The datums, the first one first: `A`, a common datum `A-B`, with a material requirement `A(M)`.
     pub datums: Vec<String>,
-    /// What modifies it: the size, the datums' association, the parameter.
+    /// What modifies it: the tolerance class, the size, the material requirement, the datums' association, the parameter.
     pub modifiers: Vec<String>,
     /// Form of the zone: `width`, `diameter` or `value` (a dimension or parameter).
     pub zone: String,
@@ -199,7 +200,7 @@ pub struct CharacteristicRecord {
     pub tolerance: Option<f64>,
     /// Least allowed value of a dimension.
     pub lower: Option<f64>,
-    /// Greatest allowed value.
+    /// Greatest allowed value; with a material requirement, the tolerance and its bonus.
     pub upper: f64,
     /// The value; millimetres, degrees for an angle.
     pub value: Option<f64>,
@@ -225,6 +226,15 @@ pub struct CharacteristicRecord {
     pub notes: Vec<String>,
     /// The standard and clause that define it.
     pub standard: String,
+}
+
+impl CharacteristicRecord {
+    /// Tolerance and sign of a material requirement, where the greatest allowed value is not the tolerance alone.
+    pub fn requirement(&self) -> Option<(f64, &str)> {
+        let signs = [MaterialWord::M, MaterialWord::L].map(MaterialWord::symbol);
+        let sign = self.modifiers.iter().map(String::as_str).find(|m| signs.contains(m));
+        self.tolerance.zip(sign)
+    }
 }
 
 /// Number of characteristics by verdict.
@@ -377,7 +387,8 @@ fn characteristic(
         Limits::Greatest(t) => (None, Some(t)),
         Limits::Between { nominal, .. } => (Some(nominal), None),
     };
-    let (lower, upper) = spec.limits.range();
+    let limits = spec.limits.widened(measured.map_or(0.0, |v| v.bonus));
+    let (lower, upper) = limits.range();
     let zone = match (nominal, measured) {
         (Some(_), _) => "value",
         _ if spec.kind.word() == "texture" => "value",
@@ -391,7 +402,7 @@ fn characteristic(
         kind: spec.kind.word().into(),
         symbol: spec.kind.symbol().into(),
         feature: spec.features.iter().map(id).collect::<Vec<_>>().join(JOINED),
-        datums: spec.datums.iter().map(id).collect(),
+        datums: spec.datums.iter().map(|d| d.name(&plan.features)).collect(),
         modifiers: modifiers(spec),
         zone: zone.into(),
         nominal,
@@ -402,10 +413,9 @@ fn characteristic(
         unit: spec.unit().into(),
         uncertainty: spec.uncertainty,
         decision_rule: rule.word().into(),
-        verdict: measured
-            .map_or(Verdict::NotMeasured, |v| verdict(v.value, &spec.limits, rule, spec.uncertainty)),
+        verdict: measured.map_or(Verdict::NotMeasured, |v| verdict(v.value, &limits, rule, spec.uncertainty)),
         reason: value.as_ref().err().cloned(),
-        utilisation: measured.and_then(|v| utilisation(v.value, &spec.limits)),
+        utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
         parts: measured
@@ -418,9 +428,11 @@ fn characteristic(
 /// What modifies a characteristic, as words.
 fn modifiers(spec: &Spec) -> Vec<String> {
     let mut all = Vec::new();
+    all.extend(spec.class.clone());
     if let Some(size) = spec.size {
         all.push(size.word().to_string());
     }
+    all.extend(spec.material.map(|m| m.symbol().to_string()));
     if spec.kind.word() == "texture" {
         all.push(spec.parameter.word().to_string());
     }

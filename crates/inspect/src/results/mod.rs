@@ -14,6 +14,7 @@ pub mod research;
 pub mod section;
 pub mod segment;
 pub mod surface;
+pub mod trend;
 
 use compare::Bounds;
 use schemars::JsonSchema;
@@ -173,5 +174,6 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("section", text(schemars::schema_for!(section::SectionDocument))),
         ("segment", text(schemars::schema_for!(segment::SegmentDocument))),
         ("surface", text(schemars::schema_for!(surface::SurfaceDocument))),
+        ("trend", text(schemars::schema_for!(trend::TrendDocument))),
     ]
 }

@@ -1,5 +1,6 @@
 //! The characteristics of one or several parts as CSV and as JUnit XML.
 
+use crate::console::cell;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::compare::ToleranceShares;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
@@ -56,7 +57,7 @@ pub fn csv(documents: &[InspectDocument]) -> String {
                 number(c.utilisation),
                 c.reason.clone().unwrap_or_default(),
             ];
-            out.push_str(&cells.map(quoted).join(","));
+            out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
         if let Some((t, verdict)) = judged(document) {
@@ -69,19 +70,11 @@ pub fn csv(documents: &[InspectDocument]) -> String {
             cells[9] = "%".into();
             cells[11] = verdict.word().into();
             cells[13] = t.inside_reason.clone().unwrap_or_default();
-            out.push_str(&cells.map(quoted).join(","));
+            out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
     }
     out
-}
-
-/// A cell, in quotes where it holds what parts cells.
-fn quoted(cell: String) -> String {
-    match cell.contains([',', '"', '\r', '\n']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell,
-    }
 }
 
 /// A test suite a part and a test case a characteristic, and one for the deviations where they are judged. What fails is a failure, what nobody can tell an error, what was
@@ -177,7 +170,7 @@ mod tests {
 
     #[test]
     fn no_text_breaks_out_of_its_cell_or_attribute() {
-        assert_eq!(quoted("a,\"b\"\n".into()), "\"a,\"\"b\"\"\n\"");
+        assert_eq!(cell("a,\"b\"\n".into()), "\"a,\"\"b\"\"\n\"");
         assert_eq!(escaped("<a b=\"c\">&\u{1}\n"), "&lt;a b=&quot;c&quot;&gt;&amp;\u{fffd}&#10;");
     }
 }

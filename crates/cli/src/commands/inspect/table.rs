@@ -92,7 +92,10 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
             let deviation = |limit: f64| signed(((limit - nominal) * 1e12).round() / 1e12);
             format!("{} {}/{}", six_digits(nominal), deviation(lower), deviation(c.upper))
         }
-        _ => format!("{sign}{}", six_digits(c.upper)),
+        _ => match c.requirement() {
+            Some((t, letter)) => format!("{sign}{} ({} {letter})", six_digits(c.upper), six_digits(t)),
+            None => format!("{sign}{}", six_digits(c.upper)),
+        },
     };
     let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
     let value = c.uncertainty.map_or(value.clone(), |u| format!("{value} ± {}", six_digits(u)));

@@ -92,6 +92,11 @@ fn across(
     Ok(touching(source, outside(normal, source.outward), rule))
 }
 
+/// The direction across `axis` that is nearest to `near`.
+pub(super) fn across_normal(axis: Vector, near: Vector) -> Option<Vector> {
+    unit(minus(near, times(dot(near, axis), axis))).map(|n| n.0)
+}
+
 /// Normal of the least-squares plane among those parallel to `axis`: the least scatter of the points seen along it.
 fn least_squares_across(points: &[Point], axis: Vector, near: Vector) -> Option<Vector> {
     let [u, v, _] = Rigid::into_frame([0.0; 3], axis, near)?.rotation();
@@ -141,6 +146,6 @@ fn touching(source: &Source, normal: Vector, rule: Rule) -> Datum {
     Datum::Plane { point, normal }
 }
 
-fn outside(normal: Vector, outward: Vector) -> Vector {
+pub(super) fn outside(normal: Vector, outward: Vector) -> Vector {
     if dot(normal, outward) < 0.0 { times(-1.0, normal) } else { normal }
 }

@@ -2,10 +2,12 @@
 //!
 //! ISO 5459:2011. A single datum is the situation feature of an ideal element associated with the feature. In a system the
 //! second datum keeps the first one's attitude, the third keeps that of both. Planes by minimum zone touch the material from
-//! outside; by least squares they lie amid the points.
+//! outside; by least squares they lie amid the points. A common datum is made of several features at once.
 
 mod associate;
+mod common;
 mod frame;
+mod joint;
 
 use super::ZoneError;
 use crate::fit::FitError;
@@ -14,6 +16,7 @@ use crate::rigid::Rigid;
 use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, plus, times};
 use associate::associate;
+use common::Common;
 use frame::State;
 
 /// How an ideal element is associated with a feature.
@@ -93,6 +96,14 @@ pub enum DatumError {
         /// Its angle to the first datum.
         degrees: f64,
     },
+    /// The features of a common datum do not go together.
+    #[error("common datum {datum}: {what}", datum = datum + 1)]
+    Common {
+        /// Which datum.
+        datum: usize,
+        /// Why.
+        what: &'static str,
+    },
     /// The combination has no rule here.
     #[error("a datum system of {what} is not evaluated")]
     Unsupported {
@@ -138,22 +149,47 @@ pub struct System {
 
 /// Angle in radians within which datums count as parallel or perpendicular as drawn: a measured part is off by its own
 /// deviations, which are far smaller, and a drawing's other angles are far larger.
-const AS_DRAWN: f64 = 5.0 * std::f64::consts::PI / 180.0;
+pub const AS_DRAWN: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 impl System {
     /// Associates the datums one after the other, each in the attitude that those before it leave, and makes their frame.
+    /// A datum has one feature, or as a common datum (`A-B`) two or three: coaxial cylinders or lines, coplanar planes, or
+    /// two opposite planes, associated at once. Every point of them counts alike.
+    ///
+    /// Cost: some passes over the points of each datum.
     ///
     /// # Errors
-    /// [`DatumError`]: points that make no element, a datum that is parallel to one that it should stand across, more than
-    /// three datums.
-    pub fn associated(sources: &[Source], rule: Rule, progress: &dyn Progress) -> Result<System, DatumError> {
+    /// [`DatumError`]: points that make no element, a datum that is parallel to one that it should stand across, features
+    /// that make no common datum, more than three datums.
+    ///
+    /// ```
+    /// use trueness_geom::progress::Silent;
+    /// use trueness_geom::shape::Kind;
+    /// use trueness_geom::zone::datum::{Datum, Rule, Source, System};
+    /// // Two lines of one axis, the second one leaning by its own.
+    /// let (a, b) = ([[0.0, 0.0, 0.0], [0.0, 0.0, 10.0]], [[0.0, 0.1, 90.0], [0.0, -0.1, 100.0]]);
+    /// let line = |points| Source { points, kind: Kind::Line, outward: [0.0; 3] };
+    /// let system = System::associated(&[vec![line(&a), line(&b)]], Rule::Gaussian, &Silent)?;
+    /// let Datum::Axis { direction, .. } = system.datums[0] else { unreachable!() };
+    /// // Slope of the straight line of least squares through the four: −1 / 8200.
+    /// assert!((direction[1] / direction[2] + 1.0 / 8200.0).abs() < 1e-9);
+    /// # Ok::<(), trueness_geom::zone::datum::DatumError>(())
+    /// ```
+    pub fn associated(
+        sources: &[Vec<Source>],
+        rule: Rule,
+        progress: &dyn Progress,
+    ) -> Result<System, DatumError> {
         let mut datums = Vec::new();
-        for (datum, source) in sources.iter().enumerate() {
+        for (datum, features) in sources.iter().enumerate() {
             let held = match datum {
                 0 => Held::Nothing,
                 _ => System::of(&datums)?.held(),
             };
-            datums.push(associate(datum, source, rule, held, progress)?);
+            datums.push(match features.as_slice() {
+                [one] => associate(datum, one, rule, held, progress)?,
+                sources => Common { datum, sources, rule, held, progress }.associated()?,
+            });
         }
         System::of(&datums)
     }

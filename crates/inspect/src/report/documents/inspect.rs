@@ -215,6 +215,9 @@ fn allowed(h: &mut Html, c: &CharacteristicRecord) {
                 digits(c),
                 false,
             );
+            if let Some((t, sign)) = c.requirement() {
+                h.raw(" (").number(t, digits(c), false).raw(&format!("\u{a0}{sign})"));
+            }
         }
     }
 }

@@ -1,10 +1,14 @@
 //! The plan as its author writes it: TOML, `trueness/plan/1`. Every value that can be wrong knows its place.
 
+mod words;
+
+pub use words::{
+    DatumMethodWord, FormMethodWord, KindWord, MaterialWord, RuleWord, RunoutWord, SizeWord, TextureWord,
+};
+
 use super::at::At;
-use crate::characteristic;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use std::borrow::Cow;
 
 /// The whole plan. Paths are relative to the plan, lengths in `units`, angles in degrees.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -169,6 +173,8 @@ pub struct FeatureText {
     pub extract: Option<ExtractText>,
     /// How the element is associated: gaussian (without it), minimum-zone, minimum-circumscribed, maximum-inscribed, robust.
     pub method: Option<At<MethodWord>>,
+    /// Of a cylinder: whether the material is around it, as of a bore, or within, as of a shaft.
+    pub internal: Option<At<bool>>,
     /// Of a plane of measured points: a direction out of the material.
     pub outward: Option<At<[f64; 3]>>,
     /// A feature made of others.
@@ -299,7 +305,16 @@ pub struct CharacteristicText {
     pub feature: At<OneOrTwo>,
     /// Width or diameter of the zone; greatest allowed value.
     pub tolerance: Option<At<f64>>,
-    /// The datums, the first one first.
+    /// Tolerance class by letters, in place of the limits: of a size by ISO 286-2 (`H7`, `js9`), of a size, distance or angle
+    /// by ISO 2768-1 (`f`, `m`, `c`, `v`), of a form or attitude by ISO 2768-2 (`H`, `K`, `L`).
+    pub class: Option<At<String>>,
+    /// Nominal length that the class goes by: of a flat or straight feature its (longer) side, of a perpendicular one its
+    /// shorter side, of an angle the shorter leg, of a symmetric one the feature's length.
+    pub length: Option<At<f64>>,
+    /// Maximum (`M`) or least (`L`) material requirement on the tolerance of a feature of size.
+    pub material: Option<At<MaterialWord>>,
+    /// The datums, the first one first. `A-B` is a common datum of two features; `A(M)` and `A(L)` have the maximum and the
+    /// least material requirement.
     pub datums: Option<At<Vec<At<String>>>>,
     /// How datums are associated: gaussian (without it) or minimum-zone.
     pub datum_method: Option<At<DatumMethodWord>>,
@@ -351,98 +366,8 @@ pub struct BasicText {
     pub z: Option<f64>,
     /// Angle in degrees.
     pub angle: Option<f64>,
-}
-
-/// How datums are associated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DatumMethodWord {
-    /// Least squares.
-    Gaussian,
-    /// Minimum zone, tangent outside the material.
-    MinimumZone,
-}
-
-/// How a form is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FormMethodWord {
-    /// The narrowest zone, as the standards define it.
-    MinimumZone,
-    /// About the least-squares element.
-    Gaussian,
-}
-
-/// Sizes of ISO 14405-1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "UPPERCASE")]
-pub enum SizeWord {
-    /// Two-point size.
-    Lp,
-    /// Least-squares size.
-    Gg,
-    /// Minimum circumscribed size.
-    Gn,
-    /// Maximum inscribed size.
-    Gx,
-    /// Minimax size.
-    Gc,
-}
-
-impl SizeWord {
-    /// Its letters.
-    pub fn word(self) -> &'static str {
-        match self {
-            SizeWord::Lp => "LP",
-            SizeWord::Gg => "GG",
-            SizeWord::Gn => "GN",
-            SizeWord::Gx => "GX",
-            SizeWord::Gc => "GC",
-        }
-    }
-}
-
-/// Along which way a run-out is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum RunoutWord {
-    /// Across the datum axis.
-    Radial,
-    /// Along it.
-    Axial,
-}
-
-/// Parameters of ISO 25178-2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum TextureWord {
-    /// Arithmetic mean height.
-    Sa,
-    /// Root mean square height.
-    Sq,
-    /// Maximum height.
-    Sz,
-    /// Skewness.
-    Ssk,
-    /// Kurtosis.
-    Sku,
-}
-
-impl TextureWord {
-    /// Its letters.
-    pub fn word(self) -> &'static str {
-        match self {
-            TextureWord::Sa => "Sa",
-            TextureWord::Sq => "Sq",
-            TextureWord::Sz => "Sz",
-            TextureWord::Ssk => "Ssk",
-            TextureWord::Sku => "Sku",
-        }
-    }
-
-    /// Whether it is a length, not a ratio.
-    pub fn is_length(self) -> bool {
-        !matches!(self, TextureWord::Ssk | TextureWord::Sku)
-    }
+    /// Angle about the first datum from the direction that the second datum gives, degrees; without it along or across.
+    pub turn: Option<f64>,
 }
 
 /// How a verdict is reached.
@@ -453,30 +378,4 @@ pub struct DecisionText {
     pub rule: At<RuleWord>,
     /// Expanded uncertainty (k = 2) of every value that has none of its own.
     pub uncertainty: Option<At<f64>>,
-}
-
-/// Decision rules.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum RuleWord {
-    /// The value alone decides.
-    #[serde(rename = "simple")]
-    Simple,
-    /// Within the uncertainty of a limit nothing is decided.
-    #[serde(rename = "iso14253-1")]
-    Iso14253,
-}
-
-/// The word of a characteristic, one of the list.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(transparent)]
-pub struct KindWord(pub String);
-
-impl JsonSchema for KindWord {
-    fn schema_name() -> Cow<'static, str> {
-        "Kind".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let words: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
-        json_schema!({ "type": "string", "enum": words })
-    }
 }

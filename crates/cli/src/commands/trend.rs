@@ -1,0 +1,200 @@
+//! `trueness trend`: one plan over many parts.
+
+use crate::command::Run;
+use crate::console;
+use crate::exit::Outcome;
+use crate::number::{counted, fixed, six_digits};
+use crate::options::{Common, DocumentArgs};
+use crate::output::whole_file;
+use crate::run_files::RunFiles;
+use anyhow::{Context, anyhow, bail};
+use clap::Args;
+use std::fmt::Write;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use trueness_inspect::results::Verdict;
+use trueness_inspect::results::inspect::{self, InspectDocument};
+use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
+
+/// Longest result that is read, bytes.
+const LONGEST: u64 = 256 << 20;
+
+/// The course of an inspection plan over many parts: capability, control limits
+///
+/// Reads the results that `trueness inspect --json` wrote, in the order in which the parts were made. Exit status 1 if a part
+/// does not pass or a value is out of control.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness trend part-01.json part-02.json part-03.json
+  trueness trend results/*.json --json trend.json --csv trend.csv")]
+pub struct TrendArgs {
+    /// Results of `trueness inspect --json`, one part each, in their order
+    #[arg(required = true)]
+    results: Vec<PathBuf>,
+    #[command(flatten)]
+    document: DocumentArgs,
+    /// Write the characteristics as a table, one line each
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+impl Run for TrendArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of(&self.results).document(self.document.json.as_ref()).also("--csv", self.csv.as_ref()))
+    }
+    fn run(&self, _: &Common) -> anyhow::Result<Outcome> {
+        let read = self.results.iter().map(|path| read(path));
+        let (inputs, results): (Vec<_>, Vec<_>) =
+            read.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
+        let document = TrendDocument::new(inputs, &results).map_err(|e| match &e {
+            TrendError::Different { index, .. } => anyhow!("{}: {e}", self.results[*index].display()),
+            TrendError::None => anyhow!("{e}"),
+        })?;
+        if let Some(path) = &self.csv {
+            let text = csv(&document);
+            whole_file(path, |file| file.write_all(text.as_bytes()))?;
+        }
+        self.document.write(&document)?;
+        self.document.table(|| table(&document))?;
+        let well = document.verdict == Verdict::Pass && document.in_control;
+        Ok(if well { Outcome::Conforming } else { Outcome::NotConforming })
+    }
+}
+
+/// A result of an inspection and what it was read from.
+fn read(path: &Path) -> anyhow::Result<(ResultInput, InspectDocument)> {
+    let shown = path.display();
+    if crate::run_files::is_stream(path) {
+        bail!("{shown}: a result must be a file");
+    }
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).with_context(|| format!("{shown}: the result cannot be read"))?;
+    let taken = file.take(LONGEST + 1).read_to_end(&mut bytes);
+    taken.with_context(|| format!("{shown}: the result cannot be read"))?;
+    if bytes.len() as u64 > LONGEST {
+        bail!("{shown}: it is longer than 256 MB; this is no result of an inspection");
+    }
+    let value: serde_json::Value = serde_json::from_slice(&bytes)
+        .map_err(|e| anyhow!("{shown}: it is no JSON ({e}); give what `trueness inspect --json` wrote"))?;
+    let schema = value.get("schema").and_then(|s| s.as_str()).unwrap_or("no schema").to_string();
+    if schema != inspect::SCHEMA {
+        let wanted = inspect::SCHEMA;
+        bail!(
+            "{shown}: its schema is \"{schema}\", not \"{wanted}\"; give what `trueness inspect --json` wrote"
+        );
+    }
+    let document: InspectDocument =
+        serde_json::from_value(value).map_err(|e| anyhow!("{shown}: it is no whole result: {e}"))?;
+    let digest = trueness_files::sha256(path).ok();
+    let input = ResultInput {
+        path: shown.to_string(),
+        format: schema,
+        bytes: bytes.len() as u64,
+        sha256: digest.map(|d| d.iter().map(|b| format!("{b:02x}")).collect()),
+        unit_assumed: document.units.clone(),
+    };
+    Ok((input, document))
+}
+
+/// The document for people.
+fn table(document: &TrendDocument) -> String {
+    let mut out = String::new();
+    if let Some(title) = &document.title {
+        let _ = writeln!(out, "{title}");
+    }
+    for warning in &document.warnings {
+        let _ = writeln!(out, "! {warning}");
+    }
+    let head = ["id", "kind", "feature", "n", "mean", "sigma", "min", "max", "Cp", "Cpk", "Pp", "Ppk", "out"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    rows.extend(document.characteristics.iter().map(row));
+    out.push_str(&console::columns(&rows));
+    for c in &document.characteristics {
+        for o in &c.out_of_control {
+            let part = usize::try_from(o.part).ok().and_then(|n| document.parts.get(n));
+            let name = part.map_or("", |p| &p.name);
+            let _ = writeln!(out, "! {}: part {} ({name}) is {}", c.id, o.part + 1, o.rule.words());
+        }
+        if let Some(reason) = c.course_reason.as_ref().or(c.capability_reason.as_ref()) {
+            let _ = writeln!(out, "  {}: {reason}", c.id);
+        }
+    }
+    let passed = document.parts.iter().filter(|p| p.verdict == Verdict::Pass).count();
+    let _ = writeln!(
+        out,
+        "{}: {}, {passed} of them pass; {}; intervals of {} %; mm, degrees",
+        document.verdict.word(),
+        counted(document.parts.len() as u64, ["part", "parts"]),
+        if document.in_control { "in control" } else { "out of control" },
+        100.0 * document.confidence
+    );
+    out
+}
+
+fn row(c: &TrendRecord) -> Vec<String> {
+    let number = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| fixed(x, 6));
+    let index = |i: Option<IndexRecord>| {
+        i.map_or_else(
+            || "–".into(),
+            |i| format!("{} ({}…{})", fixed(i.value, 2), fixed(i.low, 2), fixed(i.high, 2)),
+        )
+    };
+    let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
+    vec![
+        c.id.clone(),
+        kind,
+        c.feature.clone(),
+        c.measured.to_string(),
+        number(c.mean),
+        c.std_dev.map_or_else(|| "–".into(), six_digits),
+        number(c.min),
+        number(c.max),
+        index(c.cp),
+        index(c.cpk),
+        index(c.pp),
+        index(c.ppk),
+        signalled(c).len().to_string(),
+    ]
+}
+
+/// The parts that are out of control, from 0, each once.
+fn signalled(c: &TrendRecord) -> Vec<u64> {
+    let mut parts: Vec<u64> = c.out_of_control.iter().map(|o| o.part).collect();
+    parts.dedup();
+    parts
+}
+
+/// One line a characteristic; numbers with all digits (RFC 4180).
+fn csv(document: &TrendDocument) -> String {
+    let head = "id,kind,feature,datums,unit,lower,upper,parts,measured,mean,std_dev,std_dev_within,min,max,\
+                control_lower,control_upper,cp,cp_low,cp_high,cpk,cpk_low,cpk_high,pp,pp_low,pp_high,ppk,ppk_low,ppk_high,\
+                out_of_control";
+    let mut out = format!("{head}\r\n");
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    for c in &document.characteristics {
+        let mut cells = vec![
+            c.id.clone(),
+            c.kind.clone(),
+            c.feature.clone(),
+            c.datums.join(" "),
+            c.unit.clone(),
+            number(c.lower),
+            number(c.upper),
+            c.values.len().to_string(),
+            c.measured.to_string(),
+        ];
+        let control = |f: fn(&trueness_inspect::results::trend::Control) -> f64| c.control.as_ref().map(f);
+        let numbers =
+            [c.mean, c.std_dev, c.std_dev_within, c.min, c.max, control(|x| x.lower), control(|x| x.upper)];
+        cells.extend(numbers.map(number));
+        for index in [c.cp, c.cpk, c.pp, c.ppk] {
+            cells.extend([index.map(|i| i.value), index.map(|i| i.low), index.map(|i| i.high)].map(number));
+        }
+        let parts: Vec<String> = signalled(c).iter().map(|n| (n + 1).to_string()).collect();
+        cells.push(parts.join(" "));
+        out.push_str(&cells.into_iter().map(console::cell).collect::<Vec<_>>().join(","));
+        out.push_str("\r\n");
+    }
+    out
+}

@@ -1,0 +1,170 @@
+//! `trueness trend`: results of one plan over many parts.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+mod common;
+
+use common::{Folder, status, stderr, stdout, trueness};
+use serde_json::Value;
+
+/// A plan of a floor and of a roof at this height over it, `tolerance` for the distance.
+fn plan(part: usize, tolerance: f64) -> String {
+    format!(
+        "schema = \"trueness/plan/1\"\ntitle = \"Block\"\n\
+         [[feature]]\nid = \"A\"\nshape = \"plane\"\npoints = \"floor.xyz\"\n\
+         [[feature]]\nid = \"R\"\nshape = \"plane\"\npoints = \"roof-{part}.xyz\"\n\
+         [[characteristic]]\nid = \"h\"\nkind = \"distance\"\nfeature = \"R\"\ndatums = [\"A\"]\n\
+         nominal = 10\nupper = {tolerance}\nlower = -{tolerance}\n\
+         [[characteristic]]\nid = \"f\"\nkind = \"flatness\"\nfeature = \"R\"\ntolerance = 0.5\n"
+    )
+}
+
+fn square(z: f64, bump: f64) -> String {
+    format!("0 0 {z}\n10 0 {z}\n0 10 {z}\n10 10 {z}\n5 5 {}\n", z + bump)
+}
+
+/// Results of parts of these heights.
+fn results(folder: &Folder, heights: &[f64]) -> Vec<String> {
+    folder.write("floor.xyz", square(0.0, 0.0));
+    let one = |(n, z): (usize, &f64)| {
+        folder.write(&format!("roof-{n}.xyz"), square(*z, 0.01));
+        let plan = folder.write(&format!("plan-{n}.toml"), plan(n, 0.5));
+        let json = folder.file(&format!("result-{n}.json")).to_str().unwrap().to_string();
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", &json]);
+        assert!(status(&o) <= 1, "{}", stderr(&o));
+        json
+    };
+    heights.iter().enumerate().map(one).collect()
+}
+
+fn trend(folder: &Folder, results: &[String]) -> (i32, String, Value, String) {
+    let (json, csv) = (folder.file("trend.json"), folder.file("trend.csv"));
+    let [json, csv] = [json, csv].map(|p| p.to_str().unwrap().to_string());
+    let mut words = vec!["trend", "--json", &json, "--csv", &csv];
+    words.extend(results.iter().map(String::as_str));
+    let o = trueness(words);
+    let read = |p: &str| std::fs::read_to_string(p).unwrap_or_default();
+    let document = serde_json::from_str(&read(&json)).unwrap_or(Value::Null);
+    (status(&o), stdout(&o) + &stderr(&o), document, read(&csv))
+}
+
+/// Mean, spreads, limits and indices of six parts against their formulas.
+#[test]
+fn a_course_is_told() {
+    let folder = Folder::new();
+    // The bump moves the mean of each roof by 0.002.
+    let heights = [10.0, 10.1, 9.9, 10.05, 9.95, 10.0];
+    let (code, table, d, csv) = trend(&folder, &results(&folder, &heights));
+    assert_eq!((code, d["schema"].as_str()), (0, Some("trueness/trend/1")), "{table}");
+    let c = &d["characteristics"][0];
+    let near = |key: &str, wanted: f64| {
+        let found = key.split('.').fold(c, |v, k| &v[k]).as_f64().unwrap_or(f64::NAN);
+        assert!((found - wanted).abs() < 1e-9, "{key}: {found} instead of {wanted}");
+    };
+    let mean = 10.002;
+    let s = (heights.iter().map(|z| (z + 0.002 - mean).powi(2)).sum::<f64>() / 5.0).sqrt();
+    let moving = (0.1 + 0.2 + 0.15 + 0.1 + 0.05) / 5.0;
+    let within = moving * std::f64::consts::PI.sqrt() / 2.0;
+    near("mean", mean);
+    near("std_dev", s);
+    near("std_dev_within", within);
+    near("min", 9.902);
+    near("max", 10.102);
+    near("control.upper", mean + 3.0 * within);
+    near("control.moving_range", moving);
+    near("pp.value", 1.0 / (6.0 * s));
+    near("ppk.value", (10.5 - mean) / (3.0 * s));
+    near("cp.value", 1.0 / (6.0 * within));
+    near("cpk.value", (10.5 - mean) / (3.0 * within));
+    assert!(c["ppk"]["low"].as_f64() < c["ppk"]["value"].as_f64());
+    assert_eq!(c["counts"]["pass"], 6);
+    // A tolerance of form has one limit: no Pp.
+    let f = &d["characteristics"][1];
+    assert!(f["pp"].is_null() && f["lower"].is_null(), "{f}");
+    assert_eq!((d["in_control"].as_bool(), d["verdict"].as_str()), (Some(true), Some("pass")));
+    assert!(d["warnings"][0].as_str().unwrap().contains("not the same text"), "{d}");
+    assert_eq!(csv.lines().count(), 3);
+    assert!(csv.lines().nth(1).unwrap().starts_with("h,distance,R,A,mm,9.5,10.5,6,6,10.00"), "{csv}");
+    assert!(table.contains("pass: 6 parts, 6 of them pass; in control"), "{table}");
+}
+
+#[test]
+fn parts_out_of_control_are_named() {
+    let folder = Folder::new();
+    let mut heights: Vec<f64> = (0..14).map(|k| 10.0 + 0.001 * f64::from(k % 2)).collect();
+    heights[9] = 10.2;
+    let (code, table, d, csv) = trend(&folder, &results(&folder, &heights));
+    assert_eq!(
+        (code, d["verdict"].as_str(), d["in_control"].as_bool()),
+        (1, Some("pass"), Some(false)),
+        "{table}"
+    );
+    let out = d["characteristics"][0]["out_of_control"].as_array().unwrap();
+    assert!(out.iter().any(|o| o["part"] == 9 && o["rule"] == "beyond"), "{out:?}");
+    assert!(table.contains("! h: part 10 (") && table.contains("is beyond a control limit"), "{table}");
+    assert!(csv.lines().nth(1).unwrap().ends_with(",9 10 11"), "{csv}");
+    // A part that fails makes the trend fail.
+    let mut heights = vec![10.0; 3];
+    heights[1] = 11.0;
+    let (code, table, d, _) = trend(&folder, &results(&folder, &heights));
+    assert_eq!((code, d["verdict"].as_str()), (1, Some("fail")), "{table}");
+}
+
+/// A part that was not measured has no value and leaves the others in their order.
+#[test]
+fn parts_without_a_value_are_counted() {
+    let folder = Folder::new();
+    let files = results(&folder, &[10.0, 10.1, 10.0]);
+    folder.write("roof-1.xyz", "0 0 0\n");
+    let plan = folder.file("plan-1.toml");
+    let o = trueness(["inspect", plan.to_str().unwrap(), "--json", &files[1]]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    let (code, table, d, _) = trend(&folder, &files);
+    let c = &d["characteristics"][0];
+    assert_eq!(
+        (code, c["measured"].as_u64(), c["counts"]["not_measured"].as_u64()),
+        (1, Some(2), Some(1)),
+        "{table}"
+    );
+    assert!(c["values"][1].is_null() && c["values"][2].is_number());
+    // The two that are left are alike.
+    assert!(c["cpk"].is_null());
+    assert_eq!(c["capability_reason"].as_str(), Some("the values do not vary"));
+    let (_, _, d, _) = trend(&folder, &files[..1]);
+    let reason = d["characteristics"][0]["course_reason"].as_str().unwrap();
+    assert_eq!(reason, "it needs at least two values, there are 1");
+}
+
+#[test]
+fn what_makes_no_trend_is_told() {
+    let folder = Folder::new();
+    let files = results(&folder, &[10.0, 10.1]);
+    let refused = |second: &str, says: &str| {
+        let o = trueness(["trend", &files[0], second]);
+        assert_eq!((status(&o), stdout(&o).as_str()), (3, ""), "{}", stderr(&o));
+        assert!(stderr(&o).contains(says) && stderr(&o).contains(second), "{}", stderr(&o));
+    };
+    let changed = |from: &str, to: &str| {
+        let text = std::fs::read_to_string(&files[1]).unwrap();
+        assert!(text.contains(from));
+        folder.write("changed.json", text.replacen(from, to, 1)).to_str().unwrap().to_string()
+    };
+    let tolerance = changed("\"tolerance\": 0.5", "\"tolerance\": 0.4");
+    refused(&tolerance, "characteristic \"f\": its tolerance is 0.4, in the first result 0.5");
+    refused(
+        &changed("\"id\": \"f\"", "\"id\": \"g\""),
+        "characteristic \"f\" of the first result is missing",
+    );
+    refused(
+        &changed("\"kind\": \"distance\"", "\"kind\": \"size\""),
+        "its kind is size, in the first result distance",
+    );
+    refused(&changed("trueness/inspect/1", "trueness/fit/1"), "its schema is \"trueness/fit/1\"");
+    refused(&changed("\"verdict\": \"pass\"", "\"verdict\": \"good\""), "it is no whole result");
+    let text = folder.write("words.json", "these are words").to_str().unwrap().to_string();
+    refused(&text, "it is no JSON");
+    let none = folder.file("none.json").to_str().unwrap().to_string();
+    refused(&none, "the result cannot be read");
+    assert_eq!(status(&trueness(["trend"])), 2);
+    let over = trueness(["trend", &files[0], &files[1], "--csv", &files[1]]);
+    assert_eq!(status(&over), 2, "{}", stderr(&over));
+}

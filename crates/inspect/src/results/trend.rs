@@ -1,0 +1,361 @@
+//! `trueness/trend/1`: one plan over many parts.
+
+use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
+use super::{UNITS, VERSION, Verdict};
+use crate::inspection::decision::overall;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::stats::process::{Course, Index, Rule};
+
+/// Name of this document's schema.
+pub const SCHEMA: &str = "trueness/trend/1";
+/// Confidence of the intervals.
+const CONFIDENCE: f64 = 0.95;
+
+/// The whole document. Values in millimetres, of angles in degrees.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct TrendDocument {
+    /// `trueness/trend/1`.
+    pub schema: String,
+    /// Version of the program.
+    pub version: String,
+    /// Always `mm`.
+    pub units: String,
+    /// The plan's heading.
+    pub title: Option<String>,
+    /// The results read, in the order given: the order of the parts.
+    pub inputs: Vec<ResultInput>,
+    /// The parts, in the same order.
+    pub parts: Vec<PartRecord>,
+    /// What makes the results doubtful as results of one plan.
+    pub warnings: Vec<String>,
+    /// Confidence of the intervals: 0.95.
+    pub confidence: f64,
+    /// The characteristics, in the plan's order.
+    pub characteristics: Vec<TrendRecord>,
+    /// Whether no value of any characteristic is out of control.
+    pub in_control: bool,
+    /// The worst verdict of all parts.
+    pub verdict: Verdict,
+}
+
+/// A result document that was read.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ResultInput {
+    /// As given on the command line.
+    pub path: String,
+    /// Its schema.
+    pub format: String,
+    /// Size of the file.
+    pub bytes: u64,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: Option<String>,
+    /// Always `mm`: documents are in millimetres.
+    pub unit_assumed: String,
+}
+
+/// A part.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct PartRecord {
+    /// Its first measured file; where the result names none, the result.
+    pub name: String,
+    /// Its verdict.
+    pub verdict: Verdict,
+}
+
+/// A characteristic over all parts.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct TrendRecord {
+    /// Its name.
+    pub id: String,
+    /// What it is.
+    pub kind: String,
+    /// Its sign on drawings, where it has one.
+    pub symbol: String,
+    /// The toleranced feature.
+    pub feature: String,
+    /// The datums.
+    pub datums: Vec<String>,
+    /// Unit of the values: `mm`, `deg`, or `1`.
+    pub unit: String,
+    /// Nominal value of a dimension.
+    pub nominal: Option<f64>,
+    /// Least allowed value of a dimension.
+    pub lower: Option<f64>,
+    /// Greatest allowed value; null where a material requirement allows each part its own.
+    pub upper: Option<f64>,
+    /// Its value of each part; null where it was not measured.
+    pub values: Vec<Option<f64>>,
+    /// Number of parts by verdict.
+    pub counts: Counts,
+    /// Number of values.
+    pub measured: u64,
+    /// Their mean.
+    pub mean: Option<f64>,
+    /// Least value.
+    pub min: Option<f64>,
+    /// Greatest value.
+    pub max: Option<f64>,
+    /// Standard deviation of all values.
+    pub std_dev: Option<f64>,
+    /// Standard deviation within: by the moving ranges of two.
+    pub std_dev_within: Option<f64>,
+    /// Limits of the control charts of values and of moving ranges.
+    pub control: Option<Control>,
+    /// Why there is no course: fewer than two values.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub course_reason: Option<String>,
+    /// Parts that are out of control.
+    pub out_of_control: Vec<OutOfControl>,
+    /// Tolerance over six standard deviations within; null of one limit.
+    pub cp: Option<IndexRecord>,
+    /// Distance of the mean from the nearer limit over three standard deviations within.
+    pub cpk: Option<IndexRecord>,
+    /// As `cp`, by the standard deviation of all values.
+    pub pp: Option<IndexRecord>,
+    /// As `cpk`, by the standard deviation of all values.
+    pub ppk: Option<IndexRecord>,
+    /// Why some or all of these are missing.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub capability_reason: Option<String>,
+}
+
+/// Limits of the control charts of individuals and moving ranges (ISO 7870-2).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Control {
+    /// Lower control limit of values.
+    pub lower: f64,
+    /// Their mean.
+    pub center: f64,
+    /// Upper control limit of values.
+    pub upper: f64,
+    /// Mean moving range.
+    pub moving_range: f64,
+    /// Upper control limit of moving ranges.
+    pub moving_range_upper: f64,
+}
+
+/// A part that is out of control.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct OutOfControl {
+    /// Its number, from 0.
+    pub part: u64,
+    /// By which rule: `beyond`, `range`, `run` (nine on one side of the mean) or `steady` (six rising or falling).
+    pub rule: RuleRecord,
+}
+
+/// A rule of control charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RuleRecord {
+    /// The value is beyond a control limit.
+    Beyond,
+    /// Its distance from the value before is beyond the limit of moving ranges.
+    Range,
+    /// The ninth or a later one in a row on one side of the mean.
+    Run,
+    /// The sixth or a later one in a row of rising, or of falling values.
+    Steady,
+}
+
+impl RuleRecord {
+    /// What it says of a part.
+    pub fn words(self) -> &'static str {
+        match self {
+            RuleRecord::Beyond => "beyond a control limit",
+            RuleRecord::Range => "farther from the part before than moving ranges reach",
+            RuleRecord::Run => "the ninth or a later one in a row on one side of the mean",
+            RuleRecord::Steady => "the sixth or a later one in a row that rises or falls",
+        }
+    }
+}
+
+impl From<Rule> for RuleRecord {
+    fn from(rule: Rule) -> RuleRecord {
+        match rule {
+            Rule::Beyond => RuleRecord::Beyond,
+            Rule::Range => RuleRecord::Range,
+            Rule::Run => RuleRecord::Run,
+            Rule::Steady => RuleRecord::Steady,
+        }
+    }
+}
+
+/// An index of capability with its confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IndexRecord {
+    /// The estimate.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl From<Index> for IndexRecord {
+    fn from(index: Index) -> IndexRecord {
+        IndexRecord { value: index.value, low: index.low, high: index.high }
+    }
+}
+
+/// Why results make no trend. Results are counted from 0, in the order given.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TrendError {
+    /// There are none.
+    #[error("there are no results")]
+    None,
+    /// A result does not fit the first one.
+    #[error("{what}; a trend is of results of one plan")]
+    Different {
+        /// Which result.
+        index: usize,
+        /// What is different.
+        what: String,
+    },
+}
+
+impl TrendDocument {
+    /// The trend of results, in the order of their making; `inputs` are their files.
+    ///
+    /// # Errors
+    /// [`TrendError`]: no results, characteristics that are missing, or not the same as in the first result.
+    pub fn new(inputs: Vec<ResultInput>, results: &[InspectDocument]) -> Result<TrendDocument, TrendError> {
+        let first = results.first().ok_or(TrendError::None)?;
+        for (index, other) in results.iter().enumerate().skip(1) {
+            if let Some(what) = difference(first, other) {
+                return Err(TrendError::Different { index, what });
+            }
+        }
+        let mut warnings = Vec::new();
+        let texts = |d: &InspectDocument| d.plan.sha256.clone();
+        if results.iter().any(|d| texts(d).is_some() && texts(first).is_some() && texts(d) != texts(first)) {
+            warnings.push("the plans are not the same text, but their characteristics are the same".into());
+        }
+        let name = |(n, d): (usize, &InspectDocument)| {
+            let of_result = inputs.get(n).map_or_else(String::new, |i| i.path.clone());
+            PartRecord { name: d.inputs.first().map_or(of_result, |i| i.path.clone()), verdict: d.verdict }
+        };
+        let parts: Vec<PartRecord> = results.iter().enumerate().map(name).collect();
+        let records = (0..first.characteristics.len()).map(|n| {
+            let of: Vec<&CharacteristicRecord> = results.iter().map(|d| &d.characteristics[n]).collect();
+            record(&of)
+        });
+        let characteristics: Vec<TrendRecord> = records.collect();
+        Ok(TrendDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            title: first.title.clone(),
+            in_control: characteristics.iter().all(|c| c.out_of_control.is_empty()),
+            verdict: overall(parts.iter().map(|p| p.verdict)),
+            inputs,
+            parts,
+            warnings,
+            confidence: CONFIDENCE,
+            characteristics,
+        })
+    }
+}
+
+/// What distinguishes the characteristics of a result from those of the first one.
+fn difference(first: &InspectDocument, other: &InspectDocument) -> Option<String> {
+    let ids =
+        |d: &InspectDocument| -> Vec<String> { d.characteristics.iter().map(|c| c.id.clone()).collect() };
+    let (here, there) = (ids(other), ids(first));
+    if let Some(id) = there.iter().find(|id| !here.contains(id)) {
+        return Some(format!("characteristic \"{id}\" of the first result is missing"));
+    }
+    if let Some(id) = here.iter().find(|id| !there.contains(id)) {
+        return Some(format!("characteristic \"{id}\" is not in the first result"));
+    }
+    if here != there {
+        return Some("the characteristics stand in another order than in the first result".into());
+    }
+    other.characteristics.iter().zip(&first.characteristics).find_map(|(c, f)| {
+        let number = |x: Option<f64>| x.map_or_else(|| "none".into(), |x| x.to_string());
+        // The greatest allowed value of a material requirement is that of each part; its tolerance is the plan's.
+        let upper = |c: &CharacteristicRecord| if c.tolerance.is_some() { None } else { Some(c.upper) };
+        let told = [
+            ("kind", c.kind.clone(), f.kind.clone()),
+            ("feature", c.feature.clone(), f.feature.clone()),
+            ("list of datums", c.datums.join(" "), f.datums.join(" ")),
+            ("list of modifiers", c.modifiers.join(", "), f.modifiers.join(", ")),
+            ("nominal value", number(c.nominal), number(f.nominal)),
+            ("tolerance", number(c.tolerance), number(f.tolerance)),
+            ("lower limit", number(c.lower), number(f.lower)),
+            ("upper limit", number(upper(c)), number(upper(f))),
+        ];
+        let (what, here, there) = told.into_iter().find(|(_, a, b)| a != b)?;
+        Some(format!("characteristic \"{}\": its {what} is {here}, in the first result {there}", c.id))
+    })
+}
+
+/// One characteristic, of all parts in their order.
+fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
+    let first = of[0];
+    let values: Vec<Option<f64>> = of.iter().map(|c| c.value).collect();
+    let places: Vec<usize> = (0..of.len()).filter(|n| values[*n].is_some()).collect();
+    let there: Vec<f64> = values.iter().flatten().copied().collect();
+    let count = |verdict| of.iter().filter(|c| c.verdict == verdict).count() as u64;
+    let own_limits = of.iter().any(|c| c.upper != first.upper);
+    let upper = Some(first.upper).filter(|_| !own_limits);
+    let course = Course::of(&there);
+    let capability = match (&course, upper) {
+        (Some(course), Some(_)) => course.capability(first.lower, upper, CONFIDENCE),
+        _ => Default::default(),
+    };
+    let few = || format!("it needs at least two values, there are {}", there.len());
+    let capability_reason = match &course {
+        None => Some(few()),
+        Some(_) if own_limits => Some("a material requirement allows each part a value of its own".into()),
+        Some(c) if c.std_dev == 0.0 || c.within == 0.0 => Some("the values do not vary".into()),
+        Some(_) if first.lower.is_none() => Some("it has one limit: there is no Cp and no Pp".into()),
+        Some(_) => None,
+    };
+    let number = |f: fn(&Course) -> f64| course.as_ref().map(f);
+    let least = |pick: fn(f64, f64) -> f64| there.iter().copied().reduce(pick);
+    TrendRecord {
+        id: first.id.clone(),
+        kind: first.kind.clone(),
+        symbol: first.symbol.clone(),
+        feature: first.feature.clone(),
+        datums: first.datums.clone(),
+        unit: first.unit.clone(),
+        nominal: first.nominal,
+        lower: first.lower,
+        upper,
+        counts: Counts {
+            pass: count(Verdict::Pass),
+            fail: count(Verdict::Fail),
+            undecided: count(Verdict::Undecided),
+            not_measured: count(Verdict::NotMeasured),
+        },
+        measured: there.len() as u64,
+        mean: number(|c| c.mean).or_else(|| there.first().copied()),
+        min: least(f64::min),
+        max: least(f64::max),
+        std_dev: number(|c| c.std_dev),
+        std_dev_within: number(|c| c.within),
+        control: course.as_ref().map(|c| Control {
+            lower: c.limits[0],
+            center: c.mean,
+            upper: c.limits[1],
+            moving_range: c.moving_range,
+            moving_range_upper: c.range_limit,
+        }),
+        course_reason: course.is_none().then(few),
+        out_of_control: course.as_ref().map_or(vec![], |c| {
+            let one = |s: &trueness_geom::stats::process::Signal| OutOfControl {
+                part: places[s.index] as u64,
+                rule: s.rule.into(),
+            };
+            c.signals.iter().map(one).collect()
+        }),
+        cp: capability.cp.map(Into::into),
+        cpk: capability.cpk.map(Into::into),
+        pp: capability.pp.map(Into::into),
+        ppk: capability.ppk.map(Into::into),
+        capability_reason,
+        values,
+    }
+}

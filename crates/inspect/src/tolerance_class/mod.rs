@@ -1,0 +1,103 @@
+//! Tolerances by letters: the classes of ISO 286-2 for sizes and the general tolerances of ISO 2768.
+//!
+//! What is not in the tables here is refused: limits are never guessed.
+
+mod iso2768;
+mod iso286;
+
+/// Which table a kind of characteristic takes its classes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Table {
+    /// Sizes: ISO 286-2, and ISO 2768-1 for linear dimensions.
+    Size,
+    /// Linear dimensions: ISO 2768-1, table 1.
+    Linear,
+    /// Angular dimensions: ISO 2768-1, table 3; the length is that of the shorter leg.
+    Angular,
+    /// Straightness and flatness: ISO 2768-2, table 1; the length is that of the line or of the longer side.
+    Form,
+    /// Perpendicularity: ISO 2768-2, table 2; the length is that of the shorter side.
+    Perpendicularity,
+    /// Symmetry: ISO 2768-2, table 3; the length is that of the feature.
+    Symmetry,
+    /// Circular run-out: ISO 2768-2, table 4; it needs no length.
+    Runout,
+}
+
+/// Why a class gives no limits.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ClassError {
+    /// The letters are in no table here.
+    #[error("class \"{class}\" is not in the tables of this program; write the limits (known: {known})")]
+    Unknown {
+        /// As written.
+        class: String,
+        /// What is known.
+        known: &'static str,
+    },
+    /// The grade has no values for these letters.
+    #[error(
+        "class \"{class}\" is not in the tables of this program: {letters} is there for {known}; write the limits"
+    )]
+    Grade {
+        /// As written.
+        class: String,
+        /// Its letters.
+        letters: String,
+        /// Grades that are there.
+        known: &'static str,
+    },
+    /// The length is in no range of the table.
+    #[error(
+        "class \"{class}\" has no value for {length} mm in the tables of this program ({range}); write the limits"
+    )]
+    Range {
+        /// As written.
+        class: String,
+        /// The length that it goes by.
+        length: f64,
+        /// Ranges that are there.
+        range: &'static str,
+    },
+    /// The table goes by a length that was not given.
+    #[error("class \"{class}\" goes by a nominal length; give `length`")]
+    NoLength {
+        /// As written.
+        class: String,
+    },
+}
+
+impl Table {
+    /// Whether the table goes by `length`, not by the nominal value.
+    pub fn takes_length(self) -> bool {
+        !matches!(self, Table::Size | Table::Linear | Table::Runout)
+    }
+
+    /// Lower and upper limit deviation by a class; of a form or attitude 0 and the tolerance. Millimetres, of an angle
+    /// degrees. `nominal` is the nominal value, `length` the length that a table goes by, both in millimetres.
+    ///
+    /// # Errors
+    /// [`ClassError`]: letters, grades and ranges that are not in the tables.
+    ///
+    /// ```
+    /// use trueness_inspect::tolerance_class::Table;
+    /// assert_eq!(Table::Size.limits("H7", 25.0, None)?, [0.0, 0.021]);
+    /// assert_eq!(Table::Size.limits("g6", 25.0, None)?, [-0.020, -0.007]);
+    /// assert_eq!(Table::Linear.limits("m", 25.0, None)?, [-0.2, 0.2]);
+    /// assert_eq!(Table::Form.limits("K", 0.0, Some(80.0))?, [0.0, 0.2]);
+    /// # Ok::<(), trueness_inspect::tolerance_class::ClassError>(())
+    /// ```
+    pub fn limits(self, class: &str, nominal: f64, length: Option<f64>) -> Result<[f64; 2], ClassError> {
+        let by_length = || length.ok_or_else(|| ClassError::NoLength { class: class.into() });
+        match self {
+            Table::Size if class.ends_with(|c: char| c.is_ascii_digit()) => iso286::limits(class, nominal),
+            Table::Size => iso2768::linear(class, nominal, "H7, g6, js9, …; f, m, c, v of ISO 2768-1"),
+            Table::Linear => iso2768::linear(class, nominal, "f, m, c, v of ISO 2768-1"),
+            Table::Angular => iso2768::angular(class, by_length()?),
+            Table::Form => iso2768::form(class, by_length()?),
+            Table::Perpendicularity => iso2768::perpendicularity(class, by_length()?),
+            Table::Symmetry => iso2768::symmetry(class, by_length()?),
+            Table::Runout => iso2768::runout(class),
+        }
+    }
+}

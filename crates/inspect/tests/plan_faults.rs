@@ -1,0 +1,220 @@
+//! Faults of plans in datum systems, material requirements and tolerance classes: each with its place and its remedy.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+use trueness_inspect::plan::Plan;
+
+const PLAN: &str = r#"schema = "trueness/plan/1"
+units = "mm"
+
+[[feature]]
+id = "A"
+shape = "plane"
+points = "floor.xyz"
+
+[[feature]]
+id = "B"
+shape = "plane"
+points = "wall.xyz"
+
+[[feature]]
+id = "R"
+shape = "plane"
+points = "roof.xyz"
+
+[[feature]]
+id = "pin"
+shape = "cylinder"
+points = "pin.xyz"
+
+[[characteristic]]
+id = "1"
+kind = "flatness"
+feature = "A"
+tolerance = 0.1
+
+[[characteristic]]
+id = "2"
+kind = "perpendicularity"
+feature = "pin"
+datums = ["A"]
+tolerance = 0.1
+"#;
+
+/// A change of the plan, and what is said to it.
+struct Fault {
+    from: &'static str,
+    to: &'static str,
+    says: &'static str,
+}
+
+const fn fault(from: &'static str, to: &'static str, says: &'static str) -> Fault {
+    Fault { from, to, says }
+}
+
+#[test]
+fn faults_are_told_with_their_places() {
+    let faults = [
+        fault(
+            "tolerance = 0.1",
+            "class = \"K\"",
+            "line 28, column 9: class \"K\" goes by a nominal length; give `length`",
+        ),
+        fault(
+            "tolerance = 0.1",
+            "class = \"m\"\nlength = 80",
+            "class \"m\" is not in the tables of this program; write the limits (known: H, K, L of ISO 2768-2)",
+        ),
+        fault(
+            "tolerance = 0.1",
+            "tolerance = 0.1\nlength = 80",
+            "line 29, column 10: `length` goes with `class`",
+        ),
+        fault(
+            "tolerance = 0.1",
+            "tolerance = 0.1\nclass = \"K\"",
+            "line 28, column 13: give `class` or `tolerance`, not both",
+        ),
+        fault(
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"c11\"",
+            "line 36, column 9: class \"c11\" is not in the tables of this program; write the limits",
+        ),
+        fault(
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nupper = 0.1",
+            "line 37, column 9: give `class` or `upper`, not both",
+        ),
+        fault(
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nlength = 10",
+            "line 37, column 10: size takes no `length`",
+        ),
+        fault(
+            "datums = [\"A\"]",
+            "datums = [\"A\"]\nmaterial = \"M\"",
+            "line 35, column 12: of feature \"pin\" it is not said on which side its material is; give it `internal = true`",
+        ),
+        fault(
+            "datums = [\"A\"]",
+            "datums = [\"A\"]\nmaterial = \"R\"",
+            "line 35, column 12: there is no variant \"R\"",
+        ),
+        fault(
+            "tolerance = 0.1",
+            "tolerance = 0.1\nmaterial = \"M\"",
+            "line 29, column 12: flatness takes no `material`",
+        ),
+        fault(
+            "points = \"floor.xyz\"",
+            "points = \"floor.xyz\"\ninternal = true",
+            "line 8, column 12: `internal` is for cylinders: bores and shafts",
+        ),
+        fault(
+            "points = \"pin.xyz\"\n",
+            "points = \"pin.xyz\"\ninternal = false\n[[characteristic]]\nid = \"3\"\nkind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1\nmaterial = \"M\"\n",
+            "line 30, column 12: it goes by the limits of size of feature \"pin\"; add a characteristic of kind \"size\"",
+        ),
+        fault(
+            "kind = \"perpendicularity\"",
+            "kind = \"position\"\nbasic = { x = 1 }\nmaterial = \"M\"",
+            "a material requirement is evaluated for an axis along z, placed by x and y",
+        ),
+        fault(
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+            "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\", \"B\"]",
+            "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
+        ),
+        fault(
+            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+            "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\"]",
+            "line 35, column 11: feature \"A\" is a plane; a material requirement is for cylinders here",
+        ),
+        fault("datums = [\"A\"]", "datums = [\"A-A\"]", "line 34, column 11: datum \"A\" is named twice"),
+        fault("datums = [\"A\"]", "datums = [\"A-B-R-A\"]", "a common datum has up to three features"),
+        fault(
+            "datums = [\"A\"]",
+            "datums = [\"A\", \"B-A\"]",
+            "line 34, column 16: datum \"A\" is named twice",
+        ),
+        fault(
+            "kind = \"flatness\"\nfeature = \"A\"",
+            "kind = \"parallelism\"\nfeature = \"A\"\ndatums = [\"R-pin\"]",
+            "line 28, column 11: a common datum is made of planes, or of cylinders and lines",
+        ),
+        fault(
+            "datums = [\"A\"]",
+            "datums = [\"A(M)\"]",
+            "line 34, column 11: perpendicularity takes no material requirement on a datum",
+        ),
+        fault(
+            "kind = \"perpendicularity\"",
+            "kind = \"angularity\"\nbasic = { angle = 60, turn = 45 }",
+            "angularity: a turn is counted from the direction of a second datum; name one",
+        ),
+        fault(
+            "kind = \"perpendicularity\"",
+            "kind = \"angularity\"\nbasic = { angle = 60, turn = 145 }",
+            "the turn is 145; give degrees from 0 to 90",
+        ),
+    ];
+    Plan::parse(PLAN).unwrap();
+    for fault in &faults {
+        assert!(PLAN.contains(fault.from), "{}", fault.from);
+        match Plan::parse(&PLAN.replacen(fault.from, fault.to, 1)) {
+            Err(e) => {
+                let text = e.to_string();
+                assert!(text.contains(fault.says), "{}\nshould say {}\nsays {text}", fault.to, fault.says);
+            }
+            Ok(_) => panic!("{} is taken", fault.to),
+        }
+    }
+}
+
+/// Names of features may have dashes: a datum is then read the only way that there is.
+#[test]
+fn common_datums_are_read_by_the_names_of_features() {
+    let datums = |plan: &str, written: &str| {
+        let plan = plan.replace("datums = [\"A\"]", &format!("datums = [{written}]"));
+        Plan::parse(&plan).map(|p| {
+            let names = p.specs[1].datums.iter().map(|d| d.name(&p.features));
+            (
+                p.specs[1].datums.iter().map(|d| d.features.clone()).collect::<Vec<_>>(),
+                names.collect::<Vec<_>>(),
+            )
+        })
+    };
+    let found = datums(PLAN, "\"A-R\", \"B\"").unwrap();
+    assert_eq!(found, (vec![vec![0, 2], vec![1]], vec!["A-R".to_string(), "B".into()]));
+    let dashed = PLAN.replace("id = \"R\"", "id = \"A-B\"");
+    assert_eq!(datums(&dashed, "\"A-B-B\"").unwrap().0, [[2, 1]]);
+    // Where it could be either, nothing is guessed.
+    assert_eq!(
+        datums(&dashed, "\"A-B\"").unwrap_err().what,
+        "\"A-B\" can be read as common datums of different features; rename one"
+    );
+}
+
+/// Limits by letters are those of the tables, in the unit of the plan.
+#[test]
+fn classes_give_their_limits() {
+    let limits = |units: &str, from: &str, to: &str| {
+        let plan = PLAN.replace("units = \"mm\"", &format!("units = \"{units}\"")).replacen(from, to, 1);
+        let plan = Plan::parse(&plan).unwrap_or_else(|e| panic!("{to}: {e}"));
+        plan.specs.iter().map(|s| s.limits.range()).collect::<Vec<_>>()
+    };
+    let own = "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1";
+    let size = |nominal: &str, class: &str| {
+        format!("kind = \"size\"\nfeature = \"pin\"\nsize = \"GX\"\nnominal = {nominal}\nclass = \"{class}\"")
+    };
+    assert_eq!(limits("mm", own, &size("8", "H7"))[1], (Some(8.0), 8.015));
+    assert_eq!(limits("cm", own, &size("0.8", "g6"))[1], (Some(8.0 - 0.014), 8.0 - 0.005));
+    assert_eq!(limits("mm", own, &size("8", "m"))[1], (Some(7.8), 8.2));
+    let flat = "tolerance = 0.1";
+    assert_eq!(limits("mm", flat, "class = \"mK\"\nlength = 80")[0], (None, 0.2));
+    assert_eq!(limits("cm", flat, "class = \"K\"\nlength = 8")[0], (None, 0.2));
+    let upright = "datums = [\"A\"]\ntolerance = 0.1";
+    assert_eq!(limits("mm", upright, "datums = [\"A\"]\nclass = \"L\"\nlength = 250")[1], (None, 1.0));
+    let angle =
+        "kind = \"angle\"\nfeature = \"pin\"\ndatums = [\"A\"]\nnominal = 90\nclass = \"c\"\nlength = 20";
+    assert_eq!(limits("mm", own, angle)[1], (Some(89.0), 91.0));
+}
