@@ -204,3 +204,167 @@ fn the_methods_of_the_paper_stand_side_by_side() {
     assert_eq!(status(&answer), 3);
     assert!(stderr(&answer).contains("no line segment found"), "{}", stderr(&answer));
 }
+
+/// The round of a rectangle with rounded corners, 30 by 20, radius 4; the numbers of its dimensions in every form of the answer.
+#[test]
+fn dimensions_stand_in_document_table_and_report() {
+    let folder = Folder::new();
+    let quarter = 2.0 * std::f64::consts::PI;
+    let round = |s: f64| -> [f64; 2] {
+        let arc = |x: f64, y: f64, from: f64, s: f64| {
+            let a = from + s / 4.0;
+            [x + 4.0 * a.cos(), y + 4.0 * a.sin()]
+        };
+        let half = std::f64::consts::FRAC_PI_2;
+        match s {
+            s if s < 22.0 => [s + 4.0, 0.0],
+            s if s < 22.0 + quarter => arc(26.0, 4.0, -half, s - 22.0),
+            s if s < 34.0 + quarter => [30.0, 4.0 + s - 22.0 - quarter],
+            s if s < 34.0 + 2.0 * quarter => arc(26.0, 16.0, 0.0, s - 34.0 - quarter),
+            s if s < 56.0 + 2.0 * quarter => [26.0 - (s - 34.0 - 2.0 * quarter), 20.0],
+            s if s < 56.0 + 3.0 * quarter => arc(4.0, 16.0, half, s - 56.0 - 2.0 * quarter),
+            s if s < 68.0 + 3.0 * quarter => [0.0, 16.0 - (s - 56.0 - 3.0 * quarter)],
+            s => arc(4.0, 4.0, 2.0 * half, s - 68.0 - 3.0 * quarter),
+        }
+    };
+    let text: String = (0..400)
+        .map(|i| round((68.0 + 4.0 * quarter) * (f64::from(i) + 0.3) / 400.0))
+        .enumerate()
+        .map(|(i, [x, y])| {
+            let wave = 1e-4 * ((i * 7919 % 101) as f64 - 50.0) / 50.0;
+            format!("{} {}\n", x + wave, y - wave)
+        })
+        .collect();
+    let file = folder.write("round.txt", text);
+    let file = file.to_str().unwrap();
+    let html = folder.file("round.html").to_str().unwrap().to_string();
+    let answer = document(["section", file, "--html", &html]);
+    let all = answer["dimensions"]["items"].as_array().unwrap();
+    assert_eq!((all.len(), &answer["dimensions"]["truncated"]), (12, &false.into()), "{all:?}");
+    let of = |kind: &str| -> Vec<(f64, f64)> {
+        let own = all.iter().filter(|d| d["kind"] == kind);
+        own.map(|d| (d["value"].as_f64().unwrap(), d["std_uncertainty"].as_f64().unwrap())).collect()
+    };
+    let near = |list: &[(f64, f64)], truths: &[f64]| {
+        assert_eq!(list.len(), truths.len(), "{list:?}");
+        for truth in truths {
+            assert!(list.iter().any(|(x, u)| (x - truth).abs() < 5.0 * u && *u < 1e-3), "{truth} {list:?}");
+        }
+    };
+    near(&of("angle"), &[std::f64::consts::FRAC_PI_2; 4]);
+    near(&of("width"), &[20.0, 30.0]);
+    near(&of("centers"), &[22.0, 22.0, 12.0, 12.0, 22f64.hypot(12.0), 22f64.hypot(12.0)]);
+    let segments = answer["contours"][0]["segments"].as_array().unwrap();
+    for segment in segments {
+        let u = segment["length_uncertainty"].as_f64().unwrap();
+        let truth = if segment["kind"] == "arc" {
+            quarter
+        } else if (segment["length"].as_f64().unwrap() - 22.0).abs() < 1.0 {
+            22.0
+        } else {
+            12.0
+        };
+        assert!((segment["length"].as_f64().unwrap() - truth).abs() < 5.0 * u && u < 0.01, "{segment}");
+    }
+    let shown = stdout(&trueness(["section", file]));
+    assert!(shown.contains("centers") && shown.contains("width") && shown.contains("90.00"), "{shown}");
+    let page = std::fs::read_to_string(&html).unwrap();
+    assert_eq!(
+        page.split_once("<table class=\"dimensions\">")
+            .unwrap()
+            .1
+            .split_once("</table>")
+            .unwrap()
+            .0
+            .matches("<tr>")
+            .count(),
+        1 + 12
+    );
+}
+
+/// A box against a larger one: the cut of a mesh, points against that cut, points against points. Outside is positive.
+#[test]
+fn sections_are_compared_with_a_nominal() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.off", common::CUBE);
+    // The same cube, twice as large, about the same middle.
+    let larger = "OFF\n8 12 0\n-0.5 -0.5 -0.5\n1.5 -0.5 -0.5\n-0.5 1.5 -0.5\n1.5 1.5 -0.5\n-0.5 -0.5 1.5\n1.5 -0.5 1.5\n-0.5 1.5 1.5\n1.5 1.5 1.5\n";
+    let larger =
+        folder.write("larger.off", larger.to_string() + common::CUBE.split_once("1 1 1\n").unwrap().1);
+    let square = |size: f64| -> String {
+        let at = |i: u32| size * (f64::from(i) + 0.5) / 40.0;
+        let low = 0.5 * (1.0 - size);
+        (0..160)
+            .map(|i| match (i / 40, at(i % 40)) {
+                (0, s) => [s, 0.0],
+                (1, s) => [size, s],
+                (2, s) => [size - s, size],
+                (_, s) => [0.0, size - s],
+            })
+            .map(|[x, y]| format!("{} {}\n", low + x, low + y))
+            .collect()
+    };
+    let (small, large) = (folder.write("small.txt", square(1.0)), folder.write("large.txt", square(2.0)));
+    let [cube, larger, small, large] = [&cube, &larger, &small, &large].map(|p| p.to_str().unwrap());
+    let csv = folder.file("points.csv").to_str().unwrap().to_string();
+    let plane = ["--plane", "0,0,1,0.5"];
+    for (words, truth, outline, count) in [
+        (vec![cube, "--nominal", larger, plane[0], plane[1]], -0.5, "facets", 8),
+        (vec![larger, "--nominal", cube, plane[0], plane[1]], 0.5, "facets", 8),
+        (vec![small, "--nominal", large], -0.5, "contour", 160),
+        (vec![large, "--nominal", small], 0.5, "contour", 160),
+    ] {
+        let answer = document([&["section"][..], &words, &["--out", &csv]].concat());
+        let nominal = &answer["nominal"];
+        assert_eq!((&nominal["outline"], &nominal["positive"]), (&outline.into(), &"outside".into()));
+        let all = &nominal["deviation"]["all"];
+        assert_eq!(all["count"], count);
+        // The middles of sides are half a side off; corners of the larger one farther.
+        let (near, far) = if truth > 0.0 { ("min", "max") } else { ("max", "min") };
+        assert!((all[near].as_f64().unwrap() - truth).abs() < 1e-6, "{all}");
+        assert!(all[far].as_f64().unwrap() * truth > 0.0, "{all}");
+        assert_eq!(answer["inputs"][1]["role"], "reference");
+        let each = nominal["deviations"][0].as_array().unwrap();
+        assert_eq!(each.len() as i64, count);
+        let rows = std::fs::read_to_string(&csv).unwrap();
+        let last = |line: &str| line.rsplit_once(',').unwrap().1.parse::<f64>().unwrap();
+        assert!(rows.lines().skip(1).zip(each).all(|(line, x)| last(line) == x.as_f64().unwrap()));
+    }
+    let shown = trueness(["section", small, "--nominal", large]);
+    assert!(status(&shown) == 0 && stdout(&shown).contains("+ outside"), "{}", stderr(&shown));
+    let html = folder.file("n.html").to_str().unwrap().to_string();
+    document(["section", small, "--nominal", large, "--html", &html]);
+    assert!(std::fs::read_to_string(&html).unwrap().contains("Deviation from the nominal"));
+    let away = ["section", cube, "--plane", "0,0,1,0.5", "--plane", "1,0,0,0.5", "--nominal"];
+    for (words, want, reason) in [
+        ([&away[..], &[large]].concat(), 2, "it holds points in order, which are of one plane"),
+        (
+            ["section", larger, "--plane", "0,0,1,-0.25", "--nominal", cube].to_vec(),
+            3,
+            "no plane of the section meets it",
+        ),
+        (["section", small, "--nominal", "missing.txt"].to_vec(), 3, "missing.txt"),
+    ] {
+        let answer = trueness(words);
+        assert_eq!(status(&answer), want, "{}", stderr(&answer));
+        assert!(stderr(&answer).contains(reason), "{}", stderr(&answer));
+    }
+}
+
+/// Curves for CAD programs lie where the section lies in space.
+#[test]
+fn curves_are_written_for_cad_programs() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.off", common::CUBE);
+    let [step, iges] = ["c.stp", "c.igs"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let words = ["section", cube.to_str().unwrap(), "--plane", "0,0,1,0.5", "--plane", "0,0,1,0.75"];
+    document([&words[..], &["--step", &step, "--iges", &iges]].concat());
+    let [step, iges] = [step, iges].map(|path| std::fs::read_to_string(path).unwrap());
+    assert_eq!((step.matches("=LINE(").count(), step.matches("GEOMETRIC_CURVE_SET(").count()), (8, 2));
+    // Every place is at the height of its plane.
+    let heights = step.split("=CARTESIAN_POINT('',(").skip(1).map(|p| p.split(')').next().unwrap());
+    let heights: Vec<f64> = heights.map(|p| p.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert!(heights[1..].iter().all(|z| [0.5, 0.75].contains(z)), "{heights:?}");
+    assert_eq!(iges.lines().filter(|l| l.starts_with("     110") && l.contains("D")).count(), 16);
+    assert!(iges.lines().all(|l| l.len() == 80));
+}

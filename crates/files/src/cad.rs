@@ -1,7 +1,7 @@
 //! B-spline surfaces for CAD programs.
 
-pub use crate::formats::iges::write as iges;
-pub use crate::formats::step::write as step;
+pub use crate::formats::iges::surface as iges;
+pub use crate::formats::step::surface as step;
 
 /// A B-spline surface with clamped knots, millimetres. Its control points lie row after row, those of the first knot of `u`
 /// first.

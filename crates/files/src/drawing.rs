@@ -1,7 +1,11 @@
-//! Drawings in the plane: lines, arcs and splines for the writers of drawings.
+//! Drawings in a plane: lines, arcs and splines for the writers of drawings (DXF, SVG), and of curves in space (STEP, IGES).
 
 pub use crate::formats::dxf::write as dxf;
+pub use crate::formats::iges::curves as iges;
+pub use crate::formats::step::curves as step;
 pub use crate::formats::svg::write as svg;
+
+use trueness_geom::section::PlaneFrame;
 
 /// An entity of a drawing. Lengths in millimetres, angles in radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +44,8 @@ pub enum Entity {
 pub struct Layer {
     /// Its name: letters, digits, `-` and `_`.
     pub name: String,
+    /// Where its plane lies in space; drawings in the plane leave it out.
+    pub frame: PlaneFrame,
     /// What is on it.
     pub entities: Vec<Entity>,
 }

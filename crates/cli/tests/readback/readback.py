@@ -20,13 +20,15 @@ import pyarrow.parquet
 import trimesh
 import vtk
 from OCP.BRep import BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from OCP.Geom import Geom_BSplineSurface
+from OCP.GeomAbs import GeomAbs_BSplineCurve, GeomAbs_Circle, GeomAbs_Line
 from OCP.IGESControl import IGESControl_Reader
 from OCP.STEPControl import STEPControl_Reader
-from OCP.TopAbs import TopAbs_FACE
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from vtk.util.numpy_support import vtk_to_numpy
@@ -232,7 +234,69 @@ def surfaces(folder):
             print(f"      {name} {' '.join(options)}: {worst:.1e} mm at {len(parameters)} places")
 
 
+def along(segment, shares):
+    """Places of a segment of a section's document, in its plane, at shares of its parameter."""
+    if segment["kind"] == "line":
+        return np.outer(1 - shares, segment["start"]) + np.outer(shares, segment["end"])
+    if segment["kind"] == "arc":
+        angles = segment["start_angle"] + shares * segment["sweep"]
+        return segment["center"] + segment["radius"] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    knots, control = segment["knots"], np.array(segment["control_points"])
+    return np.array([basis(knots, segment["degree"], knots[0] + t * (knots[-1] - knots[0])) @ control for t in shares])
+
+
+def sections(folder):
+    """STEP and IGES files of `section` are the same lines, arcs and B-splines at the same places in space for Open CASCADE."""
+    random = np.random.default_rng(8)
+    s = np.linspace(0, 1, 60)
+    line, angle = np.stack([30 * s - 30, 0 * s], axis=1), 1.5 * s[1:]
+    arc = np.stack([12 * np.sin(angle), 12 - 12 * np.cos(angle)], axis=1)
+    wave = np.stack([30 * s + 15, 8 * np.sin(4 * s**2) + 14], axis=1)
+    np.savetxt(folder / "row.txt", np.concatenate([line, arc, wave]) + 0.002 * random.standard_normal((179, 2)), fmt="%.17g")
+    circle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    # A whole circle in a plane of its own.
+    ring = np.outer(np.cos(circle), [3, 0, 4]) + np.outer(np.sin(circle), [0, 5, 0]) + [100, 200, 300]
+    np.savetxt(folder / "ring.txt", ring + 0.001 * random.standard_normal(ring.shape), fmt="%.17g")
+    cylinder = CORPUS / "broken" / "ok_cylinder.stl"
+    types = {"line": GeomAbs_Line, "arc": GeomAbs_Circle, "spline": GeomAbs_BSplineCurve}
+    shares = np.linspace(0, 1, 101)
+    kinds = set()
+    for words in (("row.txt",), ("ring.txt",), (cylinder, "--plane", "1,0,0.2,0.1", "--plane", "0,0,1,0.3")):
+        files = {"step": folder / "c.stp", "iges": folder / "c.igs"}
+        run("section", folder / words[0], *words[1:], "--json", folder / "c.json", "--step", files["step"], "--iges", files["iges"])
+        answer = json.loads((folder / "c.json").read_text())
+        for name, reader in (("step", STEPControl_Reader()), ("iges", IGESControl_Reader())):
+            reader.ReadFile(str(files[name]))
+            reader.TransferRoots()
+            explorer = TopExp_Explorer(reader.OneShape(), TopAbs_EDGE)
+            worst, count = 0, 0
+            for contour in answer["contours"]:
+                frame = answer["frame"] if contour["plane"] is None else answer["planes"][contour["plane"]]["frame"]
+                for segment in contour["segments"]:
+                    assert explorer.More(), f"{name}: too few edges"
+                    curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
+                    explorer.Next()
+                    kinds.add(segment["kind"])
+                    count += 1
+                    assert curve.GetType() == types[segment["kind"]], f"{name}: {segment['kind']}"
+                    if segment["kind"] == "spline":
+                        assert [curve.Degree(), curve.NbPoles()] == [segment["degree"], len(segment["control_points"])], name
+                    flat = along(segment, shares)
+                    ours = frame["origin"] + np.outer(flat[:, 0], frame["x"]) + np.outer(flat[:, 1], frame["y"])
+                    first, last = curve.FirstParameter(), curve.LastParameter()
+                    seen = [curve.Value(first + t * (last - first)) for t in shares]
+                    theirs = np.array([[p.X(), p.Y(), p.Z()] for p in seen])
+                    # An arc of negative sweep is run through from its end in IGES.
+                    if name == "iges" and segment["kind"] == "arc" and segment["sweep"] < 0:
+                        theirs = theirs[::-1]
+                    worst = max(worst, np.abs(ours - theirs).max())
+            assert not explorer.More(), f"{name}: too many edges"
+            assert worst < 1e-9, f"{name} {words}: {worst} mm"
+            print(f"      {name} of {Path(words[0]).name}: {count} curves, {worst:.1e} mm at {101 * count} places")
+    assert kinds == set(types), kinds
+
+
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (deviations, meshes, regions, surfaces):
+    for check in (deviations, meshes, regions, surfaces, sections):
         check(Path(scratch))
         print(f"ok    {check.__name__}: {check.__doc__}")

@@ -186,7 +186,8 @@ mod tests {
             Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: std::f64::consts::TAU };
         let points = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]];
         let spline = Entity::Spline { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points };
-        let layer = Layer { name: "section-1".into(), entities: vec![line, arc, circle, spline] };
+        let entities = vec![line, arc, circle, spline];
+        let layer = Layer { name: "section-1".into(), entities, ..Layer::default() };
         let mut out = vec![];
         write(&mut out, &[layer]).unwrap();
         let text = String::from_utf8(out).unwrap();

@@ -72,8 +72,11 @@ mod tests {
         let knots = vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0];
         let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 1.0], [4.0, 0.0]];
         let arc = Entity::Arc { center: [0.0, 0.0], radius: 1.0, start: 0.0, sweep: -4.0 };
-        let layer =
-            Layer { name: "a".into(), entities: vec![Entity::Spline { degree: 3, knots, points }, arc] };
+        let layer = Layer {
+            name: "a".into(),
+            entities: vec![Entity::Spline { degree: 3, knots, points }, arc],
+            ..Layer::default()
+        };
         let mut out = vec![];
         write(&mut out, &[layer]).unwrap();
         let text = String::from_utf8(out).unwrap();

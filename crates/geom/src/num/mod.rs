@@ -5,6 +5,7 @@ pub mod big;
 pub mod cholesky;
 pub(crate) mod double;
 pub mod exact;
+pub(crate) mod golden;
 pub mod interval;
 pub mod predicates;
 pub mod random;

@@ -1,7 +1,7 @@
 //! Pieces of a chain as lines, arcs and B-splines.
 
 use super::chain::{Kind, Layout, Piece, arc_end, arc_to};
-use super::result::{Continuity, Contour, Geometry, Join, Segment};
+use super::result::{Continuity, Contour, Geometry, Join, Segment, Uncertainty};
 use super::span::{Found, single};
 use crate::spline::basis::Knots;
 use crate::spline::curve::{self, Curve, End, Ends};
@@ -48,6 +48,7 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         let mut segment = segment(&found.layout, g, piece, [from, to], at, tolerance);
         let unit = found.spread.as_ref().and_then(|s| s.pieces[g]);
         segment.uncertainty = unit.map(|u| u.times(found.noise));
+        segment.length_uncertainty = of_length(found, g);
         let own = (found.state.breaks[g]..found.state.breaks[g + 1]).map(|i| i % count);
         let distances: Vec<f64> =
             own.filter(|i| found.span.weights[*i] > 0.0).map(|i| found.residuals[i]).collect();
@@ -59,6 +60,50 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
     let length = segments.iter().map(|s| s.length).sum();
     let joins = if single(&found.state) { vec![] } else { joins(found) };
     Parts { segments, joins, length, before }
+}
+
+/// Standard uncertainty of the length of piece `g` between the joins of its chain. Beside free pieces intervals of joins are
+/// longer than the covariance of the unknowns tells, and the length is as much more uncertain.
+fn of_length(found: &Found, g: usize) -> Option<f64> {
+    let spread = found.spread.as_ref()?;
+    if found.circle {
+        let Some(Uncertainty::Arc { radius, .. }) = spread.pieces[g] else { return None };
+        return Some(std::f64::consts::TAU * radius * found.noise);
+    }
+    if single(&found.state) {
+        return None;
+    }
+    let (n, closed) = (found.pieces().len(), found.state.chain.closed);
+    let first = usize::from(!closed);
+    let ends = [(closed || g > 0).then_some(g), (closed || g + 1 < n).then_some((g + 1) % n)];
+    let ratio = |join: usize| {
+        let linear = spread.places[join - first] * found.noise;
+        found.intervals[join - first].uncertainty / linear.max(f64::MIN_POSITIVE)
+    };
+    let wider = ends.into_iter().flatten().map(ratio).fold(1.0, f64::max);
+    Some(spread.lengths[g] * found.noise * wider)
+}
+
+impl Contour {
+    /// Lengths that end at corners are as uncertain as these, too; those that end where the row does, have no uncertainty.
+    pub(super) fn end_lengths(&mut self) {
+        if self.joins.is_empty() && self.closed {
+            return;
+        }
+        let count = self.segments.len();
+        for k in 0..count {
+            let before = match k {
+                0 if self.closed => self.joins.last(),
+                0 => None,
+                _ => self.joins.get(k - 1),
+            };
+            let after = self.joins.get(k);
+            let segment = &mut self.segments[k];
+            let corner = |j: &Join| if j.continuity == Continuity::G0 { j.uncertainty } else { 0.0 };
+            segment.length_uncertainty = (before.zip(after).zip(segment.length_uncertainty))
+                .map(|((a, b), own)| libm::hypot(own, libm::hypot(corner(a), corner(b))));
+        }
+    }
 }
 
 fn joins(found: &Found) -> Vec<Join> {
@@ -120,7 +165,18 @@ fn segment(
         Kind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    Segment { geometry, start, end, length, count: 0, rms: 0.0, max: 0.0, curvature: ends, uncertainty: None }
+    Segment {
+        geometry,
+        start,
+        end,
+        length,
+        count: 0,
+        rms: 0.0,
+        max: 0.0,
+        curvature: ends,
+        uncertainty: None,
+        length_uncertainty: None,
+    }
 }
 
 /// Power with which the ends of a free piece lead to its corners.
@@ -156,7 +212,9 @@ fn spline(
         start: End::Tangent(start, along(0, first, -1.0)),
         end: End::Tangent(end, along(samples - 1, last, 1.0)),
     };
-    match curve::approximate(&points, 3, ends, tolerance) {
+    // The places follow each other at steps of the length; where the curvature has knots the curve may change the most.
+    let parameters: Vec<f64> = (0..samples).map(|i| i as f64 / (samples - 1) as f64).collect();
+    match curve::divided(&points, &parameters, 3, &table.spans(), ends, tolerance) {
         Ok(fitted) => Geometry::Spline { curve: fitted.curve, deviation: fitted.max },
         // Points of a curve are different: there is always one.
         Err(_) => Geometry::Line,

@@ -63,7 +63,19 @@ impl Plane {
     }
 }
 
+impl Default for PlaneFrame {
+    /// That of the first two coordinates.
+    fn default() -> PlaneFrame {
+        PlaneFrame { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] }
+    }
+}
+
 impl PlaneFrame {
+    /// At right angles to both axes.
+    pub fn normal(&self) -> Vector {
+        // 0 and no minus 0.
+        cross(self.x, self.y).map(|x| x + 0.0)
+    }
     /// Coordinates of a place in the plane.
     pub fn flat(&self, p: Point) -> [f64; 2] {
         let d = minus(p, self.origin);

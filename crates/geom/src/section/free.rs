@@ -168,6 +168,12 @@ impl Table {
         self.turn = length * dot(&basis.integrals[basis.panels * n..]);
     }
 
+    /// The knots of the curvature, each once.
+    pub(super) fn spans(&self) -> Vec<f64> {
+        let degree = degree(self.count);
+        Knots::uniform(degree, self.count - degree, 0.0, 1.0).distinct()
+    }
+
     /// The end.
     pub(super) fn end(&self) -> Place {
         self.places[self.panels]
@@ -194,27 +200,35 @@ impl Table {
     /// The nearest place to `point` near `t`: its parameter, the place.
     pub(super) fn foot(&self, point: [f64; 2], mut t: f64) -> (f64, Place) {
         let width = self.length / self.panels as f64;
-        let mut place = self.place(t);
+        let inverse = 1.0 / width;
         for _ in 0..4 {
-            let d = [point[0] - place.at[0], point[1] - place.at[1]];
-            let tangential = d[0] * place.along[0] + d[1] * place.along[1];
+            let (at, slope, curvature) = self.on_panel(t);
+            let d = [point[0] - at[0], point[1] - at[1]];
+            // The slope over a panel is as long as the panel, nearly: near enough for a step.
+            let tangential = (d[0] * slope[0] + d[1] * slope[1]) * inverse;
             if tangential.abs() < 1e-9 * width {
                 break;
             }
-            let normal = d[1] * place.along[0] - d[0] * place.along[1];
-            let step = tangential / (1.0 - place.curvature * normal).max(0.3);
+            let normal = (d[1] * slope[0] - d[0] * slope[1]) * inverse;
+            let step = tangential / (1.0 - curvature * normal).max(0.3);
             t = (t + step.clamp(-2.0 * width, 2.0 * width) / self.length).clamp(-0.5, 1.5);
-            place = self.place(t);
             // Newton's method squares a small error: the next step would be below what counts.
             if tangential.abs() < 1e-3 * width {
                 break;
             }
         }
-        (t, place)
+        (t, self.place(t))
     }
 
     /// The place at `t`.
     pub(super) fn place(&self, t: f64) -> Place {
+        let (at, slope, curvature) = self.on_panel(t);
+        let inverse = 1.0 / (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+        Place { at, along: [slope[0] * inverse, slope[1] * inverse], curvature }
+    }
+
+    /// The place at `t`, its derivative by the share of the panel, the curvature.
+    fn on_panel(&self, t: f64) -> ([f64; 2], [f64; 2], f64) {
         let (k, f) = self.panel(t);
         let q = &self.quintics[k];
         let (mut at, mut slope) = (q[5], [0.0; 2]);
@@ -222,9 +236,7 @@ impl Table {
             slope = [slope[0] * f + at[0], slope[1] * f + at[1]];
             at = [at[0] * f + c[0], at[1] * f + c[1]];
         }
-        let inverse = 1.0 / (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
-        let curvature = (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature;
-        Place { at, along: [slope[0] * inverse, slope[1] * inverse], curvature }
+        (at, slope, (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature)
     }
 
     /// Motions at `t` with the length and with each coefficient, along `normal`.

@@ -55,6 +55,8 @@ pub(super) struct Spread {
     pub ends: [f64; 2],
     /// Of each line and arc; of a free piece `None`.
     pub pieces: Vec<Option<Uncertainty>>,
+    /// Of the length of each piece between its joins; beyond the first and last, none.
+    pub lengths: Vec<f64>,
 }
 
 /// Share of the least gain of a step below which a step is not taken.
@@ -132,6 +134,9 @@ pub(super) struct Work {
     variables: Vec<Variable>,
     matrix: Vec<f64>,
     right: Vec<f64>,
+    /// The diagonal of what the points say: steps are damped by it. What must vanish weighs far more, and would hold back all
+    /// that moves it.
+    scale: Vec<f64>,
     /// Signed distances of the points last measured.
     distances: Vec<f64>,
     stiff: f64,
@@ -275,6 +280,7 @@ impl Work {
         let mut cost = self.cost(state, held);
         let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
         let mut fresh = true;
+        let mut next = state.clone();
         for _ in 0..stop.steps {
             if fresh {
                 let chain = std::mem::replace(&mut state.chain, Chain::EMPTY);
@@ -284,7 +290,7 @@ impl Work {
             let k = self.variables.len();
             let mut damped = self.matrix.clone();
             for i in 0..k {
-                damped[i * k + i] = damped[i * k + i] * (1.0 + lambda) + f64::MIN_POSITIVE;
+                damped[i * k + i] += lambda * self.scale[i] + f64::MIN_POSITIVE;
             }
             let Some(factor) = Cholesky::new(damped, k) else {
                 lambda *= 100.0;
@@ -302,7 +308,7 @@ impl Work {
             if fresh && gain <= NEGLIGIBLE * stop.gain * cost {
                 break;
             }
-            let mut next = state.clone();
+            copy(&mut next, state);
             self.step(&mut next.chain, &step, stop.shortest);
             self.measure(row, &mut next, true);
             let after = self.cost(&next, held);
@@ -311,7 +317,7 @@ impl Work {
                 let missed = taken > 1 && cost - after < 0.1 * (after - stop.target);
                 stalled = if cost - after <= stop.gain * cost || missed { stalled + 1 } else { 0 };
                 (cost, lambda, fresh) = (after, (lambda * 0.1).max(1e-12), true);
-                *state = next;
+                std::mem::swap(state, &mut next);
                 if stalled >= 1 {
                     break;
                 }
@@ -356,6 +362,13 @@ impl Work {
             *end = deviation(self.conditions(chain, Some(&held)).pop()?);
         }
         all.pieces = (0..n).map(|g| self.uncertainty(chain, g, &deviation)).collect();
+        let longer = |g: usize, v: &Variable| match v {
+            Variable::Join { before, .. } if *before == g => 1.0,
+            Variable::Join { after, .. } if *after == Some(g) => -1.0,
+            _ => 0.0,
+        };
+        all.lengths =
+            (0..n).map(|g| deviation(self.variables.iter().map(|v| longer(g, v)).collect())).collect();
         Some(all)
     }
 
@@ -394,6 +407,18 @@ impl Work {
         }
         all
     }
+}
+
+/// Makes a state that of another, in the memory that it has.
+fn copy(to: &mut State, from: &State) {
+    (to.chain.start, to.chain.heading) = (from.chain.start, from.chain.heading);
+    for (a, b) in to.chain.pieces.iter_mut().zip(&from.chain.pieces) {
+        (a.kind, a.length) = (b.kind, b.length);
+        a.coefficients.clone_from(&b.coefficients);
+    }
+    to.breaks.clone_from(&from.breaks);
+    to.feet.clone_from(&from.feet);
+    to.sum = from.sum;
 }
 
 impl Chain {

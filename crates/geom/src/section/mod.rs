@@ -12,6 +12,9 @@
 //! | `slab` | points of a cloud near a plane, put in order |
 //! | `cut` | where a plane cuts a mesh |
 //! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
+//! | `foot` | where on a segment the foot of a point is |
+//! | `dimension` | angles, widths, distances of centers, gaps |
+//! | `nominal` | distances from the section of a nominal |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -21,11 +24,13 @@ mod contour;
 mod convert;
 mod corner;
 mod cut;
+mod dimension;
 mod facets;
 mod follow;
 mod foot;
 mod free;
 mod least;
+mod nominal;
 mod paper;
 mod profile;
 mod result;
@@ -41,6 +46,9 @@ mod tests;
 pub use chain::Kind;
 pub use contour::contour;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut};
+pub use dimension::{Dimension, DimensionKind, dimensions};
+pub use foot::SegmentFoot;
+pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
 pub use slab::{Ordered, order, slab};

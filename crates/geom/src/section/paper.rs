@@ -385,6 +385,7 @@ pub fn method_contour(
         max: 0.0,
         curvature,
         uncertainty: None,
+        length_uncertainty: None,
     };
     let line = segment(Geometry::Line, start, method.join, far(start, method.join), [0.0; 2]);
     let bend = [from, to].map(|t| method.curve.curvature(t).unwrap_or(0.0));

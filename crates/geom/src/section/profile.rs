@@ -1,5 +1,6 @@
 //! Where a join may lie: the likelihood as a function of its place, everything else fitted anew.
 
+use super::chain::Pose;
 use super::least::{Held, STIFF, State, Stop};
 use super::search::{Model, Search};
 use crate::num::special::student_quantile;
@@ -19,6 +20,13 @@ pub struct Interval {
 /// Farthest that an interval is followed to either side, in distances between points.
 const FARTHEST: f64 = 25.0;
 
+/// Ends of intervals are found to about this share of their distance: the root of what the sum of squares grew by is straight but
+/// for a third of it at most, so that a secant over this share of it misses 2 %.
+const NEAR: f64 = 0.06;
+
+/// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
+const SLACK: f64 = 0.01;
+
 /// Of longer rows the likelihood is normal, and its second derivative tells the intervals: nothing is fitted anew.
 const PROFILED: usize = 6000;
 
@@ -35,34 +43,23 @@ impl Search<'_> {
 
     /// Intervals of all joins at the confidence `level`, and a better model if one was found on the way.
     pub fn intervals(&mut self, model: &Model, level: f64) -> (Vec<Interval>, Option<State>) {
-        let (variance, degrees) = self.variance(&model.state);
-        let quantile = student_quantile(1.0 - level, degrees);
-        let limit = model.state.sum + variance * quantile * quantile;
-        let mut state = model.state.clone();
-        let row = self.row;
-        let spreads = self.work.spread(&row, &mut state);
-        let first = usize::from(!state.chain.closed);
-        let poses = self.work.layout.poses.clone();
-        let mut better: Option<State> = None;
+        let (quantile, seeks) = self.seeks(model, level);
+        let mut better = None;
         let mut all = vec![];
-        for join in first..state.chain.pieces.len() {
-            let spread = spreads.as_ref().map_or(self.spacing, |s| s.places[join - first] * variance.sqrt());
-            let spread = spread.clamp(1e-7 * self.spacing, 5.0 * self.spacing);
-            let mut interval = Interval { ends: [poses[join].at; 2], uncertainty: 0.0, open: [false; 2] };
-            if row.points.len() > PROFILED {
-                let reach = quantile * spread;
-                let (at, along) = (poses[join].at, poses[join].along);
-                interval.ends = [-reach, reach].map(|x| [at[0] + x * along[0], at[1] + x * along[1]]);
-                interval.uncertainty = spread;
+        for seek in seeks {
+            let Pose { at, along, .. } = seek.pose;
+            let mut interval = Interval { ends: [at; 2], uncertainty: 0.0, open: [false; 2] };
+            if self.row.points.len() > PROFILED {
+                interval.ends =
+                    [-seek.first, seek.first].map(|x| [at[0] + x * along[0], at[1] + x * along[1]]);
+                interval.uncertainty = seek.first / quantile;
                 all.push(interval);
                 continue;
             }
             for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                let seek = Seek { join, sign, first: quantile * spread, limit, along: poses[join].along };
-                let (at, open, lower) = self.follow(&state, &seek);
-                (interval.ends[side], interval.open[side]) = (at, open);
-                let least = better.as_ref().map_or(state.sum, |b| b.sum);
-                better = lower.filter(|l| l.sum < least * (1.0 - 1e-6)).or(better);
+                let (end, open, lower) = self.follow(&model.state, &Seek { sign, ..seek });
+                (interval.ends[side], interval.open[side]) = (end, open);
+                better = least(better, lower, &model.state);
             }
             let [a, b] = interval.ends;
             interval.uncertainty = libm::hypot(b[0] - a[0], b[1] - a[1]) / (2.0 * quantile);
@@ -71,70 +68,158 @@ impl Search<'_> {
         (all, better)
     }
 
-    /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
-    /// where the likelihood is normal.
-    fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
-        let stop =
-            Stop { steps: 14, gain: 1e-5, shortest: 0.5 * self.spacing, stiff: STIFF, target: f64::INFINITY };
-        let farthest = FARTHEST * self.spacing;
-        let origin = self.place_of(best, seek);
-        let wanted = (seek.limit - best.sum).max(f64::MIN_POSITIVE).sqrt();
-        let mut low = (0.0, 0.0, best.clone());
-        let mut high: Option<(f64, f64, State)> = None;
-        let mut lower: Option<State> = None;
-        let mut x = seek.first.min(farthest);
-        let row = self.row;
-        for _ in 0..24 {
-            let mut state = low.2.clone();
-            let held = Held { join: seek.join, along: seek.along, value: origin.1 + seek.sign * x };
-            let sound = self.work.improve(&row, &mut state, Some(&held), &stop);
-            let reached = (self.place_of(&state, seek).1 - held.value).abs() < 1e-3 * x;
-            if sound && reached && state.sum < best.sum * (1.0 - 1e-9) {
-                lower = Some(state.clone());
-            }
-            let root = (state.sum - best.sum).max(0.0).sqrt();
-            if !sound || !reached {
-                // A neighboring join is in the way.
-                high = Some((x, f64::INFINITY, state));
-            } else if root >= wanted {
-                high = Some((x, root, state));
-            } else {
-                low = (x, root, state);
-            }
-            match &high {
-                None if low.0 >= farthest => return (self.place_of(&low.2, seek).0, true, lower),
-                None => {
-                    let secant = if low.1 > 0.0 { low.0 * wanted / low.1 } else { 2.0 * x };
-                    x = secant.clamp(1.15 * x, 3.0 * x).min(farthest);
-                }
-                Some((right, root_right, state)) => {
-                    if (right - low.0) < 0.02 * right || (root_right - wanted).abs() < 0.01 * wanted {
-                        let open = root_right.is_infinite();
-                        let at = if open { &low.2 } else { state };
-                        return (self.place_of(at, seek).0, open, lower);
-                    }
-                    let share = (wanted - low.1) / (root_right - low.1);
-                    let share = if share.is_finite() { share.clamp(0.05, 0.95) } else { 0.5 };
-                    x = low.0 + (right - low.0) * share.max(0.05);
-                }
+    /// A better model where a join is held at an end of the interval that the second derivative of the likelihood tells.
+    pub fn better(&mut self, model: &Model, level: f64) -> Option<State> {
+        if self.row.points.len() > PROFILED {
+            return None;
+        }
+        let mut better = None;
+        for seek in self.seeks(model, level).1 {
+            for sign in [-1.0, 1.0] {
+                let seek = Seek { sign, ..seek };
+                let held = self.hold(&model.state, &seek, seek.first.min(FARTHEST * self.spacing));
+                better = least(better, held.filter(|h| h.sum < lower_than(&model.state)), &model.state);
             }
         }
-        (self.place_of(&low.2, seek).0, high.is_none(), lower)
+        better
     }
 
-    /// The join, and its place along the direction in which it moves.
-    fn place_of(&mut self, state: &State, seek: &Seek) -> ([f64; 2], f64) {
+    /// Student's quantile, and where the ends of the intervals are first looked for: to the right.
+    fn seeks(&mut self, model: &Model, level: f64) -> (f64, Vec<Seek>) {
+        let (variance, degrees) = self.variance(&model.state);
+        let quantile = student_quantile(1.0 - level, degrees);
+        let growth = variance * quantile * quantile;
+        let mut state = model.state.clone();
+        let row = self.row;
+        let spreads = self.work.spread(&row, &mut state);
+        let first = usize::from(!state.chain.closed);
+        let all = (first..state.chain.pieces.len())
+            .map(|join| {
+                let spread =
+                    spreads.as_ref().map_or(self.spacing, |s| s.places[join - first] * variance.sqrt());
+                let spread = spread.clamp(1e-7 * self.spacing, 5.0 * self.spacing);
+                Seek { join, sign: 1.0, first: quantile * spread, growth, pose: self.work.layout.poses[join] }
+            })
+            .collect();
+        (quantile, all)
+    }
+
+    /// The state with a join held so far from where it is best, all else fitted anew from `start`; `None` where a neighboring
+    /// join is in the way.
+    fn hold(&mut self, start: &State, seek: &Seek, x: f64) -> Option<State> {
+        // What the sum of squares may miss of the least one.
+        let gain = SLACK * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
+        let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
+        let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, stiff: STIFF, target };
+        let (at, along) = (seek.pose.at, seek.pose.along);
+        let value = at[0] * along[0] + at[1] * along[1] + seek.sign * x;
+        let held = Held { join: seek.join, along, value };
+        let mut state = start.clone();
+        let row = self.row;
+        let sound = self.work.improve(&row, &mut state, Some(&held), &stop);
+        let place = self.place_of(&state, seek);
+        let off = (place[0] * along[0] + place[1] * along[1] - value).abs();
+        (sound && off < 1e-3 * x).then_some(state)
+    }
+
+    /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
+    /// where the likelihood is normal. Gives the end, whether it is open, and a lower state found on the way.
+    fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
+        let farthest = FARTHEST * self.spacing;
+        let wanted = seek.growth.max(f64::MIN_POSITIVE).sqrt();
+        let mut low = Tried { x: 0.0, root: 0.0, state: best.clone() };
+        let mut high: Option<Tried> = None;
+        // Beyond this a neighboring join is in the way.
+        let mut wall = f64::INFINITY;
+        let mut lower: Option<State> = None;
+        let mut x = seek.first.min(farthest);
+        for _ in 0..24 {
+            // From the state that is nearest.
+            let start = match &high {
+                Some(high) if high.x - x < x - low.x => &high.state,
+                _ => &low.state,
+            };
+            let start = start.clone();
+            match self.hold(&start, seek, x) {
+                None => wall = x,
+                Some(state) => {
+                    if state.sum < lower_than(best) {
+                        lower = Some(state.clone());
+                    }
+                    let root = (state.sum - best.sum).max(0.0).sqrt();
+                    if (root - wanted).abs() < NEAR * wanted {
+                        // So near the root is as good as straight: the end lies on the line from where the join is best.
+                        let place = self.place_of(&state, seek);
+                        let from = seek.pose.at;
+                        let end = [0, 1].map(|k| from[k] + (place[k] - from[k]) * wanted / root);
+                        return (end, false, lower);
+                    }
+                    let tried = Tried { x, root, state };
+                    if root >= wanted {
+                        high = Some(tried);
+                    } else {
+                        low = tried;
+                    }
+                }
+            }
+            let right = high.as_ref().map_or(wall, |h| h.x.min(wall));
+            if low.x >= farthest {
+                return (self.place_of(&low.state, seek), true, lower);
+            }
+            if right.is_finite() && right - low.x < NEAR * right {
+                let (at, open) =
+                    high.as_ref().filter(|h| h.x < wall).map_or((&low.state, true), |h| (&h.state, false));
+                let at = at.clone();
+                return (self.place_of(&at, seek), open, lower);
+            }
+            x = match &high {
+                Some(high) if high.x < wall => {
+                    let share = (wanted - low.root) / (high.root - low.root);
+                    low.x + (high.x - low.x) * share.clamp(0.05, 0.95)
+                }
+                _ if wall.is_finite() => 0.5 * (low.x + wall),
+                _ => {
+                    let secant = if low.root > 0.0 { low.x * wanted / low.root } else { 2.0 * x };
+                    secant.clamp(1.15 * x, 3.0 * x).min(farthest)
+                }
+            };
+        }
+        (self.place_of(&low.state, seek), high.is_none(), lower)
+    }
+
+    /// Where the join is.
+    fn place_of(&mut self, state: &State, seek: &Seek) -> [f64; 2] {
         self.work.layout.fill(&state.chain);
-        let at = self.work.layout.poses[seek.join].at;
-        (at, at[0] * seek.along[0] + at[1] * seek.along[1])
+        self.work.layout.poses[seek.join].at
     }
 }
 
 /// A join on its way to an end of its interval.
+#[derive(Clone, Copy)]
 struct Seek {
     join: usize,
     sign: f64,
     first: f64,
-    limit: f64,
-    along: [f64; 2],
+    /// What the sum of squares may grow by.
+    growth: f64,
+    /// Where the join is best.
+    pose: Pose,
+}
+
+/// A state with the join held so far from where it is best, and the root of what the sum of squares grew by.
+struct Tried {
+    x: f64,
+    root: f64,
+    state: State,
+}
+
+/// Sums below this are lower than that of a state, beyond rounding.
+fn lower_than(best: &State) -> f64 {
+    best.sum * (1.0 - 1e-9)
+}
+
+/// The lower of two states, the new one only if that pays.
+fn least(better: Option<State>, lower: Option<State>, best: &State) -> Option<State> {
+    let sum = better.as_ref().map_or(best.sum, |b| b.sum);
+    lower.filter(|l| l.sum < sum * (1.0 - 1e-6)).or(better)
 }

@@ -90,6 +90,9 @@ pub struct Segment {
     /// How well the points determine the line or arc; `None` of a spline, of exact facets, and where the points hardly
     /// determine it.
     pub uncertainty: Option<Uncertainty>,
+    /// Standard uncertainty of its length; `None` of exact facets, where an end is that of the row, and where the points hardly
+    /// determine it.
+    pub length_uncertainty: Option<f64>,
 }
 
 impl Segment {

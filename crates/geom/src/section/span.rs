@@ -222,7 +222,8 @@ fn settle(
     progress: &dyn Progress,
 ) -> Result<(State, Vec<Interval>, f64, Work), Cancelled> {
     let mut intervals = vec![];
-    for _ in 0..3 {
+    for round in 0..3 {
+        let last = round == 2;
         if progress.cancelled() {
             return Err(Cancelled);
         }
@@ -231,12 +232,14 @@ fn settle(
         }
         let looser = search.looser(&best, LOOSER);
         let own = looser.state.chain == best.state.chain;
-        let (found, mut better) = search.intervals(&looser, task.level);
-        intervals = found;
-        if !own {
-            better = search.intervals(&best, task.level).1;
+        // Intervals of a model that is not the last are of no use.
+        let mut better = if own || last { None } else { search.better(&best, task.level) };
+        if better.is_none() {
+            let (found, lower) = search.intervals(&looser, task.level);
+            intervals = found;
+            better = lower.filter(|_| own);
         }
-        let Some(state) = better else { break };
+        let Some(state) = better.filter(|_| !last) else { break };
         best = search.settle(&Model { state, cost: 0.0 });
     }
     let noise = search.variance(&best.state).0.sqrt();

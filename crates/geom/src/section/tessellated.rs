@@ -319,17 +319,7 @@ impl Sheet<'_> {
 
     fn segment(&self, item: &Item) -> Segment {
         let (start, end) = (self.polygon.vertex(item.from), self.polygon.vertex(item.to));
-        let base = Segment {
-            geometry: Geometry::Line,
-            start,
-            end,
-            length: length(start, end),
-            count: 0,
-            rms: 0.0,
-            max: 0.0,
-            curvature: [0.0; 2],
-            uncertainty: None,
-        };
+        let base = Segment::line(start, end);
         let Shape::Arc(center, curvature) = item.shape else { return base };
         let out = |i: usize| {
             let p = self.polygon.vertex(i);

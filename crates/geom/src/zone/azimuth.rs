@@ -5,6 +5,7 @@
 //! the turn is sampled, and each low sample is followed to the bottom by golden section, which needs no derivative (J. Kiefer,
 //! Sequential minimax search for a maximum, 1953).
 
+use crate::num::golden::golden;
 use crate::rigid::Rigid;
 use crate::space::{Vector, least_axis, plus, times};
 
@@ -12,8 +13,8 @@ use crate::space::{Vector, least_axis, plus, times};
 const SAMPLES: usize = 1440;
 /// Sampled minima that are followed.
 const FOLLOWED: usize = 12;
-/// 1 over the golden ratio.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// Steps of the golden section: the range is then 1e-19 of what it was.
+const STEPS: usize = 90;
 
 /// Directions at a fixed angle to an axis.
 #[derive(Clone, Copy, Debug)]
@@ -51,27 +52,9 @@ impl Cone {
         low.sort_by(|&i, &j| samples[i].total_cmp(&samples[j]).then(i.cmp(&j)));
         low.truncate(FOLLOWED);
         let bottoms = low.into_iter().map(|k| {
-            let phi = golden(&at, (k as f64 - 1.0) * step, (k as f64 + 1.0) * step);
-            (at(phi), phi)
+            let (phi, value) = golden(&at, (k as f64 - 1.0) * step, (k as f64 + 1.0) * step, STEPS);
+            (value, phi)
         });
         bottoms.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1)
     }
-}
-
-/// The place of the least value between two places, where the function has one valley.
-fn golden(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-    let (mut at_a, mut at_b) = (value(a), value(b));
-    for _ in 0..90 {
-        if at_a <= at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = high - GOLDEN * (high - low);
-            at_a = value(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = low + GOLDEN * (high - low);
-            at_b = value(b);
-        }
-    }
-    if at_a <= at_b { a } else { b }
 }

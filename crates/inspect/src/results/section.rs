@@ -1,5 +1,11 @@
 //! `trueness/section/1`: the lines, arcs and curves of sections, and where they join.
 
+mod dimension;
+mod nominal;
+
+pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
+pub use nominal::{Against, NominalRecord, WorstRecord};
+
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +37,11 @@ pub struct SectionDocument {
     pub planes: Vec<PlaneRecord>,
     /// The contours.
     pub contours: Vec<ContourRecord>,
+    /// Angles, widths, distances of centers and gaps between segments; lengths and radii stand with the segments.
+    pub dimensions: DimensionsRecord,
+    /// How the points differ from the section of a nominal, where one was given.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub nominal: Option<NominalRecord>,
     /// The three methods of the paper, side by side, where one was asked for; the contour is that of the one chosen.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub methods: Option<MethodsRecord>,
@@ -173,6 +184,11 @@ pub struct SegmentRecord {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub uncertainty_reason: Option<String>,
+    /// Standard uncertainty of its length, from the scatter of the points.
+    pub length_uncertainty: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub length_uncertainty_reason: Option<String>,
 }
 
 /// Standard uncertainties of what a segment is known by.
@@ -287,6 +303,8 @@ impl SectionDocument {
             frame: sections.first().map_or(none, |s| s.frame),
             planes,
             contours: contours.collect(),
+            dimensions: DimensionsRecord::new(sections),
+            nominal: None,
             methods: None,
         }
     }
@@ -398,6 +416,11 @@ fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
         (_, Taken::Facets) => Some("facets of a drawing carry no random noise"),
         _ => Some("the points alone do not tell it"),
     };
+    let unknown_length = match (found.length_uncertainty, taken) {
+        (Some(_), _) => None,
+        (None, Taken::Facets) => Some("facets of a drawing carry no random noise"),
+        (None, _) => Some("it ends where the points end, or they do not tell its ends"),
+    };
     SegmentRecord {
         geometry,
         start,
@@ -409,5 +432,7 @@ fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
         curvature: found.curvature,
         uncertainty,
         uncertainty_reason: reason.map(Into::into),
+        length_uncertainty: found.length_uncertainty,
+        length_uncertainty_reason: unknown_length.map(Into::into),
     }
 }

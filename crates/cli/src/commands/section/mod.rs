@@ -1,6 +1,7 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
 mod method;
+mod nominal;
 mod planes;
 mod table;
 mod write;
@@ -33,6 +34,7 @@ Examples:
   trueness section profile.csv --html report.html
   trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
   trueness section part.stl --stack 0,0,1,0,40,5
+  trueness section scan.stl --plane 0,0,1,12.5 --nominal part.stl
   trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4")]
 pub struct SectionArgs {
     /// Points in order, of two or three columns, or with planes a mesh or a cloud; `-` reads stdin
@@ -56,6 +58,8 @@ pub struct SectionArgs {
     level: f64,
     #[command(flatten)]
     method: method::MethodArgs,
+    #[command(flatten)]
+    nominal: nominal::NominalArgs,
     #[command(flatten)]
     file: PointInputArgs,
     #[command(flatten)]
@@ -94,7 +98,8 @@ impl SectionArgs {
 
 impl Run for SectionArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        let files = RunFiles::of([&self.input]).document(self.document.json.as_ref());
+        let inputs = std::iter::once(&self.input).chain(&self.nominal.nominal);
+        let files = RunFiles::of(inputs).document(self.document.json.as_ref());
         Ok(self.drawings.files(files.report(self.report.html.as_ref())))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
@@ -133,7 +138,6 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             }
         }
     };
-    drop(stage);
     read::hash(&mut record, &args.input)?;
     let (sections, rows) = found.map_err(|e| match e {
         SectionError::Cancelled(e) => e.into(),
@@ -143,11 +147,21 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     if !planes.is_empty() && rows.is_empty() {
         anyhow::bail!("{shown}: {}", planes::nothing_met(&planes, &record));
     }
-    let mut document = SectionDocument::new(&sections, vec![record], &options);
+    let mut inputs = vec![record];
+    let found = (sections, rows);
+    let nominal = args.nominal.compare(&args.file, &found, &planes, &options, &stage)?;
+    let (sections, rows) = found;
+    let nominal = nominal.map(|(nominal, file)| {
+        inputs.push(file);
+        nominal
+    });
+    let mut document = SectionDocument::new(&sections, inputs, &options);
+    document.nominal = nominal;
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);
     }
-    args.drawings.write(&sections, &rows)?;
+    drop(stage);
+    args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     report(args, common, &document, &rows)?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
@@ -177,9 +191,8 @@ type Found = Result<Sections, SectionError>;
 
 /// A row in space in the plane nearest to it; a row of two columns as it is.
 fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Found {
-    let own = PlaneFrame { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
     let through = if planar { None } else { PlaneFrame::through(points) };
-    let (frame, flatness) = through.unwrap_or((own, 0.0));
+    let (frame, flatness) = through.unwrap_or_default();
     let flat: Vec<[f64; 2]> = points.iter().map(|p| frame.flat(*p)).collect();
     let contours = vec![section::contour(&flat, options, stage)?];
     let area = Err("points in order have no facets");

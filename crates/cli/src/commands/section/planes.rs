@@ -172,6 +172,11 @@ fn gather(each: Each) -> Found {
 }
 
 impl Cut {
+    /// The plane.
+    pub fn plane(&self) -> Plane {
+        self.plane
+    }
+
     fn section(&self, contours: Vec<Contour>, area: Result<f64, &'static str>, loose: usize) -> Section {
         let plane = Some((self.plane.normal, self.plane.offset));
         Section { frame: described(&self.frame, 0.0), plane, area, loose, contours }

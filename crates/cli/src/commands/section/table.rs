@@ -4,7 +4,8 @@ use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::results::section::{
-    ContourRecord, GeometryRecord, MethodsRecord, SectionDocument, SegmentRecord,
+    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, NominalRecord, SectionDocument,
+    SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -50,6 +51,10 @@ pub fn table(document: &SectionDocument) -> String {
     }
     if document.contours.len() > CONTOURS {
         let _ = writeln!(out, "… and {} more contours", document.contours.len() - CONTOURS);
+    }
+    out.push_str(&dimensions(&document.dimensions));
+    if let Some(found) = &document.nominal {
+        out.push_str(&nominal(found));
     }
     if let Some(methods) = &document.methods {
         out.push_str(&methods_table(methods));
@@ -100,7 +105,7 @@ fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
 }
 
 fn segments(contour: &ContourRecord) -> String {
-    let head = ["segment", "kind", "size", "length", "points", "rms", "max"];
+    let head = ["segment", "kind", "size", "length", "±", "points", "rms", "max"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for (n, segment) in contour.segments.iter().take(ROWS).enumerate() {
         let (kind, size) = known_by(segment);
@@ -109,6 +114,7 @@ fn segments(contour: &ContourRecord) -> String {
             kind.into(),
             size,
             fixed(segment.length, 6),
+            segment.length_uncertainty.map_or(String::new(), |u| scientific(u, 2)),
             grouped(segment.count),
             scientific(segment.rms, 2),
             scientific(segment.max, 2),
@@ -150,4 +156,57 @@ fn joins(contour: &ContourRecord) -> String {
         ]);
     }
     console::columns(&rows)
+}
+
+/// Angles, widths, distances of centers, gaps.
+fn dimensions(all: &DimensionsRecord) -> String {
+    if all.count == 0 {
+        return String::new();
+    }
+    let mut rows =
+        vec![["dimension", "between", "and", "value", "± standard uncertainty"].map(String::from).to_vec()];
+    for item in all.items.iter().take(ROWS) {
+        let angle = item.kind == "angle";
+        let shown = |x: f64| if angle { x.to_degrees() } else { x };
+        let [from, to] = item.of.map(|m| format!("{}.{}", m.contour + 1, m.segment + 1));
+        rows.push(vec![
+            item.kind.clone(),
+            from,
+            to,
+            format!("{}{}", fixed(shown(item.value), 6), if angle { "°" } else { "" }),
+            item.std_uncertainty.map_or(String::new(), |u| scientific(shown(u), 2)),
+        ]);
+    }
+    let mut out = console::columns(&rows);
+    if all.count > ROWS as u64 {
+        let _ = writeln!(out, "… and {} more", all.count - ROWS as u64);
+    }
+    out
+}
+
+/// How the points differ from the nominal.
+fn nominal(found: &NominalRecord) -> String {
+    let side = match found.positive.as_str() {
+        "outside" => "+ outside",
+        _ => "+ left of the nominal",
+    };
+    let mut out = format!("deviation from {} ({}), {side}\n", found.path, found.outline);
+    let mut rows =
+        vec![["", "points", "least", "greatest", "mean", "std dev", "rms"].map(String::from).to_vec()];
+    let d = &found.deviation;
+    for (name, s) in [("all", &d.all), ("+", &d.positive), ("−", &d.negative)] {
+        let shown = |x: Option<f64>| x.map_or("–".into(), |x| fixed(x, 6));
+        let all = [s.min, s.max, s.mean, s.std_dev, s.rms].map(shown);
+        rows.push([name.into(), grouped(s.count)].into_iter().chain(all).collect());
+    }
+    out.push_str(&console::columns(&rows));
+    for (reason, count) in &found.excluded {
+        let words = if reason == "beyond_end" {
+            "beyond the end of the nominal"
+        } else {
+            "in planes without nominal"
+        };
+        let _ = writeln!(out, "points {words}: {}", grouped(*count));
+    }
+    out
 }

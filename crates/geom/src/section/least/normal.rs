@@ -158,6 +158,8 @@ impl Work {
                 }
             }
         }
+        self.scale.clear();
+        self.scale.extend((0..k).map(|v| self.matrix[v * k + v]));
         for (row, off) in self.conditions(chain, held).iter().zip(self.off(chain, held)) {
             for v in 0..k {
                 self.right[v] += self.stiff * row[v] * off;

@@ -55,6 +55,9 @@ pub enum FitCurveError {
         /// Index of the first such point.
         index: usize,
     },
+    /// Limits of spans that do not rise, or fewer than two.
+    #[error("spans lie between two or more rising numbers")]
+    Spans,
     /// Fewer than two different points.
     #[error("a curve needs at least two different points")]
     TooFewPoints,

@@ -1,6 +1,7 @@
 //! B-spline curves.
 
 mod closest;
+mod divide;
 mod fair;
 mod fit;
 mod knots;
@@ -9,6 +10,7 @@ mod length;
 mod tests;
 
 pub use closest::Foot;
+pub use divide::divided;
 pub(crate) use fit::corrected;
 pub use fit::{End, Ends, FitCurveError, Fitted, approximate, chord_parameters, fit, spread_knots};
 

@@ -235,6 +235,40 @@ fn tolerance_drives_the_number_of_knots() {
     assert!(matches!(approximate(&[[1.0, 2.0]; 5], 3, Ends::FREE, 0.1), Err(FitCurveError::TooFewPoints)));
 }
 
+/// Spans divided by their errors keep the tolerance, over about as few control points as knots taken out one by one leave.
+#[test]
+fn divided_spans_keep_the_tolerance() {
+    let parameters: Vec<f64> = (0..300).map(|i| f64::from(i) / 299.0).collect();
+    let points: Vec<[f64; 2]> = parameters
+        .iter()
+        .map(|t| [10.0 * t, libm::sin(6.0 * t) + 0.3 * libm::exp(-200.0 * (t - 0.7) * (t - 0.7))])
+        .collect();
+    let ends = Ends { start: End::Tangent(points[0], [10.0, 6.0]), end: End::Through(points[299]) };
+    for tolerance in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
+        let found = divided(&points, &parameters, 3, &[0.0, 0.5, 1.0], ends, tolerance).unwrap();
+        let off = |(p, t): (&[f64; 2], &f64)| {
+            let d = found.curve.at(*t).minus(*p);
+            libm::hypot(d[0], d[1])
+        };
+        let worst = points.iter().zip(&parameters).map(off).fold(0.0, f64::max);
+        assert!(found.max <= tolerance && (worst - found.max).abs() < 1e-15, "{worst} {}", found.max);
+        assert_eq!([found.curve.at(0.0), found.curve.at(1.0)], [points[0], points[299]]);
+        let d = found.curve.derivative(0.0, 1);
+        assert!((d[0] * 6.0 - d[1] * 10.0).abs() < 1e-9 * d[0] && d[0] > 0.0, "{d:?}");
+        let fewest = approximate(&points, 3, ends, tolerance).unwrap().curve.points().len();
+        let count = found.curve.points().len();
+        assert!(count <= 2 * fewest + 2, "{tolerance}: {count} {fewest}");
+    }
+    // No more spans than points tell; numbers that do not rise are refused.
+    let wild: Vec<[f64; 2]> = (0..40).map(|i| [f64::from(i), f64::from(i * 17 % 7)]).collect();
+    let steps: Vec<f64> = (0..40).map(|i| f64::from(i) / 39.0).collect();
+    let rough = divided(&wild, &steps, 3, &[0.0, 1.0], Ends::FREE, 1e-9).unwrap();
+    assert!(rough.max > 0.1 && rough.curve.points().len() <= 43);
+    for spans in [&[][..], &[0.0], &[1.0, 0.0]] {
+        assert_eq!(divided(&wild, &steps, 3, spans, Ends::FREE, 1.0), Err(FitCurveError::Spans));
+    }
+}
+
 #[test]
 fn wrong_knots_are_refused() {
     use crate::spline::basis::KnotError;

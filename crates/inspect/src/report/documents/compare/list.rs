@@ -5,7 +5,7 @@ use super::super::super::page::blocks::{badge, fact, file_name, place_cells, sec
 use super::super::check;
 use super::{headline, in_words, warning_key};
 use crate::results::check::found;
-use crate::results::compare::{CompareDocument, Comparison, SignRecord, Statistics};
+use crate::results::compare::{BySide, CompareDocument, Comparison, SignRecord, Statistics};
 
 /// Writes all sections.
 pub fn list(h: &mut Html, result: &CompareDocument) {
@@ -143,31 +143,36 @@ fn column_digits(value: Option<f64>, wanted: usize) -> usize {
 }
 
 pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
-    let sides = [&c.deviation.all, &c.deviation.positive, &c.deviation.negative];
     section(h, "statistics", |h| {
         in_words(h, c);
-        h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
-        h.raw("</th><th class=\"r\">")
-            .word("plus")
-            .raw("</th><th class=\"r\">")
-            .word("minus")
-            .raw("</th></tr></thead><tbody>");
-        h.raw("<tr><th scope=\"row\">").word("points").raw("</th>");
+        by_side(h, &c.deviation, decimals);
+    });
+}
+
+/// The statistics of all deviations and of each side, as a table.
+pub fn by_side(h: &mut Html, deviation: &BySide, decimals: usize) {
+    let sides = [&deviation.all, &deviation.positive, &deviation.negative];
+    h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
+    h.raw("</th><th class=\"r\">")
+        .word("plus")
+        .raw("</th><th class=\"r\">")
+        .word("minus")
+        .raw("</th></tr></thead><tbody>");
+    h.raw("<tr><th scope=\"row\">").word("points").raw("</th>");
+    for s in sides {
+        h.raw("<td class=\"r\">").count(s.count).raw("</td>");
+    }
+    h.raw("</tr>");
+    for (key, more, signed, of) in ROWS {
+        h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
         for s in sides {
-            h.raw("<td class=\"r\">").count(s.count).raw("</td>");
+            let (value, reason) = of(s);
+            let digits = column_digits(value, decimals + more);
+            h.raw("<td class=\"r\">").optional(value, reason, digits, signed).raw("</td>");
         }
         h.raw("</tr>");
-        for (key, more, signed, of) in ROWS {
-            h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
-            for s in sides {
-                let (value, reason) = of(s);
-                let digits = column_digits(value, decimals + more);
-                h.raw("<td class=\"r\">").optional(value, reason, digits, signed).raw("</td>");
-            }
-            h.raw("</tr>");
-        }
-        h.raw("</tbody></table>");
-    });
+    }
+    h.raw("</tbody></table>");
 }
 
 /// What the numbers rest on: the points left out, the sign, the reference's soundness.

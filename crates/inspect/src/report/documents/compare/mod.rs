@@ -2,7 +2,7 @@
 
 mod list;
 
-pub use list::{statistics, worst};
+pub use list::{by_side, statistics, worst};
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, key_number};

@@ -62,6 +62,12 @@ impl Subject for SectionDocument {
 
     fn list(&self, h: &mut Html) {
         section(h, "contours", |h| tables::contours(h, self));
+        if self.dimensions.count > 0 {
+            section(h, "dimensions", |h| tables::dimensions(h, &self.dimensions));
+        }
+        if let Some(nominal) = &self.nominal {
+            section(h, "nominal.section", |h| tables::nominal(h, nominal));
+        }
         if let Some(methods) = &self.methods {
             section(h, "methods", |h| tables::methods(h, methods));
         }

@@ -1,11 +1,12 @@
 //! The tables of sections.
 
 use super::super::super::html::Html;
-use super::super::super::page::blocks::{fact, not_printed, pick_row};
+use super::super::super::page::blocks::{fact, file_name, not_printed, pick_row};
+use super::super::compare::by_side;
 use super::{kind, pick_numbers};
 use crate::results::section::{
-    ContourRecord, GeometryRecord, MethodsRecord, PlaneRecord, SectionDocument, SegmentRecord,
-    UncertaintyRecord,
+    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, NominalRecord, PlaneRecord,
+    SectionDocument, SegmentRecord, UncertaintyRecord,
 };
 
 /// Contours that are listed open.
@@ -105,7 +106,13 @@ fn segments(h: &mut Html, contour: &ContourRecord, first: usize) {
         h.raw(&format!("<td>{}</td><td><i class=\"stroke k-{}\"></i>\u{a0}", n + 1, kind(segment)));
         h.word(&format!("segment.{}", kind(segment))).raw("</td><td class=\"r\">");
         known_by(h, segment);
-        h.raw("</td><td class=\"r\">").number(segment.length, 4, false).raw("</td>");
+        let u = segment.length_uncertainty;
+        h.raw("</td><td class=\"r\">").number(segment.length, decimals(u, 4), false);
+        if let Some(u) = u {
+            h.raw(" ±\u{a0}");
+            small(h, u);
+        }
+        h.raw("</td>");
         for x in [segment.rms, segment.max] {
             h.raw("<td class=\"r\">");
             small(h, x).raw("</td>");
@@ -190,6 +197,48 @@ fn joins(h: &mut Html, contour: &ContourRecord, first: usize) {
     }
     h.raw("</tbody></table>");
     not_printed(h, contour.joins.len());
+}
+
+/// Dimensions that are listed.
+const LISTED: usize = 60;
+
+/// Angles, widths, distances of centers, gaps.
+pub fn dimensions(h: &mut Html, all: &DimensionsRecord) {
+    h.raw("<div class=\"wide\"><table class=\"dimensions\">");
+    head(h, &["between", "value", "uncertainty"]);
+    for (n, item) in all.items.iter().take(LISTED).enumerate() {
+        let angle = item.kind == "angle";
+        let shown = |x: f64| if angle { x.to_degrees() } else { x };
+        let unit = if angle { "°" } else { "" };
+        h.raw(&format!("<tr><td>{}</td><td>", n + 1)).word(&format!("dimension.{}", item.kind));
+        let [from, to] = item.of.map(|m| format!("{}.{}", m.contour + 1, m.segment + 1));
+        h.raw(&format!("</td><td class=\"r\">{from} – {to}</td><td class=\"r\">"));
+        let u = item.std_uncertainty.map(shown);
+        h.number(shown(item.value), decimals(u, 4), false).raw(unit).raw("</td><td class=\"r\">");
+        uncertain(h, u, item.std_uncertainty_reason.as_deref(), unit);
+        h.raw("</td></tr>");
+    }
+    h.raw("</tbody></table></div><p class=\"note\">").word("dimensions.text");
+    if all.count > LISTED as u64 {
+        h.raw(" ").word("dimensions.more");
+    }
+    h.raw("</p>");
+}
+
+/// How the points differ from the nominal.
+pub fn nominal(h: &mut Html, found: &NominalRecord) {
+    h.raw("<p class=\"note\">").text(file_name(&found.path)).raw(": ");
+    h.word(&format!("nominal.{}", found.outline)).raw(" · ").word(&format!("nominal.{}", found.positive));
+    h.raw("</p>");
+    let digits = decimals(found.deviation.all.std_dev, 4);
+    by_side(h, &found.deviation, digits);
+    h.raw("<dl class=\"facts pairs\">");
+    for (reason, count) in &found.excluded {
+        fact(h, &format!("nominal.{reason}"), |h| {
+            h.count(*count);
+        });
+    }
+    h.raw("</dl>");
 }
 
 /// The paper's methods side by side.

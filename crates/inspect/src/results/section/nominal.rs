@@ -1,0 +1,109 @@
+//! How a section differs from that of a nominal.
+
+use super::super::compare::{BySide, Histogram};
+use crate::compare::{histogram, statistics};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use trueness_geom::section::OffNominal;
+use trueness_geom::stats::histogram::nice_edges;
+use trueness_geom::stats::statistics::Summary;
+
+/// Deviations of the points of a section from the section of a nominal.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct NominalRecord {
+    /// Path of the nominal; it is the last of `inputs`.
+    pub path: String,
+    /// What was measured against: `facets` (the cut of a mesh) or `contour` (the segments found in a row of points).
+    pub outline: String,
+    /// Positive deviations: `outside` of the material within closed outlines, or to the `left` of open ones.
+    pub positive: String,
+    /// Statistics of the deviations: all, those above zero, those below zero.
+    pub deviation: BySide,
+    /// Points left out, by reason: `beyond_end` of an open outline, `no_outline` in their plane.
+    pub excluded: BTreeMap<String, u64>,
+    /// Counts of the deviations; absent when there are none.
+    pub histogram: Option<Histogram>,
+    /// The points farthest off on both sides: above first.
+    pub worst: Vec<WorstRecord>,
+    /// The deviation of each point of each contour; `null` where it is left out.
+    pub deviations: Vec<Vec<Option<f64>>>,
+}
+
+/// A point far off the nominal.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct WorstRecord {
+    /// Number of its contour, from 0.
+    pub contour: u64,
+    /// Its number in the contour, from 0.
+    pub index: u64,
+    /// The point, in its plane.
+    pub point: [f64; 2],
+    /// The place of the nominal nearest to it.
+    pub nearest: [f64; 2],
+    /// Its deviation.
+    pub deviation: f64,
+}
+
+/// What the points of a contour were measured against.
+#[derive(Clone, Debug)]
+pub struct Against<'a> {
+    /// The points.
+    pub points: &'a [[f64; 2]],
+    /// Of each, the nearest place; `None` beyond the end of an open outline.
+    pub found: Vec<Option<OffNominal>>,
+    /// Whether the nominal has an outline in the plane of the contour.
+    pub outlined: bool,
+}
+
+impl NominalRecord {
+    /// The record of all contours; `closed` tells whether all outlines of the nominal are.
+    pub fn new(path: &str, outline: &str, closed: bool, contours: &[Against]) -> NominalRecord {
+        let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
+        let mut worst: [Option<WorstRecord>; 2] = [None; 2];
+        let mut values = vec![];
+        for (contour, against) in contours.iter().enumerate() {
+            for (index, (point, found)) in against.points.iter().zip(&against.found).enumerate() {
+                let Some(off) = found else {
+                    let reason = if against.outlined { "beyond_end" } else { "no_outline" };
+                    *excluded.entry(reason.into()).or_default() += 1;
+                    continue;
+                };
+                values.push(off.deviation);
+                let slot = &mut worst[usize::from(off.deviation < 0.0)];
+                if off.deviation != 0.0 && slot.is_none_or(|w| w.deviation.abs() < off.deviation.abs()) {
+                    *slot = Some(WorstRecord {
+                        contour: contour as u64,
+                        index: index as u64,
+                        point: *point,
+                        nearest: off.place,
+                        deviation: off.deviation,
+                    });
+                }
+            }
+        }
+        let summary = Summary::of(&values);
+        let counts = nice_edges(&summary.all).and_then(|edges| {
+            let mut all = trueness_geom::stats::histogram::Histogram::new(edges).ok()?;
+            all.push(&values);
+            Some(histogram(&all))
+        });
+        NominalRecord {
+            path: path.into(),
+            outline: outline.into(),
+            positive: if closed { "outside" } else { "left" }.into(),
+            deviation: BySide {
+                all: statistics(&summary.all, summary.quantile_error),
+                positive: statistics(&summary.positive, summary.quantile_error),
+                negative: statistics(&summary.negative, summary.quantile_error),
+            },
+            excluded,
+            histogram: counts,
+            worst: worst.into_iter().flatten().collect(),
+            deviations: contours
+                .iter()
+                .map(|a| a.found.iter().map(|o| o.map(|o| o.deviation)).collect())
+                .collect(),
+        }
+    }
+}
