@@ -5,8 +5,12 @@
 
 use super::ClassError;
 
+/// Ends of ranges, and for each class a value for each range.
+type Table<const RANGES: usize, const CLASSES: usize, T> =
+    ([f64; RANGES], [(&'static str, [T; RANGES]); CLASSES]);
+
 /// Ends of the lengths of linear dimensions, millimetres, and their limit deviations by class.
-const LINEAR: ([f64; 8], [(&str, [Option<f64>; 8]); 4]) = (
+const LINEAR: Table<8, 4, Option<f64>> = (
     [3.0, 6.0, 30.0, 120.0, 400.0, 1000.0, 2000.0, 4000.0],
     [
         ("f", [Some(0.05), Some(0.05), Some(0.1), Some(0.15), Some(0.2), Some(0.3), Some(0.5), None]),
@@ -17,7 +21,7 @@ const LINEAR: ([f64; 8], [(&str, [Option<f64>; 8]); 4]) = (
 );
 
 /// The same of angles: ends of the length of the shorter leg, and minutes of arc.
-const ANGULAR: ([f64; 5], [(&str, [f64; 5]); 4]) = (
+const ANGULAR: Table<5, 4, f64> = (
     [10.0, 50.0, 120.0, 400.0, f64::INFINITY],
     [
         ("f", [60.0, 30.0, 20.0, 10.0, 5.0]),
@@ -27,7 +31,7 @@ const ANGULAR: ([f64; 5], [(&str, [f64; 5]); 4]) = (
     ],
 );
 
-const FORM: ([f64; 6], [(&str, [f64; 6]); 3]) = (
+const FORM: Table<6, 3, f64> = (
     [10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0],
     [
         ("H", [0.02, 0.05, 0.1, 0.2, 0.3, 0.4]),

@@ -215,7 +215,8 @@ fn crowds_take_n_log_n() {
     let closed_book = |n: usize| -> Vec<Facet> {
         let of = |i: usize| {
             let (a, b) = (rim(i, n, 0.5), rim(i + 1, n, 0.5));
-            let lids = [[[0.0; 3], a, b], [[0.0, 0.0, 1.0], b, a]].into_iter().filter(move |_| i % 2 == 0);
+            let lids =
+                [[[0.0; 3], a, b], [[0.0, 0.0, 1.0], b, a]].into_iter().filter(move |_| i.is_multiple_of(2));
             std::iter::once([[0.0; 3], [0.0, 0.0, 1.0], a]).chain(lids)
         };
         (0..n / 2).flat_map(of).collect()
