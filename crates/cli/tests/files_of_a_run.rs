@@ -320,3 +320,28 @@ fn what_cannot_be_shown_is_an_error_and_a_closed_pipe_is_none() {
     // Nobody can be told, but the status can.
     assert_eq!(status(&bash("exec \"$0\" check no/such/file 2> /dev/full")), 3);
 }
+
+#[test]
+fn a_plan_is_never_replaced_and_finds_its_nominal() {
+    let folder = Folder::new();
+    let nominal = corpus("examples/plate").join("nominal.stl");
+    let plan = folder.write("plate.toml", "# by hand\n");
+    let words = ["plan".as_ref(), "init".as_ref(), nominal.as_os_str(), "--out".as_ref(), plan.as_os_str()];
+    let o = trueness(words);
+    assert_eq!(status(&o), 2, "{}", stderr(&o));
+    assert!(stderr(&o).contains("the file exists"), "{}", stderr(&o));
+    assert_eq!(std::fs::read_to_string(&plan).unwrap(), "# by hand\n");
+    let fresh = folder.file("fresh.toml");
+    let o = trueness([
+        "plan".as_ref(),
+        "init".as_ref(),
+        nominal.as_os_str(),
+        "--out".as_ref(),
+        fresh.as_os_str(),
+    ]);
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let text = std::fs::read_to_string(&fresh).unwrap();
+    let line = text.lines().find(|l| l.starts_with("reference")).unwrap();
+    let named = line.split('=').nth(1).unwrap().trim().trim_matches(['"', '\'']);
+    assert!(folder.file(named).exists(), "{line}");
+}

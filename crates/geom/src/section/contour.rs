@@ -23,6 +23,9 @@ const CORNER: (f64, f64) = (0.12, 8.0);
 const SHARP: f64 = 0.6;
 /// Noise of a first partition below this share of that of local fits: these are not fits of noise.
 const POLLUTED: f64 = 0.3;
+/// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
+const SHORT: usize = 24;
+const FORM: f64 = 0.05;
 /// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
 const RESOLUTION: f64 = 1e-4;
 /// A crossing is followed this far from the chains' ends, in distances between points.
@@ -57,6 +60,9 @@ pub fn contour(
     let mut clean = Clean::new(points, options)?;
     let n = clean.points.len();
     let (mut own, step) = noise(&clean.points, clean.closed);
+    if n < SHORT {
+        own = own.min(FORM * clean.spacing);
+    }
     let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
     let mut sigma = options.noise.unwrap_or(own).max(least);
     let outliers = clean.outliers(sigma, step);

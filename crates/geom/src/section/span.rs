@@ -15,8 +15,9 @@ const LOOSER: usize = 2;
 /// distance between them where that is more (the larger one where the row is too short to tell its noise) ...
 const ASTRAY: f64 = 10.0;
 const SHARES: [f64; 2] = [0.005, 0.02];
-/// ... or that is not about as long as the way from point to point, where noise does not make that longer.
-const LENGTHS: std::ops::Range<f64> = 0.6..1.6;
+/// ... or that is not about as long as the way from point to point. Noise of more than this share of the distance between points
+/// makes that way longer, and is not known well where a row is short: then the chain may be shorter.
+const LENGTHS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
 const QUIET: f64 = 0.25;
 /// It is then looked for from so many equal parts, while each has so many points.
 const STARTS: [usize; 3] = [4, 8, 16];
@@ -128,10 +129,11 @@ impl Span {
         {
             return true;
         }
-        if noise > QUIET * task.spacing || n < 3 {
+        if n < 3 {
             return false;
         }
-        let kept: Vec<[f64; 2]> = (0..n).filter(|i| self.weights[*i] > 0.0).map(|i| self.points[i]).collect();
+        let kept: Vec<[f64; 2]> =
+            (0..n).filter(|i| self.weights[*i] > 0.0).step_by(task.step).map(|i| self.points[i]).collect();
         let far = |a: [f64; 2], b: [f64; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
         let mut way: f64 = kept.windows(2).map(|w| far(w[0], w[1])).sum();
         let length = if state.chain.closed {
@@ -141,7 +143,9 @@ impl Span {
             let stations = Work::default().stations(&self.row(), &mut state.clone());
             (stations[n - 1] - stations[0]).abs()
         };
-        way > 0.0 && !LENGTHS.contains(&(length / way))
+        way > 0.0
+            && !LENGTHS[usize::from(noise > QUIET * task.spacing * task.step as f64)]
+                .contains(&(length / way))
     }
 
     fn row(&self) -> Row<'_> {

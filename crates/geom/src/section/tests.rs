@@ -443,7 +443,9 @@ fn short_closed_rows_are_followed() {
                 let found = contour(&points, &options, &Silent).unwrap();
                 let way: f64 = (0..count).map(|i| far(points[i], points[(i + 1) % count])).sum();
                 let name = format!("{count} {flat} {noise}: {} along {way}", found.length());
-                assert!((0.97..1.15).contains(&(found.length() / way)), "{name}");
+                // So few points that curves run through each hold little else.
+                let longest = if count < 10 { 1.25 } else { 1.15 };
+                assert!((0.97..longest).contains(&(found.length() / way)), "{name}");
                 let worst = found.residuals.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
                 assert!(worst < 0.3 * way / count as f64, "{name}, {worst} off");
             }

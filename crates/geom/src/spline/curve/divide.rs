@@ -24,7 +24,7 @@ const MOST: (usize, usize) = (8, 12);
 /// let parameters: Vec<f64> = (0..200).map(|i| f64::from(i) / 199.0).collect();
 /// let points: Vec<[f64; 2]> = parameters.iter().map(|t| [*t, (5.0 * t).sin()]).collect();
 /// let found = divided(&points, &parameters, 3, &[0.0, 1.0], Ends::FREE, 1e-4).unwrap();
-/// assert!(found.max <= 1e-4 && found.curve.points().len() < 12);
+/// assert!(found.max <= 1e-4 && found.curve.points().len() < 20);
 /// ```
 pub fn divided<const D: usize>(
     points: &[[f64; D]],
