@@ -141,7 +141,8 @@ impl Span {
             state.chain.pieces.iter().map(|p| p.length).sum()
         } else {
             let stations = Work::default().stations(&self.row(), &mut state.clone());
-            (stations[n - 1] - stations[0]).abs()
+            // Below 0 where the chain runs against the order of the points.
+            stations[n - 1] - stations[0]
         };
         way > 0.0
             && !LENGTHS[usize::from(noise > QUIET * task.spacing * task.step as f64)]
