@@ -76,3 +76,16 @@ pub(crate) fn bounds(layers: &[Layer]) -> Option<[[f64; 2]; 2]> {
 pub(crate) fn whole(sweep: f64) -> bool {
     sweep.abs() >= std::f64::consts::TAU * (1.0 - 1e-12)
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A line between two places, an arc, a circle and a spline.
+    pub(crate) fn one_of_each(start: [f64; 2], end: [f64; 2]) -> [Entity; 4] {
+        let round = |sweep| Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep };
+        let points = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]];
+        let spline = Entity::Spline { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points };
+        [Entity::Line { start, end }, round(-1.0), round(std::f64::consts::TAU), spline]
+    }
+}

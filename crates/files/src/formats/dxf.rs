@@ -176,16 +176,12 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::tests::one_of_each;
 
     /// Groups of a drawing, and the numbers of the entities.
     #[test]
     fn entities_are_written_with_their_numbers() {
-        let line = Entity::Line { start: [0.1, 0.2], end: [1e-20, 3.0] };
-        let arc = Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: -1.0 };
-        let circle =
-            Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: std::f64::consts::TAU };
-        let points = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]];
-        let spline = Entity::Spline { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points };
+        let [line, arc, circle, spline] = one_of_each([0.1, 0.2], [1e-20, 3.0]);
         let entities = vec![line, arc, circle, spline];
         let layer = Layer { name: "section-1".into(), entities, ..Layer::default() };
         let mut out = vec![];

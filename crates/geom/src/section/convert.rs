@@ -165,18 +165,7 @@ fn segment(
         Kind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    Segment {
-        geometry,
-        start,
-        end,
-        length,
-        count: 0,
-        rms: 0.0,
-        max: 0.0,
-        curvature: ends,
-        uncertainty: None,
-        length_uncertainty: None,
-    }
+    Segment::bare(geometry, [start, end], length, ends)
 }
 
 /// Power with which the ends of a free piece lead to its corners.

@@ -17,20 +17,30 @@ pub struct SegmentFoot {
 }
 
 impl Segment {
-    /// A line that no points belong to.
-    pub(super) fn line(start: [f64; 2], end: [f64; 2]) -> Segment {
+    /// A segment that no points belong to, yet.
+    pub(super) fn bare(
+        geometry: Geometry,
+        [start, end]: [[f64; 2]; 2],
+        length: f64,
+        curvature: [f64; 2],
+    ) -> Segment {
         Segment {
-            geometry: Geometry::Line,
+            geometry,
             start,
             end,
-            length: length(start, end),
+            length,
             count: 0,
             rms: 0.0,
             max: 0.0,
-            curvature: [0.0; 2],
+            curvature,
             uncertainty: None,
             length_uncertainty: None,
         }
+    }
+
+    /// A line that no points belong to.
+    pub(super) fn line(start: [f64; 2], end: [f64; 2]) -> Segment {
+        Segment::bare(Geometry::Line, [start, end], length(start, end), [0.0; 2])
     }
 
     /// Places whose box holds the segment.

@@ -375,23 +375,11 @@ pub fn method_contour(
     let start = [middle[0] + t * u[0], middle[1] + t * u[1]];
     let far = |a: [f64; 2], b: [f64; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
     let (from, to) = method.curve.domain();
-    let segment = |geometry, start, end, length, curvature| Segment {
-        geometry,
-        start,
-        end,
-        length,
-        count: 0,
-        rms: 0.0,
-        max: 0.0,
-        curvature,
-        uncertainty: None,
-        length_uncertainty: None,
-    };
-    let line = segment(Geometry::Line, start, method.join, far(start, method.join), [0.0; 2]);
+    let line = Segment::line(start, method.join);
     let bend = [from, to].map(|t| method.curve.curvature(t).unwrap_or(0.0));
     let length = method.curve.length(from, to);
     let spline = Geometry::Spline { curve: method.curve.clone(), deviation: 0.0 };
-    let curve = segment(spline, method.join, method.curve.at(to), length, bend);
+    let curve = Segment::bare(spline, [method.join, method.curve.at(to)], length, bend);
     let width = far(method.interval[0], method.interval[1]);
     let mut all = Contour { segments: vec![line, curve], ..found.clone() };
     all.joins = vec![Join {

@@ -66,16 +66,12 @@ fn numbers(entity: &Entity) -> (u32, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::tests::one_of_each;
 
     /// The entries point to their parameters and to the matrix, and these back to the entries.
     #[test]
     fn entries_and_parameters_point_to_each_other() {
-        let line = Entity::Line { start: [0.0, 0.0], end: [3.0, 4.0] };
-        let arc = Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: -1.0 };
-        let circle =
-            Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: std::f64::consts::TAU };
-        let points = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]];
-        let spline = Entity::Spline { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points };
+        let [line, arc, circle, spline] = one_of_each([0.0, 0.0], [3.0, 4.0]);
         let frame = PlaneFrame { origin: [0.0, 0.0, 7.0], x: [0.0, 1.0, 0.0], y: [-1.0, 0.0, 0.0] };
         let flat = Layer { name: "section-1".into(), entities: vec![line], ..Layer::default() };
         let placed = Layer { name: "section-2".into(), frame, entities: vec![arc, circle, spline] };

@@ -78,16 +78,12 @@ fn trimmed(model: &mut Instances, basis: &str, [from, to]: [&str; 2], end: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::tests::one_of_each;
 
     /// Every instance that is named is there, before it is used; each kind of entity is written once.
     #[test]
     fn instances_are_named_before_they_are_used() {
-        let line = Entity::Line { start: [0.0, 0.0], end: [3.0, 4.0] };
-        let arc = Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: -1.0 };
-        let circle =
-            Entity::Arc { center: [1.0, 2.0], radius: 5.0, start: 0.5, sweep: std::f64::consts::TAU };
-        let points = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]];
-        let spline = Entity::Spline { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], points };
+        let [line, arc, circle, spline] = one_of_each([0.0, 0.0], [3.0, 4.0]);
         let entities = vec![line, arc, circle, spline];
         let frame = PlaneFrame { origin: [0.0, 0.0, 7.0], x: [0.0, 1.0, 0.0], y: [-1.0, 0.0, 0.0] };
         let mut bytes = vec![];
