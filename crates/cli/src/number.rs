@@ -34,6 +34,11 @@ pub fn fixed(x: f64, decimals: usize) -> String {
     minus(format!("{x:.decimals$}"))
 }
 
+/// A length, an area or a volume with six decimals; what they would hardly show, with a power of ten.
+pub fn extent(x: f64) -> String {
+    if x != 0.0 && x.abs() < 1e-3 { scientific(x, 5) } else { fixed(x, 6) }
+}
+
 /// With so many decimals and a power of ten.
 pub fn scientific(x: f64, decimals: usize) -> String {
     minus(format!("{x:.decimals$e}"))

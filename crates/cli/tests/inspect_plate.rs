@@ -266,3 +266,43 @@ fn seeds_find_the_features_of_the_model() {
     let says = "feature \"B\": the reference has a plane at the seed, not a cylinder";
     assert!(stderr(&o).contains(says), "{}", stderr(&o));
 }
+
+/// A plan proposed from the model measures every feature of the scan, in whatever pose that is, and edges that the scanner
+/// rounded are no part of a form.
+#[test]
+fn a_proposed_plan_measures_every_feature() {
+    let (plate, folder) = (corpus("examples/plate"), Folder::new());
+    let plan = folder.0.join("plan.toml");
+    let [nominal, scan] = ["nominal.stl", "scan.stl"].map(|name| plate.join(name));
+    let made =
+        trueness(["plan".as_ref(), "init".as_ref(), nominal.as_os_str(), "--out".as_ref(), plan.as_os_str()]);
+    assert_eq!(status(&made), 0, "{}", stderr(&made));
+    let answer = document(["inspect".as_ref(), plan.as_os_str(), "--measured".as_ref(), scan.as_os_str()]);
+    let all = answer["characteristics"].as_array().unwrap();
+    assert!(all.len() > 10, "{}", all.len());
+    for c in all {
+        assert_ne!(c["verdict"], "not_measured", "{c}");
+        if ["flatness", "cylindricity"].iter().any(|kind| c["kind"] == *kind) {
+            assert!(c["value"].as_f64().unwrap() < 0.03, "{c}");
+        }
+    }
+}
+
+/// A scan in metres lies nowhere near the part: that is said, and not only that nothing was measured.
+#[test]
+fn a_scan_of_another_unit_is_doubted() {
+    let (plate, folder) = (corpus("examples/plate"), Folder::new());
+    let point = |k: u32| format!("{} {} {}\n", f64::from(k % 10) * 0.01, f64::from(k / 10) * 0.01, 0.15);
+    let scan = folder.write("metres.xyz", (0..100).map(point).collect::<String>());
+    let plan = plate.join("plate.toml");
+    let answer = document(["inspect".as_ref(), plan.as_os_str(), "--measured".as_ref(), scan.as_os_str()]);
+    let kinds: Vec<&str> = answer["alignment"]["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|w| w["kind"].as_str().unwrap())
+        .collect();
+    assert!(kinds.contains(&"hardly_overlapping"), "{kinds:?}");
+    let own = document(["inspect", plan.to_str().unwrap()]);
+    assert_eq!(own["alignment"]["warnings"], serde_json::json!([]));
+}

@@ -111,6 +111,7 @@ fn state(report: &Report, facets: u64) -> State {
             false => "the mesh is open".into(),
         }),
         defects: defects(report),
+        at_least: at_least(report),
     }
 }
 
@@ -118,4 +119,10 @@ fn state(report: &Report, facets: u64) -> State {
 pub fn defects(report: &Report) -> BTreeMap<String, u64> {
     let found = report.defects.iter().filter_map(|(kind, f)| Some((kind.name, f.as_ref()?.count)));
     found.filter(|(_, n)| *n > 0).map(|(name, n)| (name.to_string(), n as u64)).collect()
+}
+
+/// Kinds of which there are more than were counted.
+pub fn at_least(report: &Report) -> Vec<String> {
+    let capped = report.defects.iter().filter(|(_, f)| f.as_ref().is_some_and(|f| f.at_least));
+    capped.map(|(kind, _)| kind.name.to_string()).collect()
 }

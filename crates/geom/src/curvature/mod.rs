@@ -94,7 +94,7 @@ pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<C
 /// neighbour lies within an angle of 150 degrees. Normals are turned to one side from neighbour to neighbour, the flattest way
 /// first (H. Hoppe et al., SIGGRAPH 1992); then each part that hangs together looks outward, if it is a body rather than a sheet
 /// (the mean of n · (p − c) tells, which is three times volume over area of a closed one), else to the side of its mean normal's
-/// largest coordinate. Equal points are points of their own. As [`mesh()`] otherwise;
+/// largest coordinate. Equal points are one place: copies are no neighbours, and have the same answer. As [`mesh()`] otherwise;
 /// about 600 bytes a point.
 ///
 /// # Errors

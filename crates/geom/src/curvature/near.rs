@@ -5,6 +5,7 @@ use super::terms::{NoCurvature, Taken, Terms};
 use crate::fit::Scatter;
 use crate::space::{Aabb, Point, Vector, dot, minus};
 use crate::spatial::neighbours::{Neighbour, PointTree};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Neighbours of a point that normals are handed on to.
@@ -13,12 +14,14 @@ const LINKS: usize = 8;
 /// 200,000 inner points has such a gap; a straight boundary has one of 180 degrees.
 const GAP: f64 = 5.0 / 6.0 * PI;
 
-/// The finite points of a cloud.
+/// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbours that tell anything more.
 pub(super) struct Near<'a> {
     points: &'a [Point],
     tree: PointTree,
-    /// Numbers of the tree's points; none where all are finite.
-    numbers: Option<Vec<u32>>,
+    /// For each place the lowest number of its points.
+    numbers: Vec<u32>,
+    /// For each point its place; [`u32::MAX`] where it is not finite.
+    own: Vec<u32>,
 }
 
 /// The answer of a point, and its nearest neighbours, nearest first.
@@ -26,26 +29,43 @@ pub(super) type Answer = (Result<Jet, NoCurvature>, Vec<u32>);
 
 impl Near<'_> {
     pub(super) fn new(points: &[Point]) -> Near<'_> {
-        let finite = |p: &Point| p.iter().all(|x| x.is_finite());
-        if points.iter().all(finite) {
-            return Near { points, tree: PointTree::new(points), numbers: None };
+        // Adding zero makes −0 the 0 that it equals.
+        let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
+        let finite = |i: &u32| points[*i as usize].iter().all(|x| x.is_finite());
+        let mut order: Vec<u32> = (0..points.len() as u32).filter(finite).collect();
+        order.par_sort_unstable_by_key(|i| (key(i), *i));
+        let mut first = vec![u32::MAX; points.len()];
+        for copies in order.chunk_by(|a, b| key(a) == key(b)) {
+            copies.iter().for_each(|i| first[*i as usize] = copies[0]);
         }
-        let numbers: Vec<u32> = (0..).zip(points).filter(|(_, p)| finite(p)).map(|(i, _)| i).collect();
+        let mut own = vec![u32::MAX; points.len()];
+        let mut numbers: Vec<u32> = vec![];
+        for i in (0..points.len()).filter(|i| first[*i] != u32::MAX) {
+            let lowest = first[i] as usize;
+            if lowest == i {
+                own[i] = numbers.len() as u32;
+                numbers.push(i as u32);
+            } else {
+                own[i] = own[lowest];
+            }
+        }
         let kept: Vec<Point> = numbers.iter().map(|i| points[*i as usize]).collect();
-        Near { points, tree: PointTree::new(&kept), numbers: Some(numbers) }
+        Near { points, tree: PointTree::new(&kept), numbers, own }
     }
 
     /// The jet at a point; its normal may be on either side.
     pub(super) fn jet(&self, i: u32, terms: &Terms, fitter: &mut Fitter) -> Answer {
         let place = self.points[i as usize];
-        let own = match &self.numbers {
-            None => Some(i),
-            Some(numbers) => numbers.binary_search(&i).ok().map(|k| k as u32),
-        };
-        let Some(own) = own else { return (Err(NoCurvature::NotFinite), vec![]) };
+        let own = self.own[i as usize];
+        if own == u32::MAX {
+            return (Err(NoCurvature::NotFinite), vec![]);
+        }
         let near = self.neighbors(&place, own, terms);
-        let number = |n: &Neighbour| self.numbers.as_ref().map_or(n.1, |all| all[n.1 as usize]);
-        let links = near.iter().take(LINKS).map(number).collect();
+        let number = |n: &Neighbour| self.numbers[n.1 as usize];
+        // A copy follows the first of its place.
+        let lowest = self.numbers[own as usize];
+        let links = (lowest != i).then_some(lowest).into_iter();
+        let links = links.chain(near.iter().map(number)).take(LINKS).collect();
         fitter.take(place, near.iter().map(|n| self.points[number(n) as usize]));
         (fit(fitter, terms), links)
     }

@@ -334,6 +334,28 @@ fn a_part_of_a_cloud_looks_outward_or_up() {
     assert!((100..=130).contains(&without), "{without}");
 }
 
+/// Copies tell nothing more: curvatures and uncertainties are those of each place once.
+#[test]
+fn copies_of_points_change_nothing() {
+    let random = &mut Random::new(9);
+    let mesh = patch(torus, [0.3, 0.2], 0.05, random);
+    let noisy = |p: &Point| -> Point { std::array::from_fn(|k| p[k] + 0.01 * (random.unit() - 0.5)) };
+    let once: Vec<Point> = mesh.positions.iter().map(noisy).collect();
+    let often: Vec<Point> = (0..4 * once.len()).map(|i| once[i % once.len()]).collect();
+    for reach in [Reach::Count(24), Reach::Radius(2.0)] {
+        let options = Options { reach, ..Options::default() };
+        let [alone, copied] = [&once, &often].map(|points| cloud(points, &options, &Silent).unwrap());
+        assert_eq!(copied.parts, alone.parts);
+        assert!(alone.places.iter().flatten().count() > 100);
+        for (i, place) in copied.places.iter().enumerate() {
+            let told = |place: &Result<Jet, NoCurvature>| {
+                place.as_ref().map(|j| (j.bend.mean, j.uncertainty, j.neighbors)).map_err(|e| *e)
+            };
+            assert_eq!(told(place), told(&alone.places[i % once.len()]), "{i}");
+        }
+    }
+}
+
 #[test]
 fn what_has_no_curvature_says_why() {
     let nan = f64::NAN;
@@ -368,9 +390,10 @@ fn what_has_no_curvature_says_why() {
     assert_eq!(few.places, vec![Err(NoCurvature::FewNeighbors); 4]);
     let line: Vec<Point> = (0..50).map(|k| times(f64::from(k), [1.0, 2.0, 0.5])).collect();
     let equal = vec![[1.0, 2.0, 3.0]; 50];
-    for points in [line, equal] {
+    // Equal points are one place, which has no neighbour.
+    for (points, why) in [(line, NoCurvature::Undetermined), (equal, NoCurvature::FewNeighbors)] {
         let found = cloud(&points, &Options::default(), &Silent).unwrap();
-        assert!(found.places.iter().all(|p| *p == Err(NoCurvature::Undetermined)), "{:?}", found.places[0]);
+        assert!(found.places.iter().all(|p| *p == Err(why)), "{:?}", found.places[0]);
         assert_eq!(found.parts, 0);
     }
     assert!(cloud(&[], &Options::default(), &Silent).unwrap().places.is_empty());

@@ -13,7 +13,7 @@ mod surface;
 use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
-use crate::space::{Point, Vector, cross, minus, norm, unit};
+use crate::space::{Point, Vector, cross, minus, norm, plus, times, unit};
 use rules::Rules;
 use std::collections::BTreeSet;
 pub use surface::Surface;
@@ -125,6 +125,25 @@ pub enum FeatureError {
 }
 
 impl Nominal {
+    /// Places that tell roughly where it is, millimetres: corners, ends of an axis, a center. Not exact bounds.
+    pub fn places(&self) -> Vec<Point> {
+        let along = |p: &Point, d: &Vector, by: f64| {
+            let way = unit(*d).map_or([0.0; 3], |(d, _)| times(by, d));
+            plus(*p, way)
+        };
+        match self {
+            Nominal::Plane { boundary, .. } => boundary.clone(),
+            Nominal::Cylinder { point, direction, length, .. }
+            | Nominal::Edge { point, direction, length, .. } => {
+                vec![*point, along(point, direction, *length)]
+            }
+            Nominal::Cone { apex, direction, between, .. } => {
+                between.iter().map(|by| along(apex, direction, *by)).collect()
+            }
+            Nominal::Sphere { center, .. } => vec![*center],
+        }
+    }
+
     /// Area of the feature as the model has it, holes in it not taken off, mm²; of an edge, `None`.
     pub fn area(&self) -> Option<f64> {
         let turn = std::f64::consts::TAU;

@@ -399,6 +399,9 @@ impl Joined {
                 contour.stations[number] = self.length + parts.before + found.stations[i % n];
             }
         }
+        if found.astray {
+            contour.astray.extend(first..first + found.pieces().len());
+        }
         self.length += parts.length;
         contour.segments.extend(parts.segments);
         contour.joins.extend(parts.joins);
@@ -438,6 +441,8 @@ impl Joined {
             let joins = contour.joins.len();
             contour.joins.rotate_left(by.min(joins));
             labels.iter_mut().for_each(|l| *l = ((*l as usize + count - by) % count) as u32);
+            contour.astray.iter_mut().for_each(|s| *s = (*s + count - by) % count);
+            contour.astray.sort_unstable();
             let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
             stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
         }

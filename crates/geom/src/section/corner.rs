@@ -1,11 +1,14 @@
 //! Corners: where two chains cross.
 
-use super::chain::Pose;
+use super::chain::{Piece, Pose};
 use super::result::{Continuity, Join};
 use super::span::Found;
 
 /// From where the points end a corner lies no farther than this share of it, beyond what is uncertain.
 const NEAR: f64 = 0.25;
+
+/// A corner takes less than this share of a segment's length: the other end may take as much.
+const SHORTEST: f64 = 0.45;
 
 /// The corner between two chains: where they cross, each going on as its end does.
 pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
@@ -38,9 +41,12 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let most =
         [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
     let reach = quantile * uncertainty;
-    // Where the points end, the corner is.
+    // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
     let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
-    if reach > most || (u - a.last_foot()).abs().max((v - b.first_foot()).abs()) > near {
+    let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
+    let half = |piece: Option<&Piece>| piece.map_or(0.0, |p| SHORTEST * p.length);
+    let eaten = -u > half(a.pieces().last()) || v > half(b.pieces().first());
+    if reach > most || eaten || beyond.abs().max(within.abs()) > near {
         return between(feet, turn, uncertainty.min(most));
     }
     let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];

@@ -51,5 +51,5 @@ pub use foot::SegmentFoot;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
-pub use slab::{Ordered, order, slab};
+pub use slab::{Ordered, order, ordered_contour, slab};
 pub use tessellated::{chain_contour, rounding};

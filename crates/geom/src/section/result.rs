@@ -191,6 +191,9 @@ pub struct Contour {
     pub repeated: Vec<usize>,
     /// Gaps between neighboring points of more than five times the median distance: the number of the point before.
     pub gaps: Vec<usize>,
+    /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
+    /// the way through the points. They tell nothing of the part.
+    pub astray: Vec<usize>,
 }
 
 /// What is asked about a row.

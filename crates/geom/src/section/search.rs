@@ -33,6 +33,13 @@ impl Criterion {
         if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
             return f64::INFINITY;
         }
+        // An arc that meets itself is none of a contour, but a whole circle's ends may overlap by their noise.
+        let pieces = &state.chain.pieces;
+        let meets_itself =
+            |p: &Piece| p.kind == Kind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU;
+        if pieces.len() > 1 && pieces.iter().any(meets_itself) {
+            return f64::INFINITY;
+        }
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
         let sum = state.sum + self.degrees * self.noise * self.noise;

@@ -6,7 +6,9 @@
 //! Lee, Curve reconstruction from unorganized points, Computer Aided Geometric Design 17, 2000; cells in place of moving least
 //! squares.)
 
+use super::contour::contour;
 use super::cut::{Plane, PlaneFrame};
+use super::result::{Contour, Options, SectionError};
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, dot, norm};
 use std::collections::HashMap;
@@ -32,6 +34,34 @@ pub struct Ordered {
     pub numbers: Vec<usize>,
     /// Whether the last is near the first.
     pub closed: bool,
+    /// Length of the way along which they were put in order, mm.
+    pub way: f64,
+}
+
+/// A contour that is so many times as long as the way along its points goes to and fro between them.
+const LONGEST: f64 = 2.0;
+
+/// The contour of points in order that were found among `points` in the plane.
+///
+/// Points that cover an area, as of a slab that is thick for how obliquely it cuts, follow no curve: where the segments are
+/// more than twice as long as the way along which the points were put in order, all of them are [`Contour::astray`].
+///
+/// # Errors
+/// As [`contour`].
+pub fn ordered_contour(
+    points: &[[f64; 2]],
+    row: &Ordered,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    let own: Vec<[f64; 2]> = row.numbers.iter().map(|i| points[*i]).collect();
+    let closed = options.closed.unwrap_or(row.closed);
+    let options = Options { closed: Some(closed), ordered: true, ..*options };
+    let mut found = contour(&own, &options, progress)?;
+    if found.length() > LONGEST * row.way {
+        found.astray = (0..found.segments.len()).collect();
+    }
+    Ok(found)
 }
 
 /// Share of branching cells up to which a tree follows a contour.
@@ -192,8 +222,9 @@ impl Cells {
             }
             station += if k + 1 < m { far(middle(k), middle(k + 1)) } else { 0.0 };
         }
+        let way = station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 };
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Ordered { numbers: all.into_iter().map(|(_, i)| i).collect(), closed }
+        Ordered { numbers: all.into_iter().map(|(_, i)| i).collect(), closed, way }
     }
 }
 
@@ -310,6 +341,23 @@ mod tests {
                 assert!(step > -most && step < 3.0 * most, "{step}");
             }
         }
+    }
+
+    /// A grid of points that covers an area is no contour, a thin band is.
+    #[test]
+    fn an_area_is_no_contour() {
+        let astray = |rows: u32, step: f64| {
+            let random = &mut Random::new(3);
+            let points: Vec<[f64; 2]> = (0..300)
+                .flat_map(|i| (0..rows).map(move |j| [f64::from(i) * 0.1, f64::from(j) * step]))
+                .map(|[x, y]| [x, y + 0.01 * random.unit()])
+                .collect();
+            let found = order(&points, None, &Silent).unwrap();
+            let contour = ordered_contour(&points, &found[0], &Options::default(), &Silent).unwrap();
+            contour.astray.len() == contour.segments.len()
+        };
+        assert!(astray(30, 0.1));
+        assert!(!astray(3, 0.02));
     }
 
     #[test]

@@ -118,6 +118,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
             sound: Some(true),
             sound_reason: None,
             defects: BTreeMap::new(),
+            at_least: vec![],
         },
         deviation: repair::deviation(mesh, &repaired.mesh, &Silent),
         limit: 1000,

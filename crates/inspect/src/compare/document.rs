@@ -56,7 +56,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
     }
     for (c, file) in comparisons.iter_mut().zip(files.iter().skip(1)) {
         if let (Some(measured), Some(reference)) = (&files[0].bounds, &file.bounds) {
-            c.warnings = plausibility::warnings(measured, reference);
+            c.warnings = plausibility::warnings(measured, reference, "--units, --reference-units");
         }
     }
     let worst_verdict = |a: Verdict, b: Verdict| if a == Verdict::Pass { b } else { a };

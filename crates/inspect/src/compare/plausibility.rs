@@ -19,8 +19,8 @@ const LEAST_OVERLAP: f64 = 0.1;
 
 /// What makes it unlikely that points in the box `measured` were taken from the part in the box `reference`, both mm.
 ///
-/// Boxes of no size are not judged: a single point may lie anywhere.
-pub fn warnings(measured: &Bounds, reference: &Bounds) -> Vec<Warning> {
+/// Boxes of no size are not judged: a single point may lie anywhere. `remedy`: how units are set where it is asked.
+pub fn warnings(measured: &Bounds, reference: &Bounds, remedy: &str) -> Vec<Warning> {
     let diagonal = |b: &Bounds| norm(minus(b.max, b.min));
     let (m, r) = (diagonal(measured), diagonal(reference));
     if !(m > 0.0 && r > 0.0 && m.is_finite() && r.is_finite()) {
@@ -31,7 +31,7 @@ pub fn warnings(measured: &Bounds, reference: &Bounds) -> Vec<Warning> {
     if near_ratio_of_units(ratio) {
         let (than, factor) = if ratio > 1.0 { ("larger", ratio) } else { ("smaller", 1.0 / ratio) };
         let text = format!(
-            "the measured is {} times {than} than the reference: is a unit wrong? (--units, --reference-units)",
+            "the measured is {} times {than} than the reference: is a unit wrong? ({remedy})",
             short(factor)
         );
         found.push(Warning { kind: WarningKind::SizeRatio, value: ratio, text });
@@ -82,7 +82,7 @@ mod tests {
     }
 
     fn kinds(measured: &Bounds, reference: &Bounds) -> Vec<WarningKind> {
-        warnings(measured, reference).iter().map(|w| w.kind).collect()
+        warnings(measured, reference, "").iter().map(|w| w.kind).collect()
     }
 
     #[test]
@@ -90,7 +90,7 @@ mod tests {
         let part = of([-50.0, -30.0, 0.0], [50.0, 30.0, 20.0]);
         let scaled = |s: f64| of(part.min.map(|x| s * x), part.max.map(|x| s * x));
         for s in [0.001, 0.1, 1.0 / 25.4, 25.4 / 1000.0, 10.0, 25.4, 1000.0, 1000.0 / 25.4] {
-            let found = warnings(&scaled(s), &part);
+            let found = warnings(&scaled(s), &part, "");
             assert_eq!(found[0].kind, WarningKind::SizeRatio, "{s}");
             assert!((found[0].value / s - 1.0).abs() < 1e-12);
         }
@@ -118,7 +118,7 @@ mod tests {
         let (a, b) = (of([0.0; 3], [9.0, 5.0, 2.0]), of([8.5, 4.0, 0.0], [20.0, 9.0, 3.0]));
         let turned =
             |b: &Bounds| of([b.min[2] + 7.0, b.min[0], b.min[1]], [b.max[2] + 7.0, b.max[0], b.max[1]]);
-        let (before, after) = (warnings(&a, &b), warnings(&turned(&a), &turned(&b)));
+        let (before, after) = (warnings(&a, &b, ""), warnings(&turned(&a), &turned(&b), ""));
         assert_eq!(before.len(), 1);
         assert!((before[0].value - after[0].value).abs() < 1e-12);
     }

@@ -14,12 +14,15 @@ pub use taken::{Element, Taken};
 pub use view::View;
 
 use crate::characteristic::{Measuring, Missing, Value};
+use crate::compare::plausibility;
 use crate::plan::Plan;
+use crate::results::compare::{Warning, WarningKind};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::space::Point;
+use trueness_geom::space::{Aabb, Point};
 
 /// What was measured, in measured coordinates, millimetres.
 #[derive(Clone, Debug, Default)]
@@ -86,6 +89,8 @@ pub struct Inspection {
     pub measured: Option<Mesh>,
     /// What took them there.
     pub alignment: Alignment,
+    /// What makes it unlikely that the aligned data are of the part that the plan describes.
+    pub doubts: Vec<Warning>,
     /// Deviations from the reference, where the plan asks for them.
     pub deviations: Option<Deviations>,
 }
@@ -115,6 +120,7 @@ pub struct Inspection {
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
     let seeds = seed::seeded(plan, &data, progress)?;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
+    let doubts = doubts(plan, &data);
     let features = take::features(plan, &data, &seeds, progress)?;
     let mut values = Vec::with_capacity(plan.specs.len());
     for spec in &plan.specs {
@@ -140,5 +146,22 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         Some(asked) => Some(deviation::deviations(asked, &mut data, progress)?),
         None => None,
     };
-    Ok(Inspection { features, values, measured: data.measured, alignment, deviations })
+    Ok(Inspection { features, values, measured: data.measured, alignment, doubts, deviations })
+}
+
+/// Whether the aligned data lie where the reference does, or where the features should be if there is no reference. Of places
+/// of features alone sizes tell nothing.
+fn doubts(plan: &Plan, data: &Data) -> Vec<Warning> {
+    let Some(measured) = &data.measured else { return vec![] };
+    let reference = match &data.reference {
+        Some(reference) => reference.bounds(),
+        None => {
+            let nominals = plan.features.iter().filter_map(|f| f.nominal.as_ref());
+            Aabb::of(&nominals.flat_map(Nominal::places).collect::<Vec<_>>())
+        }
+    };
+    let bounds = plausibility::bounds(&measured.bounds()).zip(plausibility::bounds(&reference));
+    let mut found = bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, "units in the plan"));
+    found.retain(|w| w.kind == WarningKind::HardlyOverlapping || data.reference.is_some());
+    found
 }

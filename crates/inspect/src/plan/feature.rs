@@ -102,7 +102,7 @@ const ANGLE: f64 = 15.0;
 /// Distance from the nominal surface within which they do, over the size of the feature.
 const DISTANCE: f64 = 0.02;
 /// Least share of the nominal area that must have been measured, where the plan says nothing.
-const COVERAGE: f64 = 0.25;
+pub(super) const COVERAGE: f64 = 0.25;
 
 pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feature>, PlanError> {
     let mut all: Vec<Feature> = Vec::new();

@@ -1,25 +1,31 @@
 //! A plan proposed from the elements of a nominal mesh: every element a feature, with the usual characteristics.
 
+use super::feature::COVERAGE;
 use super::region::{facets_of, nominal_of};
 use std::fmt::Write;
 use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{Region, Segmentation};
 use trueness_geom::shape::Shape;
-use trueness_geom::space::dot;
+use trueness_geom::space::{Point, cross, dot, minus, norm};
 use trueness_geom::zone::datum::direction;
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
 const TOLERANCE: &str = "0.1";
 /// Cosine above which directions count as parallel as drawn, and sine below which as perpendicular.
 const PARALLEL: f64 = 0.999;
+/// A feature with less of the area of its nominal form is a part of it.
+const PARTIAL: f64 = 0.9;
 
 /// The text of a plan for the elements `found` in the nominal `mesh`, whose file is called `reference`. It parses; its
 /// tolerances are placeholders. Elements without a nominal form in plans (tori) are left out, as a comment says.
 pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
     let mut out = format!(
         "# Proposed from {0}. Tolerances are placeholders: put in those of the drawing, take out what is not toleranced.\n\
-         schema = \"trueness/plan/1\"\nunits = \"mm\"\nmeasured = \"scan.stl\"\nreference = {0}\n",
+         schema = \"trueness/plan/1\"\nunits = \"mm\"\nmeasured = \"scan.stl\"\nreference = {0}\n\n\
+         # \"none\" where the scan lies in the coordinates of the model already.\n[align]\nmethod = \"best-fit\"\n\n\
+         # Of each feature, rim = false leaves out vertices on edges, which scanners round. A coarse mesh whose vertices all lie\n\
+         # on edges needs rim = true.\n",
         quoted(reference)
     );
     let mut features: Vec<(String, &Region)> = Vec::new();
@@ -46,9 +52,10 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
         let Some(nominal) = nominal_of(&region.fit.shape, &facets) else { continue };
         let _ = write!(
             out,
-            "\n[[feature]]\nid = {}\nshape = \"{class}\"\nnominal = {{ {} }}\n",
+            "\n[[feature]]\nid = {}\nshape = \"{class}\"\nnominal = {{ {} }}\nextract = {{ rim = false{} }}\n",
             quoted(&id),
-            keys(&nominal)
+            keys(&nominal),
+            coverage(&nominal, &facets)
         );
         features.push((id, region));
     }
@@ -103,6 +110,16 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
             _ => continue,
         };
         add(format!("kind = \"{kind}\"\nfeature = {id_text}\ndatums = [\"A\"]\ntolerance = {TOLERANCE}"));
+    }
+}
+
+/// The key `coverage` of a feature that is only a part of its nominal form, as a pocket is of a sphere: the usual share of
+/// what there is. Empty where all of it is there.
+fn coverage(nominal: &Nominal, facets: &[[Point; 3]]) -> String {
+    let there: f64 = facets.iter().map(|[a, b, c]| 0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))).sum();
+    match nominal.area().map(|area| there / area) {
+        Some(share) if share < PARTIAL => format!(", coverage = {:.3}", COVERAGE * share),
+        _ => String::new(),
     }
 }
 

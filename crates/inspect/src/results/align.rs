@@ -159,7 +159,8 @@ pub struct PairRecord {
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`.
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`; of an inspection also `size_ratio` and
+    /// `hardly_overlapping`.
     pub kind: String,
     /// One sentence for people.
     pub text: String,

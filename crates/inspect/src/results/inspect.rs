@@ -1,7 +1,7 @@
 //! `trueness/inspect/1`: a plan, evaluated.
 
 use super::align::AlignNote;
-use super::compare::Comparison;
+use super::compare::{Comparison, Warning, WarningKind};
 use super::fit::{Number, named, uncertainty};
 use super::{InputRecord, Role, UNITS, VERSION, Verdict};
 use crate::characteristic::Value;
@@ -101,7 +101,7 @@ impl AlignmentRecord {
             converged: None,
             warnings: vec![],
         };
-        match &found.alignment.found {
+        let mut record = match &found.alignment.found {
             Found::Nothing => bare,
             Found::BestFit(fit) => AlignmentRecord {
                 rms: Some(fit.rms),
@@ -121,8 +121,19 @@ impl AlignmentRecord {
                 converged: Some(fit.converged),
                 ..bare
             },
-        }
+        };
+        record.warnings.extend(found.doubts.iter().map(doubt));
+        record
     }
+}
+
+/// What makes it unlikely that the data are of the part.
+fn doubt(warning: &Warning) -> AlignNote {
+    let kind = match warning.kind {
+        WarningKind::SizeRatio => "size_ratio",
+        WarningKind::HardlyOverlapping => "hardly_overlapping",
+    };
+    AlignNote { kind: kind.into(), text: warning.text.clone() }
 }
 
 /// A feature as it was found.

@@ -73,6 +73,9 @@ pub struct OutputRecord {
     pub sound_reason: Option<String>,
     /// Defects found in the file when it was read again, by kind; kinds without a finding are left out.
     pub defects: BTreeMap<String, u64>,
+    /// Kinds of which there are more than `defects` says: they were not counted to the end.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub at_least: Vec<String>,
 }
 
 /// A mesh in numbers.
@@ -98,6 +101,9 @@ pub struct State {
     pub volume_reason: Option<String>,
     /// Defects by kind; kinds without a finding are left out.
     pub defects: BTreeMap<String, u64>,
+    /// Kinds of which there are more than `defects` says: they were not counted to the end.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub at_least: Vec<String>,
 }
 
 /// Vertices that stayed, came and went.

@@ -151,6 +151,10 @@ pub struct ContourRecord {
     pub repeated: Vec<u64>,
     /// Gaps: the number of the point before.
     pub gaps: Vec<u64>,
+    /// Segments, by their numbers from 0, that do not run along their points and tell nothing of the part; with any, the exit
+    /// status is 1.
+    #[serde(default)]
+    pub astray: Vec<u64>,
     /// Signed distance of each point from the contour, positive to the left.
     pub residuals: Vec<f64>,
     /// Number of the segment of each point.
@@ -385,6 +389,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         outliers: numbers(&found.outliers),
         repeated: numbers(&found.repeated),
         gaps: numbers(&found.gaps),
+        astray: numbers(&found.astray),
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),
         stations: found.stations.clone(),

@@ -47,8 +47,16 @@ impl<'a> View<'a> {
         let patches = Patches::new(&fit.surface);
         let lines = lines(&fit.surface);
         let (mesh, bends) = drawn(&patches, &lines);
-        let curvatures =
-            Kind::ALL.map(|kind| bends.iter().map(|b| b.map_or(f64::NAN, |b| kind.of(&b))).collect());
+        let held = held(fit, &lines);
+        let reasons: Vec<NoValue> = held
+            .iter()
+            .map(|held| if *held { NoValue::Undetermined } else { NoValue::NotMeasured })
+            .collect();
+        let curvatures = Kind::ALL.map(|kind| {
+            let value =
+                |(b, held): (&Option<Bend>, &bool)| b.filter(|_| *held).map_or(f64::NAN, |b| kind.of(&b));
+            bends.iter().zip(&held).map(value).collect()
+        });
         let group = |key: &str, color, mark: Mark| {
             vec![MarkGroup { key: key.into(), color, items: vec![mark.finite()] }]
         };
@@ -58,7 +66,7 @@ impl<'a> View<'a> {
             points,
             deviations: &fit.deviations,
             keep: [document.worst.point as u32],
-            reasons: vec![NoValue::Undetermined; mesh.positions.len()],
+            reasons,
             marks: vec![
                 marks(
                     ViewRole::IsoLines,
@@ -128,6 +136,28 @@ fn drawn(patches: &Patches, [us, vs]: &[Vec<f64>; 2]) -> (Mesh, Vec<Option<Bend>
     let faces = cells.flat_map(|a| [[a, a + n, a + n + 1], [a, a + n + 1, a + 1]]).collect();
     let (positions, bends) = places.into_iter().unzip();
     (Mesh { positions, faces }, bends)
+}
+
+/// For each drawn vertex whether points hold the surface there: there are some in a cell of knots that it lies in, or in one
+/// beside that. Elsewhere the surface only goes on as smoothly as it can, and its curvature tells nothing of the part.
+fn held(fit: &SurfaceFit, lines: &[Vec<f64>; 2]) -> Vec<bool> {
+    let knots = fit.surface.knots().each_ref().map(|k| k.distinct());
+    let [rows, columns] = knots.each_ref().map(|k| k.len() - 1);
+    let cell = |k: usize, t: f64| (knots[k].partition_point(|x| *x <= t).max(1) - 1).min(knots[k].len() - 2);
+    let mut filled = vec![false; rows * columns];
+    for [u, v] in &fit.feet {
+        filled[cell(0, *u) * columns + cell(1, *v)] = true;
+    }
+    // Of each line the cells on both sides, and one more.
+    let around = |k: usize, t: &f64, count: usize| {
+        let at = cell(k, *t);
+        let before = if knots[k][at] == *t { 2 } else { 1 };
+        at.saturating_sub(before)..(at + 2).min(count)
+    };
+    let near =
+        |u: &f64, v: &f64| around(0, u, rows).any(|i| around(1, v, columns).any(|j| filled[i * columns + j]));
+    let [us, vs] = lines;
+    us.par_iter().flat_map_iter(|u| vs.iter().map(move |v| near(u, v))).collect()
 }
 
 /// The lines of the surface at its knots, through the drawn vertices.

@@ -116,6 +116,8 @@ export interface MapEntry {
 /** A place that a row of the list leads to. */
 export interface Pick {
   position: [number, number, number]
+  /** Places of its feature that the leader of a frame ends at where its own is hidden. */
+  others: [number, number, number][]
   /** The place of the reference that it was measured from. */
   surface: [number, number, number] | null
   /** That is so far away that the place is not on the part. */

@@ -1,7 +1,7 @@
 //! The check as a table for people.
 
 use crate::console::columns;
-use crate::number::{EDGES, FACETS, SHELLS, VERTICES, counted, fixed, grouped};
+use crate::number::{EDGES, FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped};
 use trueness_geom::check::Kind;
 use trueness_inspect::results::check::{CheckDocument, Defects};
 
@@ -38,13 +38,13 @@ fn head(d: &CheckDocument) -> String {
     let counts = [(d.facets, FACETS), (d.vertices, VERTICES), (d.edges, EDGES), (d.shells, SHELLS)];
     rows.push(("", counts.map(|(n, what)| counted(n, what)).join(", ")));
     if let Some([l, b, h]) = d.dimensions {
-        rows.push(("size", format!("{} mm", [l, b, h].map(|x| fixed(x, 6)).join(" × "))));
+        rows.push(("size", format!("{} mm", [l, b, h].map(extent).join(" × "))));
     }
-    rows.push(("area", format!("{} mm²", fixed(d.area, 6))));
+    rows.push(("area", format!("{} mm²", extent(d.area))));
     rows.push((
         "volume",
         match (d.volume, &d.volume_reason) {
-            (Some(v), _) => format!("{} mm³", fixed(v, 6)),
+            (Some(v), _) => format!("{} mm³", extent(v)),
             (None, reason) => format!("none: {}", reason.as_deref().unwrap_or_default()),
         },
     ));

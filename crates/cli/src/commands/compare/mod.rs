@@ -216,13 +216,13 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         let shown = if measured.kind == "vertices" { found.count } else { found.shown.points.len() as u64 };
         document.sampling = Some(Sampling { shown, total: found.count });
     }
+    let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());
+    let view = View::new(&document.inputs[0].path, drawn, &references, &found);
+    args.output.write_html(&document, &view, common.progress)?;
     if let Some(files) = points_files {
         files.finish(&document.scale)?;
     }
     args.output.document.write(&document)?;
-    let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());
-    let view = View::new(&document.inputs[0].path, drawn, &references, &found);
-    args.output.write_html(&document, &view, common.progress)?;
     args.output.document.table(|| table::text(&document))?;
     let aligned = document.alignment.as_ref().is_none_or(AlignedTo::sound);
     Ok(match document.verdict {

@@ -140,12 +140,12 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
     let Some(document) = document(&found, &mesh.positions, of_mesh, &options, vec![record]) else {
         bail!("{shown}: {}", nothing(&found, of_mesh));
     };
-    if let Some(path) = &args.out {
-        write(path, &mesh, &found, &document, args.color.into())?;
-    }
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &mesh, &found);
         args.report.write(Answer::Curvature(&document), &view.objects(), &[], common.progress)?;
+    }
+    if let Some(path) = &args.out {
+        write(path, &mesh, &found, &document, args.color.into())?;
     }
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;

@@ -16,7 +16,7 @@ use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS};
-use trueness_inspect::repair::{Around, View, defects, document};
+use trueness_inspect::repair::{Around, View, at_least, defects, document};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::repair::OutputRecord;
@@ -188,5 +188,6 @@ fn again(
         sound: report.as_ref().map(|r| r.sound),
         sound_reason: report.is_none().then(|| "it cannot be read again".into()),
         defects: report.as_ref().map(defects).unwrap_or_default(),
+        at_least: report.as_ref().map(at_least).unwrap_or_default(),
     })
 }

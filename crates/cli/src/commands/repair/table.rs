@@ -1,7 +1,7 @@
 //! The repair as a table for people.
 
 use crate::console::columns;
-use crate::number::{FACETS, SHELLS, VERTICES, counted, fixed, grouped, scientific, signed};
+use crate::number::{FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
 use trueness_inspect::results::repair::{RepairDocument, State};
 
@@ -64,10 +64,10 @@ fn line(out: &mut String, name: &str, text: &str) {
 }
 
 fn state(s: &State) -> String {
-    let volume = s.volume.map_or("open".into(), |v| format!("{} mm³", fixed(v, 6)));
+    let volume = s.volume.map_or("open".into(), |v| format!("{} mm³", extent(v)));
     let counts = [(s.facets, FACETS), (s.vertices, VERTICES), (s.shells, SHELLS)];
     let counts = counts.map(|(n, what)| counted(n, what)).join(", ");
-    format!("{counts}, {} mm², {volume}", fixed(s.area, 6))
+    format!("{counts}, {} mm², {volume}", extent(s.area))
 }
 
 /// Change of the volume.
@@ -109,8 +109,9 @@ fn changes(out: &mut String, d: &RepairDocument) {
 
 /// Defects before, after, and in the file.
 fn defects(out: &mut String, d: &RepairDocument) {
-    let all = [&d.before.defects, &d.after.defects, &d.output.defects];
-    let mut names: Vec<&String> = all.iter().flat_map(|m| m.keys()).collect();
+    let (b, a, o) = (&d.before, &d.after, &d.output);
+    let all = [(&b.defects, &b.at_least), (&a.defects, &a.at_least), (&o.defects, &o.at_least)];
+    let mut names: Vec<&String> = all.iter().flat_map(|(m, _)| m.keys()).collect();
     names.sort_unstable();
     names.dedup();
     if names.is_empty() {
@@ -119,7 +120,10 @@ fn defects(out: &mut String, d: &RepairDocument) {
     let mut rows = vec![["defect", "before", "after", "in the file"].map(String::from).to_vec()];
     for name in names {
         let mut row = vec![name.replace('_', " ")];
-        row.extend(all.iter().map(|m| grouped(m.get(name).copied().unwrap_or(0))));
+        row.extend(all.iter().map(|(counts, capped)| {
+            let more = if capped.contains(name) { "at least " } else { "" };
+            format!("{more}{}", grouped(counts.get(name).copied().unwrap_or(0)))
+        }));
         if d.output.sound.is_none() {
             row[3] = "?".into();
         }
@@ -157,6 +161,7 @@ fn verdict(d: &RepairDocument) -> String {
         (true, Some(true)) => format!("\nsound; {written}\n"),
         (false, _) => {
             let open = match (d.after.closed, d.hole_limit) {
+                _ if d.after.facets == 0 => " No facet with an area is left: the mesh holds no surface.",
                 (true, _) => "",
                 (false, Some(_)) => " Holes larger than the limit stay open unless --all-holes is given.",
                 (false, None) => " Holes that no patch fits stay open.",

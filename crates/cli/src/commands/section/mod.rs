@@ -161,11 +161,12 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         document = document.with_methods(chosen, interval, &table);
     }
     drop(stage);
-    args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     report(args, common, &document, &rows)?;
+    args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
-    Ok(Outcome::Conforming)
+    let astray = document.contours.iter().any(|c| !c.astray.is_empty());
+    Ok(if astray { Outcome::NotConforming } else { Outcome::Conforming })
 }
 
 /// The report, with the points of each contour.

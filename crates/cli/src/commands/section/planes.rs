@@ -143,15 +143,10 @@ pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, s
     let of = |cut: &Cut| -> Result<WithRows, SectionError> {
         let (numbers, flat) = section::slab(points, &cut.plane, &cut.frame, slab.thickness);
         let rows = section::order(&flat, slab.gap, stage)?;
-        let own: Vec<Vec<[f64; 2]>> =
-            rows.iter().map(|row| row.numbers.iter().map(|i| flat[*i]).collect()).collect();
-        let contours = (own.par_iter().zip(&rows))
-            .map(|(points, row)| {
-                let closed = options.closed.unwrap_or(row.closed);
-                let options = Options { closed: Some(closed), ordered: true, ..*options };
-                section::contour(points, &options, stage)
-            })
+        let contours = (rows.par_iter())
+            .map(|row| section::ordered_contour(&flat, row, options, stage))
             .collect::<Result<Vec<Contour>, SectionError>>()?;
+        let own = rows.iter().map(|row| row.numbers.iter().map(|i| flat[*i]).collect()).collect();
         let loose = numbers.len() - rows.iter().map(|r| r.numbers.len()).sum::<usize>();
         Ok((cut.section(contours, Err("points have no facets"), loose), own))
     };

@@ -33,6 +33,13 @@ pub fn table(document: &SectionDocument) -> String {
             fixed(contour.length, 6),
             scientific(contour.noise, 2)
         );
+        if !contour.astray.is_empty() {
+            let which = match contour.astray.len() == contour.segments.len() {
+                true => "the segments do not run along the points and tell".into(),
+                false => format!("{} do not run along their points and tell", numbered(&contour.astray)),
+            };
+            let _ = writeln!(out, "! {which} {ASTRAY}");
+        }
         out.push_str(&segments(contour));
         if !contour.joins.is_empty() {
             out.push_str(&joins(contour));
@@ -64,6 +71,18 @@ pub fn table(document: &SectionDocument) -> String {
         let _ = writeln!(out, "planes that meet nothing: {empty} of {}", document.planes.len());
     }
     out
+}
+
+/// What is said of segments that do not run along their points.
+const ASTRAY: &str = "nothing of the part; points that cover an area follow no curve: a thinner slab, or a plane that cuts \
+                      less obliquely, may help";
+
+/// Numbers of segments from 0 as the table counts them: the first few.
+fn numbered(segments: &[u64]) -> String {
+    const FEW: usize = 8;
+    let some: Vec<String> = segments.iter().take(FEW).map(|s| (s + 1).to_string()).collect();
+    let more = if segments.len() > FEW { " …" } else { "" };
+    format!("segments {}{more}", some.join(", "))
 }
 
 /// The paper's table of its methods.

@@ -166,12 +166,14 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
     let document = trueness_inspect::surface::document(&fit, &points, &options, vec![record]);
-    args.models.write(&fit.surface, &stage)?;
     drop(stage);
     if args.report.html.is_some() {
         let view = View::new(&document, &fit, &document.inputs[0].path, &points);
         args.report.write(Answer::Surface(&document), &view.objects(), &view.marks, common.progress)?;
     }
+    let stage = Stage::new(common.progress, "writing the surface", "points", None);
+    args.models.write(&fit.surface, &stage)?;
+    drop(stage);
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     let out = document.tolerance.as_ref().is_some_and(|t| !t.reached);

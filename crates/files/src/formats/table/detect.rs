@@ -7,7 +7,7 @@
 use super::{
     cell::Separator,
     choose::{self, Chosen},
-    header::{Header, Said},
+    header::{Header, Said, unit_of},
     row::{Layout, Row},
     tried::{Tried, is_blank_line},
 };
@@ -120,7 +120,10 @@ fn found(head: &[u8], lines: &[&[u8]], tried: &Tried, chosen: Chosen, unit_asked
     let start = tried.start;
     let mut layout = tried.layout(line_end(head), &columns);
     layout.announced = tried.announced.is_some();
-    let unit = unit(header, &columns, unit_asked, &mut warnings)?;
+    let unit = match unit(header, &columns, unit_asked, &mut warnings)? {
+        None => stated(&lines[..start], unit_asked)?,
+        unit => unit,
+    };
     let csv = matches!(tried.dialect.0, Separator::Byte(_));
     let bytes: usize = lines[start..].iter().map(|l| l.len() + 1).sum();
     let name = |i: usize| header.and_then(|h| Some(h.names.get(i)?.text.clone()));
@@ -184,6 +187,31 @@ fn unit(
     let all: Vec<&str> = names.iter().map(|n| n.text.as_str()).collect();
     Err(unclear(format!("the names {} give different units", all.join(", "))))
 }
+
+/// The unit that a line before the rows states for the whole file: `# Units: inch`, `Einheit = mm`.
+fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
+    for (number, line) in lines.iter().enumerate() {
+        let text = String::from_utf8_lossy(line).to_lowercase();
+        let text = text.trim_start_matches(|c: char| !c.is_alphabetic());
+        let Some(rest) = STATING.iter().find_map(|word| text.strip_prefix(word)) else { continue };
+        let rest = rest.trim_start();
+        let Some(word) = rest.strip_prefix([':', '=']) else { continue };
+        match unit_of(word.trim_end_matches(['.', ',', ';']).trim()) {
+            Said::Unit(unit) => return Ok(Some(unit)),
+            Said::Foreign(word) if !asked => {
+                let what = format!("the unit {word} is not understood");
+                let remedy = "say the unit of x, y, z by --units um, mm, cm, m or in";
+                return Err(Fault::Unclear { what, remedy }.at_line(number as u64 + 1));
+            }
+            _ => {}
+        }
+    }
+    Ok(None)
+}
+
+/// Words that state the unit of a whole file, the longer before those that they begin with.
+const STATING: [&str; 8] =
+    ["length units", "length unit", "units", "unit", "einheiten", "einheit", "unités", "единицы"];
 
 /// Where in `head` a line cut from it begins.
 fn offset(head: &[u8], line: &[u8]) -> usize {

@@ -65,6 +65,19 @@ impl<'a> Line<'a> {
     fn is_gap(&self, width: usize) -> bool {
         self.filled() > 0 && self.cells.len() == width && self.classes.iter().all(|c| *c == Class::Missing)
     }
+    /// Cells that may have been meant as numbers, and hardly a word among them: a row to be refused by its place.
+    fn is_broken(&self, width: usize) -> bool {
+        let [words, unreadable] = [Class::Word, Class::Unreadable].map(|kind| self.count(&[kind]));
+        let starts = self.text.trim_ascii().first().is_some_and(|b| b.is_ascii_digit() || b"+-.".contains(b));
+        // One cell of all the text: a quote was not closed.
+        let open = self.cells.len() == 1
+            && self.text.contains(&b'"')
+            && self.text.iter().any(|b| self.separates(*b));
+        open && starts
+            || self.filled() > 1
+                && unreadable > 0
+                && (words == 0 || words < unreadable && self.cells.len() == width)
+    }
     /// A line drawn with characters.
     fn is_rule(&self) -> bool {
         let drawn =
@@ -98,8 +111,11 @@ impl<'a> Tried<'a> {
             Some(header) if !header.comment => {
                 said.iter().position(|l| l.index > header.line).unwrap_or(first)
             }
-            // A row of nothing but marks for missing values is a row as well.
-            _ => said[..first].iter().rposition(|l| !l.is_gap(most)).map_or(0, |before| before + 1),
+            // Rows of nothing but marks for missing values, or of what is meant as numbers, are rows as well.
+            _ => {
+                let row = |l: &Line| l.is_gap(most) || l.is_broken(most);
+                said[..first].iter().rposition(|l| !row(l)).map_or(0, |before| before + 1)
+            }
         };
         let (units, skipped) = between(&said[start..=first], dialect.0);
         start += skipped;

@@ -139,16 +139,28 @@ impl Hub {
                 .all(|page| !overlap(&bounds, &Aabb::of(&corners(mesh, page))) || decide(facet, page));
         }
         let other = Arc { facet, seen: seen_from(mesh, self.center, facet), bounds };
-        self.one_below(&other, &self.root, decide)
+        let sides = seen::Sides::of(mesh.positions[self.center as usize], corners(mesh, facet));
+        self.one_below((&other, &sides), &self.root, decide)
     }
 
-    fn one_below(&self, one: &Arc, node: &Node, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        if !overlap(&one.seen, &node.seen) || !overlap(&one.bounds, &node.bounds) {
+    fn one_below(
+        &self,
+        (one, sides): (&Arc, &seen::Sides),
+        node: &Node,
+        decide: &mut impl FnMut(u32, u32) -> bool,
+    ) -> bool {
+        if !overlap(&one.seen, &node.seen) || !overlap(&one.bounds, &node.bounds) || sides.miss(&node.seen) {
             return true;
         }
         match &node.halves {
-            Some(halves) => halves.iter().all(|half| self.one_below(one, half, decide)),
-            None => self.one_with(one, node.range.clone(), decide),
+            Some(halves) => halves.iter().all(|half| self.one_below((one, sides), half, decide)),
+            None => {
+                let near = |o: &&Arc| {
+                    overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds) && !sides.miss(&o.seen)
+                };
+                let arcs = &self.arcs[node.range.clone()];
+                arcs.iter().filter(near).all(|other| decide(one.facet, other.facet))
+            }
         }
     }
 

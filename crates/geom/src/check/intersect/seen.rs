@@ -1,6 +1,6 @@
 //! Boxes around what is seen from a place: of directions, as points of the unit sphere.
 
-use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// Of directions: some ten roundings of 2^-53, and much to spare.
 const ROUNDING: f64 = 1e-12;
@@ -52,6 +52,34 @@ pub(super) fn triangle(center: Point, [a, b, c]: [Point; 3]) -> Aabb {
         }
     }
     bounds
+}
+
+/// Half-spaces through `center`, one at each side, that hold the directions to all places of a triangle.
+///
+/// A long thin triangle fills next to nothing of its box: these tell what lies beside it. The other hub of two that cross sees
+/// every facet so.
+pub(super) struct Sides([Vector; 3]);
+
+impl Sides {
+    pub fn of(center: Point, [a, b, c]: [Point; 3]) -> Sides {
+        let (Some(u), Some(v), Some(w)) = (direction(center, a), direction(center, b), direction(center, c))
+        else {
+            return Sides([[0.0; 3]; 3]);
+        };
+        let inward = |u: Point, v: Point, w: Point| {
+            let normal = cross(u, v);
+            let height = dot(normal, w);
+            // Seen edge-on there is no telling the side: none.
+            if height.abs() > ROUNDING { times(height.signum(), normal) } else { [0.0; 3] }
+        };
+        Sides([inward(u, v, w), inward(v, w, u), inward(w, u, v)])
+    }
+
+    /// Whether all directions of a box are outside.
+    pub fn miss(&self, seen: &Aabb) -> bool {
+        let highest = |n: &Vector| (0..3).map(|k| (n[k] * seen.min[k]).max(n[k] * seen.max[k])).sum::<f64>();
+        self.0.iter().any(|n| highest(n) < -ROUNDING)
+    }
 }
 
 /// Box of the shorter arc of a great circle between two directions.

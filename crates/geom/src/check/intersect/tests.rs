@@ -2,7 +2,7 @@ use super::*;
 use crate::num::predicates;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::space::Point;
+use crate::space::{Point, plus};
 use crate::topology::tests::{levels, on_threads};
 use crate::topology::weld;
 use std::collections::HashMap;
@@ -240,6 +240,32 @@ fn crowds_take_n_log_n() {
         assert!(work.windows(2).all(|w| w[1] < 7 * w[0]), "{name} {work:?}");
         assert!(work[2] < 32_000 * 40, "{name} {work:?}");
     }
+}
+
+/// Two fans that cross see each other's facets long and thin: what is looked at grows as what is found.
+#[test]
+fn fans_that_cross_take_what_they_find() {
+    let bicone = |n: usize, by: Point| -> Vec<Facet> {
+        let rim = |i: usize| {
+            let (sin, cos) = libm::sincos(i as f64 / n as f64 * std::f64::consts::TAU);
+            plus([cos, sin, 0.0], by)
+        };
+        let of = |i: usize| {
+            let (a, b) = (rim(i), rim((i + 1) % n));
+            [[plus([0.0, 0.0, 1.0], by), a, b], [by, b, a]]
+        };
+        (0..n).flat_map(of).collect()
+    };
+    let pair = |n: usize| [bicone(n, [0.0; 3]), bicone(n, [0.1, 0.05, 0.02])].concat();
+    assert!(check("fans", &pair(520)) > 500);
+    let work = [1000, 4000, 16_000].map(|n| {
+        let facets = pair(n);
+        let (asked, found) = asked(&weld::corners(facets.len(), |f, k| facets[f][k]).unwrap());
+        assert!(found > n && found < 4 * n, "{n}: {found}");
+        asked
+    });
+    // Four times the facets: a square would be sixteen times the work.
+    assert!(work.windows(2).all(|w| w[1] < 7 * w[0]) && work[2] < 16_000 * 40, "{work:?}");
 }
 
 /// Books with pages folded upon each other, and facets that are there several times and cross others.

@@ -3,6 +3,7 @@
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, badge, fact, key_number, section};
 use super::super::page::symbols::{path, symbol};
+use super::alignment::{Facts, alignment};
 use super::{Frame, Head, Map, Pick, Subject, compare};
 use crate::results::Verdict;
 use crate::results::compare::Comparison;
@@ -66,21 +67,8 @@ impl Subject for InspectDocument {
             deviations(h, c, scale.decimals as usize, self.characteristics.len());
         }
         section(h, "features", |h| features(h, self));
-        section(h, "alignment", |h| {
-            h.raw("<dl class=\"facts pairs\">");
-            fact(h, "method", |h| {
-                h.word(&format!("align.{}", self.alignment.method));
-            });
-            if let Some(rms) = self.alignment.rms {
-                fact(h, "rms", |h| {
-                    h.number(rms, 4, false).raw("\u{a0}mm");
-                });
-            }
-            h.raw("</dl>");
-            for warning in &self.alignment.warnings {
-                h.raw("<p class=\"note\">").text(&warning.text).raw("</p>");
-            }
-        });
+        let (of, left_out) = (&self.alignment, None);
+        alignment(h, &Facts { method: &of.method, rms: of.rms, left_out, warnings: &of.warnings });
     }
 
     fn method(&self, h: &mut Html) {

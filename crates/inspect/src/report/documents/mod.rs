@@ -1,5 +1,6 @@
 //! What a page needs to know of a result document: one file each.
 
+mod alignment;
 mod check;
 mod compare;
 mod curvature;

@@ -231,6 +231,7 @@ fn states(h: &mut Html, d: &RepairDocument) {
     let kinds: BTreeSet<&String> = d.before.defects.keys().chain(d.after.defects.keys()).collect();
     for kind in kinds {
         row(&format!("defect.{kind}"), &|h, s| {
+            h.raw(if s.at_least.contains(kind) { "≥ " } else { "" });
             h.count(s.defects.get(kind).copied().unwrap_or(0));
         });
     }

@@ -2,7 +2,7 @@
 
 use super::super::html::{Html, json};
 use super::super::payload::Payload;
-use super::super::picture::FirstView;
+use super::super::picture::{FirstView, others};
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale, slot};
@@ -97,7 +97,8 @@ fn picks(input: &ReportInput, first: Option<&FirstView>) -> Value {
         let off = first.is_some_and(|f| f.off[n]);
         json!({
             "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
-            "mark": p.mark, "object": p.object, "map": p.map, "value": p.value, "frame": p.frame,
+            "others": others(&p, input.marks), "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
+            "frame": p.frame,
         })
     });
     all.collect::<Vec<_>>().into()

@@ -39,7 +39,7 @@ pub fn flags(h: &mut Html, picks: &[Pick], view: &FirstView, scale: Option<&Scal
     let placed: Vec<Placed> = valued
         .enumerate()
         .map(|(n, (pick, p))| {
-            let [x, y] = view.pixel(&p.position);
+            let [x, y] = view.pixel(&view.ends[pick]);
             let own = match &p.frame {
                 Some(frame) => framed(h.style, frame).1,
                 None if view.off.get(pick) == Some(&true) => WIDTH + NOTE,

@@ -18,6 +18,8 @@ use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, t
 const PLACES: usize = 8;
 /// Places of a mark that are looked at.
 const SAMPLES: usize = 3;
+/// Places beside its own that the leader of a frame may end at.
+const OTHERS: usize = 8;
 /// A place farther than this from where it was measured, as a share of the diagonal, is not on the part.
 const OFF: f64 = 0.02;
 /// What is nearer to a place than this share of the diagonal does not hide it: it is the surface itself.
@@ -37,6 +39,8 @@ pub struct Direction {
     pub off: Vec<bool>,
     /// For each pick with a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
+    /// For each pick, where its leader ends: at its position, or if that is hidden at another place of its feature.
+    pub ends: Vec<Point>,
 }
 
 /// Chooses the direction for a report.
@@ -71,8 +75,24 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     for (n, seen) in flagged.iter().zip(&View::of(&flags, &[best.toward], &opaque).remove(0).seen) {
         hidden[*n] = seen.is_none();
     }
+    let mut ends: Vec<Point> = picks.iter().map(|p| p.position).collect();
+    for (n, place) in flagged.iter().zip(flags).filter(|(_, place)| place.any) {
+        let near = place.near;
+        let probes: Vec<(Point, f64)> = place.samples.into_iter().map(|s| (s, near)).collect();
+        let blocked = blocked(&probes, &[best.toward], &opaque);
+        let seen = probes.iter().zip(blocked).find(|(_, blocked)| *blocked == 0);
+        ends[*n] = seen.map_or(picks[*n].position, |((place, _), _)| *place);
+    }
     let places = important.into_iter().zip(best.seen.iter().map(|s| s.is_none())).collect();
-    Direction { toward: best.toward, places, off, hidden }
+    Direction { toward: best.toward, places, off, hidden, ends }
+}
+
+/// Places of its feature, beside its own, that the leader of a frame may end at: an axis or a middle lies inside the part.
+pub fn others(pick: &Pick, marks: &[Marks]) -> Vec<Point> {
+    let mark = pick.frame.as_ref().and(pick.mark).and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
+    let ends = mark.map_or(&[][..], |m| &m.segments);
+    let step = ends.len().div_ceil(OTHERS).max(1);
+    ends.iter().step_by(step).map(|segment| segment[0]).collect()
 }
 
 /// A pick has a flag in the first view: a value of the first map where that is shown, else its frame.
@@ -105,6 +125,8 @@ struct Place {
     normal: Option<Vector>,
     /// What is nearer to it does not hide it, millimetres.
     near: f64,
+    /// It is seen where any of the samples is; else most of them must be.
+    any: bool,
 }
 
 impl Place {
@@ -113,7 +135,10 @@ impl Place {
         let places: Vec<Point> = mark.map_or(vec![], |m| m.places().copied().collect());
         let anchor = pick.surface.filter(|_| !off && !measured).unwrap_or(pick.position);
         let step = (places.len() / SAMPLES).max(1);
-        let samples = if places.is_empty() {
+        let any = pick.frame.is_some();
+        let samples = if any {
+            [vec![pick.position], others(pick, marks)].concat()
+        } else if places.is_empty() {
             vec![anchor]
         } else {
             places.into_iter().step_by(step).take(SAMPLES).collect()
@@ -124,6 +149,7 @@ impl Place {
             samples,
             normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),
             near: under.max(NEAR * diagonal),
+            any,
         }
     }
 }
@@ -177,7 +203,7 @@ impl View {
                 first += p.samples.len();
                 let free = mine.iter().filter(|b| *b & (1 << d) == 0).count();
                 let square = p.normal.map_or(1.0, |n| (dot(n, *toward) / SEEN).clamp(0.0, 1.0));
-                (2 * free > mine.len()).then_some(square)
+                (2 * free > mine.len() || p.any && free > 0).then_some(square)
             });
             View { toward: *toward, seen: seen.collect() }
         };
@@ -326,6 +352,7 @@ mod tests {
         let axes =
             (0..3).flat_map(|k| [1.0, -1.0].map(|s| std::array::from_fn(|i| if i == k { s } else { 0.0 })));
         axes.map(|n: Vector| Place {
+            any: false,
             samples: vec![plus(times(1.0 - depth, n), [0.0123 * n[1], 0.0123 * n[2], 0.0123 * n[0]])],
             normal: Some(n),
             near: (OBLIQUE * depth).max(0.01),

@@ -7,7 +7,7 @@ mod direction;
 mod overlay;
 mod png;
 
-pub use direction::flagged;
+pub use direction::{flagged, others};
 
 use super::documents::Pick;
 use super::{Geometry, ReportInput, ViewObject, ViewRole};
@@ -84,6 +84,8 @@ pub struct FirstView {
     pub off: Vec<bool>,
     /// For each pick with a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
+    /// For each pick, where its leader ends.
+    pub ends: Vec<Point>,
     /// Whether it shows values as colors, and so flags.
     pub mapped: bool,
     camera: Camera,
@@ -92,7 +94,7 @@ pub struct FirstView {
 impl FirstView {
     /// Of a report with these picks.
     pub fn of(input: &ReportInput, picks: &[Pick]) -> FirstView {
-        let direction::Direction { toward, places, off, hidden } = direction::direction(input, picks);
+        let direction::Direction { toward, places, off, hidden, ends } = direction::direction(input, picks);
         let shown = shown_objects(input.objects);
         let mapped = mapped(&shown);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
@@ -106,7 +108,7 @@ impl FirstView {
         };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
-        FirstView { toward, places, off, hidden, mapped, camera }
+        FirstView { toward, places, off, hidden, ends, mapped, camera }
     }
 
     /// Width and height of the picture in pixels.

@@ -1,4 +1,4 @@
-import { Vector3 } from 'three'
+import type { Vector3 } from 'three'
 import { el, svg } from '../dom'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
@@ -24,11 +24,8 @@ const PAPER_LETTER = 8.6
 interface Flag {
   number: number
   pick: Pick
-  place: Vector3
   /** Where the place was measured from, if that is far away. */
   surface: Vector3 | null
-  /** How far it may lie under the surface and still be on it. */
-  slack: number
   label: string
   text: string
   box: HTMLButtonElement
@@ -109,10 +106,8 @@ export class Flags {
     const dot = svg('circle', { class: pick.off ? 'anchor off' : 'anchor', r: 3.5 })
     this.lines.append(way, line, dot)
     this.overlay.append(box)
-    const place = this.stage.placeOf(pick)
     const surface = pick.off ? this.stage.surfaceOf(pick) : null
-    const slack = this.stage.slackOf(pick)
-    return { number, pick, place, surface, slack, label, text, box, line, way, dot, size: { width: 0, height: 0 } }
+    return { number, pick, surface, label, text, box, line, way, dot, size: { width: 0, height: 0 } }
   }
 
   /** Numbers alone where there is no room for values; sizes are read once, not in every frame. */
@@ -182,14 +177,15 @@ export class Flags {
   }
 
   private layout(size: (flag: Flag) => { width: number; height: number }, head: number): Placed[] {
-    const { eye, sight } = this.stage
+    const { eye } = this.stage
     const columns: [Placed[], Placed[]] = [[], []]
     for (const flag of this.flags) {
-      const { x, y } = eye.project(flag.place)
+      const { place, hidden } = this.stage.endOf(flag.pick)
+      const { x, y } = eye.project(place)
       const side = x < eye.width / 2 ? 0 : 1
       const own = size(flag)
       const inner = side === 1 ? eye.width - RIM - own.width : RIM + own.width
-      columns[side].push({ flag, hidden: sight.hidden(flag.place, flag.slack), ...own, x, y, inner, top: 0 })
+      columns[side].push({ flag, hidden, ...own, x, y, inner, top: 0 })
     }
     const wide = eye.width >= NARROW
     const kept = columns.map((column, side) => {

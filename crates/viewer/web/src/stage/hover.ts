@@ -36,7 +36,8 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     const zone = state.scale.tolerance
     const inside = zone && reading.value >= zone[0] - part!.step / 2 && reading.value <= zone[1] + part!.step / 2
     const judged = valued && zone ? (inside ? `✓ ${words.of('state.in')}` : `✕ ${words.of('state.out')}`) : ''
-    const role = part ? what(part, valued, words) : ''
+    const several = part ? state.manifest.objects.filter((o) => o.role === part.object.role).length > 1 : false
+    const role = part ? what(part, valued, several, words) : ''
     card.replaceChildren(
       ...(value ? [el('strong', {}, value)] : []),
       ...(judged || why ? [el('span', { class: inside ? 'in' : 'out' }, judged || why)] : []),
@@ -64,11 +65,11 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
   stage.onDraw(read)
 }
 
-/** What the value is of: a measured point itself, the worst one near the place, or the surface. */
-function what(part: Part, valued: boolean, words: Words): string {
-  const { kind, role, reach } = part.object
+/** What the value is of: a measured point itself, the worst one near the place, or the surface; by its name among `several`. */
+function what(part: Part, valued: boolean, several: boolean, words: Words): string {
+  const { kind, role, reach, name } = part.object
   if (valued && reach) return `${words.of('hover.worst')} (≤ ${words.number(reach, 2)} mm)`
-  return valued && kind === 'points' && role === 'measured' ? words.of('hover.point') : words.of(role)
+  return valued && kind === 'points' && role === 'measured' ? words.of('hover.point') : several && name ? name : words.of(role)
 }
 
 /** No more digits than the stored step carries, and no fewer than the scale's. */

@@ -37,7 +37,7 @@ export class Stage {
   readonly scene = new Scene()
   readonly eye: Eye
   readonly values: ValueBuffer
-  readonly sight: Sight
+  private readonly sight: Sight
   readonly parts: Part[] = []
   readonly marks: Marks[] = []
   /** Middle of everything in the model's coordinates. */
@@ -199,6 +199,15 @@ export class Stage {
   /** Place of a pick relative to the stage's centre. */
   placeOf(pick: Pick): Vector3 {
     return this.fromCenter(pick.position)
+  }
+
+  /** Where the leader to a pick ends in this view, and whether that is hidden: at its own place, if only that were seen. */
+  endOf(pick: Pick): { place: Vector3; hidden: boolean } {
+    const slack = this.slackOf(pick)
+    const own = this.placeOf(pick)
+    if (!this.sight.hidden(own, slack)) return { place: own, hidden: false }
+    const seen = pick.others.map((other) => this.fromCenter(other)).find((other) => !this.sight.hidden(other, slack))
+    return { place: seen ?? own, hidden: seen === undefined }
   }
 
   /** The place that it was measured from, likewise. */

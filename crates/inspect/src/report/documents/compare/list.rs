@@ -2,6 +2,7 @@
 
 use super::super::super::html::Html;
 use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
+use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::{headline, in_words, warning_key};
 use crate::results::check::found;
@@ -33,6 +34,10 @@ pub fn list(h: &mut Html, result: &CompareDocument) {
             first_pick += check::picks(&found, 0).len();
         }
         h.raw("</div>\n");
+    }
+    if let Some(a) = &result.alignment {
+        let (rms, left_out) = (Some(a.rms), Some(a.left_out));
+        alignment(h, &Facts { method: "best-fit", rms, left_out, warnings: &a.warnings });
     }
 }
 

@@ -7,6 +7,7 @@ pub use list::{by_side, statistics, worst};
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, key_number};
 use super::{Head, Map, Pick, Subject, check};
+use crate::results::align::AlignedTo;
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison, WarningKind, Worst};
 use crate::scale::Scale;
@@ -31,7 +32,7 @@ impl Subject for CompareDocument {
 
     fn numbers(&self, h: &mut Html) {
         for (n, comparison) in self.comparisons.iter().enumerate() {
-            numbers(h, comparison, self.scale.decimals as usize, n);
+            numbers(h, (comparison, n), self.scale.decimals as usize, self.alignment.as_ref());
         }
     }
 
@@ -106,7 +107,7 @@ fn headline(verdict: Option<crate::results::Verdict>) -> Headline {
 }
 
 /// The line of key numbers for one comparison; the script shows the one chosen.
-fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
+fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned: Option<&AlignedTo>) {
     let all = &c.deviation.all;
     let shown = if n == 0 { "" } else { " hidden" };
     h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{n}\"{shown}>"));
@@ -157,6 +158,12 @@ fn numbers(h: &mut Html, c: &Comparison, decimals: usize, n: usize) {
     key_number(h, "soundness", class, |h| {
         h.raw(sign).word(state);
     });
+    if let Some(a) = aligned {
+        let (class, sign) = if a.sound() { ("", "") } else { ("warn", "⚠\u{a0}") };
+        key_number(h, "alignment", class, |h| {
+            h.raw(sign).word("align.best-fit");
+        });
+    }
     for warning in &c.warnings {
         key_number(h, warning_key(warning.kind), "warn", |h| {
             h.raw("⚠\u{a0}").number(warning.value, 3, false);

@@ -45,6 +45,7 @@ impl Subject for SectionDocument {
             ("planes", "", self.planes.len() as u64),
             ("outliers", "warn", count(&|c| c.outliers.len())),
             ("gaps", "warn", count(&|c| c.gaps.len())),
+            ("segments.astray", "warn", count(&|c| c.astray.len())),
         ] {
             if n > 0 {
                 key_number(h, key, class, |h| {

@@ -40,6 +40,11 @@ pub fn contours(h: &mut Html, document: &SectionDocument) {
         h.raw("</span>").word(if contour.closed { "contour.closed" } else { "contour.open" });
         h.raw("<strong>").count(contour.segments.len() as u64).raw("</strong></summary>");
         facts(h, contour);
+        if !contour.astray.is_empty() {
+            let numbers: Vec<String> = contour.astray.iter().map(|s| (s + 1).to_string()).collect();
+            h.raw("<p class=\"note\"><strong class=\"warning\">⚠</strong> ").word("contour.astray");
+            h.raw(" ").text(&numbers.join(", ")).raw("</p>");
+        }
         h.raw("<div class=\"wide\">");
         segments(h, contour, numbers[n]);
         h.raw("</div>");
