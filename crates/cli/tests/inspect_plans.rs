@@ -77,203 +77,189 @@ const fn fault(from: &'static str, to: &'static str, says: &'static str) -> Faul
 
 const POSITION: &str = "kind = \"position\"\nbasic = { x = 20, y = 20 }";
 
+/// A word of the plan, what stands in its place, and what is said of that.
+const FAULTS: &[Fault] = &[
+    fault(
+        "schema = \"trueness/plan/1\"",
+        "schema = \"trueness/plan/2\"",
+        "line 1, column 10: the schema is \"trueness/plan/2\"; this program reads \"trueness/plan/1\"",
+    ),
+    fault("schema = \"trueness/plan/1\"\n", "", "missing field `schema`"),
+    fault("id = \"A\"", "id = \"A", "line 5, column"),
+    fault(
+        "units = \"mm\"",
+        "units = \"furlong\"",
+        "line 2, column 9: there is no variant \"furlong\" (known: mm, cm, m, in, um)",
+    ),
+    fault("units = \"mm\"", "unit = \"mm\"", "there is no field \"unit\"; did you mean \"units\"?"),
+    fault(
+        "tolerance = 0.1",
+        "tolerence = 0.1",
+        "there is no field \"tolerence\"; did you mean \"tolerance\"?",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = \"0.1\"",
+        "line 28, column 13: invalid type: string \"0.1\", expected f64",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = -0.1",
+        "line 28, column 13: the tolerance is -0.1; it cannot be below 0",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = nan",
+        "line 28, column 13: the tolerance is NaN; give a finite number",
+    ),
+    fault("feature = \"A\"\ntolerance = 0.1", "feature = \"A\"", "flatness needs `tolerance`"),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"flatnes\"",
+        "line 26, column 8: there is no kind \"flatnes\"; did you mean \"flatness\"?",
+    ),
+    fault("kind = \"flatness\"", "kind = \"line-profile\"", "line 26, column 8: line profiles are not built"),
+    fault(
+        "shape = \"cylinder\"",
+        "shape = \"cilinder\"",
+        "line 21, column 9: there is no variant \"cilinder\"; did you mean \"cylinder\"?",
+    ),
+    fault(
+        "feature = \"A\"",
+        "feature = \"AA\"",
+        "line 27, column 11: there is no feature \"AA\"; did you mean \"A\"? (known: A, B, R, pin)",
+    ),
+    fault(
+        "feature = \"A\"",
+        "feature = \"pin\"",
+        "line 27, column 11: flatness: feature \"pin\" is a cylinder; it is defined for: plane",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"E\"]",
+        "line 34, column 11: there is no feature \"E\"; did you mean \"A\"?",
+    ),
+    fault("datums = [\"A\"]\n", "", "perpendicularity: it needs a datum: give `datums`"),
+    fault("datums = [\"A\"]", "datums = [\"A\", \"A\"]", "datum \"A\" is named twice"),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"pin\"]",
+        "\"pin\" is the toleranced feature; it cannot be its own datum",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"distance\"\nfeature = [\"A\", \"A\"]\nnominal = 8\nupper = 0.1\nlower = -0.1",
+        "line 33, column 11: \"A\" is named twice; a feature is no distance from itself",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+        "kind = \"coaxiality\"\nfeature = \"pin\"\ndatums = [\"A\", \"B\"]",
+        "line 34, column 10: coaxiality: it is evaluated for a single datum only",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A-C\"]",
+        "line 34, column 11: there is no feature \"C\"; did you mean \"A\"?",
+    ),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"flatness\"\nsize = \"GG\"",
+        "line 27, column 8: flatness takes no `size`",
+    ),
+    fault("id = \"2\"", "id = \"1\"", "line 31, column 6: there are two characteristics \"1\""),
+    fault("id = \"B\"", "id = \"A\"", "line 10, column 6: there are two features \"A\""),
+    fault("points = \"floor.xyz\"\n", "", "feature \"A\" has no points: give `points`, `nominal` or `seed`"),
+    fault(
+        "shape = \"plane\"\npoints = \"floor.xyz\"",
+        "points = \"floor.xyz\"",
+        "feature \"A\" needs `shape`, or `derived` with `of`",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"angularity\"",
+        "angularity: it needs the theoretically exact angle: basic = { angle = 60 }",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"angularity\"\nbasic = { angle = 130 }",
+        "the angle is 130; give degrees from 0 to 90",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"coaxiality\"",
+        "line 34, column 10: coaxiality: the datum is a plane; it must be one of: line, cylinder, cone",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"position\"",
+        "position: it needs the theoretically exact place: basic = { x = 10, y = 20 }",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"",
+        "size needs `nominal`, `upper` and `lower`",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nupper = -0.1\nlower = 0.1",
+        "the lower limit deviation 0.1 is above the upper one -0.1",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"LP\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
+        "line 34, column 8: size: two-point sizes (LP) are not built yet; choose GG, GN, GX or GC",
+    ),
+    fault("rule = \"simple\"", "rule = \"iso14253-1\"", "rule \"iso14253-1\" needs the expanded uncertainty"),
+    fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),
+    fault("[decision]", "[align]\nmethod = \"rps\"\n[decision]", "method \"rps\" needs `points`, a list of"),
+    fault("[decision]", "[align]\nmethod = \"datum\"\n[decision]", "method \"datum\" needs `datums`"),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"datum\"\ndatums = [\"X\", \"A\"]\n[decision]",
+        "line 39, column 11: there is no feature \"X\"",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"datum\"\ndatums = [\"A\"]\n[decision]",
+        "feature \"A\" has no `nominal`: where it should lie is not known",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"none\"\ndatums = [\"A\"]\n[decision]",
+        "`datums` goes with method \"datum\"",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"pairs\"\npoints = [{ measured = [0, 0, 0], nominal = [0, 0, 0] }]\n[decision]",
+        "method \"pairs\" needs at least 3 points, there are 1",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"best-fit\"\n[decision]",
+        "a best fit needs `measured` and `reference`",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"given\"\ntransform = [[1, 0], [0, 1]]\n[decision]",
+        "a transform has four rows of four numbers",
+    ),
+    fault(
+        "[decision]",
+        "[deviation]\ntolerance = [-0.1, 0.1]\n[decision]",
+        "line 37, column 1: [deviation] needs `measured` and `reference`",
+    ),
+    fault(
+        "[decision]",
+        "[align]\nmethod = \"given\"\ntransform = [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]\n[decision]",
+        "the transform: it scales lengths by 2",
+    ),
+];
+
 #[test]
 fn faults_of_plans_are_told_with_their_places() {
-    let faults = [
-        fault(
-            "schema = \"trueness/plan/1\"",
-            "schema = \"trueness/plan/2\"",
-            "line 1, column 10: the schema is \"trueness/plan/2\"; this program reads \"trueness/plan/1\"",
-        ),
-        fault("schema = \"trueness/plan/1\"\n", "", "missing field `schema`"),
-        fault("id = \"A\"", "id = \"A", "line 5, column"),
-        fault(
-            "units = \"mm\"",
-            "units = \"furlong\"",
-            "line 2, column 9: there is no variant \"furlong\" (known: mm, cm, m, in, um)",
-        ),
-        fault("units = \"mm\"", "unit = \"mm\"", "there is no field \"unit\"; did you mean \"units\"?"),
-        fault(
-            "tolerance = 0.1",
-            "tolerence = 0.1",
-            "there is no field \"tolerence\"; did you mean \"tolerance\"?",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = \"0.1\"",
-            "line 28, column 13: invalid type: string \"0.1\", expected f64",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = -0.1",
-            "line 28, column 13: the tolerance is -0.1; it cannot be below 0",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = nan",
-            "line 28, column 13: the tolerance is NaN; give a finite number",
-        ),
-        fault("feature = \"A\"\ntolerance = 0.1", "feature = \"A\"", "flatness needs `tolerance`"),
-        fault(
-            "kind = \"flatness\"",
-            "kind = \"flatnes\"",
-            "line 26, column 8: there is no kind \"flatnes\"; did you mean \"flatness\"?",
-        ),
-        fault(
-            "kind = \"flatness\"",
-            "kind = \"line-profile\"",
-            "line 26, column 8: line profiles are not built",
-        ),
-        fault(
-            "shape = \"cylinder\"",
-            "shape = \"cilinder\"",
-            "line 21, column 9: there is no variant \"cilinder\"; did you mean \"cylinder\"?",
-        ),
-        fault(
-            "feature = \"A\"",
-            "feature = \"AA\"",
-            "line 27, column 11: there is no feature \"AA\"; did you mean \"A\"? (known: A, B, R, pin)",
-        ),
-        fault(
-            "feature = \"A\"",
-            "feature = \"pin\"",
-            "line 27, column 11: flatness: feature \"pin\" is a cylinder; it is defined for: plane",
-        ),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"E\"]",
-            "line 34, column 11: there is no feature \"E\"; did you mean \"A\"?",
-        ),
-        fault("datums = [\"A\"]\n", "", "perpendicularity: it needs a datum: give `datums`"),
-        fault("datums = [\"A\"]", "datums = [\"A\", \"A\"]", "datum \"A\" is named twice"),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"pin\"]",
-            "\"pin\" is the toleranced feature; it cannot be its own datum",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"distance\"\nfeature = [\"A\", \"A\"]\nnominal = 8\nupper = 0.1\nlower = -0.1",
-            "line 33, column 11: \"A\" is named twice; a feature is no distance from itself",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
-            "kind = \"coaxiality\"\nfeature = \"pin\"\ndatums = [\"A\", \"B\"]",
-            "line 34, column 10: coaxiality: it is evaluated for a single datum only",
-        ),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"A-C\"]",
-            "line 34, column 11: there is no feature \"C\"; did you mean \"A\"?",
-        ),
-        fault(
-            "kind = \"flatness\"",
-            "kind = \"flatness\"\nsize = \"GG\"",
-            "line 27, column 8: flatness takes no `size`",
-        ),
-        fault("id = \"2\"", "id = \"1\"", "line 31, column 6: there are two characteristics \"1\""),
-        fault("id = \"B\"", "id = \"A\"", "line 10, column 6: there are two features \"A\""),
-        fault(
-            "points = \"floor.xyz\"\n",
-            "",
-            "feature \"A\" has no points: give `points`, `nominal` or `seed`",
-        ),
-        fault(
-            "shape = \"plane\"\npoints = \"floor.xyz\"",
-            "points = \"floor.xyz\"",
-            "feature \"A\" needs `shape`, or `derived` with `of`",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"angularity\"",
-            "angularity: it needs the theoretically exact angle: basic = { angle = 60 }",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"angularity\"\nbasic = { angle = 130 }",
-            "the angle is 130; give degrees from 0 to 90",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"coaxiality\"",
-            "line 34, column 10: coaxiality: the datum is a plane; it must be one of: line, cylinder, cone",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"position\"",
-            "position: it needs the theoretically exact place: basic = { x = 10, y = 20 }",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"",
-            "size needs `nominal`, `upper` and `lower`",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nupper = -0.1\nlower = 0.1",
-            "the lower limit deviation 0.1 is above the upper one -0.1",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"LP\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
-            "line 34, column 8: size: two-point sizes (LP) are not built yet; choose GG, GN, GX or GC",
-        ),
-        fault(
-            "rule = \"simple\"",
-            "rule = \"iso14253-1\"",
-            "rule \"iso14253-1\" needs the expanded uncertainty",
-        ),
-        fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"rps\"\n[decision]",
-            "method \"rps\" needs `points`, a list of",
-        ),
-        fault("[decision]", "[align]\nmethod = \"datum\"\n[decision]", "method \"datum\" needs `datums`"),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"datum\"\ndatums = [\"X\", \"A\"]\n[decision]",
-            "line 39, column 11: there is no feature \"X\"",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"datum\"\ndatums = [\"A\"]\n[decision]",
-            "feature \"A\" has no `nominal`: where it should lie is not known",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"none\"\ndatums = [\"A\"]\n[decision]",
-            "`datums` goes with method \"datum\"",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"pairs\"\npoints = [{ measured = [0, 0, 0], nominal = [0, 0, 0] }]\n[decision]",
-            "method \"pairs\" needs at least 3 points, there are 1",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"best-fit\"\n[decision]",
-            "a best fit needs `measured` and `reference`",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"given\"\ntransform = [[1, 0], [0, 1]]\n[decision]",
-            "a transform has four rows of four numbers",
-        ),
-        fault(
-            "[decision]",
-            "[deviation]\ntolerance = [-0.1, 0.1]\n[decision]",
-            "line 37, column 1: [deviation] needs `measured` and `reference`",
-        ),
-        fault(
-            "[decision]",
-            "[align]\nmethod = \"given\"\ntransform = [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]\n[decision]",
-            "the transform: it scales lengths by 2",
-        ),
-    ];
     let folder = Folder::new();
     parts(&folder);
-    for fault in &faults {
+    for fault in FAULTS {
         assert!(PLAN.contains(fault.from), "{}", fault.from);
         let plan = folder.write("plan.toml", PLAN.replacen(fault.from, fault.to, 1));
         let o = trueness(["inspect", plan.to_str().unwrap()]);

@@ -18,7 +18,7 @@ pub(super) const KIND: Kind = Kind {
         let sets = Sets::new(vertices.len());
         let place = |v: u32| vertices.partition_point(|x| *x < v) as u32;
         let join = |v: u32, w: u32| {
-            let free = v != w && m.topology.facets_at_edge(m.mesh, [v, w]).is_empty();
+            let free = v != w && !m.topology.has_edge(m.mesh, [v, w]);
             if free {
                 sets.join(place(v), place(w));
             }

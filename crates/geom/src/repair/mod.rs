@@ -4,6 +4,7 @@
 //! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
 //! listed. The result of a step is decided exactly where [`check`] decides exactly.
 
+mod around;
 mod degenerate;
 mod duplicates;
 mod edges;

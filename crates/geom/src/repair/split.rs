@@ -105,11 +105,13 @@ fn apart(
         lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut nth = vec![0; asked.len()];
+    // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
+    let mut changed: Option<BTreeSet<u32>> = None;
     loop {
         let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
         set_off(work, &lost, again, &distances);
-        // What has changed has a new vertex.
-        let pairs = work.crossings(|_, face| face.iter().any(|v| *v >= first))?;
+        let has_changed = |v: &u32| changed.as_ref().map_or(*v >= first, |changed| changed.contains(v));
+        let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
         let faces = &work.mesh().faces;
         let mut bad: Vec<usize> = match pairs {
             None => (0..asked.len()).collect(),
@@ -134,6 +136,8 @@ fn apart(
         }
         work.restore(before.clone());
         more.iter().for_each(|&i| nth[i] += 1);
+        let moved = more.iter().map(|&i| first + (i - kept.partition_point(|k| *k < i)) as u32);
+        changed = Some(moved.chain(kept.iter().map(|&i| lost[i].0)).collect());
         for i in kept.into_iter().rev() {
             lost.remove(i);
             nth.remove(i);

@@ -121,8 +121,7 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
     let mut pairs = vec![];
     for (_, e, f, joined) in found {
         let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(parted);
-        let apart =
-            |[a, b]: &[u32; 2]| a == b || known.topology.facets_at_edge(work.mesh(), [*a, *b]).is_empty();
+        let apart = |[a, b]: &[u32; 2]| a == b || !known.topology.has_edge(work.mesh(), [*a, *b]);
         if free && joined.iter().all(apart) {
             (used[e as usize], used[f as usize]) = (true, true);
             pairs.extend(joined);

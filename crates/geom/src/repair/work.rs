@@ -3,6 +3,7 @@
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
 
+use super::around::Around;
 use super::{Change, Options, RepairError};
 use crate::arrange::ArrangeError;
 use crate::check::free_edges::FreeEdges;
@@ -131,11 +132,36 @@ impl<'a> Work<'a> {
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        const FEW: usize = 10_000;
-        let known = self.known()?;
-        let most = FEW + 8 * self.mesh.faces.len();
         let some: Vec<bool> = (0..).zip(&self.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
+        if !some.contains(&true) {
+            return Ok(Some(vec![]));
+        }
+        if let Some(around) = Around::new(&self.mesh, &some) {
+            let topology = Topology::watched(&around.mesh, self.progress)?;
+            return self.crossings_around(&around, &topology);
+        }
+        let known = self.known()?;
+        let most = self.most_crossings();
         Ok(intersect::few_self_intersections(&self.mesh, &known.topology, &some, most, self.progress)?)
+    }
+
+    /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
+    pub(super) fn crossings_around(
+        &self,
+        around: &Around,
+        topology: &Topology,
+    ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+        let (most, Around { mesh, numbers, asked }) = (self.most_crossings(), around);
+        let found = intersect::few_self_intersections(mesh, topology, asked, most, self.progress)?;
+        let whole =
+            |pairs: Vec<[u32; 2]>| pairs.into_iter().map(|p| p.map(|f| numbers[f as usize])).collect();
+        Ok(found.map(whole))
+    }
+
+    /// Pairs beyond which the mesh is a tangle.
+    fn most_crossings(&self) -> usize {
+        const FEW: usize = 10_000;
+        FEW + 8 * self.mesh.faces.len()
     }
 
     /// All that the check finds of a kind which needs no crossings.

@@ -84,6 +84,20 @@ impl Fans {
         facets
     }
 
+    /// Whether a facet has the edge between two different vertices. Costs at most as much as the shorter of their chains.
+    pub(super) fn has_edge(&self, faces: &[[u32; 3]], edge: [u32; 2]) -> bool {
+        let mut corners = edge.map(|v| self.head.get(v as usize).map_or(0, |c| c.load(Relaxed)));
+        while corners[0] != 0 && corners[1] != 0 {
+            for end in 0..2 {
+                if faces[(corners[end] - 1) as usize / 3].contains(&edge[1 - end]) {
+                    return true;
+                }
+                corners[end] = self.next[corners[end] as usize - 1];
+            }
+        }
+        false
+    }
+
     /// The facets at the edge between two different vertices, ascending. Costs as much as the shorter of their chains.
     pub(super) fn at_edge(&self, faces: &[[u32; 3]], edge: [u32; 2]) -> Vec<u32> {
         let mut corners = edge.map(|v| self.head.get(v as usize).map_or(0, |c| c.load(Relaxed)));

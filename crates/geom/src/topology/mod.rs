@@ -159,6 +159,12 @@ impl Topology {
         if a == b { vec![] } else { self.fans.at_edge(&mesh.faces, [a, b]) }
     }
 
+    /// Whether a facet of `mesh` that counts has the edge between two vertices. Of an edge with very many facets this is faster than
+    /// to list them.
+    pub fn has_edge(&self, mesh: &Mesh, [a, b]: [u32; 2]) -> bool {
+        a != b && self.fans.has_edge(&mesh.faces, [a, b])
+    }
+
     /// Number of vertices that a counting facet uses.
     pub fn used_vertices(&self) -> usize {
         self.fans.used()

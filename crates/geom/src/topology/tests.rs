@@ -121,6 +121,11 @@ fn compare_with_plain_twin(mesh: &Mesh, name: &str) {
         for (edge, facets) in some {
             let facets: Vec<u32> = facets.iter().map(|f| f.1).collect();
             assert_eq!(t.facets_at_edge(mesh, *edge), facets, "{what}");
+            assert!(t.has_edge(mesh, *edge) && t.has_edge(mesh, [edge[1], edge[0]]), "{what}");
+        }
+        let few = mesh.positions.len().min(20) as u32;
+        for [a, b] in (0..few).flat_map(|a| (0..few).map(move |b| [a, b])) {
+            assert_eq!(t.has_edge(mesh, [a, b]), !t.facets_at_edge(mesh, [a, b]).is_empty(), "{what}");
         }
     }
 }

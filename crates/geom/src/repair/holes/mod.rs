@@ -10,10 +10,13 @@ mod minimal;
 mod refine;
 mod ring;
 
+use super::around::Around;
 use super::work::{Known, Work};
 use super::{Holes, RepairError, Step};
 use crate::check::finding;
+use crate::mesh::Mesh;
 use crate::space::{Point, minus, norm, plus, times};
+use crate::topology::Topology;
 use minimal::Aim;
 use ring::Ring;
 use std::ops::Range;
@@ -38,7 +41,7 @@ pub(super) struct Site<'a, 'w> {
 impl Site<'_, '_> {
     /// Whether a facet has this edge.
     pub(super) fn has_edge(&self, a: u32, b: u32) -> bool {
-        !self.known.topology.facets_at_edge(self.work.mesh(), [a, b]).is_empty()
+        self.known.topology.has_edge(self.work.mesh(), [a, b])
     }
 }
 
@@ -164,20 +167,35 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
 
 /// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending.
 fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
-    let known = work.known()?;
-    let Some(crossings) = work.crossings(|f, _| f >= first)? else {
-        return Ok((first..work.mesh().faces.len() as u32).collect());
+    let all = work.mesh().faces.len() as u32;
+    let asked: Vec<bool> = (0..all).map(|f| f >= first).collect();
+    let (crossings, mut bad) = match Around::new(work.mesh(), &asked) {
+        Some(around) => {
+            let topology = Topology::watched(&around.mesh, work.progress)?;
+            let crossings = work.crossings_around(&around, &topology)?;
+            let bad = unmanifold(&around.mesh, &topology);
+            (crossings, bad.into_iter().map(|f| around.numbers[f as usize]).collect())
+        }
+        None => {
+            let known = work.known()?;
+            (work.crossings(|f, _| f >= first)?, unmanifold(work.mesh(), &known.topology))
+        }
     };
-    let mut bad: Vec<u32> = crossings.into_iter().flatten().collect();
-    for edge in &known.topology.non_manifold_edges {
-        bad.extend(known.topology.facets_at_edge(work.mesh(), edge.vertices));
-    }
-    bad.extend(known.topology.duplicate_facets.iter().flatten());
-    bad.extend(known.topology.collinear.iter().chain(&known.topology.repeated_vertex));
+    let Some(crossings) = crossings else { return Ok((first..all).collect()) };
+    bad.extend(crossings.into_iter().flatten());
     bad.retain(|f| *f >= first);
     bad.sort_unstable();
     bad.dedup();
     Ok(bad)
+}
+
+/// Facets at edges of more than two, facets that are there twice, and facets without area.
+fn unmanifold(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
+    let edges = topology.non_manifold_edges.iter();
+    let mut bad: Vec<u32> = edges.flat_map(|edge| topology.facets_at_edge(mesh, edge.vertices)).collect();
+    bad.extend(topology.duplicate_facets.iter().flatten());
+    bad.extend(topology.collinear.iter().chain(&topology.repeated_vertex));
+    bad
 }
 
 /// Triangles from every edge of the ring to its middle.

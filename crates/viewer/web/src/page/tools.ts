@@ -41,8 +41,9 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
   const bar = el('div', { class: 'stage-tools', role: 'toolbar' })
   overlay.append(bar)
   const fill = () => {
-    const toggle = (key: string, on: boolean, act: () => void, hint: string) => {
-      const b = el('button', { type: 'button', 'aria-pressed': String(on), title: `${words.of(key)} (${hint})` }, words.of(key))
+    const toggle = (key: string, on: boolean, act: () => void, hint: string, disabled = false) => {
+      const title = `${words.of(key)} (${hint})`
+      const b = el('button', { type: 'button', 'aria-pressed': String(on), title, disabled }, words.of(key))
       b.addEventListener('click', act)
       return b
     }
@@ -55,8 +56,9 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
     const { maps, picks } = state.manifest
     if (maps.length > 1) items.push(chooser(state, words))
     for (const role of state.roles) items.push(toggle(role, state.visible[role], () => state.show(role, !state.visible[role]), ROLE_KEYS[role] ?? ''))
-    if (maps.length > 0) items.push(toggle('tool.map', state.map, () => state.toggle('map'), 'M'))
-    if (maps.length > 0) items.push(toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L'))
+    // Nothing to switch while what is shown has no values.
+    if (maps.length > 0) items.push(toggle('tool.map', state.map, () => state.toggle('map'), 'M', !state.mapped))
+    if (maps.length > 0) items.push(toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L', !state.mapped))
     if (picks.some((p) => p.value !== null || p.frame !== null)) items.push(toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'))
     if (state.meshes) items.push(toggle('tool.backfaces', state.backfaces, () => state.toggle('backfaces'), 'B'))
     items.push(act('tool.fit', () => stage.fit(), 'F'))
