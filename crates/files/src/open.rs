@@ -17,6 +17,8 @@ use trueness_geom::{
 pub struct ReadOptions {
     /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
     pub units: Option<Unit>,
+    /// The unit where neither `units` nor the file says one; millimetres where this is absent too.
+    pub unit_else: Option<Unit>,
     /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
     pub columns: Option<Columns>,
     /// Its format; found out otherwise.
@@ -42,7 +44,14 @@ pub enum Weld {
 
 impl Default for ReadOptions {
     fn default() -> ReadOptions {
-        ReadOptions { units: None, columns: None, format: None, weld: Weld::Same, block: 1 << 21 }
+        ReadOptions {
+            units: None,
+            unit_else: None,
+            columns: None,
+            format: None,
+            weld: Weld::Same,
+            block: 1 << 21,
+        }
     }
 }
 
@@ -76,7 +85,10 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     let (unit, unit_from) = match (options.units, parsed.unit) {
         (Some(asked), _) => (asked, UnitFrom::Option),
         (None, Some(said)) => (said, UnitFrom::Header),
-        (None, None) => (Unit::default(), UnitFrom::Assumed),
+        (None, None) => match options.unit_else {
+            Some(unit) => (unit, UnitFrom::Option),
+            None => (Unit::default(), UnitFrom::Assumed),
+        },
     };
     let body = match parsed.content {
         Parts::Mesh(mut mesh) => {

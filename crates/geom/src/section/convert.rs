@@ -165,8 +165,12 @@ fn segment(
         Kind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    Segment::bare(geometry, [start, end], length, ends)
+    // Below 0 where a chain that went astray runs against its points.
+    Segment::bare(geometry, [start, end], length.abs(), ends)
 }
+
+/// How many times finer the places are taken where the curve does not keep its tolerance.
+const FINER: [usize; 3] = [1, 4, 16];
 
 /// Power with which the ends of a free piece lead to its corners.
 const LEAD: i32 = 8;
@@ -181,33 +185,47 @@ fn spline(
     tolerance: f64,
 ) -> Geometry {
     let (pose, table) = (&layout.poses[g], &layout.tables[g]);
-    let samples = 16 * piece.coefficients.len() + 33;
-    let place = |i: usize| table.place((from + (to - from) * i as f64 / (samples - 1) as f64) / piece.length);
-    let mut points: Vec<[f64; 2]> = (0..samples).map(|i| pose.place(place(i).at)).collect();
+    let place = |t: f64| table.place((from + (to - from) * t) / piece.length);
     // A corner lies a little beside the piece: its ends lead there, with powers of the share of the length, which few knots
     // can follow. A step at the end would take as many knots as there may be.
     let off = |to: [f64; 2], at: [f64; 2]| [to[0] - at[0], to[1] - at[1]];
-    let (first, last) = (off(start, points[0]), off(end, points[samples - 1]));
-    for (i, p) in points.iter_mut().enumerate() {
-        let t = i as f64 / (samples - 1) as f64;
-        let (u, v) = ((1.0 - t).powi(LEAD), t.powi(LEAD));
-        *p = [p[0] + u * first[0] + v * last[0], p[1] + u * first[1] + v * last[1]];
-    }
-    let along = |i: usize, shift: [f64; 2], sign: f64| {
-        let (way, rate) = (pose.out(place(i).along), sign * f64::from(LEAD) / (to - from));
+    let (first, last) = (off(start, pose.place(place(0.0).at)), off(end, pose.place(place(1.0).at)));
+    let led = |t: f64| {
+        let (p, u, v) = (pose.place(place(t).at), (1.0 - t).powi(LEAD), t.powi(LEAD));
+        [p[0] + u * first[0] + v * last[0], p[1] + u * first[1] + v * last[1]]
+    };
+    let along = |t: f64, shift: [f64; 2], sign: f64| {
+        let (way, rate) = (pose.out(place(t).along), sign * f64::from(LEAD) / (to - from));
         [way[0] + rate * shift[0], way[1] + rate * shift[1]]
     };
     let ends = Ends {
-        start: End::Tangent(start, along(0, first, -1.0)),
-        end: End::Tangent(end, along(samples - 1, last, 1.0)),
+        start: End::Tangent(start, along(0.0, first, -1.0)),
+        end: End::Tangent(end, along(1.0, last, 1.0)),
     };
-    // The places follow each other at steps of the length; where the curvature has knots the curve may change the most.
-    let parameters: Vec<f64> = (0..samples).map(|i| i as f64 / (samples - 1) as f64).collect();
-    match curve::divided(&points, &parameters, 3, &table.spans(), ends, tolerance) {
-        Ok(fitted) => Geometry::Spline { curve: fitted.curve, deviation: fitted.max },
-        // Points of a curve are different: there is always one.
-        Err(_) => Geometry::Line,
+    let mut best: Option<(Curve<[f64; 2]>, f64)> = None;
+    for finer in FINER {
+        let steps = finer * (16 * piece.coefficients.len() + 32);
+        // The places follow each other at steps of the length; where the curvature has knots the curve may change the most.
+        let parameters: Vec<f64> = (0..=steps).map(|i| i as f64 / steps as f64).collect();
+        let points: Vec<[f64; 2]> = parameters.iter().map(|t| led(*t)).collect();
+        let Ok(fitted) = curve::divided(&points, &parameters, 3, &table.spans(), ends, tolerance) else {
+            continue;
+        };
+        // Between the places too: a curve that keeps to them may leave the piece there.
+        let between = parameters.windows(2).map(|w| 0.5 * (w[0] + w[1])).map(|t| {
+            let d = off(fitted.curve.at(t), led(t));
+            libm::hypot(d[0], d[1])
+        });
+        let deviation = between.fold(fitted.max, f64::max);
+        if best.as_ref().is_none_or(|(_, least)| deviation < *least) {
+            best = Some((fitted.curve, deviation));
+        }
+        if deviation <= tolerance {
+            break;
+        }
     }
+    // Points of a curve are different: there is always one.
+    best.map_or(Geometry::Line, |(curve, deviation)| Geometry::Spline { curve, deviation })
 }
 
 impl Contour {

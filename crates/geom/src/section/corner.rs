@@ -1,13 +1,13 @@
 //! Corners: where two chains cross.
 
-use super::chain::{Piece, Pose};
+use super::chain::Pose;
 use super::result::{Continuity, Join};
 use super::span::Found;
 
 /// From where the points end a corner lies no farther than this share of it, beyond what is uncertain.
 const NEAR: f64 = 0.25;
 
-/// A corner takes less than this share of a segment's length: the other end may take as much.
+/// A corner takes less than this share of the way along a segment's points: the other end may take as much.
 const SHORTEST: f64 = 0.45;
 
 /// The corner between two chains: where they cross, each going on as its end does.
@@ -44,8 +44,7 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
     let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
     let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
-    let half = |piece: Option<&Piece>| piece.map_or(0.0, |p| SHORTEST * p.length);
-    let eaten = -u > half(a.pieces().last()) || v > half(b.pieces().first());
+    let eaten = -beyond > SHORTEST * a.extent(true) || within > SHORTEST * b.extent(false);
     if reach > most || eaten || beyond.abs().max(within.abs()) > near {
         return between(feet, turn, uncertainty.min(most));
     }

@@ -11,9 +11,10 @@ use super::cut::{Plane, PlaneFrame};
 use super::result::{Contour, Options, SectionError};
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, dot, norm};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// Numbers of the points in a slab around a plane, and their places in it. Points that hold no number are left out.
+/// Numbers of the points in a slab around a plane, and their places in it. Points that hold no number are left out, and so are
+/// those that fall upon an earlier one: copies would let the points look nearer to each other than they are.
 ///
 /// `thickness` is that of the slab, half on either side.
 pub fn slab(
@@ -24,7 +25,10 @@ pub fn slab(
 ) -> (Vec<usize>, Vec<[f64; 2]>) {
     let reach = 0.5 * thickness * norm(plane.normal);
     let inside = |p: &Point| (dot(plane.normal, *p) - plane.offset).abs() <= reach;
-    points.iter().enumerate().filter(|(_, p)| inside(p)).map(|(i, p)| (i, frame.flat(*p))).unzip()
+    let mut seen = HashSet::new();
+    let mut first = |p: &[f64; 2]| seen.insert(p.map(|x| (x + 0.0).to_bits()));
+    let near = points.iter().enumerate().filter(|(_, p)| inside(p)).map(|(i, p)| (i, frame.flat(*p)));
+    near.filter(|(_, p)| first(p)).unzip()
 }
 
 /// Points that follow each other along one contour.

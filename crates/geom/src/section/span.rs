@@ -277,6 +277,13 @@ impl Found {
         let length: f64 = self.pieces().iter().map(|p| p.length).sum();
         self.stations[(self.state.breaks[n] + count - 1) % count] - length
     }
+    /// Length along the chain from the first to the last foot of its last or first piece.
+    pub fn extent(&self, at_end: bool) -> f64 {
+        let breaks = &self.state.breaks;
+        let g = if at_end { breaks.len() - 2 } else { 0 };
+        let at = |i: usize| self.stations[i % self.stations.len()];
+        (at(breaks[g + 1] - 1) - at(breaks[g])).abs()
+    }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {
         let n = self.pieces().len();

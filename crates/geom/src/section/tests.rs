@@ -372,6 +372,7 @@ fn segments_of_wild_rows_follow_each_other() {
             .collect();
         let contour = found(&points);
         let n = contour.segments.len();
+        contour.segments.iter().for_each(drawn_as_told);
         for (k, join) in contour.joins.iter().enumerate() {
             let (before, after) = (&contour.segments[k], &contour.segments[(k + 1) % n]);
             assert!(far(before.end, join.point) < 1e-9 && far(after.start, join.point) < 1e-9, "{seed} {k}");
@@ -385,6 +386,15 @@ fn segments_of_wild_rows_follow_each_other() {
     }
 }
 
+/// What is drawn of a free curve is as long as is told, also between the places that it was made from. Its ends may lead to
+/// corners that lie beside its chain.
+fn drawn_as_told(segment: &Segment) {
+    let Geometry::Spline { curve, .. } = &segment.geometry else { return };
+    let places: Vec<[f64; 2]> = (0..=20_000).map(|i| curve.at(f64::from(i) / 20_000.0)).collect();
+    let drawn: f64 = places.windows(2).map(|w| far(w[0], w[1])).sum();
+    assert!((drawn / segment.length - 1.0).abs() < 0.2, "{drawn} drawn, {} told", segment.length);
+}
+
 /// Along every segment the drawn curve is about as long as the way from point to point.
 fn runs_along_its_points(points: &[[f64; 2]], contour: &Contour) {
     let n = contour.segments.len();
@@ -394,6 +404,34 @@ fn runs_along_its_points(points: &[[f64; 2]], contour: &Contour) {
         let way = own.windows(2).map(|w| far(w[0], w[1])).sum::<f64>();
         let ends = far(segment.start, own[0]) + far(segment.end, own[own.len() - 1]);
         assert!(segment.length <= 1.5 * (way + ends), "{k} of {n}: {} along {way} + {ends}", segment.length);
+        drawn_as_told(segment);
+    }
+}
+
+/// The corners of an exact polygon with few points on each edge are where its edges meet.
+#[test]
+fn short_exact_triangles_have_their_corners() {
+    // With one short edge, then any.
+    let mut all = vec![[[5.37356, 5.686722], [5.100787, 6.409844], [-7.549447, -6.118488]]];
+    for seed in 0..20 {
+        let random = &mut Random::new(300 + seed);
+        let turn = 6.3 * random.unit();
+        all.push(std::array::from_fn(|k| {
+            let (a, r) = (turn + 2.1 * k as f64 + 0.4 * random.unit(), 6.0 + 3.0 * random.unit());
+            [r * libm::cos(a), r * libm::sin(a)]
+        }));
+    }
+    for (n, corners) in all.iter().enumerate() {
+        let edge = |k: usize| {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            (0..6).map(move |i| f64::from(i) / 6.0).map(move |t| [0, 1].map(|d| a[d] + t * (b[d] - a[d])))
+        };
+        let points: Vec<[f64; 2]> = (0..3).flat_map(edge).collect();
+        let options = Options { closed: Some(true), ..Options::default() };
+        let contour = contour(&points, &options, &Silent).unwrap();
+        let around: f64 = (0..3).map(|k| far(corners[k], corners[(k + 1) % 3])).sum();
+        assert!((contour.length() / around - 1.0).abs() < 1e-3, "{n}: {} of {around}", contour.length());
+        assert!(contour.segments.iter().all(|s| s.geometry.kind() == Kind::Line), "{n}");
     }
 }
 

@@ -273,5 +273,8 @@ fn reverse(
         compare::reverse(mesh, r.mesh, forth, &stage).map(Some)
     };
     let all: Result<Vec<_>, _> = references.iter().zip(&found.references).map(back).collect();
-    Ok(all?)
+    all.map_err(|e| match e {
+        compare::ReverseError::Query(QueryError::Cancelled(e)) => e.into(),
+        e => e.into(),
+    })
 }

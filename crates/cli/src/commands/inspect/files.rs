@@ -84,8 +84,9 @@ impl PlanFile {
         seed: u64,
         shown: usize,
     ) -> anyhow::Result<(Data, Vec<InputRecord>)> {
-        let units = self.plan.units.and_then(|u| u.name().parse().ok());
-        let options = ReadOptions { units, ..ReadOptions::default() };
+        // A file that says its unit knows better than the plan.
+        let unit_else = self.plan.units.and_then(|u| u.name().parse().ok());
+        let options = ReadOptions { unit_else, ..ReadOptions::default() };
         let (mut data, mut inputs) = (Data { seed, shown, ..Data::default() }, Vec::new());
         if let Some(own) = &self.plan.measured {
             let path = part.map_or_else(|| self.path_of(own), Path::to_owned);

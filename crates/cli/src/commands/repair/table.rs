@@ -78,8 +78,14 @@ fn volume(d: &RepairDocument) -> Option<String> {
         Some(before) if before > 0.0 => format!(" = {} %", signed(100.0 * change / before)),
         _ => String::new(),
     };
+    let inverted = match e.volume_inverted {
+        Some(inverted) if inverted > 0.0 => {
+            format!("; {} mm³ of bodies that looked inwards come to the volume before", extent(inverted))
+        }
+        _ => String::new(),
+    };
     Some(format!(
-        "changed by {} mm³{share} (volume before: ± {} mm³; limit {} mm³)",
+        "changed by {} mm³{share} (volume before: ± {} mm³; limit {} mm³{inverted})",
         signed(change),
         scientific(error, 1),
         fixed(limit, 6)

@@ -188,25 +188,37 @@ fn unit(
     Err(unclear(format!("the names {} give different units", all.join(", "))))
 }
 
-/// The unit that a line before the rows states for the whole file: `# Units: inch`, `Einheit = mm`.
+/// The unit that lines before the rows state for the whole file: `# Units: inch`, `Einheit = mm`, `% unit cm`.
 fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
+    let mut found: Option<Unit> = None;
     for (number, line) in lines.iter().enumerate() {
         let text = String::from_utf8_lossy(line).to_lowercase();
         let text = text.trim_start_matches(|c: char| !c.is_alphabetic());
         let Some(rest) = STATING.iter().find_map(|word| text.strip_prefix(word)) else { continue };
+        let parted = rest.starts_with([':', '=', ',', ';', '\t', ' ', '(']);
+        // What stands in brackets says what it is the unit of.
         let rest = rest.trim_start();
-        let Some(word) = rest.strip_prefix([':', '=']) else { continue };
-        match unit_of(word.trim_end_matches(['.', ',', ';']).trim()) {
-            Said::Unit(unit) => return Ok(Some(unit)),
-            Said::Foreign(word) if !asked => {
-                let what = format!("the unit {word} is not understood");
-                let remedy = "say the unit of x, y, z by --units um, mm, cm, m or in";
-                return Err(Fault::Unclear { what, remedy }.at_line(number as u64 + 1));
+        let rest = rest.strip_prefix('(').and_then(|r| r.split_once(')')).map_or(rest, |(_, rest)| rest);
+        let marked = rest.trim_start().starts_with([':', '=']);
+        let said = rest.trim_matches(|c: char| c.is_whitespace() || ":=,;.\"".contains(c));
+        let unclear = |what: String| {
+            let remedy = "say the unit of x, y, z by --units um, mm, cm, m or in";
+            Err(Fault::Unclear { what, remedy }.at_line(number as u64 + 1))
+        };
+        match unit_of(said) {
+            Said::Unit(unit) if parted && found.is_none_or(|before| before == unit) => found = Some(unit),
+            Said::Unit(_) if parted && !asked => return unclear("two units are stated".into()),
+            Said::Foreign(word) if parted && !asked => {
+                return unclear(format!("the unit {word} is not understood"));
+            }
+            // A factor before a unit, or a part of one.
+            Said::Remark(word) if marked && !asked && word.bytes().any(|b| b.is_ascii_digit()) => {
+                return unclear(format!("the unit {word} is not understood"));
             }
             _ => {}
         }
     }
-    Ok(None)
+    Ok(found)
 }
 
 /// Words that state the unit of a whole file, the longer before those that they begin with.

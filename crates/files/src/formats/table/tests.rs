@@ -339,6 +339,9 @@ const REFUSED: &[(&str, &[&str])] = &[
     ("# i x y z\n1 2 3 4 5 6\n7 8 9 1 2 3\n", &["line 1", "6 cells"]),
     ("X [ft],Y [ft],Z [ft]\n1,2,3\n", &["line 1", "ft", "--units"]),
     ("# Units: ft\nx,y,z\n1,2,3\n", &["line 1", "ft", "--units"]),
+    ("# unit: 0.1 mm\n1 2 3\n4 5 6\n", &["line 1", "0.1 mm", "--units"]),
+    ("# units: 1/1000 inch\n1 2 3\n4 5 6\n", &["line 1", "--units"]),
+    ("# units: cm\n# units: mm\n1 2 3\n4 5 6\n", &["line 2", "two units", "--units"]),
     ("X [in],Y [mm],Z [mm]\n1,2,3\n", &["line 1", "different units", "--units"]),
     ("x_m,y_m,z_m\n1,2,3\n", &["line 1", "--units"]),
     // Announced numbers.
@@ -432,9 +435,13 @@ fn units_that_are_asked_for_go_before_those_of_the_header() {
     assert!(read_with(b"X [ft],Y [ft],Z [ft]\n1,2,3\n", &options).is_ok());
     let latin = read_with(b"X [\xb5m];Y [\xb5m];Z [\xb5m]\n1;2;3\n", &ReadOptions::default()).unwrap();
     assert_eq!(latin.unit, Some(Unit::Micrometre));
-    for text in
-        ["# Units: inch\nx,y,z\n1,2,3\n", "Unit = in\n1 2 3\n4 5 6\n", "Einheit: Zoll\nx;y;z\n1;2;3\n"]
-    {
+    for text in [
+        "% unit in\n1 2 3\n4 5 6\n",
+        "# Units (length): inches\n1 2 3\n4 5 6\n",
+        "# Units: inch\nx,y,z\n1,2,3\n",
+        "Unit = in\n1 2 3\n4 5 6\n",
+        "Einheit: Zoll\nx;y;z\n1;2;3\n",
+    ] {
         assert_eq!(self::read(text).unwrap().unit, Some(Unit::Inch), "{text}");
     }
     let both = self::read("# units: inch\nX [mm],Y [mm],Z [mm]\n1,2,3\n").unwrap();

@@ -312,12 +312,18 @@ impl Solid<'_> {
             if winding.bounds() {
                 let weight = 1.0 / (1 + there.len()) as f64;
                 sums.add(facet.terms(&winding, area / vector[axis].abs(), weight));
-                middles.push(p);
+                if area > HAIR * vector[axis].abs() {
+                    middles.push(p);
+                }
             }
         }
         Ok(Part { terms: sums.each().map(|s| s.value()), middles })
     }
 }
+
+/// Parts of less than this share of their facet may reach across a segment that ends a hair too early: their middle says nothing of
+/// where they lie.
+const HAIR: f64 = 1e-9;
 
 /// The axis along which a facet with this normal is seen largest.
 fn steepest(vector: Vector) -> usize {

@@ -8,13 +8,16 @@ use super::fit::{Ends, FitCurveError, Fitted, fit};
 const AIM: f64 = 0.7;
 /// Parts that a span is divided into at once, and times that spans are divided.
 const MOST: (usize, usize) = (8, 12);
+/// Fewest points of a part: between fewer the curve may swing as it likes.
+const HELD: usize = 3;
 
 /// A curve of degree `degree` within `tolerance` of every point at its parameter, over as few spans as that needs: those
 /// between the rising numbers `spans`, divided where the fit is farther off.
 ///
 /// The error of a fit falls with the power `degree + 1` of the width of its spans, so that it tells how many parts a span needs:
 /// few fits do, where knots taken out one by one need one for each. Parameters stay what they are: for points that follow a curve
-/// at steps of its length. Where no more spans are of use, the last curve is the answer: [`Fitted::max`] says so.
+/// at steps of its length. No span is divided into parts of fewer than three points. Where no more spans are of use, the last
+/// curve is the answer: [`Fitted::max`] says so.
 ///
 /// # Errors
 /// As [`fit`]; [`FitCurveError::Spans`] where `spans` are not two or more rising numbers.
@@ -49,34 +52,39 @@ pub fn divided<const D: usize>(
         if fitted.max <= tolerance || 2 * spans.len() > points.len() {
             return Ok(fitted);
         }
-        spans = finer(&spans, &errors(points, parameters, &spans, &fitted), degree, tolerance);
+        let next = finer(&spans, &errors(points, parameters, &spans, &fitted), degree, tolerance);
+        if next.len() == spans.len() {
+            return Ok(fitted);
+        }
+        spans = next;
         last = Some(fitted);
     }
     last.ok_or(FitCurveError::Spans)
 }
 
-/// The greatest distance of a point from the curve in each span.
+/// The greatest distance of a point from the curve in each span, and how many points it holds.
 fn errors<const D: usize>(
     points: &[[f64; D]],
     parameters: &[f64],
     spans: &[f64],
     fitted: &Fitted<D>,
-) -> Vec<f64> {
-    let mut all = vec![0.0; spans.len() - 1];
+) -> Vec<(f64, usize)> {
+    let mut all = vec![(0.0, 0); spans.len() - 1];
     for (point, t) in points.iter().zip(parameters) {
         let span = spans.partition_point(|s| s <= t).clamp(1, spans.len() - 1) - 1;
         let off = fitted.curve.at(*t).minus(*point).iter().map(|x| x * x).sum::<f64>().sqrt();
-        all[span] = f64::max(all[span], off);
+        all[span] = (f64::max(all[span].0, off), all[span].1 + 1);
     }
     all
 }
 
 /// Spans divided into as many parts as their errors ask for.
-fn finer(spans: &[f64], errors: &[f64], degree: usize, tolerance: f64) -> Vec<f64> {
+fn finer(spans: &[f64], errors: &[(f64, usize)], degree: usize, tolerance: f64) -> Vec<f64> {
     let mut all = vec![spans[0]];
-    for (w, error) in spans.windows(2).zip(errors) {
+    for (w, (error, count)) in spans.windows(2).zip(errors) {
         let parts = libm::pow(error / (AIM * tolerance), 1.0 / (degree + 1) as f64).ceil();
         let parts = if *error > tolerance { parts.clamp(2.0, MOST.0 as f64) as usize } else { 1 };
+        let parts = parts.min(count / HELD).max(1);
         all.extend((1..=parts).map(|k| match k == parts {
             true => w[1],
             false => w[0] + (w[1] - w[0]) * k as f64 / parts as f64,

@@ -279,3 +279,35 @@ fn wrong_knots_are_refused() {
     let knots = Knots::uniform(2, 2, 0.0, 1.0);
     assert!(matches!(Curve::new(knots, vec![[0.0]; 3]), Err(KnotError::Points { found: 3, needed: 4 })));
 }
+
+/// A curve that leads steeply to its end within few points does not swing between them, however small the tolerance.
+#[test]
+fn divided_curves_do_not_swing_between_their_points() {
+    for (count, power, size, tolerance, wave) in [
+        (160, 200, 20.0, 1e-2, 0.0),
+        (64, 8, 5.0, 1e-6, 5.0),
+        (100, 200, 0.1, 1e-3, 20.0),
+        (64, 20, 0.1, 1e-6, 5.0),
+        (256, 200, 5.0, 1e-4, 5.0),
+        (160, 60, 5.0, 1e-4, 20.0),
+    ] {
+        let parameters: Vec<f64> = (0..=count).map(|i| f64::from(i) / f64::from(count)).collect();
+        let lead = |t: f64| size * (1.0 - t).powi(power);
+        let steep = |t: f64| -size * f64::from(power) * (1.0 - t).powi(power - 1);
+        let place = |t: f64| [10.0 * t + lead(t), libm::sin(wave * t) + lead(t)];
+        let along = |t: f64| [10.0 + steep(t), wave * libm::cos(wave * t) + steep(t)];
+        let points: Vec<[f64; 2]> = parameters.iter().map(|t| place(*t)).collect();
+        let [start, end] = [0.0, 1.0].map(|t| End::Tangent(place(t), along(t)));
+        let spans: Vec<f64> = (0..=10).map(|i| f64::from(i) / 10.0).collect();
+        let found = divided(&points, &parameters, 3, &spans, Ends { start, end }, tolerance).unwrap();
+        // No farther off between points than neighboring points are apart.
+        let steps = points.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1]));
+        let step = steps.fold(0.0, f64::max);
+        for i in 0..=5000 {
+            let t = f64::from(i) / 5000.0;
+            let d = found.curve.at(t).minus(place(t));
+            let off = libm::hypot(d[0], d[1]);
+            assert!(off < step, "{count} {power} {size} {tolerance} {wave}: {off} at {t}, {step} apart");
+        }
+    }
+}

@@ -31,8 +31,22 @@ impl Subject for InspectDocument {
     fn numbers(&self, h: &mut Html) {
         let n = &self.counts;
         h.raw("<dl class=\"key-numbers\">");
-        // The worst verdict leads, with how many of all have it.
-        let mut lead = true;
+        let within = self.deviation.as_ref().and_then(|d| d.tolerance.as_ref());
+        let outside =
+            within.is_some() && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+        let share = |h: &mut Html| {
+            if let Some(t) = within {
+                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
+                if t.required < 1.0 {
+                    h.raw(" <small>(≥\u{a0}").percent(t.required, 2).raw(")</small>");
+                }
+            }
+        };
+        // The worst verdict leads, with how many of all have it; where the deviations alone fail, they do.
+        let mut lead = !(outside && n.fail == 0);
+        if !lead {
+            key_number(h, "deviations.within", "lead", share);
+        }
         for (key, count, class) in [
             ("verdict.fail", n.fail, "warn"),
             ("verdict.undecided", n.undecided, "warn"),
@@ -52,11 +66,8 @@ impl Subject for InspectDocument {
         key_number(h, "characteristics", "", |h| {
             h.count(self.characteristics.len() as u64);
         });
-        if let Some(t) = self.deviation.as_ref().and_then(|d| d.tolerance.as_ref()) {
-            let failed = self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
-            key_number(h, "deviations.within", if failed { "warn" } else { "" }, |h| {
-                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-            });
+        if within.is_some() && !(outside && n.fail == 0) {
+            key_number(h, "deviations.within", if outside { "warn" } else { "" }, share);
         }
         h.raw("</dl>");
     }

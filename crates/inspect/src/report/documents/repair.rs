@@ -50,9 +50,11 @@ impl Subject for RepairDocument {
                 h.count(count);
             });
         }
-        if let Some(d) = &self.deviation {
+        // Of the surface that bounds: what goes inside of a body changes no part. The list has both.
+        let introduced = self.deviation.as_ref().map(|d| d.added.max.max(d.removed.max));
+        if let Some(d) = self.effect.surface.or(introduced) {
             key_number(h, "deviation.introduced", "", |h| {
-                length(h, d.added.max.max(d.removed.max));
+                length(h, d);
             });
         }
         if let Some(change) = self.effect.volume_change {
