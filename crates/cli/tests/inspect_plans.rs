@@ -440,3 +440,23 @@ fn the_unit_of_a_plan_is_that_of_all_its_lengths() {
     assert!((first["tolerance"].as_f64().unwrap() - 0.051 * 25.4).abs() < 1e-12);
     assert_eq!(answer["inputs"][0]["unit_assumed"], "in");
 }
+
+/// A file that says its unit is not read in that of the plan.
+#[test]
+fn the_unit_of_a_file_goes_before_the_plans() {
+    let folder = Folder::new();
+    let point = |k: u32| format!("{},{},{}\n", k % 5, k / 5, if k == 7 { 0.001 } else { 0.0 });
+    let rows: String = (0..25).map(point).collect();
+    let plan = "schema = \"trueness/plan/1\"\nunits = \"mm\"\n\n[[feature]]\nid = \"A\"\nshape = \"plane\"\npoints = \"a.csv\"\n\n\
+                [[characteristic]]\nid = \"1\"\nkind = \"flatness\"\nfeature = \"A\"\ntolerance = 0.01\n";
+    let plan = folder.write("plan.toml", plan);
+    let flatness = |header: &str| {
+        folder.write("a.csv", format!("{header}\n{rows}"));
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", "-"]);
+        let d: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+        (status(&o), d["characteristics"][0]["value"].as_f64().unwrap())
+    };
+    let ((passed, mm), (failed, inch)) = (flatness("x,y,z"), flatness("x (in),y (in),z (in)"));
+    assert_eq!((passed, failed), (0, 1));
+    assert!((inch / mm - 25.4).abs() < 1e-9, "{mm} {inch}");
+}

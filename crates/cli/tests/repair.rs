@@ -92,6 +92,57 @@ fn what_is_closed_but_another_part_is_said() {
 }
 
 /// Facets around one edge: a body made of two of them is no mended book, however sound it is.
+/// Bodies that touch in a part of a face become one: the contact vanishes, and what bounded the bodies stays where it was.
+#[test]
+fn bodies_that_touch_become_one_part_and_no_other() {
+    let f = Folder::new();
+    let mut touched = 0;
+    for shift in 0..8u32 {
+        let by = [f64::from(shift % 3), f64::from(shift % 4), 6.0];
+        let boxes = [([0.0; 3], [6.0, 4.0, 6.0]), (by, [6.0, 8.0, 6.0])];
+        let mut text = String::from("OFF\n16 24 0\n");
+        for (low, size) in boxes {
+            for i in 0..8u32 {
+                let at = [0, 1, 2].map(|k| low[k] + if i >> (2 - k) & 1 == 1 { size[k] } else { 0.0 });
+                text += &format!("{} {} {}\n", at[0], at[1], at[2]);
+            }
+        }
+        for first in [0, 8] {
+            for [a, b, c] in BOX {
+                text += &format!("3 {} {} {}\n", a + first, b + first, c + first);
+            }
+        }
+        let (mesh, out) = (f.write("touching.off", text), f.0.join(format!("{shift}.ply")));
+        let d = document(repair(&mesh, &out, &[]));
+        assert_eq!(
+            (&d["sound"], &d["effect"]["changed"]),
+            (&json!(true), &json!(false)),
+            "{shift}: {}",
+            d["effect"]
+        );
+        let volume = d["after"]["volume"].as_f64().unwrap();
+        assert!((volume - 432.0).abs() < 1e-9, "{shift}: {volume}");
+        touched += u32::from(d["effect"]["bodies_after"] == 1);
+    }
+    assert_eq!(touched, 8);
+}
+
+/// Facets of a box whose corner 4 x + 2 y + z lies at (x, y, z), outward.
+const BOX: [[u32; 3]; 12] = [
+    [1, 3, 0],
+    [4, 1, 0],
+    [0, 3, 2],
+    [2, 4, 0],
+    [1, 7, 3],
+    [5, 1, 4],
+    [5, 7, 1],
+    [3, 7, 2],
+    [6, 4, 2],
+    [2, 7, 6],
+    [6, 5, 4],
+    [7, 5, 6],
+];
+
 #[test]
 fn an_open_mesh_that_loses_its_surface_is_another_one() {
     let f = Folder::new();

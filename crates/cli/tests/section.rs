@@ -150,8 +150,13 @@ fn a_cloud_of_a_tube_has_a_circle() {
         let r = 12.5 + 0.004 * (f64::from(i * 7919 % 1000) / 500.0 - 1.0);
         text += &format!("{} {} {z}\n", r * a.cos(), r * a.sin());
     }
-    let file = folder.write("tube.xyz", text);
-    let answer = document(["section", file.to_str().unwrap(), "--plane", "0,0,1,4.95", "--thickness", "1.2"]);
+    let of = |name: &str, text: &str| {
+        let file = folder.write(name, text);
+        document(["section", file.to_str().unwrap(), "--plane", "0,0,1,4.95", "--thickness", "1.2"])
+    };
+    let answer = of("tube.xyz", &text);
+    // Copies of points tell nothing more.
+    assert_eq!(of("copies.xyz", &text.repeat(3))["contours"], answer["contours"]);
     let contour = &answer["contours"][0];
     assert_eq!(
         (&contour["closed"], contour["segments"].as_array().unwrap().len()),
