@@ -399,9 +399,8 @@ impl Joined {
                 contour.stations[number] = self.length + parts.before + found.stations[i % n];
             }
         }
-        if found.astray {
-            contour.astray.extend(first..first + found.pieces().len());
-        }
+        let astray = parts.segments.iter().enumerate().filter(|(_, s)| found.astray || s.strays());
+        contour.astray.extend(astray.map(|(k, _)| first + k));
         self.length += parts.length;
         contour.segments.extend(parts.segments);
         contour.joins.extend(parts.joins);

@@ -3,6 +3,8 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::spline::basis::Knots;
+use crate::spline::curve::Curve;
 
 /// Normal by the sum of twelve uniform numbers.
 fn normal(random: &mut Random) -> f64 {
@@ -393,6 +395,18 @@ fn drawn_as_told(segment: &Segment) {
     let places: Vec<[f64; 2]> = (0..=20_000).map(|i| curve.at(f64::from(i) / 20_000.0)).collect();
     let drawn: f64 = places.windows(2).map(|w| far(w[0], w[1])).sum();
     assert!((drawn / segment.length - 1.0).abs() < 0.2, "{drawn} drawn, {} told", segment.length);
+}
+
+/// A curve that is drawn much longer than it is goes astray.
+#[test]
+fn a_curve_that_swings_goes_astray() {
+    let knots = Knots::clamped(3, 0.0, &[], 1.0).unwrap();
+    let of = |height: f64| {
+        let curve =
+            Curve::new(knots.clone(), vec![[0.0, 0.0], [1.0, height], [2.0, -height], [3.0, 0.0]]).unwrap();
+        Segment::bare(Geometry::Spline { curve, deviation: 0.0 }, [[0.0; 2], [3.0, 0.0]], 3.0, [0.0; 2])
+    };
+    assert!(!of(0.5).strays() && of(20.0).strays());
 }
 
 /// Along every segment the drawn curve is about as long as the way from point to point.
