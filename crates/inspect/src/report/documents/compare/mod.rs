@@ -161,7 +161,7 @@ fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned:
     if let Some(a) = aligned {
         let (class, sign) = if a.sound() { ("", "") } else { ("warn", "⚠\u{a0}") };
         key_number(h, "alignment", class, |h| {
-            h.raw(sign).word("align.best-fit");
+            h.raw(sign).word("rms").raw("\u{a0}").number(a.rms, decimals + 1, false);
         });
     }
     for warning in &c.warnings {
