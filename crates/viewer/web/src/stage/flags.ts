@@ -45,6 +45,8 @@ interface Placed {
   x: number
   y: number
   inner: number
+  /** Left end of the flag: columns stay at the rims, wherever the places lie. */
+  left: number
   top: number
 }
 
@@ -128,15 +130,14 @@ export class Flags {
     const placed = this.layout((f) => f.size, tools + 2 * RIM)
     for (const flag of this.flags) for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.add('left-out')
     for (const c of placed) {
-      const { flag, hidden, x, y, inner, top, width: wide } = c
+      const { flag, hidden, x, y, inner, left, top } = c
       for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.remove('left-out')
       flag.box.classList.toggle('hidden', hidden)
       flag.line.classList.toggle('hidden', hidden)
       flag.dot.classList.toggle('hidden', hidden)
       flag.box.classList.toggle('selected', flag.number === this.state.picked)
-      const right = inner > x
       flag.box.style.top = `${top}px`
-      flag.box.style.left = `${right ? inner : inner - wide}px`
+      flag.box.style.left = `${left}px`
       write(flag.line, { x1: inner, y1: top + c.height / 2, x2: x, y2: y })
       write(flag.dot, { cx: x, cy: y })
       const foot = flag.surface ? this.stage.eye.project(flag.surface) : { x, y }
@@ -154,8 +155,7 @@ export class Flags {
       const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
       return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
     }
-    for (const { flag, hidden, x, y, inner, top, width: w, height: h } of this.layout(size, RIM)) {
-      const left = inner > x ? inner : inner - w
+    for (const { flag, hidden, x, y, inner, left, top, width: w, height: h } of this.layout(size, RIM)) {
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
@@ -185,7 +185,7 @@ export class Flags {
       const side = x < eye.width / 2 ? 0 : 1
       const own = size(flag)
       const inner = side === 1 ? eye.width - RIM - own.width : RIM + own.width
-      columns[side].push({ flag, hidden, ...own, x, y, inner, top: 0 })
+      columns[side].push({ flag, hidden, ...own, x, y, inner, left: side === 1 ? inner : RIM, top: 0 })
     }
     const wide = eye.width >= NARROW
     const kept = columns.map((column, side) => {
