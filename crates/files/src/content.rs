@@ -37,7 +37,7 @@ pub struct Provenance {
 /// Where the unit of a file's numbers comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitFrom {
-    /// [`ReadOptions::units`](crate::ReadOptions::units).
+    /// [`ReadOptions::units`](crate::ReadOptions::units), or [`ReadOptions::unit_else`](crate::ReadOptions::unit_else).
     Option,
     /// The names of the columns.
     Header,

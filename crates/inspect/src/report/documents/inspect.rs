@@ -43,8 +43,9 @@ impl Subject for InspectDocument {
             }
         };
         // The worst verdict leads, with how many of all have it; where the deviations alone fail, they do.
-        let mut lead = !(outside && n.fail == 0);
-        if !lead {
+        let alone = outside && n.fail == 0;
+        let mut lead = !alone;
+        if alone {
             key_number(h, "deviations.within", "lead", share);
         }
         for (key, count, class) in [
@@ -66,7 +67,7 @@ impl Subject for InspectDocument {
         key_number(h, "characteristics", "", |h| {
             h.count(self.characteristics.len() as u64);
         });
-        if within.is_some() && !(outside && n.fail == 0) {
+        if within.is_some() && !alone {
             key_number(h, "deviations.within", if outside { "warn" } else { "" }, share);
         }
         h.raw("</dl>");

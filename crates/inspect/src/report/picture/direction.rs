@@ -72,16 +72,17 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let mapped = mapped(&shown);
     let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n], mapped)).collect();
     let flags: Vec<Place> = flagged.iter().map(place).collect();
-    for (n, seen) in flagged.iter().zip(&View::of(&flags, &[best.toward], &opaque).remove(0).seen) {
-        hidden[*n] = seen.is_none();
-    }
     let mut ends: Vec<Point> = picks.iter().map(|p| p.position).collect();
-    for (n, place) in flagged.iter().zip(flags).filter(|(_, place)| place.any) {
-        let near = place.near;
-        let probes: Vec<(Point, f64)> = place.samples.into_iter().map(|s| (s, near)).collect();
-        let blocked = blocked(&probes, &[best.toward], &opaque);
-        let seen = probes.iter().zip(blocked).find(|(_, blocked)| *blocked == 0);
-        ends[*n] = seen.map_or(picks[*n].position, |((place, _), _)| *place);
+    let blocked = blocked(&probes(&flags), &[best.toward], &opaque);
+    let mut first = 0;
+    for (n, place) in flagged.iter().zip(&flags) {
+        let mine = &blocked[first..first + place.samples.len()];
+        first += mine.len();
+        hidden[*n] = !place.is_seen(mine, 0);
+        let seen = place.samples.iter().zip(mine).find(|(_, blocked)| **blocked == 0);
+        if let Some((sample, _)) = seen.filter(|_| place.any) {
+            ends[*n] = *sample;
+        }
     }
     let places = important.into_iter().zip(best.seen.iter().map(|s| s.is_none())).collect();
     Direction { toward: best.toward, places, off, hidden, ends }
@@ -130,6 +131,12 @@ struct Place {
 }
 
 impl Place {
+    /// Whether it is seen from direction `d`, by the bits of [`blocked`] of its samples.
+    fn is_seen(&self, blocked: &[u64], d: usize) -> bool {
+        let free = blocked.iter().filter(|b| *b & (1 << d) == 0).count();
+        2 * free > blocked.len() || self.any && free > 0
+    }
+
     fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> Place {
         let mark = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
         let places: Vec<Point> = mark.map_or(vec![], |m| m.places().copied().collect());
@@ -152,6 +159,11 @@ impl Place {
             any,
         }
     }
+}
+
+/// All samples of places, with what does not hide them.
+fn probes(places: &[Place]) -> Vec<(Point, f64)> {
+    places.iter().flat_map(|p| p.samples.iter().map(|s| (*s, p.near))).collect()
 }
 
 /// Directions to look from, the usual one first: corners, sides, then what faces each place obliquely.
@@ -193,17 +205,14 @@ struct View {
 
 impl View {
     fn of(places: &[Place], directions: &[Vector], opaque: &[&ViewObject]) -> Vec<View> {
-        let probes: Vec<(Point, f64)> =
-            places.iter().flat_map(|p| p.samples.iter().map(|s| (*s, p.near))).collect();
-        let blocked = blocked(&probes, directions, opaque);
+        let blocked = blocked(&probes(places), directions, opaque);
         let view = |(d, toward): (usize, &Vector)| {
             let mut first = 0;
             let seen = places.iter().map(|p| {
                 let mine = &blocked[first..first + p.samples.len()];
                 first += p.samples.len();
-                let free = mine.iter().filter(|b| *b & (1 << d) == 0).count();
                 let square = p.normal.map_or(1.0, |n| (dot(n, *toward) / SEEN).clamp(0.0, 1.0));
-                (2 * free > mine.len() || p.any && free > 0).then_some(square)
+                p.is_seen(mine, d).then_some(square)
             });
             View { toward: *toward, seen: seen.collect() }
         };
