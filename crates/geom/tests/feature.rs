@@ -71,6 +71,35 @@ fn a_plane_ends_at_its_boundary() {
     assert_eq!(found(&mesh, &below, NEAR), Found::default());
 }
 
+/// A fine floor with a spike, a dent and a step at its rim, all steeper than the angle: spike and dent are of the floor.
+#[test]
+fn what_is_steep_within_a_plane_belongs_to_it() {
+    const N: usize = 20;
+    let at = |i: usize, j: usize| (i * (N + 1) + j) as u32;
+    let mut mesh = Mesh::default();
+    for i in 0..=N {
+        mesh.positions.extend((0..=N).map(|j| [i as f64 * 0.1, j as f64 * 0.1, 0.0]));
+    }
+    for (i, j) in (0..N).flat_map(|i| (0..N).map(move |j| (i, j))) {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh.positions[at(5, 5) as usize][2] = 0.08;
+    // Two vertices beside each other: some facets of the dent have no flat one beside them.
+    mesh.positions[at(12, 7) as usize][2] = -0.07;
+    mesh.positions[at(13, 7) as usize][2] = -0.07;
+    (0..=N).for_each(|i| mesh.positions[at(i, N) as usize][2] = -0.09);
+    let boundary = vec![[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [3.0, 3.0, 0.0], [-1.0, 3.0, 0.0]];
+    let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+    let all = found(&mesh, &floor, NEAR);
+    assert_eq!(all.facets.len(), 2 * N * (N - 1));
+    assert!([at(5, 5), at(12, 7), at(13, 7)].iter().all(|v| all.points.contains(v)));
+    assert!(!all.points.contains(&at(3, N)), "the step at the rim is not enclosed");
+    // Deeper than the distance it is no part of the floor.
+    mesh.positions[at(5, 5) as usize][2] = 0.2;
+    assert!(!found(&mesh, &floor, NEAR).points.contains(&at(5, 5)));
+}
+
 #[test]
 fn a_rounding_is_found_as_cylinder_and_as_edge() {
     let mesh = rounded_step();

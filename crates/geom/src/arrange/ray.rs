@@ -71,12 +71,11 @@ impl<'a> Rays<'a> {
         let span = |[a, b, c]: &[Point; 3]| [a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0])];
         let own = span(&corners(from));
         let start = self.passes(from, target);
-        for &f in self.all.row(target) {
-            let at = corners(f);
-            let [low, high] = span(&at);
+        self.all.visit(target, own[0], |f| {
+            let [low, high] = span(&corners(f));
             let around = self.all.around(f, target);
             if f == from || around == 0 || high < own[0] {
-                continue;
+                return;
             }
             let behind = low > own[1] || {
                 let there = self.passes(f, target);
@@ -86,7 +85,7 @@ impl<'a> Rays<'a> {
             if behind {
                 *sums.entry(self.shell_of[f as usize]).or_default() += around;
             }
-        }
+        });
         sums.into_iter().filter(|s| s.1 != 0).collect()
     }
 

@@ -57,7 +57,12 @@ impl Near {
         look: impl Fn(usize, &Aabb) -> Look,
         mut take: impl FnMut(&Point, u32) -> bool,
     ) {
-        let mut stack = vec![(0, 0..self.points.len())];
+        if self.points.is_empty() || matches!(look(0, &self.boxes[0]), Look::Past) {
+            return;
+        }
+        // Each step down leaves one node behind.
+        let mut stack = Vec::with_capacity(u32::BITS as usize);
+        stack.push((0, 0..self.points.len()));
         while let Some((node, range)) = stack.pop() {
             if range.is_empty() {
                 continue;

@@ -7,54 +7,20 @@
 use crate::mesh::Mesh;
 use crate::num::predicates::{side_of_line, side_of_plane};
 use crate::space::Point;
+use crate::spatial::columns::Columns;
 
-/// A closed shell, ready to be asked about points by rays along an axis. Its facets lie in rows across another axis, each in
-/// all rows that it reaches.
+/// A closed shell, ready to be asked about points by rays along an axis.
 pub(crate) struct Container<'a> {
     mesh: &'a Mesh,
     /// Of the rays.
     axis: usize,
-    low: f64,
-    /// Rows per millimetre.
-    density: f64,
-    start: Vec<u32>,
-    facets: Vec<u32>,
+    columns: Columns,
 }
 
 impl<'a> Container<'a> {
-    /// Of these facets, which must have finite corners, for rays along `axis`. Linear.
+    /// Of these facets, which must have finite corners, for rays along `axis`. n log n.
     pub(crate) fn new(mesh: &'a Mesh, facets: &[u32], axis: usize) -> Container<'a> {
-        let span = |f: u32| {
-            let z = mesh.faces[f as usize].map(|v| mesh.positions[v as usize][(axis + 2) % 3]);
-            (z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2]))
-        };
-        let whole = |(l, h): (f64, f64), (a, b): (f64, f64)| (l.min(a), h.max(b));
-        let (low, high) = facets.iter().map(|&f| span(f)).fold((f64::INFINITY, f64::NEG_INFINITY), whole);
-        let mut rows = facets.len().isqrt().max(1);
-        loop {
-            let density = if high > low { rows as f64 / (high - low) } else { 0.0 };
-            let row = |z: f64| (((z - low) * density) as usize).min(rows - 1);
-            let of = |f: u32| {
-                let (a, b) = span(f);
-                row(a)..=row(b)
-            };
-            let entries: usize = facets.iter().map(|&f| of(f).count()).sum();
-            if rows > 1 && entries > 4 * facets.len() {
-                rows /= 2;
-                continue;
-            }
-            let mut start = vec![0u32; rows + 1];
-            facets.iter().flat_map(|&f| of(f)).for_each(|r| start[r + 1] += 1);
-            (0..rows).for_each(|r| start[r + 1] += start[r]);
-            let (mut next, mut sorted) = (start.clone(), vec![0; entries]);
-            for &f in facets {
-                for r in of(f) {
-                    sorted[next[r] as usize] = f;
-                    next[r] += 1;
-                }
-            }
-            return Container { mesh, axis, low, density, start, facets: sorted };
-        }
+        Container { mesh, axis, columns: Columns::new(mesh, facets, axis) }
     }
 
     /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the
@@ -65,7 +31,8 @@ impl<'a> Container<'a> {
             let in_box = |k: usize| a[k].min(b[k]).min(c[k]) <= p[k] && p[k] <= a[k].max(b[k]).max(c[k]);
             (0..3).all(in_box) && side_of_plane(&a, &b, &c, p) == 0
         };
-        let on_it = self.row(p).iter().any(|&f| touches(f));
+        let mut on_it = false;
+        self.visit(p, p[self.axis], |f| on_it = on_it || touches(f));
         (!on_it).then(|| self.beyond(p, |_| true))
     }
 
@@ -76,7 +43,9 @@ impl<'a> Container<'a> {
             let ([a, b, c], around) = (self.corners(f), self.around(f, p));
             if around != 0 && counts(f) && side_of_plane(&a, &b, &c, p) == around { around } else { 0 }
         };
-        self.row(p).iter().map(|&f| passed(f)).sum()
+        let mut sum = 0;
+        self.visit(p, p[self.axis], |f| sum += passed(f));
+        sum
     }
 
     fn corners(&self, f: u32) -> [Point; 3] {
@@ -90,15 +59,9 @@ impl<'a> Container<'a> {
         [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum()
     }
 
-    /// The facets that a ray from `p` may pass.
-    pub(crate) fn row(&self, p: &Point) -> &[u32] {
-        let rows = self.start.len() - 1;
-        let place = (p[(self.axis + 2) % 3] - self.low) * self.density;
-        if place < 0.0 {
-            return &[];
-        }
-        let row = (place as usize).min(rows - 1);
-        &self.facets[self.start[row] as usize..self.start[row + 1] as usize]
+    /// Hands to `take` the facets that a ray through `p` may pass where it is at `from` or beyond, and some others.
+    pub(crate) fn visit(&self, p: &Point, from: f64, take: impl FnMut(u32)) {
+        self.columns.visit(p, from, take);
     }
 }
 

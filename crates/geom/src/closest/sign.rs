@@ -13,7 +13,7 @@ use crate::closest::query::Query;
 use crate::closest::tree::Tree;
 use crate::closest::triangle::{self, Feature};
 use crate::progress::{Cancelled, Progress, Silent};
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use rayon::prelude::*;
 
 /// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 36 bytes a face.
@@ -27,11 +27,27 @@ pub struct Signs<'a> {
     across: Vec<[Across; 3]>,
     /// Angle-weighted normal of each vertex of the tree (not of unit length).
     corner: Vec<Vector>,
+    /// Farther away than this all places have the sign `outer`: where the mesh is closed and so far away that rounding has
+    /// eaten the direction to it.
+    far: f64,
+    outer: f64,
 }
+
+/// In diagonals of the box.
+const FAR: f64 = 1e9;
 
 /// Unit normal of a triangle, or zero if it has none.
 fn normal(t: &[Point; 3]) -> Vector {
     unit(triangle::normal(t)).map_or([0.0; 3], |n| n.0)
+}
+
+/// Signed volume, up to a factor and rounding; the same for any number of threads.
+fn volume(tree: &Tree, origin: Point) -> f64 {
+    let part = |slots: std::ops::Range<u32>| -> f64 {
+        slots.map(|s| tree.triangle(s).map(|p| minus(p, origin))).map(|[a, b, c]| dot(a, cross(b, c))).sum()
+    };
+    let parts: Vec<f64> = (0..tree.leaves.len()).into_par_iter().map(|l| part(tree.slots_of(l))).collect();
+    parts.into_iter().sum()
 }
 
 /// Angle of a triangle at corner `i`.
@@ -69,7 +85,14 @@ impl<'a> Signs<'a> {
             })
         };
         let corner = (0..tree.corners.len() as u32).into_par_iter().map(of_vertex).collect();
-        Signs { tree, across: fans.across(progress), corner }
+        let across = fans.across(progress);
+        let bounds = Aabb::of(&tree.corners);
+        let outer = if volume(tree, bounds.min) < 0.0 { -1.0 } else { 1.0 };
+        let mut signs = Signs { tree, across, corner, far: f64::INFINITY, outer };
+        if signs.loose_edges() == 0 {
+            signs.far = FAR * bounds.diagonal();
+        }
+        signs
     }
 
     /// Number of edges with other than two faces, counted once for each of their faces. Above zero the sign is not to be
@@ -79,12 +102,16 @@ impl<'a> Signs<'a> {
     }
 
     /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside; +1
-    /// on the surface, and where the pseudonormal is zero.
+    /// on the surface, and where the pseudonormal is zero. Farther away than 10⁹ diagonals of a closed mesh it is that of all
+    /// places outside.
     ///
     /// # Panics
     /// If `hit` comes from another tree with more faces.
     #[inline]
     pub fn sign(&self, p: &Point, hit: &Hit) -> f64 {
+        if hit.distance() > self.far {
+            return self.outer;
+        }
         // Most points of a scan lie over the inside of their face: the search has already found the side.
         if hit.height != 0.0 { hit.height.signum() } else { self.sign_at_rim(p, hit) }
     }

@@ -77,7 +77,8 @@ pub enum Nominal {
 pub struct Nearness {
     /// Greatest distance of its corners from the nominal surface, millimetres.
     pub distance: f64,
-    /// Greatest angle of its normal to the nominal one, radians.
+    /// Greatest angle of its normal to the nominal one, radians. Facets of any angle that others of the feature enclose count
+    /// too: a spike or a dent.
     pub angle: f64,
     /// What is left out along the bounds of the feature, millimetres; below zero, how far it may reach beyond them.
     pub margin: f64,
@@ -210,20 +211,55 @@ pub fn in_mesh(
         return Ok(Found::default());
     }
     let edges = edges(mesh);
+    let across = |edge: [u32; 2]| {
+        let first = edges.partition_point(|e| e.0 < edge);
+        edges[first..].iter().take_while(move |e| e.0 == edge).map(|e| e.1)
+    };
     let mut front: Vec<u32> = found.iter().copied().collect();
+    let mut beside = vec![];
     while let Some(facet) = front.pop() {
         if found.len().is_multiple_of(1024) && progress.cancelled() {
             return Err(FeatureError::Cancelled);
         }
-        let next = sides(&mesh.faces[facet as usize]).into_iter().flat_map(|edge| {
-            let first = edges.partition_point(|e| e.0 < edge);
-            edges[first..].iter().take_while(move |e| e.0 == edge).map(|e| e.1)
-        });
-        for other in next {
-            if !found.contains(&other) && belongs(other) {
+        for other in sides(&mesh.faces[facet as usize]).into_iter().flat_map(across) {
+            if found.contains(&other) {
+                continue;
+            }
+            if belongs(other) {
                 found.insert(other);
                 front.push(other);
+            } else {
+                beside.push(other);
             }
+        }
+    }
+    // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
+    let is_near = |f: u32| corners(f).is_some_and(|c| rules.tilted(c));
+    let mut seen: BTreeSet<u32> = BTreeSet::new();
+    for start in beside {
+        if !is_near(start) || found.contains(&start) || !seen.insert(start) {
+            continue;
+        }
+        let (mut part, mut next, mut enclosed) = (vec![start], 0, true);
+        while let Some(facet) = part.get(next).copied() {
+            if next.is_multiple_of(1024) && progress.cancelled() {
+                return Err(FeatureError::Cancelled);
+            }
+            next += 1;
+            for edge in sides(&mesh.faces[facet as usize]) {
+                // Nothing encloses what ends at a free edge.
+                enclosed &= across(edge).count() > 1;
+                for other in across(edge).filter(|f| !found.contains(f)) {
+                    if !is_near(other) {
+                        enclosed = false;
+                    } else if seen.insert(other) {
+                        part.push(other);
+                    }
+                }
+            }
+        }
+        if enclosed {
+            found.extend(part);
         }
     }
     let area = |f: &u32| corners(*f).map_or(0.0, |[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))));

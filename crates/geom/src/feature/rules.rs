@@ -82,6 +82,12 @@ impl<'a> Rules<'a> {
         }
     }
 
+    /// Whether a facet of any angle may belong to the feature, where others enclose it. Never to an edge, which is told by its
+    /// angles alone.
+    pub(super) fn tilted(&self, corners: [Point; 3]) -> bool {
+        !matches!(self.kind, Kind::Edge { .. }) && corners.iter().all(|p| self.point(*p))
+    }
+
     /// Whether a place is near the feature and within its bounds.
     pub(super) fn point(&self, p: Point) -> bool {
         let Nearness { distance, margin, .. } = *self.near;

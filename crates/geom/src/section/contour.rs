@@ -65,9 +65,6 @@ pub fn contour(
     }
     let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
     let mut sigma = options.noise.unwrap_or(own).max(least);
-    let outliers = clean.outliers(sigma, step);
-    let mut weights = vec![1.0; n];
-    outliers.iter().for_each(|i| weights[*i] = 0.0);
     let log = libm::log(n as f64);
     let penalty = |noise: f64| Penalty {
         line: 3.0 * log,
@@ -79,9 +76,21 @@ pub fn contour(
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let mut turned = 0;
-    let mut parts = vec![];
-    for _ in 0..6 {
+    let (mut turned, mut parts, mut outliers) = (0, vec![], vec![]);
+    let mut weights = vec![1.0; n];
+    if options.noise.is_none()
+        && let Some((by, found)) = polygon(&clean, &penalty(least))
+    {
+        (turned, parts) = (by, found);
+        clean.points.rotate_left(by);
+        sigma = scatter(&clean.points, &weights, &parts).max(least);
+        own = sigma;
+    } else {
+        outliers = clean.outliers(sigma, step);
+        outliers.iter().for_each(|i| weights[*i] = 0.0);
+    }
+    // Nothing more is to be known of a polygon.
+    for _ in 0..if parts.is_empty() { 6 } else { 0 } {
         parts = partition(&clean.points, &weights, &penalty(sigma));
         if clean.closed && parts.len() > 1 {
             // The row is turned so that it starts where a part does.
@@ -105,6 +114,32 @@ pub fn contour(
     let mut found = plan.join(founds, corners)?;
     found.finish(&clean, turned, points.len(), outliers);
     Ok(found.contour)
+}
+
+/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least; and where the
+/// row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds a corner and takes
+/// it for noise.
+fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Part>)> {
+    let (n, mut points) = (clean.points.len(), clean.points.clone());
+    let weights = vec![1.0; n];
+    let sharp = |i: usize| {
+        let [a, b, c] = [i + n - 1, i, i + 1].map(|k| clean.points[k % n]);
+        turn([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs()
+    };
+    let by = if clean.closed { (0..n).max_by(|i, j| sharp(*i).total_cmp(&sharp(*j)))? } else { 0 };
+    points.rotate_left(by);
+    let parts = partition(&points, &weights, &Penalty { fewest: 3, ..*penalty });
+    let sides = parts.iter().all(|p| p.kind == Kind::Line && p.to - p.from >= 3);
+    let last = if clean.closed { parts.len() } else { parts.len() - 1 };
+    let corners =
+        (0..last).all(|k| turn(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER.0);
+    let exact = scatter(&points, &weights, &parts) <= penalty.noise;
+    (parts.len() > 1 && sides && corners && exact).then_some((by, parts))
+}
+
+/// Angle from one direction to another, positive to the left.
+fn turn(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
 }
 
 fn size(points: &[[f64; 2]]) -> f64 {
@@ -278,7 +313,7 @@ impl Plan<'_> {
         let points = &self.clean.points;
         let (a, b) = (points[before.to - 1], points[after.from % points.len()]);
         let (a, b) = (heading(before, a), heading(after, b));
-        let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]).abs();
+        let turn = turn(a, b).abs();
         let spread = |part: &Part| {
             let count = (part.to - part.from) as f64;
             let factor = if part.kind == Kind::Line { 3.5 } else { 14.0 };
@@ -354,6 +389,7 @@ impl Plan<'_> {
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
+        all.misdrawn(&self.clean.points, self.weights);
         all.contour.end_lengths();
         Ok(all)
     }
@@ -404,6 +440,23 @@ impl Joined {
         self.length += parts.length;
         contour.segments.extend(parts.segments);
         contour.joins.extend(parts.joins);
+    }
+
+    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, are astray too.
+    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64]) {
+        /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
+        const BEYOND: f64 = 3.0;
+        let contour = &mut self.contour;
+        let mut off = vec![0.0f64; contour.segments.len()];
+        for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
+            let off = &mut off[*label as usize];
+            *off = off.max(contour.segments[*label as usize].off_drawn(*p));
+        }
+        let far = |(k, off): &(usize, f64)| *off > contour.segments[*k].max + BEYOND * contour.noise;
+        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k);
+        contour.astray.extend(astray.collect::<Vec<usize>>());
+        contour.astray.sort_unstable();
+        contour.astray.dedup();
     }
 
     /// Back to the numbers and places of the row given.

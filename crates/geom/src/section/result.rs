@@ -114,6 +114,22 @@ impl Segment {
         (0..steps).map(step).sum::<f64>() > LONGER * self.length
     }
 
+    /// Distance of a point from the line or circle as it is drawn; 0 of a free curve.
+    pub(super) fn off_drawn(&self, p: [f64; 2]) -> f64 {
+        match self.geometry {
+            Geometry::Line => {
+                let (a, b) = (self.start, self.end);
+                let d = [b[0] - a[0], b[1] - a[1]];
+                let length = libm::hypot(d[0], d[1]).max(f64::MIN_POSITIVE);
+                ((d[0] * (p[1] - a[1]) - d[1] * (p[0] - a[0])) / length).abs()
+            }
+            Geometry::Arc { center, radius, .. } => {
+                (libm::hypot(p[0] - center[0], p[1] - center[1]) - radius).abs()
+            }
+            Geometry::Spline { .. } => 0.0,
+        }
+    }
+
     /// Angle of the direction from start to end with the first axis, radians.
     pub fn angle(&self) -> f64 {
         libm::atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])

@@ -1,4 +1,5 @@
-//! Search among points.
+//! Search among points and facets.
 
+pub(crate) mod columns;
 pub(crate) mod lists;
 pub mod neighbours;

@@ -116,6 +116,28 @@ impl Histogram {
 /// The width is that of Freedman and Diaconis (1981), twice the interquartile range over the cube root of the count,
 /// within 10 to 200 bins, and rounded up.
 pub fn nice_edges(statistics: &Statistics) -> Option<Vec<f64>> {
+    let (low, high, width) = spread(statistics)?;
+    edges(low, high, width)
+}
+
+/// Round edges as [`nice_edges`] has them, but not wider than an eighth of a tolerance zone, so that no bin hides what is
+/// within. Where that would be more than about 200, they end that far from the zone's middle; values beyond are counted as
+/// below or above.
+pub fn zone_edges(statistics: &Statistics, [lower, upper]: [f64; 2]) -> Option<Vec<f64>> {
+    /// Rounding a width up makes it 2.5 times as large at most.
+    const ROUNDED_UP: f64 = 2.5;
+    let (low, high, width) = spread(statistics)?;
+    let fine = (upper - lower) / 8.0 / ROUNDED_UP;
+    if !(fine > 0.0 && fine < width) {
+        return edges(low, high, width);
+    }
+    let (middle, reach) = (0.5 * lower + 0.5 * upper, 0.5 * MOST_BINS * fine);
+    let near = [low.max(middle - reach), high.min(middle + reach)];
+    if near[0] < near[1] { edges(near[0], near[1], fine) } else { edges(low, high, width) }
+}
+
+/// Where a histogram begins and ends, and how wide its bins should be.
+fn spread(statistics: &Statistics) -> Option<(f64, f64, f64)> {
     let at = |i: usize| statistics.percentiles[i].ok();
     let (mut low, mut high) = (at(0)?, at(10)?);
     let quartiles = at(6)? - at(4)?;
@@ -125,8 +147,12 @@ pub fn nice_edges(statistics: &Statistics) -> Option<Vec<f64>> {
     }
     let range = high - low;
     let width = 2.0 * quartiles / libm::cbrt(statistics.count as f64);
-    let width = width.clamp(range / MOST_BINS, range / FEWEST_BINS);
-    if !(width.is_finite() && width > f64::MIN_POSITIVE) {
+    Some((low, high, width.clamp(range / MOST_BINS, range / FEWEST_BINS)))
+}
+
+/// Whole multiples of 1, 2 or 5 times a power of ten, not less than `width`, from below `low` to above `high`.
+fn edges(low: f64, high: f64, width: f64) -> Option<Vec<f64>> {
+    if !(width.is_finite() && width > f64::MIN_POSITIVE && low <= high) {
         return None;
     }
     let mut power = libm::floor(libm::log10(width)) as i32;
@@ -269,6 +295,28 @@ mod tests {
         assert_eq!(nice_edges(&Summary::of(&[]).all), None);
         let one = nice_edges(&Summary::of(&[0.25, 0.25]).all).unwrap();
         assert!(one[0] < 0.25 && 0.25 < one[one.len() - 1]);
+    }
+
+    /// A few values far off widen no bin beyond the zone: nearly all values are told to be within.
+    #[test]
+    fn bins_are_finer_than_the_zone() {
+        let mut random = Random::new(13);
+        let mut values: Vec<f64> = (0..10_000).map(|_| 0.02 * random.unit() - 0.01).collect();
+        values.extend((0..300).map(|k| 1000.0 + f64::from(k)));
+        let all = Summary::of(&values).all;
+        assert!(nice_edges(&all).unwrap().windows(2).all(|e| e[1] - e[0] >= 5.0));
+        for zone in [[-0.05, 0.05], [0.0, 0.02], [-0.5, 0.1]] {
+            let edges = zone_edges(&all, zone).unwrap();
+            assert!(edges.len() <= 203 && edges.windows(2).all(|e| e[1] - e[0] <= (zone[1] - zone[0]) / 8.0));
+            let mut histogram = Histogram::new(edges).unwrap();
+            histogram.push(&values);
+            let inside: u64 = histogram.counts().iter().sum();
+            assert_eq!((inside, histogram.above()), (10_000, 300));
+        }
+        // Far from everything, or without an end, a zone changes nothing.
+        for zone in [[-2e9, -1e9], [f64::NEG_INFINITY, 0.1], [0.0, 0.0]] {
+            assert_eq!(zone_edges(&all, zone), nice_edges(&all), "{zone:?}");
+        }
     }
 
     #[test]

@@ -11,7 +11,7 @@ use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, cross, minus, unit};
-use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges};
+use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges, zone_edges};
 use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
 use trueness_geom::topology::TopologyError;
 
@@ -29,7 +29,8 @@ pub struct Compared {
     pub summary: Summary,
     /// The deviations, or what is left of them when there were too many to keep.
     pub values: Values,
-    /// Counts of the deviations from the 0.1st to the 99.9th percentile, between round edges.
+    /// Counts of the deviations between round edges: from the 0.1st to the 99.9th percentile, or near the tolerance zone
+    /// where that is much narrower.
     pub histogram: Option<Histogram>,
     /// Counts against the tolerance, where there is one.
     pub limits: Option<Limits>,
@@ -202,7 +203,7 @@ impl<'a> Running<'a> {
         let flagged: Vec<Flagged> = worst.iter().map(flag).collect();
         Ok(Compared {
             diagonal: self.mesh.bounds().diagonal(),
-            histogram: self.values.histogram(&summary.all),
+            histogram: self.values.histogram(&summary.all, self.limits.as_ref()),
             limits: self.limits,
             sign: choice,
             disagreement: if signed { Some(self.surface.disagreement(sample, progress)?) } else { None },
@@ -232,8 +233,11 @@ impl Values {
         }
     }
 
-    fn histogram(&self, all: &Statistics) -> Option<Histogram> {
-        let edges = nice_edges(all)?;
+    fn histogram(&self, all: &Statistics, limits: Option<&Limits>) -> Option<Histogram> {
+        let edges = match limits {
+            Some(limits) => zone_edges(all, [limits.lower, limits.upper])?,
+            None => nice_edges(all)?,
+        };
         match self {
             Values::All(values) => {
                 let mut histogram = Histogram::new(edges).ok()?;

@@ -43,6 +43,27 @@ fn sharp_corners_and_edges_have_the_right_side() {
     }
 }
 
+/// However far away a point is, it is outside; of a mesh that is inside out, inside.
+#[test]
+fn far_away_is_outside() {
+    let d = &mut Dice(12);
+    let mut mesh = sphere(20, 7.0, [3.0; 3]);
+    for outward in [1.0, -1.0] {
+        let tree = Tree::build(&mesh).unwrap();
+        let signs = Signs::new(&tree);
+        for exponent in (2..=59).step_by(3) {
+            let size = 10f64.powi(exponent);
+            let mut points: Vec<Point> = (0..200).map(|_| d.point(1.0).map(|x| x * size)).collect();
+            points.extend([[size, 1.0, 1.0], [1.0, -size, 1.0], [1.0, size, size], [-size, size, 2.0]]);
+            let distances = signs.distances(&points, &Query::default(), &Silent).unwrap();
+            for (p, got) in points.iter().zip(distances).filter(|(p, _)| norm(**p) > 20.0) {
+                assert_eq!(got.signum(), outward, "{p:?}");
+            }
+        }
+        mesh.faces.iter_mut().for_each(|f| f.swap(0, 1));
+    }
+}
+
 #[test]
 fn size_of_signed_distances_is_that_of_unsigned_ones() {
     let d = &mut Dice(9);

@@ -76,7 +76,7 @@ const FEW: usize = 10_000;
 
 /// Volume enclosed by a welded mesh. Facets with a coordinate that is not finite must not be there.
 ///
-/// Cost: a search for crossings, and for each part of a facet that meets others a ray past √F facets.
+/// Cost: a search for crossings, and for each part of a facet that meets others a ray past those in its column.
 ///
 /// # Errors
 /// [`NotEnclosed`].

@@ -100,6 +100,55 @@ fn short_exact_triangles_have_their_corners() {
     }
 }
 
+/// The same of polygons of three to seven corners with three to eight points an edge, open and closed, any first.
+#[test]
+fn exact_polygons_have_their_corners() {
+    for seed in 0..120 {
+        let random = &mut Random::new(700 + seed);
+        let (sides, each) = (3 + random.below(5) as usize, 3 + random.below(6) as usize);
+        let corners: Vec<[f64; 2]> = (0..sides)
+            .map(|k| {
+                let a = (k as f64 + 0.5 * random.unit()) * std::f64::consts::TAU / sides as f64;
+                let r = 6.0 + 6.0 * random.unit();
+                [50.0 + r * libm::cos(a), r * libm::sin(a) - 7.0]
+            })
+            .collect();
+        let turn = |k: usize| {
+            let [a, b, c] = [k, k + 1, k + 2].map(|k| corners[k % sides]);
+            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
+            libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]).abs()
+        };
+        if (0..sides).any(|k| turn(k) < 0.15) {
+            continue;
+        }
+        let place = |i: usize| {
+            let (k, t) = (i / each % sides, (i % each) as f64 / each as f64);
+            [0, 1].map(|d| corners[k][d] + t * (corners[(k + 1) % sides][d] - corners[k][d]))
+        };
+        let (closed, first) = (seed % 2 == 0, random.below(each as u64) as usize);
+        let first = if closed { first } else { 0 };
+        let count = sides * each;
+        let points: Vec<[f64; 2]> = (first..first + count).map(place).collect();
+        let options = Options { closed: Some(closed), ..Options::default() };
+        let contour = contour(&points, &options, &Silent).unwrap();
+        let around = match closed {
+            true => (0..sides).map(|k| far(corners[k], corners[(k + 1) % sides])).sum(),
+            false => points.windows(2).map(|w| far(w[0], w[1])).sum::<f64>(),
+        };
+        assert_eq!(kinds(&contour), vec![Kind::Line; sides], "{seed}");
+        assert!((contour.length() / around - 1.0).abs() < 1e-5, "{seed}: {} of {around}", contour.length());
+        assert!(contour.astray.is_empty(), "{seed}");
+    }
+}
+
+/// Four corners alone do not tell a rectangle: what is drawn passes its points by, and is said to.
+#[test]
+fn what_passes_its_points_by_is_astray() {
+    let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 6.0], [0.0, 6.0]];
+    let contour = contour(&corners, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
+    assert_eq!(contour.astray.len(), contour.segments.len());
+}
+
 #[test]
 fn wavy_closed_rows_are_followed() {
     // Few points a wave and much noise. A loop between two points costs a sum of squares nothing, and a chain that was laid out
