@@ -111,7 +111,7 @@ fn every_word_is_in_the_table() {
     let pages = [
         (page(&sphere(10), TOLERANCE, NAMES, &options).0, ["Nicht in Ordnung", "−0,050"]),
         (check_page(&defects(), &options), ["Nicht fehlerfrei", "Löcher"]),
-        (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinster Zone"]),
+        (fit_page(&lobed_cylinder(), Method::MinimumZone, &options).0, ["Zylinder", "kleinste Zone"]),
         (repair_page(&defects(), &options), ["Repariert: fehlerfrei", "Loch gefüllt"]),
         (curvature_page(&torus(), &options), ["Gaußsche Krümmung", "Nachbarn"]),
         (surface_page(&options), ["Fläche durch die Punkte", "Kontrollpunkte"]),

@@ -235,33 +235,9 @@ pub fn in_mesh(
     }
     // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
     let is_near = |f: u32| corners(f).is_some_and(|c| rules.tilted(c));
-    let mut seen: BTreeSet<u32> = BTreeSet::new();
-    for start in beside {
-        if !is_near(start) || found.contains(&start) || !seen.insert(start) {
-            continue;
-        }
-        let (mut part, mut next, mut enclosed) = (vec![start], 0, true);
-        while let Some(facet) = part.get(next).copied() {
-            if next.is_multiple_of(1024) && progress.cancelled() {
-                return Err(FeatureError::Cancelled);
-            }
-            next += 1;
-            for edge in sides(&mesh.faces[facet as usize]) {
-                // Nothing encloses what ends at a free edge.
-                enclosed &= across(edge).count() > 1;
-                for other in across(edge).filter(|f| !found.contains(f)) {
-                    if !is_near(other) {
-                        enclosed = false;
-                    } else if seen.insert(other) {
-                        part.push(other);
-                    }
-                }
-            }
-        }
-        if enclosed {
-            found.extend(part);
-        }
-    }
+    let across_all =
+        |facet: u32| sides(&mesh.faces[facet as usize]).map(|edge| across(edge).collect::<Vec<u32>>());
+    enclosed(&mut found, beside, is_near, across_all, progress)?;
     let area = |f: &u32| corners(*f).map_or(0.0, |[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))));
     let mut points: BTreeSet<u32> = found.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     if !near.rim {
@@ -286,6 +262,44 @@ pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<
     let rules = Rules::new(nominal, near)?;
     let points = (0..points.len() as u32).filter(|i| rules.point(points[*i as usize])).collect();
     Ok(Found { facets: vec![], points, area: 0.0 })
+}
+
+/// Adds the parts, of those that begin with `beside`, whose facets are all near and lie among others on all sides.
+fn enclosed(
+    found: &mut BTreeSet<u32>,
+    beside: Vec<u32>,
+    is_near: impl Fn(u32) -> bool,
+    across: impl Fn(u32) -> [Vec<u32>; 3],
+    progress: &dyn Progress,
+) -> Result<(), FeatureError> {
+    let mut seen: BTreeSet<u32> = BTreeSet::new();
+    for start in beside {
+        if found.contains(&start) || !is_near(start) || !seen.insert(start) {
+            continue;
+        }
+        let (mut part, mut next, mut enclosed) = (vec![start], 0, true);
+        while let Some(facet) = part.get(next).copied() {
+            if next.is_multiple_of(1024) && progress.cancelled() {
+                return Err(FeatureError::Cancelled);
+            }
+            next += 1;
+            for there in across(facet) {
+                // Nothing encloses what ends at a free edge.
+                enclosed &= there.len() > 1;
+                for other in there.into_iter().filter(|f| !found.contains(f)) {
+                    if !is_near(other) {
+                        enclosed = false;
+                    } else if seen.insert(other) {
+                        part.push(other);
+                    }
+                }
+            }
+        }
+        if enclosed {
+            found.extend(part);
+        }
+    }
+    Ok(())
 }
 
 /// Each facet under each of its edges, in the order of the edges.

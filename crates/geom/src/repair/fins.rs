@@ -1,7 +1,8 @@
 //! Facets that hang on a surface without being part of it.
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
-//! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside).
+//! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
+//! has a free edge is superfluous only where nothing else of its shell has one: parts of an open surface stay.
 
 use super::edges::Edges;
 use super::work::Work;
@@ -58,12 +59,18 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         }
     }
     let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
+    let mut open = vec![false; known.topology.shells];
     let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| FIN * area).collect();
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
+    let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];
+    for sheet in sheets.iter().filter(|s| !s.facets.is_empty() && s.has_rim && !is_fin(s)) {
+        open[shell(sheet)] = true;
+    }
     let mut candidates: Vec<u32> = (0..sheets.len() as u32)
         .filter(|s| !sheets[*s as usize].edges.is_empty())
         .filter(|s| encloses_nothing(&sheets[*s as usize]) && small(&sheets[*s as usize], &may_go))
+        .filter(|s| !sheets[*s as usize].has_rim || !open[shell(&sheets[*s as usize])])
         .collect();
     candidates.sort_by(|a, b| sheets[*a as usize].area.total_cmp(&sheets[*b as usize].area));
     let mut removed = vec![];

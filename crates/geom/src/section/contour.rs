@@ -3,6 +3,7 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
+use super::polygon::{polygon, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::Clean;
 use super::search::Criterion;
@@ -114,32 +115,6 @@ pub fn contour(
     let mut found = plan.join(founds, corners)?;
     found.finish(&clean, turned, points.len(), outliers);
     Ok(found.contour)
-}
-
-/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least; and where the
-/// row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds a corner and takes
-/// it for noise.
-fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Part>)> {
-    let (n, mut points) = (clean.points.len(), clean.points.clone());
-    let weights = vec![1.0; n];
-    let sharp = |i: usize| {
-        let [a, b, c] = [i + n - 1, i, i + 1].map(|k| clean.points[k % n]);
-        turn([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs()
-    };
-    let by = if clean.closed { (0..n).max_by(|i, j| sharp(*i).total_cmp(&sharp(*j)))? } else { 0 };
-    points.rotate_left(by);
-    let parts = partition(&points, &weights, &Penalty { fewest: 3, ..*penalty });
-    let sides = parts.iter().all(|p| p.kind == Kind::Line && p.to - p.from >= 3);
-    let last = if clean.closed { parts.len() } else { parts.len() - 1 };
-    let corners =
-        (0..last).all(|k| turn(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER.0);
-    let exact = scatter(&points, &weights, &parts) <= penalty.noise;
-    (parts.len() > 1 && sides && corners && exact).then_some((by, parts))
-}
-
-/// Angle from one direction to another, positive to the left.
-fn turn(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
 }
 
 fn size(points: &[[f64; 2]]) -> f64 {

@@ -7,6 +7,7 @@
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
 //! | `search` | number and kinds of pieces |
+//! | `polygon` | rows that are polygons, exactly |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab` | points of a cloud near a plane, put in order |
@@ -32,6 +33,7 @@ mod free;
 mod least;
 mod nominal;
 mod paper;
+mod polygon;
 mod profile;
 mod result;
 mod row;

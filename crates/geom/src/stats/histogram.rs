@@ -127,13 +127,14 @@ pub fn zone_edges(statistics: &Statistics, [lower, upper]: [f64; 2]) -> Option<V
     /// Rounding a width up makes it 2.5 times as large at most.
     const ROUNDED_UP: f64 = 2.5;
     let (low, high, width) = spread(statistics)?;
-    let fine = (upper - lower) / 8.0 / ROUNDED_UP;
-    if !(fine > 0.0 && fine < width) {
-        return edges(low, high, width);
+    let (usual, widest) = (edges(low, high, width)?, (upper - lower) / 8.0);
+    if !(widest > 0.0 && widest < usual[1] - usual[0]) {
+        return Some(usual);
     }
-    let (middle, reach) = (0.5 * lower + 0.5 * upper, 0.5 * MOST_BINS * fine);
+    let width = widest / ROUNDED_UP;
+    let (middle, reach) = (0.5 * lower + 0.5 * upper, 0.5 * MOST_BINS * width);
     let near = [low.max(middle - reach), high.min(middle + reach)];
-    if near[0] < near[1] { edges(near[0], near[1], fine) } else { edges(low, high, width) }
+    if near[0] < near[1] { edges(near[0], near[1], width) } else { Some(usual) }
 }
 
 /// Where a histogram begins and ends, and how wide its bins should be.

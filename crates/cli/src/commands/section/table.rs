@@ -120,7 +120,9 @@ fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
     if plane.loose > 0 {
         let _ = write!(line, "   {} points of no contour", grouped(plane.loose));
     }
-    line + "\n"
+    let [x, y] = [plane.frame.x, plane.frame.y].map(|a| a.map(|n| fixed(n, 4)).join(" "));
+    let origin = plane.frame.origin.map(|n| fixed(n, 6)).join(" ");
+    format!("{line}\n          x along {x}, y along {y}, from {origin}\n")
 }
 
 fn segments(contour: &ContourRecord) -> String {
@@ -149,8 +151,9 @@ fn segments(contour: &ContourRecord) -> String {
 fn known_by(segment: &SegmentRecord) -> (&'static str, String) {
     match &segment.geometry {
         GeometryRecord::Line { angle } => ("line", format!("angle {}", fixed(angle.to_degrees(), 4))),
-        GeometryRecord::Arc { radius, sweep, .. } => {
-            ("arc", format!("r {}, sweep {}", fixed(*radius, 6), fixed(sweep.to_degrees(), 4)))
+        GeometryRecord::Arc { center: [x, y], radius, sweep, .. } => {
+            let [radius, x, y] = [*radius, *x, *y].map(|n| fixed(n, 6));
+            ("arc", format!("r {radius} at {x} {y}, sweep {}", fixed(sweep.to_degrees(), 4)))
         }
         GeometryRecord::Spline { control_points, .. } => {
             ("spline", format!("{} control points", control_points.len()))

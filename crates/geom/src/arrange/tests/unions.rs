@@ -100,6 +100,58 @@ fn a_chain_of_twenty_rings() {
     assert_eq!(volume(&b.mesh), filled.len() as f64);
 }
 
+/// A flat ribbon, one wide and one thick, along a path on a grid: it crosses itself, runs upon itself for some squares, and beside
+/// itself for others. One closed shell, all of whose overlaps are coplanar.
+#[test]
+fn a_ribbon_that_overlaps_itself() {
+    let path: [[i32; 2]; 10] =
+        [[0, 0], [9, 0], [9, 6], [3, 6], [3, -4], [6, -4], [6, 3], [1, 3], [1, 0], [7, 0]];
+    let mut mesh = Mesh::default();
+    let way = |i: usize| -> [i32; 2] { std::array::from_fn(|k| (path[i + 1][k] - path[i][k]).signum()) };
+    for (i, p) in path.iter().enumerate() {
+        let last = path.len() - 1;
+        let (before, after) = (way(i.saturating_sub(1)), way(i.min(last - 1)));
+        // Left of the way, mitred; half a square beyond both ends.
+        let left = |d: [i32; 2]| [-d[1], d[0]];
+        let (a, b) = (left(before), left(after));
+        let aside: [f64; 2] = std::array::from_fn(|k| match before == after {
+            true => 0.5 * f64::from(a[k]),
+            false => 0.5 * f64::from(a[k] + b[k]),
+        });
+        let beyond = if i == 0 {
+            -0.5
+        } else if i == last {
+            0.5
+        } else {
+            0.0
+        };
+        for side in [1.0, -1.0] {
+            let at = |k: usize| f64::from(p[k]) + side * aside[k] + beyond * f64::from(after[k]);
+            mesh.positions.extend([[at(0), at(1), 0.0], [at(0), at(1), 1.0]]);
+        }
+    }
+    let mut quad = |a: u32, b: u32, c: u32, d: u32| mesh.faces.extend([[a, b, c], [a, c, d]]);
+    let count = path.len() as u32;
+    // Of node i: 4 i left below, + 1 left above, + 2 right below, + 3 right above.
+    for i in 0..count - 1 {
+        let (n, m) = (4 * i, 4 * (i + 1));
+        quad(n + 1, n + 3, m + 3, m + 1);
+        quad(n, m, m + 2, n + 2);
+        quad(n, n + 1, m + 1, m);
+        quad(n + 2, m + 2, m + 3, n + 3);
+    }
+    let end = 4 * (count - 1);
+    quad(0, 2, 3, 1);
+    quad(end, end + 1, end + 3, end + 2);
+    let mut squares = std::collections::BTreeSet::new();
+    for (i, p) in path.iter().enumerate().take(path.len() - 1) {
+        let steps = (path[i + 1][0] - p[0]).abs() + (path[i + 1][1] - p[1]).abs();
+        squares.extend((0..=steps).map(|t| [p[0] + t * way(i)[0], p[1] + t * way(i)[1]]));
+    }
+    let b = union(&mesh, &Options::default());
+    assert_eq!(volume(&b.mesh), squares.len() as f64);
+}
+
 #[test]
 fn three_planes_through_one_point() {
     let mut mesh = Mesh::default();

@@ -19,12 +19,13 @@ use crate::space::{Point, minus, norm, plus, times};
 use crate::topology::Topology;
 use minimal::Aim;
 use ring::Ring;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 pub(super) const STEP: Step = Step {
     name: "holes",
     about: "Fills holes: with the triangles of least area, refined and faired to the surroundings where those are smooth. Holes \
-            larger than the limit stay open.",
+            larger than the limit stay open; of a shell that has such a one, all but small holes do.",
     run,
 };
 
@@ -78,18 +79,21 @@ struct Trial {
     way: usize,
     /// `None` where nothing fits, or where the hole is too large.
     patch: Option<Patch>,
+    /// Area, mm², of the largest patch it may get.
+    limit: f64,
     /// Where its facets are while they are in the mesh.
     facets: Range<u32>,
 }
 
+impl Trial {
+    fn is_too_large(&self, work: &Work) -> bool {
+        self.patch.as_ref().is_some_and(|patch| patch.area(work) > self.limit)
+    }
+}
+
 fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
-    let trial = |ring| Trial { ring, way: 0, patch: None, facets: 0..0 };
-    let mut trials: Vec<Trial> = Ring::all(&known).into_iter().map(trial).collect();
-    for trial in &mut trials {
-        work.go_on()?;
-        propose(&Site { work, known: &known }, trial);
-    }
+    let mut trials = trials(work, &known)?;
     let (facets, vertices) = (work.mesh().faces.len() as u32, work.mesh().positions.len());
     while trials.iter().any(|trial| trial.patch.is_some()) {
         for trial in &mut trials {
@@ -120,6 +124,40 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
+/// The holes of shells that stay open are filled up to this share of the area of the shell.
+const OF_SHEET: f64 = 0.01;
+
+/// All holes, with the first patch for each that may be filled.
+///
+/// A rim beyond the limit is the border of a sheet, which was meant to be open: then others like it, though smaller, may be
+/// borders too, and only what is small is a hole.
+fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
+    let share = match work.options.holes {
+        Holes::UpTo(share) => share,
+        Holes::All => f64::INFINITY,
+    };
+    let mut trials = vec![];
+    for ring in Ring::all(known) {
+        work.go_on()?;
+        let limit = if work.is_torn(&ring.vertices) { f64::INFINITY } else { share * ring.shell_area };
+        let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, facets: 0..0 };
+        propose(&Site { work, known }, &mut trial);
+        trial.limit = limit;
+        trials.push(trial);
+    }
+    let open: BTreeSet<u32> =
+        trials.iter().filter(|trial| trial.is_too_large(work)).map(|trial| trial.ring.shell).collect();
+    for trial in &mut trials {
+        if trial.limit < f64::INFINITY && open.contains(&trial.ring.shell) {
+            trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
+        }
+        if trial.is_too_large(work) {
+            trial.patch = None;
+        }
+    }
+    Ok(trials)
+}
+
 /// Tears out the facets around torn holes that nothing fits, so that the next round may find something that does: what was
 /// torn out of two bodies that cross leaves rims so near to each other that patches would cross again.
 fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
@@ -146,11 +184,7 @@ fn propose(site: &Site, trial: &mut Trial) {
         trial.way += 1;
         way(site, &trial.ring)
     });
-    let limit = match work.options.holes {
-        Holes::UpTo(share) => share * trial.ring.shell_area,
-        Holes::All => f64::INFINITY,
-    };
-    if !work.is_torn(&trial.ring.vertices) && trial.patch.as_ref().is_some_and(|p| p.area(work) > limit) {
+    if trial.is_too_large(work) {
         trial.patch = None;
     }
 }

@@ -10,7 +10,9 @@ pub(super) struct Ring {
     pub vertices: Vec<u32>,
     /// The facet at the edge from vertex `i` to the next one.
     pub facets: Vec<u32>,
-    /// Area, mm², of the shell it belongs to.
+    /// The shell it belongs to; `u32::MAX` where there is none.
+    pub shell: u32,
+    /// Area, mm², of that shell.
     pub shell_area: f64,
 }
 
@@ -34,9 +36,9 @@ impl Ring {
                 find(b, a).or(find(a, b)).unwrap_or(u32::MAX)
             };
             let facets: Vec<u32> = (0..n).map(facet).collect();
-            let shell = known.topology.shell_of.get(facets[0] as usize);
-            let shell_area = shell.and_then(|s| known.properties.shell_areas.get(*s as usize)).copied();
-            Ring { vertices, facets, shell_area: shell_area.unwrap_or(0.0) }
+            let shell = known.topology.shell_of.get(facets[0] as usize).copied().unwrap_or(u32::MAX);
+            let shell_area = known.properties.shell_areas.get(shell as usize).copied().unwrap_or(0.0);
+            Ring { vertices, facets, shell, shell_area }
         };
         known.free_edges.rings.iter().map(ring).collect()
     }

@@ -112,13 +112,47 @@ fn of_doubled_facets_that_look_both_ways_the_right_one_stays() {
     }
 }
 
-/// Three pages at one spine: once a small one is gone, the others are a surface.
+/// Three pages at one spine are an open surface: none of them is a fin. On a closed block a page is one.
 #[test]
-fn of_two_fins_at_one_edge_one_is_needed() {
+fn pages_of_an_open_surface_stay() {
     let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.5, 100.0, 0.0], [0.5, -1.0, 0.5], [0.5, -1.0, -0.5]];
     let mesh = Mesh { positions, faces: vec![[0, 1, 2], [1, 0, 3], [1, 0, 4]] };
     let repaired = mend_with(&mesh, &only(&["fins"]));
-    assert_eq!((repaired.changes.len(), repaired.mesh.faces.len()), (1, 2));
+    assert_eq!((repaired.changes.len(), repaired.mesh.faces.len()), (0, 3));
+    let mut mesh = block(4, 4.0);
+    let (facets, [a, b, _]) = (mesh.faces.len(), mesh.faces[0]);
+    mesh.positions.push([-1.0, -1.0, -1.0]);
+    mesh.faces.push([a, b, mesh.positions.len() as u32 - 1]);
+    // The same block with a hole: the hole is filled first.
+    for open in [false, true] {
+        if open {
+            mesh.faces.remove(facets / 2);
+        }
+        let repaired = mend(&mesh);
+        assert!(repaired.after.sound, "{open}: {:?}", counts(&repaired.after));
+        assert_eq!((repaired.mesh.faces.len(), repaired.after.properties.signed_volume), (facets, 64.0));
+    }
+}
+
+/// A hood with a window: the border is larger than the limit, so that the window is no hole either; a missing facet is one.
+#[test]
+fn an_open_sheet_keeps_its_borders() {
+    let mut mesh = block(8, 8.0);
+    let positions = mesh.positions.clone();
+    let all = |f: &[u32; 3], is: &dyn Fn(Point) -> bool| f.iter().all(|v| is(positions[*v as usize]));
+    let floor = |p: Point| p[2] == 0.0;
+    let window = |p: Point| p[2] == 8.0 && (3.0..=6.0).contains(&p[0]) && (3.0..=6.0).contains(&p[1]);
+    mesh.faces.retain(|f| !all(f, &floor) && !all(f, &window));
+    mesh.faces.remove(100);
+    let facets = mesh.faces.len();
+    // The floor is a fifth of the rest, the window 3 %, the facet 0.2 %.
+    for (limit, filled) in [(0.001, 0), (0.1, 1), (0.2, 1), (0.25, 3)] {
+        let repaired = mend_with(&mesh, &Options { holes: Holes::UpTo(limit), ..Options::default() });
+        assert_eq!(repaired.changes.len(), filled, "{limit}");
+        let (added, sound) = (repaired.mesh.faces.len() - facets, repaired.after.sound);
+        assert!(if filled == 3 { sound } else { added == filled }, "{limit}: {added}");
+    }
+    assert!(mend_with(&mesh, &Options { holes: Holes::All, ..Options::default() }).after.sound);
 }
 
 #[test]

@@ -96,7 +96,7 @@ impl Subject for InspectDocument {
     }
 
     fn how(&self, h: &mut Html) {
-        h.word("decision").raw(" ").text(&self.decision_rule);
+        h.word("decision").raw(": ").word(&format!("decision.{}", self.decision_rule));
     }
 
     fn picks(&self) -> Vec<Pick> {

@@ -224,7 +224,7 @@ fn known(reason: &str) -> &str {
 }
 
 fn sign(h: &mut Html, s: &SignRecord) {
-    h.text(&s.method).raw("<br><small>").text(&s.reason).raw("</small>");
+    h.word(&super::sign_key(s)).raw("<br><small>").text(&s.reason).raw("</small>");
     if let Some(share) = s.disagreement {
         h.raw("<br><small>").word("disagreement").raw(": ").percent(share, 3).raw("</small>");
     }

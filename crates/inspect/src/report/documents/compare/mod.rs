@@ -9,7 +9,7 @@ use super::super::page::blocks::{Headline, Tone, key_number};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::align::AlignedTo;
 use crate::results::check::found;
-use crate::results::compare::{CompareDocument, Comparison, WarningKind, Worst};
+use crate::results::compare::{CompareDocument, Comparison, SignRecord, WarningKind, Worst};
 use crate::scale::Scale;
 use serde_json::Value;
 
@@ -51,7 +51,7 @@ impl Subject for CompareDocument {
 
     fn how(&self, h: &mut Html) {
         let method = if self.method == "paper" { "method.paper" } else { "method.exact" };
-        h.word(method).raw(" · ").word("sign.method").raw(": ").text(&self.sign.method);
+        h.word(method).raw(" · ").word("sign.method").raw(": ").word(&sign_key(&self.sign));
     }
 
     fn points(&self) -> Option<u64> {
@@ -151,7 +151,7 @@ fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned:
         });
     }
     key_number(h, "sign.method", "", |h| {
-        h.text(&c.sign.method);
+        h.word(&sign_key(&c.sign));
     });
     let (class, sign, state) =
         if c.soundness.sound { ("", "✓\u{a0}", "sound.short") } else { ("warn", "⚠\u{a0}", "not_sound") };
@@ -170,6 +170,11 @@ fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned:
         });
     }
     h.raw("</dl>");
+}
+
+/// Key of how the sign was found, in a few words.
+fn sign_key(sign: &SignRecord) -> String {
+    format!("sign.by.{}", sign.method)
 }
 
 /// Key of a warning in a few words.
