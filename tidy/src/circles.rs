@@ -8,13 +8,25 @@ use std::path::{Path, PathBuf};
 /// From a file to those it takes names from, with the names.
 type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// One line for each circle among the files of a crate, with the arrows that make it.
+/// Files that name each other's items, and the arrows between them.
+pub struct Circle {
+    /// The crate's sources, then each file, on one line: as the list of known circles has it.
+    pub line: String,
+    /// The same with the arrows that make it.
+    pub told: String,
+}
+
+/// The circles among the files of a crate; `name` stands for its sources.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-pub fn of_crate(source: &Path) -> io::Result<Vec<String>> {
+pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<Circle>> {
     let arrows = arrows(source)?;
-    Ok(rings(&arrows).iter().map(|ring| told(source, ring, &arrows)).collect())
+    let circle = |ring: &Vec<PathBuf>| {
+        let files: Vec<String> = ring.iter().map(|file| file.display().to_string()).collect();
+        Circle { line: format!("{name}: {}", files.join(" ")), told: told(name, ring, &arrows) }
+    };
+    Ok(rings(&arrows).iter().map(circle).collect())
 }
 
 fn arrows(source: &Path) -> io::Result<Arrows> {
@@ -61,8 +73,8 @@ fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
     reached
 }
 
-fn told(source: &Path, ring: &[PathBuf], arrows: &Arrows) -> String {
-    let mut text = format!("{}: a circle of {} files", source.display(), ring.len());
+fn told(name: &str, ring: &[PathBuf], arrows: &Arrows) -> String {
+    let mut text = format!("{name}: a circle of {} files", ring.len());
     for from in ring {
         for (to, names) in arrows.get(from).into_iter().flatten().filter(|(to, _)| ring.contains(to)) {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -85,9 +97,9 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, text).unwrap();
         }
-        let found = of_crate(&folder).unwrap();
+        let found = of_crate(&folder, "crate").unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        found
+        found.into_iter().map(|circle| circle.told).collect()
     }
 
     #[test]

@@ -51,114 +51,111 @@ const fn fault(from: &'static str, to: &'static str, says: &'static str) -> Faul
     Fault { from, to, says }
 }
 
+const FAULTS: &[Fault] = &[
+    fault(
+        "tolerance = 0.1",
+        "class = \"K\"",
+        "line 28, column 9: class \"K\" goes by a nominal length; give `length`",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "class = \"m\"\nlength = 80",
+        "class \"m\" is not in the tables of this program; write the limits (known: H, K, L of ISO 2768-2)",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0.1\nlength = 80",
+        "line 29, column 10: `length` goes with `class`",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0.1\nclass = \"K\"",
+        "line 28, column 13: give `class` or `tolerance`, not both",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"c11\"",
+        "line 36, column 9: class \"c11\" is not in the tables of this program; write the limits",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nupper = 0.1",
+        "line 37, column 9: give `class` or `upper`, not both",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nlength = 10",
+        "line 37, column 10: size takes no `length`",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\nmaterial = \"M\"",
+        "line 35, column 12: of feature \"pin\" it is not said on which side its material is; give it `internal = true`",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\nmaterial = \"R\"",
+        "line 35, column 12: there is no variant \"R\"",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0.1\nmaterial = \"M\"",
+        "line 29, column 12: flatness takes no `material`",
+    ),
+    fault(
+        "points = \"floor.xyz\"",
+        "points = \"floor.xyz\"\ninternal = true",
+        "line 8, column 12: `internal` is for cylinders: bores and shafts",
+    ),
+    fault(
+        "points = \"pin.xyz\"\n",
+        "points = \"pin.xyz\"\ninternal = false\n[[characteristic]]\nid = \"3\"\nkind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1\nmaterial = \"M\"\n",
+        "line 30, column 12: it goes by the limits of size of feature \"pin\"; add a characteristic of kind \"size\"",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"position\"\nbasic = { x = 1 }\nmaterial = \"M\"",
+        "a material requirement is evaluated for an axis along z, placed by x and y",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+        "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\", \"B\"]",
+        "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
+    ),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+        "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\"]",
+        "line 35, column 11: feature \"A\" is a plane; a material requirement is for cylinders here",
+    ),
+    fault("datums = [\"A\"]", "datums = [\"A-A\"]", "line 34, column 11: datum \"A\" is named twice"),
+    fault("datums = [\"A\"]", "datums = [\"A-B-R-A\"]", "a common datum has up to three features"),
+    fault("datums = [\"A\"]", "datums = [\"A\", \"B-A\"]", "line 34, column 16: datum \"A\" is named twice"),
+    fault(
+        "kind = \"flatness\"\nfeature = \"A\"",
+        "kind = \"parallelism\"\nfeature = \"A\"\ndatums = [\"R-pin\"]",
+        "line 28, column 11: a common datum is made of planes, or of cylinders and lines",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A(M)\"]",
+        "line 34, column 11: perpendicularity takes no material requirement on a datum",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"angularity\"\nbasic = { angle = 60, turn = 45 }",
+        "angularity: a turn is counted from the direction of a second datum; name one",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"angularity\"\nbasic = { angle = 60, turn = 145 }",
+        "the turn is 145; give degrees from 0 to 90",
+    ),
+];
+
 #[test]
 fn faults_are_told_with_their_places() {
-    let faults = [
-        fault(
-            "tolerance = 0.1",
-            "class = \"K\"",
-            "line 28, column 9: class \"K\" goes by a nominal length; give `length`",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "class = \"m\"\nlength = 80",
-            "class \"m\" is not in the tables of this program; write the limits (known: H, K, L of ISO 2768-2)",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = 0.1\nlength = 80",
-            "line 29, column 10: `length` goes with `class`",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = 0.1\nclass = \"K\"",
-            "line 28, column 13: give `class` or `tolerance`, not both",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"c11\"",
-            "line 36, column 9: class \"c11\" is not in the tables of this program; write the limits",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nupper = 0.1",
-            "line 37, column 9: give `class` or `upper`, not both",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-            "kind = \"size\"\nfeature = \"pin\"\nsize = \"GG\"\nnominal = 8\nclass = \"H7\"\nlength = 10",
-            "line 37, column 10: size takes no `length`",
-        ),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"A\"]\nmaterial = \"M\"",
-            "line 35, column 12: of feature \"pin\" it is not said on which side its material is; give it `internal = true`",
-        ),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"A\"]\nmaterial = \"R\"",
-            "line 35, column 12: there is no variant \"R\"",
-        ),
-        fault(
-            "tolerance = 0.1",
-            "tolerance = 0.1\nmaterial = \"M\"",
-            "line 29, column 12: flatness takes no `material`",
-        ),
-        fault(
-            "points = \"floor.xyz\"",
-            "points = \"floor.xyz\"\ninternal = true",
-            "line 8, column 12: `internal` is for cylinders: bores and shafts",
-        ),
-        fault(
-            "points = \"pin.xyz\"\n",
-            "points = \"pin.xyz\"\ninternal = false\n[[characteristic]]\nid = \"3\"\nkind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1\nmaterial = \"M\"\n",
-            "line 30, column 12: it goes by the limits of size of feature \"pin\"; add a characteristic of kind \"size\"",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"position\"\nbasic = { x = 1 }\nmaterial = \"M\"",
-            "a material requirement is evaluated for an axis along z, placed by x and y",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
-            "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\", \"B\"]",
-            "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
-        ),
-        fault(
-            "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
-            "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\"]",
-            "line 35, column 11: feature \"A\" is a plane; a material requirement is for cylinders here",
-        ),
-        fault("datums = [\"A\"]", "datums = [\"A-A\"]", "line 34, column 11: datum \"A\" is named twice"),
-        fault("datums = [\"A\"]", "datums = [\"A-B-R-A\"]", "a common datum has up to three features"),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"A\", \"B-A\"]",
-            "line 34, column 16: datum \"A\" is named twice",
-        ),
-        fault(
-            "kind = \"flatness\"\nfeature = \"A\"",
-            "kind = \"parallelism\"\nfeature = \"A\"\ndatums = [\"R-pin\"]",
-            "line 28, column 11: a common datum is made of planes, or of cylinders and lines",
-        ),
-        fault(
-            "datums = [\"A\"]",
-            "datums = [\"A(M)\"]",
-            "line 34, column 11: perpendicularity takes no material requirement on a datum",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"angularity\"\nbasic = { angle = 60, turn = 45 }",
-            "angularity: a turn is counted from the direction of a second datum; name one",
-        ),
-        fault(
-            "kind = \"perpendicularity\"",
-            "kind = \"angularity\"\nbasic = { angle = 60, turn = 145 }",
-            "the turn is 145; give degrees from 0 to 90",
-        ),
-    ];
     Plan::parse(PLAN).unwrap();
-    for fault in &faults {
+    for fault in FAULTS {
         assert!(PLAN.contains(fault.from), "{}", fault.from);
         match Plan::parse(&PLAN.replacen(fault.from, fault.to, 1)) {
             Err(e) => {

@@ -66,6 +66,47 @@ fn split(mesh: &mut Mesh, facet: usize, at: Point) -> u32 {
     m
 }
 
+/// Shells that look the wrong way, beside cavities that are right.
+fn plant_shells(mesh: &mut Mesh, k: usize) {
+    // Beside them cavities that are right: one in the block, in it a block, in it another cavity.
+    add(mesh, &inverted(block(2, 8.0)), [2.0; 3]);
+    add(mesh, &block(3, 6.0), [3.0; 3]);
+    add(mesh, &inverted(block(1, 1.0)), [5.0; 3]);
+    for i in 0..k {
+        let wrong = if i % 2 == 0 { inverted(block(1, 1.0)) } else { block(1, 0.5) };
+        let place = if i % 2 == 0 { [20.0, 2.0 * i as f64, 0.0] } else { [2.25, 2.25, 2.25 + i as f64] };
+        add(mesh, &wrong, place);
+        if i % 2 == 1 {
+            mesh.faces.iter_mut().rev().take(12).for_each(|f| f.swap(0, 1));
+        }
+    }
+    // Those in the wall of the first cavity look inwards where they should look outwards.
+}
+
+/// Pairs of facets that cross.
+fn plant_crossings(mesh: &mut Mesh, k: usize) {
+    for i in 0..k {
+        let x = 20.0 + 3.0 * i as f64;
+        let n = mesh.positions.len() as u32;
+        mesh.positions.extend([[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 2.0, 0.0]]);
+        mesh.positions.extend([[x + 0.5, 0.5, -1.0], [x + 0.5, 0.5, 1.0], [x + 2.0, 2.0, 1.0]]);
+        mesh.faces.extend([[n, n + 1, n + 2], [n + 3, n + 4, n + 5]]);
+    }
+}
+
+/// Normals of all facets as a file might store them, turned over for some.
+fn plant_normals(mesh: &Mesh, chosen: &[usize]) -> Vec<[f32; 3]> {
+    let normal = |f: &[u32; 3]| {
+        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        cross(minus(b, a), minus(c, a)).map(|x| x as f32)
+    };
+    let mut stored: Vec<[f32; 3]> = mesh.faces.iter().map(normal).collect();
+    stored[0] = [0.0; 3];
+    stored[1] = [f32::NAN; 3];
+    chosen.iter().for_each(|&f| stored[f] = stored[f].map(|x| -x));
+    stored
+}
+
 /// A sound block with `k` defects of a kind, the stored normals, and how many findings of that kind there must be.
 pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usize) {
     let mut mesh = sound();
@@ -118,46 +159,13 @@ pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usi
                 mesh.faces.push([a, b, m]);
             }
         }
-        "reversed_normals" => {
-            let normal = |f: &[u32; 3]| {
-                let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
-                cross(minus(b, a), minus(c, a)).map(|x| x as f32)
-            };
-            let mut stored: Vec<[f32; 3]> = mesh.faces.iter().map(normal).collect();
-            stored[0] = [0.0; 3];
-            stored[1] = [f32::NAN; 3];
-            chosen.iter().for_each(|&f| stored[f] = stored[f].map(|x| -x));
-            normals = Some(stored);
-        }
+        "reversed_normals" => normals = Some(plant_normals(&mesh, &chosen)),
         "inconsistent_orientation" => {
             chosen.iter().for_each(|&f| mesh.faces[f].swap(0, 1));
             expected = 3 * k;
         }
-        "inside_out_shells" => {
-            // Beside them cavities that are right: one in the block, in it a block, in it another cavity.
-            add(&mut mesh, &inverted(block(2, 8.0)), [2.0; 3]);
-            add(&mut mesh, &block(3, 6.0), [3.0; 3]);
-            add(&mut mesh, &inverted(block(1, 1.0)), [5.0; 3]);
-            for i in 0..k {
-                let wrong = if i % 2 == 0 { inverted(block(1, 1.0)) } else { block(1, 0.5) };
-                let place =
-                    if i % 2 == 0 { [20.0, 2.0 * i as f64, 0.0] } else { [2.25, 2.25, 2.25 + i as f64] };
-                add(&mut mesh, &wrong, place);
-                if i % 2 == 1 {
-                    mesh.faces.iter_mut().rev().take(12).for_each(|f| f.swap(0, 1));
-                }
-            }
-            // Those in the wall of the first cavity look inwards where they should look outwards.
-        }
-        "self_intersections" => {
-            for i in 0..k {
-                let x = 20.0 + 3.0 * i as f64;
-                let n = mesh.positions.len() as u32;
-                mesh.positions.extend([[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 2.0, 0.0]]);
-                mesh.positions.extend([[x + 0.5, 0.5, -1.0], [x + 0.5, 0.5, 1.0], [x + 2.0, 2.0, 1.0]]);
-                mesh.faces.extend([[n, n + 1, n + 2], [n + 3, n + 4, n + 5]]);
-            }
-        }
+        "inside_out_shells" => plant_shells(&mut mesh, k),
+        "self_intersections" => plant_crossings(&mut mesh, k),
         "t_junctions" => chosen.into_iter().for_each(|f| {
             let place = middle(&mesh, f);
             split(&mut mesh, f, place);
@@ -169,9 +177,7 @@ pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usi
                 mesh.faces[f][0] = mesh.positions.len() as u32 - 1;
             }
         }
-        "islands" => {
-            (0..k).for_each(|i| add(&mut mesh, &block(1, 0.0625), [13.0, 0.5 * i as f64, 0.0]));
-        }
+        "islands" => (0..k).for_each(|i| add(&mut mesh, &block(1, 0.0625), [13.0, 0.5 * i as f64, 0.0])),
         "not_finite_facets" => {
             mesh.positions.push([1.0, f64::NAN, 0.0]);
             let n = mesh.positions.len() as u32 - 1;

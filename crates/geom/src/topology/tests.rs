@@ -47,6 +47,24 @@ fn soup(random: &mut Random, facets: usize, vertices: u64) -> Mesh {
 /// An edge as a facet runs along it, and the facet.
 type Side = ([u32; 2], u32);
 
+/// The least member that each one hangs together with: painted until nothing changes.
+fn paint(members: &[u32], joined: &dyn Fn(u32, u32) -> bool) -> Vec<u32> {
+    let mut color: Vec<u32> = members.to_vec();
+    loop {
+        let before = color.clone();
+        for i in 0..members.len() {
+            for j in 0..i {
+                if color[i] != color[j] && joined(members[i], members[j]) {
+                    (color[i], color[j]) = (color[i].min(color[j]), color[i].min(color[j]));
+                }
+            }
+        }
+        if color == before {
+            return color;
+        }
+    }
+}
+
 /// Everything in [`Topology`] by maps and exhaustive search.
 fn compare_with_plain_twin(mesh: &Mesh, name: &str) {
     let repeated = |f: &[u32; 3]| f[0] == f[1] || f[1] == f[2] || f[0] == f[2];
@@ -74,24 +92,8 @@ fn compare_with_plain_twin(mesh: &Mesh, name: &str) {
             duplicates.push([first, f]);
         }
     }
-    // Shells and fans: paint until nothing changes.
-    let paint = |members: &[u32], joined: &dyn Fn(u32, u32) -> bool| -> Vec<u32> {
-        let mut colour: Vec<u32> = members.to_vec();
-        loop {
-            let before = colour.clone();
-            for i in 0..members.len() {
-                for j in 0..i {
-                    if colour[i] != colour[j] && joined(members[i], members[j]) {
-                        (colour[i], colour[j]) = (colour[i].min(colour[j]), colour[i].min(colour[j]));
-                    }
-                }
-            }
-            if colour == before {
-                return colour;
-            }
-        }
-    };
     let common = |a: u32, b: u32| corners(a).iter().filter(|v| corners(b).contains(v)).count();
+    // Shells and fans.
     let colour = paint(&counting, &|a, b| common(a, b) >= 2);
     let mut first: Vec<u32> = colour.clone();
     first.sort_unstable();
