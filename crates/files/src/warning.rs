@@ -114,7 +114,10 @@ impl fmt::Display for Warning {
             ),
             Warning::Slight { count } => write!(f, "{count} face(s) of fewer than three vertices left out"),
             Warning::Joined { before, after } => {
-                write!(f, "{before} vertices at {after} places: vertices at the same place were joined")
+                write!(
+                    f,
+                    "{before} vertices become {after}: those at the same place were joined, unused ones left out"
+                )
             }
             Warning::Welded { distance, before, after } => {
                 write!(f, "{before} vertices became {after}: those within {distance} mm were joined")

@@ -24,7 +24,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// Unused children: dipoles of no strength, never opened.
+    /// Unused children: dipoles of no strength, never opened, as no point is taken to be so far away ([`FARTHEST`]).
     pub const EMPTY: Group = Group { child: [[1e9, 1e9, 1e9, 0.0, 0.0, 0.0, 0.0, 0.0]; 8] };
 
     /// Fills in child `j`. All scaled.
@@ -120,13 +120,17 @@ pub unsafe fn numbers<V: Lanes<16>>(
     }
 }
 
+/// Points farther away than this, scaled, are moved to it in each coordinate: from there the mesh has no solid angle left that
+/// numbers could hold.
+const FARTHEST: f64 = 1e8;
+
 /// The points relative to `origin`, scaled.
 #[inline(always)]
 unsafe fn from<V: Lanes<16>>(tree: &Tree, points: &[Point; BLOCK], origin: Point) -> [V; 3] {
     let mut out = [[0f32; BLOCK]; 3];
     for (i, p) in points.iter().enumerate() {
         for k in 0..3 {
-            out[k][i] = ((p[k] - origin[k]) * tree.scale) as f32;
+            out[k][i] = ((p[k] - origin[k]) * tree.scale).clamp(-FARTHEST, FARTHEST) as f32;
         }
     }
     unsafe { [V::load(&out[0]), V::load(&out[1]), V::load(&out[2])] }

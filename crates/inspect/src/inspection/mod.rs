@@ -3,6 +3,7 @@
 mod align;
 pub mod decision;
 mod deviation;
+mod left_out;
 mod seed;
 mod take;
 mod taken;
@@ -10,7 +11,7 @@ mod view;
 
 pub use align::{Alignment, Found};
 pub use deviation::Deviations;
-pub use taken::{Element, Taken};
+pub use taken::{Element, LeftOut, Taken};
 pub use view::View;
 
 use crate::characteristic::{Measuring, Missing, Value};
@@ -29,7 +30,7 @@ use trueness_geom::space::{Aabb, Point};
 pub struct Data {
     /// The measured mesh; a cloud has no facets.
     pub measured: Option<Mesh>,
-    /// The nominal mesh, where the plan aligns to it or asks for deviations from it.
+    /// The nominal mesh, where the plan names one and has a use for it: alignment, deviations, features sought by nominals or seeds.
     pub reference: Option<Mesh>,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
@@ -121,7 +122,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let seeds = seed::seeded(plan, &data, progress)?;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
     let doubts = doubts(plan, &data);
-    let features = take::features(plan, &data, &seeds, progress)?;
+    let mut features = take::features(plan, &data, &seeds, progress)?;
+    left_out::tell(plan, &data, &seeds, &mut features, progress)?;
     let mut values = Vec::with_capacity(plan.specs.len());
     for spec in &plan.specs {
         let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };

@@ -78,6 +78,7 @@ fn bare(feature: &Feature) -> Taken {
         outward: feature.outward.or(normal),
         nominal: feature.nominal.clone(),
         coverage: None,
+        left_out: None,
         element: Err("it was not measured".into()),
     }
 }

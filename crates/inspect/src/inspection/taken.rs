@@ -33,8 +33,21 @@ pub struct Taken {
     pub nominal: Option<Nominal>,
     /// Share of the nominal area that was measured.
     pub coverage: Option<f64>,
+    /// Measured points that lie where the reference has it, but too far off to be part of it.
+    pub left_out: Option<LeftOut>,
     /// The element, or why there is none.
     pub element: Result<Element, String>,
+}
+
+/// Points that were left out of a feature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOut {
+    /// Their number.
+    pub points: u64,
+    /// Distance, mm, of the farthest of them from the reference.
+    pub farthest: f64,
+    /// The distance, mm, that they are beyond.
+    pub limit: f64,
 }
 
 /// What a feature is made to.

@@ -408,6 +408,7 @@ fn characteristic(
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
+    let left_out = left_out(found, spec);
     CharacteristicRecord {
         id: spec.id.clone(),
         kind: spec.kind.word().into(),
@@ -424,16 +425,37 @@ fn characteristic(
         unit: spec.unit().into(),
         uncertainty: spec.uncertainty,
         decision_rule: rule.word().into(),
-        verdict: measured.map_or(Verdict::NotMeasured, |v| verdict(v.value, &limits, rule, spec.uncertainty)),
+        verdict: measured.map_or(Verdict::NotMeasured, |v| {
+            let found = verdict(v.value, &limits, rule, spec.uncertainty);
+            if found == Verdict::Pass && !left_out.is_empty() { Verdict::Undecided } else { found }
+        }),
         reason: value.as_ref().err().cloned(),
         utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
         parts: measured
             .map_or(BTreeMap::new(), |v| v.parts.iter().map(|(k, x)| (k.to_string(), *x)).collect()),
-        notes: measured.map_or(vec![], |v| v.notes.clone()),
+        notes: measured.map_or(vec![], |v| v.notes.iter().cloned().chain(left_out).collect()),
         standard: spec.kind.standard().into(),
     }
+}
+
+/// A note for each feature and datum of a characteristic that leaves out points which lie where the reference has it: nothing is
+/// proven by the others alone.
+fn left_out(found: &Inspection, spec: &Spec) -> Vec<String> {
+    let datums = spec.datums.iter().flat_map(|d| &d.features);
+    let mut numbers: Vec<usize> = spec.features.iter().chain(datums).copied().collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let note = |n: usize| {
+        let (taken, out) = (&found.features[n], found.features[n].left_out?);
+        Some(format!(
+            "feature \"{}\": {} measured points, up to {:.3} mm off, lie where the reference has it and are left out as farther \
+             than its extract distance of {:.3} mm; give a larger one to judge them",
+            taken.id, out.points, out.farthest, out.limit
+        ))
+    };
+    numbers.into_iter().filter_map(note).collect()
 }
 
 /// What modifies a characteristic, as words.

@@ -99,7 +99,9 @@ impl PlanFile {
             inputs.push(record);
         }
         let seeded = self.plan.features.iter().any(|f| matches!(f.source, Source::Seed(_)));
-        let wanted = seeded || self.plan.align.uses_reference() || self.plan.deviation.is_some();
+        // A feature that is sought by its nominal is told what it leaves out.
+        let sought = self.plan.features.iter().any(|f| matches!(f.source, Source::Nominal));
+        let wanted = seeded || sought || self.plan.align.uses_reference() || self.plan.deviation.is_some();
         if let Some(written) = self.plan.reference.as_ref().filter(|_| wanted) {
             let path = self.path_of(written);
             let read = read::mesh(&path, Role::Reference, &options);

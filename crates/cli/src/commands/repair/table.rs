@@ -169,7 +169,9 @@ fn verdict(d: &RepairDocument) -> String {
             let open = match (d.after.closed, d.hole_limit) {
                 _ if d.after.facets == 0 => " No facet with an area is left: the mesh holds no surface.",
                 (true, _) => "",
-                (false, Some(_)) => " Holes larger than the limit stay open unless --all-holes is given.",
+                (false, Some(_)) => {
+                    " Holes larger than the limit stay open, and with them others of their shell, unless --all-holes is given."
+                }
                 (false, None) => " Holes that no patch fits stay open.",
             };
             format!("\nNOT SOUND: {written}.{open}{again}\n")

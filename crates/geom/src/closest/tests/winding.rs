@@ -38,6 +38,30 @@ fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
         .collect()
 }
 
+/// However far away, and at places that stand for "no data" in files: an answer, and that of all places outside.
+#[test]
+fn far_away_nothing_winds_around_a_point() {
+    let d = &mut Dice(41);
+    for (mesh, size) in
+        [(cube(1.0), 1.0), (cube(2.0), 2.0), (cube(100.0), 100.0), (sphere(20, 3.0, [0.0; 3]), 3.0)]
+    {
+        let tree = Tree::build(&mesh).unwrap();
+        let winding = Winding::new(&tree);
+        let mut points: Vec<Point> = vec![];
+        for exponent in 7..60 {
+            let far = 10f64.powi(exponent);
+            points.extend([[far; 3], [size * far; 3], [-far; 3], [far, far, far + 10.0], [far, 0.5, 0.5]]);
+            points.push(d.point(far));
+            points.push([0.5 * size + far, 0.5 * size + far, 0.5 * size + far]);
+        }
+        assert!(winding.numbers(&points, &Silent).unwrap().iter().all(|w| w.abs() < 0.05));
+        for (limit, expected) in [(0.5, false), (-0.5, true)] {
+            let above = winding.above(limit, &points, &Silent).unwrap();
+            assert!(above.iter().all(|a| *a == expected), "{size} {limit}");
+        }
+    }
+}
+
 /// Name, mesh, and how often it covers itself.
 fn meshes(d: &mut Dice) -> Vec<(&'static str, Mesh, f64)> {
     let mut open = sphere(60, 40.0, [1000.0; 3]);

@@ -92,8 +92,11 @@ pub(super) fn enclosed(
     let edges = balanced(mesh).ok_or(NotEnclosed::Inconsistent)?;
     let meets = meets(mesh, topology, progress)?;
     let bounds = Properties::of(mesh, topology).bounds;
+    let (sides, mut shortest) = (bounds.sides(), [0, 1, 2]);
+    shortest.sort_by(|i: &usize, j| sides[*i].total_cmp(&sides[*j]));
     let solid = Solid {
         mesh,
+        shortest,
         centre: times(0.5, plus(bounds.min, bounds.max)),
         rays: Default::default(),
         meets: &meets,
@@ -212,6 +215,8 @@ struct Part {
 struct Solid<'a> {
     mesh: &'a Mesh,
     centre: Point,
+    /// The axes, by the extent of the mesh along them.
+    shortest: [usize; 3],
     /// For rays along each axis, made when first needed.
     rays: [OnceLock<Container<'a>>; 3],
     meets: &'a BTreeMap<u32, Vec<u32>>,
@@ -225,6 +230,15 @@ impl Solid<'_> {
         Facet { vertices, places, local: places.map(|p| minus(p, self.centre)) }
     }
 
+    /// The axis for rays from a facet with this normal: of those that it is not too steep to, the one along which the mesh is
+    /// shortest, so that rays pass little of it.
+    fn axis(&self, vector: Vector) -> usize {
+        /// Share of the greatest coordinate of the normal.
+        const STEEP: f64 = 0.25;
+        let most = vector[steepest(vector)].abs();
+        self.shortest.into_iter().find(|&k| vector[k].abs() >= STEEP * most).unwrap_or(0)
+    }
+
     fn rays(&self, axis: usize) -> &Container<'_> {
         let all = || (0..self.mesh.faces.len() as u32).collect::<Vec<_>>();
         self.rays[axis].get_or_init(|| Container::new(self.mesh, &all(), axis))
@@ -233,7 +247,7 @@ impl Solid<'_> {
     /// Winding numbers before and behind the facet at `p`, a place of it. `upon`: other facets that lie upon it there, and
     /// +1 if they look the same way, −1 if not.
     fn winding(&self, f: u32, vector: Vector, p: &Point, upon: &[(u32, i32)]) -> Winding {
-        let axis = steepest(vector);
+        let axis = self.axis(vector);
         let others = |g: u32| g != f && upon.iter().all(|u| u.0 != g);
         let beyond = self.rays(axis).beyond(p, others);
         let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();

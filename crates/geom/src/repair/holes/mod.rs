@@ -81,6 +81,8 @@ struct Trial {
     patch: Option<Patch>,
     /// Area, mm², of the largest patch it may get.
     limit: f64,
+    /// A step has made it.
+    is_torn: bool,
     /// Where its facets are while they are in the mesh.
     facets: Range<u32>,
 }
@@ -94,12 +96,16 @@ impl Trial {
 fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let mut trials = trials(work, &known)?;
+    let mut shell_of = known.topology.shell_of.clone();
     let (facets, vertices) = (work.mesh().faces.len() as u32, work.mesh().positions.len());
     while trials.iter().any(|trial| trial.patch.is_some()) {
+        shell_of.truncate(facets as usize);
         for trial in &mut trials {
             trial.facets = trial.patch.as_ref().map_or(0..0, |patch| insert(work, patch));
+            let shell = if trial.is_torn { u32::MAX } else { trial.ring.shell };
+            shell_of.extend(trial.facets.clone().map(|_| shell));
         }
-        let bad = misfits(work, facets)?;
+        let bad = misfits(work, facets, &shell_of)?;
         let hit = |trial: &Trial| {
             let from = bad.partition_point(|f| *f < trial.facets.start);
             trial.patch.is_some() && bad.get(from).is_some_and(|f| *f < trial.facets.end)
@@ -139,8 +145,9 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let mut trials = vec![];
     for ring in Ring::all(known) {
         work.go_on()?;
-        let limit = if work.is_torn(&ring.vertices) { f64::INFINITY } else { share * ring.shell_area };
-        let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, facets: 0..0 };
+        let is_torn = work.is_torn(&ring.vertices);
+        let limit = if is_torn { f64::INFINITY } else { share * ring.shell_area };
+        let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, is_torn, facets: 0..0 };
         propose(&Site { work, known }, &mut trial);
         trial.limit = limit;
         trials.push(trial);
@@ -148,7 +155,7 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let open: BTreeSet<u32> =
         trials.iter().filter(|trial| trial.is_too_large(work)).map(|trial| trial.ring.shell).collect();
     for trial in &mut trials {
-        if trial.limit < f64::INFINITY && open.contains(&trial.ring.shell) {
+        if !trial.is_torn && open.contains(&trial.ring.shell) {
             trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
         }
         if trial.is_too_large(work) {
@@ -199,8 +206,9 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
     first..first + facets.len() as u32
 }
 
-/// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending.
-fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
+/// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending. What crosses facets
+/// of another shell fits, if shells will be united; `shell_of` has no shell for patches of what a step has torn.
+fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, RepairError> {
     let all = work.mesh().faces.len() as u32;
     let asked: Vec<bool> = (0..all).map(|f| f >= first).collect();
     let (crossings, mut bad) = match Around::new(work.mesh(), &asked) {
@@ -216,7 +224,12 @@ fn misfits(work: &mut Work, first: u32) -> Result<Vec<u32>, RepairError> {
         }
     };
     let Some(crossings) = crossings else { return Ok((first..all).collect()) };
-    bad.extend(crossings.into_iter().flatten());
+    let unites = work.options.steps.contains(&super::union::STEP.name);
+    let apart = |pair: &[u32; 2]| {
+        let [a, b] = pair.map(|f| shell_of[f as usize]);
+        unites && a != u32::MAX && b != u32::MAX && a != b
+    };
+    bad.extend(crossings.into_iter().filter(|pair| !apart(pair)).flatten());
     bad.retain(|f| *f >= first);
     bad.sort_unstable();
     bad.dedup();

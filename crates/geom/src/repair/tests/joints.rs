@@ -112,6 +112,20 @@ fn of_doubled_facets_that_look_both_ways_the_right_one_stays() {
     }
 }
 
+/// A facet is missing where another body passes: its patch crosses that body until both are united.
+#[test]
+fn a_hole_within_another_body_is_filled_and_united() {
+    for missing in 0..12 {
+        let mut mesh = block(1, 10.0);
+        add(&mut mesh, &block(1, 10.0), [5.0, 3.0, 2.0]);
+        mesh.faces.remove(12 + missing);
+        let repaired = mend(&mesh);
+        assert!(repaired.after.sound, "{missing}: {:?}", counts(&repaired.after));
+        let volume = repaired.after.properties.signed_volume;
+        assert!((volume - (2000.0 - 5.0 * 7.0 * 8.0)).abs() < 1e-9, "{missing}: {volume}");
+    }
+}
+
 /// Three pages at one spine are an open surface: none of them is a fin. On a closed block a page is one.
 #[test]
 fn pages_of_an_open_surface_stay() {

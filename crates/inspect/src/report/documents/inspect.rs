@@ -165,8 +165,8 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
         h.raw("</small></td><td>");
         badge(h, c.verdict.into());
         h.raw("</td></tr>");
-        if let Some(reason) = &c.reason {
-            h.raw("<tr><td colspan=\"3\" class=\"note\">").text(reason).raw("</td></tr>");
+        for note in c.reason.iter().chain(&c.notes) {
+            h.raw("<tr><td colspan=\"3\" class=\"note\">").text(note).raw("</td></tr>");
         }
     }
     h.raw("</tbody></table>");
