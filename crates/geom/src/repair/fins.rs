@@ -2,9 +2,10 @@
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
 //! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a free edge is superfluous only where nothing else of its shell has one: parts of an open surface stay.
+//! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay.
 
 use super::edges::Edges;
+use super::holes;
 use super::work::Work;
 use super::{RepairError, SHEET, Step};
 use crate::space::{Vector, cross, minus, norm, plus};
@@ -27,6 +28,8 @@ struct Sheet {
     has_rim: bool,
     /// Indices of its edges with more than two facets.
     edges: Vec<usize>,
+    /// It has free edges that are not of a hole to be filled.
+    has_border: bool,
 }
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
@@ -45,12 +48,17 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         sheet.vector = plus(sheet.vector, normal);
         sheet.area += norm(normal);
     }
+    let fillable = holes::fillable(work, &known);
     // The sheets at each edge of more than two facets, once for each facet.
     let mut meetings: Vec<Vec<u32>> = vec![];
     for edge in edges.iter() {
         let here: Vec<u32> = edge.iter().map(|s| of[s.facet as usize]).collect();
         match here.len() {
-            1 => sheets[here[0] as usize].has_rim = true,
+            1 => {
+                let sheet = &mut sheets[here[0] as usize];
+                sheet.has_rim = true;
+                sheet.has_border |= !fillable.contains(&edge[0].ends);
+            }
             2 => {}
             _ => {
                 here.iter().for_each(|s| sheets[*s as usize].edges.push(meetings.len()));
@@ -64,7 +72,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];
-    for sheet in sheets.iter().filter(|s| !s.facets.is_empty() && s.has_rim && !is_fin(s)) {
+    for sheet in sheets.iter().filter(|s| !s.facets.is_empty() && s.has_border && !is_fin(s)) {
         open[shell(sheet)] = true;
     }
     let mut candidates: Vec<u32> = (0..sheets.len() as u32)

@@ -86,6 +86,7 @@ mod tests {
         let plan = Plan::parse(
             r#"
             schema = "trueness/plan/1"
+            measured = "part.stl"
             [[feature]]
             id = "A"
             shape = "plane"

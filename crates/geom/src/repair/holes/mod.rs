@@ -165,6 +165,24 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     Ok(trials)
 }
 
+/// The edges, lower vertex first, of rims whose fan is not larger than the limit: they may be filled.
+pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
+    let limit = |ring: &Ring| match work.options.holes {
+        Holes::UpTo(share) => share * ring.shell_area,
+        Holes::All => f64::INFINITY,
+    };
+    let sides = |ring: &Ring| -> Vec<[u32; 2]> {
+        let n = ring.vertices.len();
+        (0..n).map(|i| [ring.vertices[i], ring.vertices[(i + 1) % n]]).collect()
+    };
+    let fan = |ring: &Ring| -> f64 {
+        let middle = ring.middle(work);
+        sides(ring).iter().map(|[a, b]| finding::area([work.at(*a), work.at(*b), middle])).sum()
+    };
+    let small = Ring::all(known).into_iter().filter(|ring| fan(ring) <= limit(ring));
+    small.flat_map(|ring| sides(&ring)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
+}
+
 /// Tears out the facets around torn holes that nothing fits, so that the next round may find something that does: what was
 /// torn out of two bodies that cross leaves rims so near to each other that patches would cross again.
 fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
