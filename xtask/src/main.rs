@@ -93,7 +93,7 @@ const STEPS: &[Step] = &[
     }),
 ];
 
-/// The rules that the compiler does not check, and their own tests.
+/// The rules that the compiler does not check.
 const TIDY: Call = cargo("tidy", &["run", "--quiet", "--manifest-path", "tidy/Cargo.toml"]);
 
 const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };

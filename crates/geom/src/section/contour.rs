@@ -3,7 +3,7 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
-use super::polygon::{polygon, turn};
+use super::polygon::{self, polygon, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::Clean;
 use super::search::Criterion;
@@ -19,9 +19,11 @@ const PLACES: usize = 1200;
 /// Fewest points of a part.
 const FEWEST: usize = 4;
 /// A turn between two parts is a corner from here on, radians, and from so many standard deviations of the headings.
-const CORNER: (f64, f64) = (0.12, 8.0);
+const CORNER: (f64, f64) = (polygon::CORNER, 8.0);
 /// A turn of more than this is a corner without further test, radians.
 const SHARP: f64 = 0.6;
+/// The partition and the noise that it shows follow each other so many times.
+const PASSES: usize = 6;
 /// Noise of a first partition below this share of that of local fits: these are not fits of noise.
 const POLLUTED: f64 = 0.3;
 /// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
@@ -90,8 +92,9 @@ pub fn contour(
         outliers = clean.outliers(sigma, step);
         outliers.iter().for_each(|i| weights[*i] = 0.0);
     }
-    // Nothing more is to be known of a polygon.
-    for _ in 0..if parts.is_empty() { 6 } else { 0 } {
+    // Of a polygon nothing more is to be known.
+    let passes = if parts.is_empty() { PASSES } else { 0 };
+    for _ in 0..passes {
         parts = partition(&clean.points, &weights, &penalty(sigma));
         if clean.closed && parts.len() > 1 {
             // The row is turned so that it starts where a part does.

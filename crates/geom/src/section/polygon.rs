@@ -6,8 +6,8 @@ use super::start::{Part, Penalty, partition, scatter};
 
 /// Points on a side, at least: two are on a line by themselves.
 const FEWEST: usize = 3;
-/// Sides that turn by less are parts of a curve, radians.
-const CORNER: f64 = 0.12;
+/// Parts that turn by less from one to the next are parts of a curve, radians.
+pub(super) const CORNER: f64 = 0.12;
 
 /// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least; and where the
 /// row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds a corner and takes

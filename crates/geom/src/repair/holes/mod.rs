@@ -138,15 +138,11 @@ const OF_SHEET: f64 = 0.01;
 /// A rim beyond the limit is the border of a sheet, which was meant to be open: then others like it, though smaller, may be
 /// borders too, and only what is small is a hole.
 fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
-    let share = match work.options.holes {
-        Holes::UpTo(share) => share,
-        Holes::All => f64::INFINITY,
-    };
     let mut trials = vec![];
     for ring in Ring::all(known) {
         work.go_on()?;
         let is_torn = work.is_torn(&ring.vertices);
-        let limit = if is_torn { f64::INFINITY } else { share * ring.shell_area };
+        let limit = if is_torn { f64::INFINITY } else { limit(work, &ring) };
         let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, is_torn, facets: 0..0 };
         propose(&Site { work, known }, &mut trial);
         trial.limit = limit;
@@ -165,12 +161,16 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     Ok(trials)
 }
 
-/// The edges, lower vertex first, of rims whose fan is not larger than the limit: they may be filled.
-pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
-    let limit = |ring: &Ring| match work.options.holes {
+/// Area, mm², up to which a hole is filled.
+fn limit(work: &Work, ring: &Ring) -> f64 {
+    match work.options.holes {
         Holes::UpTo(share) => share * ring.shell_area,
         Holes::All => f64::INFINITY,
-    };
+    }
+}
+
+/// The edges, lower vertex first, of rims whose fan is not larger than the limit: they may be filled.
+pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
     let sides = |ring: &Ring| -> Vec<[u32; 2]> {
         let n = ring.vertices.len();
         (0..n).map(|i| [ring.vertices[i], ring.vertices[(i + 1) % n]]).collect()
@@ -179,7 +179,7 @@ pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
         let middle = ring.middle(work);
         sides(ring).iter().map(|[a, b]| finding::area([work.at(*a), work.at(*b), middle])).sum()
     };
-    let small = Ring::all(known).into_iter().filter(|ring| fan(ring) <= limit(ring));
+    let small = Ring::all(known).into_iter().filter(|ring| fan(ring) <= limit(work, ring));
     small.flat_map(|ring| sides(&ring)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
 }
 
