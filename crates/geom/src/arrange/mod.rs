@@ -25,6 +25,7 @@ mod meetings;
 mod outer;
 mod points;
 mod ray;
+mod snap;
 #[cfg(test)]
 mod tests;
 mod triangulate;

@@ -3,6 +3,7 @@
 use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::points::Points;
+use super::snap::snap;
 use super::{ArrangeError, pairs};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
@@ -10,6 +11,7 @@ use crate::space::{Aabb, Point};
 use crate::topology::Topology;
 use crate::topology::weld::{as_it_is, compact, rejoined};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// How the boundary is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +42,11 @@ pub struct Boundary {
 
 /// How often a mesh is cut at most.
 const CUTS: usize = 16;
-/// From so many cuts on, new vertices are rounded to fewer and fewer digits, so that what lies too close becomes one.
-const COARSER: usize = 4;
+/// It is given up where more facets cross than this many times those, and those that met, at first.
+const MORE: usize = 4;
+/// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
+/// with one more for each cut up to the highest.
+const HIGHEST: usize = 11;
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
@@ -83,6 +88,7 @@ pub fn outer_boundary(
     let vertices = current.positions.len();
     let step = step(&current, options.single);
     let mut source: Vec<u32> = (0..current.faces.len() as u32).collect();
+    let mut most = usize::MAX;
     for cut in 0..CUTS {
         let topology = Topology::of(&current)?;
         let is_new = |f: &[u32; 3]| cut == 0 || f.iter().any(|v| *v as usize >= vertices);
@@ -92,10 +98,20 @@ pub fn outer_boundary(
         if cut > 0 && pairs.is_empty() && fine {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
         }
+        if pairs.len() > most {
+            break;
+        }
+        most = most.min(MORE * (pairs.len() + current.faces.len()));
         let turn = options.turn && cut == 0;
         let kept = kept(&current, &topology, &pairs, turn, progress)?;
-        let coarser = (cut >= COARSER).then(|| step * f64::from(1u32 << (cut - COARSER)));
-        let (next, faces_of) = rounded(&current, kept, options.single, coarser)?;
+        // Corners of what crosses that are no vertices of the mesh given.
+        let close = (cut > 0).then(|| {
+            let found = pairs.iter().flatten().chain(&topology.collinear);
+            let corners = found.flat_map(|f| current.faces[*f as usize]);
+            let movable: BTreeSet<u32> = corners.filter(|v| *v as usize >= vertices).collect();
+            (movable, step * f64::from(1u32 << cut.min(HIGHEST)))
+        });
+        let (next, faces_of) = rounded(&current, kept, options.single, close)?;
         source = faces_of.into_iter().map(|f| source[f as usize]).collect();
         current = next;
     }
@@ -153,28 +169,27 @@ fn step(mesh: &Mesh, single: bool) -> f64 {
     (largest.next_up() - largest) * f64::from(1u32 << digits)
 }
 
-/// The faces as a mesh, new points rounded (to multiples of `coarser`, where given), and for each the facet it comes from.
-/// Faces that lose a corner by it are left out.
+/// The faces as a mesh, new points rounded, and for each the facet it comes from. With `close`, new points and those given
+/// are put upon others that are no farther than the distance given. Faces that lose a corner by it are left out.
 fn rounded(
     mesh: &Mesh,
     kept: Kept,
     single: bool,
-    coarser: Option<f64>,
+    close: Option<(BTreeSet<u32>, f64)>,
 ) -> Result<(Mesh, Vec<u32>), ArrangeError> {
-    let round = |x: f64| {
-        let x = match coarser {
-            Some(step) => (x / step).round() * step,
-            None => x,
-        };
-        (if single { f64::from(x as f32) } else { x }) + 0.0
-    };
+    let round = |x: f64| (if single { f64::from(x as f32) } else { x }) + 0.0;
     let (old, count) = (mesh.positions.len(), kept.points.len());
     let mut positions = mesh.positions.clone();
     let new = (old..count).into_par_iter().map(|p| kept.points.at(p as u32).nearest().map(round));
     positions.extend(new.collect::<Vec<Point>>());
+    let as_they_are = count == old && close.is_none();
+    if let Some((movable, reach)) = close {
+        let movable: Vec<u32> = movable.into_iter().chain(old as u32..count as u32).collect();
+        snap(&mut positions, &movable, reach);
+    }
     let mut out = Mesh { positions, faces: kept.faces };
     let mut source = kept.source;
-    if count > old {
+    if !as_they_are {
         out = rejoined(out)?;
         let is_whole = |f: &[u32; 3]| f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
         let all = out.faces.into_iter().zip(source).filter(|(f, _)| is_whole(f));

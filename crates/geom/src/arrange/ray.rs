@@ -3,18 +3,15 @@
 //! The ray goes in the direction of x, through a point of two numbers that lies strictly inside of the piece as seen along x.
 //! The facets that it passes behind the piece are found and ordered by exact signs, as in the nesting of shells.
 
-use super::cluster::plane_of;
 use super::cut::Piece;
 use super::points::{Place, Points, orient};
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
-use crate::num::big::Big;
 use crate::space::{Point, times};
 use std::collections::BTreeMap;
 
 /// The facets of closed shells, ready for rays.
 pub(super) struct Rays<'a> {
-    mesh: &'a Mesh,
     shell_of: &'a [u32],
     points: &'a Points<'a>,
     all: Container<'a>,
@@ -26,7 +23,7 @@ pub type Around = Vec<(u32, i32)>;
 impl<'a> Rays<'a> {
     pub fn new(mesh: &'a Mesh, shell_of: &'a [u32], points: &'a Points<'a>) -> Rays<'a> {
         let facets = (0..).zip(shell_of).filter(|(_, s)| **s != u32::MAX).map(|(f, _)| f);
-        Rays { mesh, shell_of, points, all: Container::new(mesh, &facets.collect::<Vec<u32>>(), 0) }
+        Rays { shell_of, points, all: Container::new(mesh, &facets.collect::<Vec<u32>>(), 0) }
     }
 
     /// Winding numbers of all shells, as far as they are not 0, beside one of these pieces: which one, whether where it looks
@@ -67,33 +64,8 @@ impl<'a> Rays<'a> {
     /// The facets that a ray from facet `from` at `target` passes, by shell.
     fn behind(&self, from: u32, target: &Point) -> Vec<(u32, i32)> {
         let mut sums: BTreeMap<u32, i32> = BTreeMap::new();
-        let corners = |f: u32| self.mesh.faces[f as usize].map(|v| self.mesh.positions[v as usize]);
-        let span = |[a, b, c]: &[Point; 3]| [a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0])];
-        let own = span(&corners(from));
-        let start = self.passes(from, target);
-        self.all.visit(target, own[0], |f| {
-            let [low, high] = span(&corners(f));
-            let around = self.all.around(f, target);
-            if f == from || around == 0 || high < own[0] {
-                return;
-            }
-            let behind = low > own[1] || {
-                let there = self.passes(f, target);
-                let difference = &(&there[0] * &start[1]) - &(&start[0] * &there[1]);
-                difference.sign() * there[1].sign() * start[1].sign() > 0
-            };
-            if behind {
-                *sums.entry(self.shell_of[f as usize]).or_default() += around;
-            }
-        });
+        self.all
+            .behind(from, target, |f, around| *sums.entry(self.shell_of[f as usize]).or_default() += around);
         sums.into_iter().filter(|s| s.1 != 0).collect()
-    }
-
-    /// Where the line in the direction of x passes the plane of a facet: x as a fraction.
-    fn passes(&self, facet: u32, target: &Point) -> [Big; 2] {
-        let plane = plane_of(self.mesh, facet);
-        let beside = &(&plane.normal[1] * &Big::of(target[1])) + &(&plane.normal[2] * &Big::of(target[2]));
-        let [x, ..] = plane.normal;
-        [&plane.offset - &beside, x]
     }
 }

@@ -5,6 +5,8 @@
 //! counts once; then the vertex lies before or behind the plane of the facet.
 
 use crate::mesh::Mesh;
+use crate::num::big::{self, Big};
+use crate::num::interval::{self, Interval};
 use crate::num::predicates::{side_of_line, side_of_plane};
 use crate::space::Point;
 use crate::spatial::columns::Columns;
@@ -46,6 +48,45 @@ impl<'a> Container<'a> {
         let mut sum = 0;
         self.visit(p, p[self.axis], |f| sum += passed(f));
         sum
+    }
+
+    /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
+    /// the plane of `from` where that is seen at `target`; `from` and what meets it just there are not behind it.
+    pub(crate) fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+        let span = |f: u32| {
+            let [a, b, c] = self.corners(f).map(|p| p[self.axis]);
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let [start, end] = span(from);
+        self.visit(target, start, |f| {
+            let ([low, high], around) = (span(f), self.around(f, target));
+            if f != from && around != 0 && high >= start && (low > end || self.is_behind([from, f], target)) {
+                take(f, around);
+            }
+        });
+    }
+
+    /// Whether the ray passes the plane of the second facet behind that of the first. It runs along neither.
+    fn is_behind(&self, facets: [u32; 2], target: &Point) -> bool {
+        let corners = facets.map(|f| self.corners(f));
+        let mut from = *target;
+        from[self.axis] = corners[0][0][self.axis];
+        // The plane is passed at the quotient of the two.
+        let rough = corners.map(|corners| {
+            let [a, b, c] = corners.map(|p| [0, 1, 2].map(|k| Interval::of(p[k]) - Interval::of(from[k])));
+            let minus = |p: [Interval; 3], q: [Interval; 3]| [0, 1, 2].map(|k| p[k] - q[k]);
+            let normal = interval::cross(minus(b, a), minus(c, a));
+            [interval::dot(normal, a), normal[self.axis]]
+        });
+        let [[d, m], [e, n]] = rough;
+        if let (Some(further), Some(m), Some(n)) = ((e * m - d * n).sign(), m.sign(), n.sign()) {
+            return further * m * n > 0;
+        }
+        let [[d, m], [e, n]] = corners.map(|[a, b, c]| -> [Big; 2] {
+            let normal = big::cross(&big::minus(b, a), &big::minus(c, a));
+            [big::dot(&normal, &big::minus(a, from)), normal[self.axis].clone()]
+        });
+        (&(&e * &m) - &(&d * &n)).sign() * m.sign() * n.sign() > 0
     }
 
     fn corners(&self, f: u32) -> [Point; 3] {

@@ -19,25 +19,24 @@ pub struct Effect {
     pub enclosed: Result<Enclosed, NotEnclosed>,
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
     /// others the middle of each part that bounded it, of others that are gone those of [`deviation`](super::deviation).
-    /// `None` where nothing was enclosed or nothing is left.
+    /// With what rounding the vertices has added at most. `None` where nothing was enclosed or nothing is left.
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
 }
 
 impl Effect {
-    /// From `before`, welded, to `after`.
+    /// From `before`, welded, to `after`. Where vertices of `before` were rounded first, `rounded` is the mesh that this made, and
+    /// how far they went at most: the surface is compared with that, because gaps thinner than the rounding vanish by it.
     pub(super) fn of(
         (before, report): (&Mesh, &Report),
+        rounded: Option<(&Mesh, f64)>,
         after: &Mesh,
         options: &Options,
         progress: &dyn Progress,
     ) -> Result<Effect, RepairError> {
-        let mut base = Work::new(before.clone(), options, progress)?;
-        if report.soundness.inconsistent_edges > 0 {
-            (orient::STEP.run)(&mut base)?;
-        }
-        (islands::STEP.run)(&mut base)?;
+        let turn = report.soundness.inconsistent_edges > 0;
+        let mut base = turned(before, turn, options, progress)?;
         let known = base.known()?;
         let enclosed = match report.sound && base.changes.is_empty() {
             true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
@@ -46,9 +45,22 @@ impl Effect {
         if enclosed == Err(NotEnclosed::Cancelled(Cancelled)) {
             return Err(Cancelled.into());
         }
-        let surface = match &enclosed {
-            Ok(enclosed) => surface(base.mesh(), enclosed, after, progress)?,
-            Err(_) => None,
+        let surface = match (&enclosed, rounded) {
+            (Err(_), _) => None,
+            (Ok(enclosed), None) => surface(base.mesh(), enclosed, after, progress)?,
+            (Ok(_), Some((mesh, farthest))) => {
+                let mut base = turned(mesh, turn, options, progress)?;
+                let known = base.known()?;
+                match super::enclosed::enclosed(base.mesh(), &known.topology, progress) {
+                    Err(NotEnclosed::Cancelled(e)) => return Err(e.into()),
+                    Err(_) => None,
+                    Ok(enclosed) => {
+                        // Of one coordinate.
+                        let off = 3f64.sqrt() * farthest;
+                        surface(base.mesh(), &enclosed, after, progress)?.map(|x| x + off)
+                    }
+                }
+            }
         };
         let topology = Topology::of(after)?;
         let bodies = [
@@ -57,6 +69,21 @@ impl Effect {
         ];
         Ok(Effect { enclosed, surface, bodies })
     }
+}
+
+/// The mesh without the shells that are removed on request; with `turn`, after neighbours were turned to look the same way.
+fn turned<'a>(
+    mesh: &Mesh,
+    turn: bool,
+    options: &'a Options,
+    progress: &'a dyn Progress,
+) -> Result<Work<'a>, RepairError> {
+    let mut work = Work::new(mesh.clone(), options, progress)?;
+    if turn {
+        (orient::STEP.run)(&mut work)?;
+    }
+    (islands::STEP.run)(&mut work)?;
+    Ok(work)
 }
 
 /// Shells without a boundary edge whose volume is positive.

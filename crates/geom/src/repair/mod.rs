@@ -242,7 +242,8 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         };
     }
     let Attempt { mesh, changes, rounds, after, counts, not_united } = done;
-    let effect = Effect::of((&welded, &before), &mesh, options, progress)?;
+    let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
+    let effect = Effect::of((&welded, &before), of_start, &mesh, options, progress)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
 }
 

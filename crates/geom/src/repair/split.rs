@@ -34,8 +34,9 @@ pub(super) const VERTICES: Step = Step {
     },
 };
 
-/// How far a new vertex is set off, in gaps; more each time, if facets cross otherwise.
-const OFFSETS: [f64; 4] = [4.0, 32.0, 256.0, 2048.0];
+/// How far a new vertex is set off into the material, in gaps: out of it, and more each time, if facets cross otherwise. Where
+/// two pits touch with their tips, the way into the material of one leads into the other.
+const OFFSETS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
 type Pairs = BTreeMap<([u32; 2], u32), u32>;
@@ -104,12 +105,13 @@ fn apart(
     let mut asked: Vec<bool> =
         lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
+    let mut together = together(work, &lost);
     let mut nth = vec![0; asked.len()];
     // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
     let mut changed: Option<BTreeSet<u32>> = None;
     loop {
         let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
-        set_off(work, &lost, again, &distances);
+        set_off(work, (&lost, &together), again, &distances);
         let has_changed = |v: &u32| changed.as_ref().map_or(*v >= first, |changed| changed.contains(v));
         let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
         let faces = &work.mesh().faces;
@@ -122,6 +124,8 @@ fn apart(
         };
         bad.extend(as_one(work, &lost, first as usize));
         bad.retain(|&i| asked[i]);
+        let with: BTreeSet<u32> = bad.iter().filter_map(|i| together.get(*i)).copied().collect();
+        bad.extend((0..lost.len()).filter(|i| with.contains(&together[*i])));
         bad.sort_unstable();
         bad.dedup();
         let (more, last): (Vec<usize>, Vec<usize>) =
@@ -140,6 +144,7 @@ fn apart(
         changed = Some(moved.chain(kept.iter().map(|&i| lost[i].0)).collect());
         for i in kept.into_iter().rev() {
             lost.remove(i);
+            together.remove(i);
             nth.remove(i);
             asked.remove(i);
         }
@@ -147,6 +152,24 @@ fn apart(
             return Ok(lost);
         }
     }
+}
+
+/// A number for each fan, the same for those that are set off as one: with common facets, at vertices that lie so near
+/// that the two might be meant as one.
+fn together(work: &Work, lost: &[(u32, Vec<u32>)]) -> Vec<u32> {
+    let sets = Sets::new(lost.len());
+    let mut fans: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+    for (i, (v, fan)) in (0..).zip(lost) {
+        fans.extend(fan.iter().map(|f| ((*f, *v), i)));
+    }
+    for (&(f, v), &i) in &fans {
+        for w in work.mesh().faces[f as usize] {
+            if w > v && norm(minus(work.at(v), work.at(w))) <= work.gap {
+                fans.get(&(f, w)).iter().for_each(|j| sets.join(i, **j));
+            }
+        }
+    }
+    (0..lost.len() as u32).map(|i| sets.root(i)).collect()
 }
 
 /// Fans whose new vertex lies so near to that of another one from the same place, or to that place, that the two might be meant
@@ -165,11 +188,26 @@ fn as_one(work: &Work, lost: &[(u32, Vec<u32>)], first: usize) -> Vec<usize> {
 /// Fans at one vertex that are compared with each other.
 const MANY: usize = 64;
 
-/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
-fn set_off(work: &mut Work, lost: &[(u32, Vec<u32>)], again: &[([u32; 2], [u32; 2])], distances: &[f64]) {
+/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance; fans with
+/// the same number go the same way.
+fn set_off(
+    work: &mut Work,
+    (lost, together): (&[(u32, Vec<u32>)], &[u32]),
+    again: &[([u32; 2], [u32; 2])],
+    distances: &[f64],
+) {
+    let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for ((_, fan), number) in lost.iter().zip(together) {
+        facets.entry(*number).or_default().extend(fan);
+    }
+    let mut ways: BTreeMap<u32, Vector> = BTreeMap::new();
     let mut renamed = BTreeMap::new();
-    for ((v, fan), distance) in lost.iter().zip(distances) {
-        let place = plus(work.at(*v), times(-distance, outwards(work, fan, work.at(*v))));
+    for (((v, fan), number), distance) in lost.iter().zip(together).zip(distances) {
+        let way = ways.entry(*number).or_insert_with(|| {
+            let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
+            outwards(work, &facets, work.at(*v))
+        });
+        let place = plus(work.at(*v), times(-distance, *way));
         let new = work.add(place);
         renamed.extend(fan.iter().map(|&f| ((f, *v), new)));
     }

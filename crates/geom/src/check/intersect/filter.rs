@@ -24,7 +24,7 @@ pub(super) struct Planes {
     offset: [f32; W],
 }
 
-/// The corners of the triangles of a leaf in the frame, in double precision: as exact as the mesh. Apart from [`planes`],
+/// The corners of the triangles of a leaf in the frame, in double precision. Apart from [`planes`],
 /// so that the arithmetic there can use vectors.
 #[inline(always)]
 fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
@@ -48,6 +48,10 @@ fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
 pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
     /// Height over length below which the direction of a triangle is not trusted.
     const THIN: f64 = 1e-6;
+    /// Height in the frame below which it is not, where places are rounded: each is off by up to 2^-54, and the
+    /// direction by less than 2^-25 then.
+    const TINY: f64 = 1.0 / (1 << 26) as f64;
+    let tiny = if frame.slack == 0.0 { 0.0 } else { TINY };
     let mut out = Planes { direction: [[[0.0; W]; 3]; 4], offset: [0.0; W] };
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let size = |x: Point| larger(larger(x[0].abs(), x[1].abs()), x[2].abs());
@@ -57,7 +61,7 @@ pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
         let e = [minus(b, a), minus(c, b), minus(a, c)];
         let n = cross(e[0], e[1]);
         let longest = larger(larger(size(e[0]), size(e[1])), size(e[2]));
-        let trusted = size(n) > THIN * longest * longest;
+        let trusted = size(n) > larger(THIN * longest, tiny) * longest;
         let mut put = |j: usize, d: Point| {
             let f = if trusted { 1.0 / size(d) } else { 0.0 };
             for (k, x) in d.into_iter().enumerate() {

@@ -87,6 +87,22 @@ fn loose_facets_in_both_precisions() {
     }
 }
 
+/// Facets of a few steps of the numbers, at corners of large ones: rounded to the frame they may look to any side.
+#[test]
+fn facets_smaller_than_the_frame_can_tell() {
+    let random = &mut Random::new(4);
+    let mut found = 0;
+    for turn in 0..40 {
+        let hub: Point = std::array::from_fn(|_| random.unit() - 0.5);
+        let mut large = || std::array::from_fn(|_| 4.0 * random.unit() - 2.0);
+        let mut facets: Vec<Facet> = (0..6).map(|_| [hub, large(), large()]).collect();
+        let mut near = || hub.map(|x| x + (random.below(9) as f64 - 4.0) * (x.abs().next_up() - x.abs()));
+        facets.extend((0..12).map(|_| [hub, near(), near()]));
+        found += check(&format!("steps {turn}"), &facets);
+    }
+    assert!(found > 300, "{found}");
+}
+
 /// Nearly flat, and one plane at a slope: everything hangs on signs that rounding cannot tell.
 #[test]
 fn planes_that_rounding_cannot_tell_apart() {

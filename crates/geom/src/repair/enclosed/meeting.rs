@@ -1,7 +1,9 @@
 //! Where two facets meet.
 
+use crate::num::big::{self, Big};
+use crate::num::interval::{self, Interval};
 use crate::num::predicates::side_of_plane;
-use crate::space::{Point, Vector, cross, dot, minus, plus, times};
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times};
 
 /// A facet with its vertices' numbers, true places, and places as seen from the middle of the mesh.
 pub(super) struct Facet {
@@ -40,7 +42,9 @@ pub(super) fn meeting(f: &Facet, g: &Facet) -> Meeting {
         return Meeting::Coplanar;
     }
     let (Some(p), Some(q)) = (cut(f, of_f, g), cut(g, of_g, f)) else { return Meeting::Nothing };
-    let along = cross(f.vector(), g.vector());
+    // The line of both planes, as well as it is known.
+    let (along, other) = (minus(p[1], p[0]), minus(q[1], q[0]));
+    let along = if norm(along) >= norm(other) { along } else { other };
     let sorted = |[a, b]: [Point; 2]| {
         let (s, t) = (dot(along, a), dot(along, b));
         if s <= t { [(s, a), (t, b)] } else { [(t, b), (s, a)] }
@@ -54,19 +58,39 @@ pub(super) fn meeting(f: &Facet, g: &Facet) -> Meeting {
 /// Where the boundary of a facet passes the plane of another, its vertices being on these sides.
 fn cut(t: &Facet, sides: [i32; 3], plane: &Facet) -> Option<[Point; 2]> {
     let mut found: Vec<Point> = (0..3).filter(|&k| sides[k] == 0).map(|k| t.local[k]).collect();
-    let (normal, origin) = (plane.vector(), plane.local[0]);
     for k in 0..3 {
         let l = (k + 1) % 3;
         if sides[k] * sides[l] < 0 {
             let (i, j) = if t.vertices[k] < t.vertices[l] { (k, l) } else { (l, k) };
-            let (u, v) = (t.local[i], t.local[j]);
-            let (a, b) = (dot(normal, minus(u, origin)), dot(normal, minus(v, origin)));
-            let share = if a == b { 0.5 } else { (a / (a - b)).clamp(0.0, 1.0) };
-            found.push(plus(u, times(share, minus(v, u))));
+            let share = share(plane, t.places[i], t.places[j]);
+            found.push(plus(t.local[i], times(share, minus(t.local[j], t.local[i]))));
         }
     }
     match found[..] {
         [a, b] => Some([a, b]),
         _ => None,
+    }
+}
+
+/// What share of the way from `u` to `v` leads to the plane of a facet; they lie on either side of it.
+fn share(facet: &Facet, u: Point, v: Point) -> f64 {
+    /// Beyond this error, exact numbers are used.
+    const FINE: f64 = 1e-12;
+    let [a, b, c] = facet.places;
+    let minus = |p: Point, q: Point| [0, 1, 2].map(|k| Interval::of(p[k]) - Interval::of(q[k]));
+    let normal = interval::cross(minus(b, a), minus(c, a));
+    let [from, to] = [u, v].map(|p| interval::dot(normal, minus(p, a)));
+    let middle = |i: Interval| i.low + 0.5 * (i.high - i.low);
+    let (whole, wide) = (middle(from) - middle(to), (from.high - from.low) + (to.high - to.low));
+    if wide <= FINE * whole.abs() {
+        return (middle(from) / whole).clamp(0.0, 1.0);
+    }
+    let normal = big::cross(&big::minus(b, a), &big::minus(c, a));
+    let [from, to] = [u, v].map(|p| big::dot(&normal, &big::minus(p, a)));
+    let whole = &from - &to;
+    match whole.sign() {
+        0 => 0.5,
+        1 => Big::quotient(&from, &whole)[0],
+        _ => Big::quotient(&from.negated(), &whole.negated())[0],
     }
 }

@@ -244,12 +244,16 @@ impl Solid<'_> {
         self.rays[axis].get_or_init(|| Container::new(self.mesh, &all(), axis))
     }
 
-    /// Winding numbers before and behind the facet at `p`, a place of it. `upon`: other facets that lie upon it there, and
+    /// Winding numbers before and behind the facet where it is seen at `p` along its axis. `upon`: other facets that lie upon it there, and
     /// +1 if they look the same way, −1 if not.
     fn winding(&self, f: u32, vector: Vector, p: &Point, upon: &[(u32, i32)]) -> Winding {
         let axis = self.axis(vector);
-        let others = |g: u32| g != f && upon.iter().all(|u| u.0 != g);
-        let beyond = self.rays(axis).beyond(p, others);
+        let mut beyond = 0;
+        self.rays(axis).behind(f, p, |g, around| {
+            if upon.iter().all(|u| u.0 != g) {
+                beyond += around;
+            }
+        });
         let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
         match vector[axis] > 0.0 {
             true => Winding { outside: beyond, inside: beyond + layers },

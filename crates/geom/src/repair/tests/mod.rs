@@ -2,6 +2,7 @@
 
 mod holes;
 mod joints;
+mod nearly;
 mod steps;
 
 use super::*;

@@ -1,0 +1,39 @@
+//! Points that rounding has left too close to others, put upon these.
+//!
+//! Places some steps of the numbers apart make facets that cross again wherever their corners are rounded to. Put upon one of
+//! them, such facets vanish or coincide, and the next cut cancels what coincides.
+
+use crate::space::Point;
+use std::collections::{HashMap, HashSet};
+
+type Cell = [i64; 3];
+
+/// Puts each point of `may_move` (ascending) upon the nearest one that is no farther than `reach` along any axis, of
+/// those that may not move or were not moved; the lowest of equally near ones. Cost: linear.
+pub(super) fn snap(positions: &mut [Point], may_move: &[u32], reach: f64) {
+    let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
+    let around = |c: Cell| {
+        let by = |i: i64| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
+        (0..27).map(move |i| std::array::from_fn(|k| c[k].saturating_add(by(i)[k])))
+    };
+    let asked: HashSet<Cell> = may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
+    let mut stay: HashMap<Cell, Vec<u32>> = HashMap::new();
+    let mut movable = may_move.iter().peekable();
+    for (v, p) in (0..).zip(&*positions) {
+        if movable.next_if(|m| **m == v).is_none() && asked.contains(&cell(p)) {
+            stay.entry(cell(p)).or_default().push(v);
+        }
+    }
+    for &v in may_move {
+        let p = positions[v as usize];
+        let far = |w: u32| {
+            let q = positions[w as usize];
+            (0..3).map(|k| (p[k] - q[k]).abs()).fold(0.0, f64::max)
+        };
+        let near = around(cell(&p)).filter_map(|c| stay.get(&c)).flatten().map(|w| (far(*w), *w));
+        match near.filter(|n| n.0 <= reach).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
+            Some((_, w)) => positions[v as usize] = positions[w as usize],
+            None => stay.entry(cell(&p)).or_default().push(v),
+        }
+    }
+}

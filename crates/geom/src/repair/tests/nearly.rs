@@ -1,0 +1,79 @@
+//! Bodies that would touch, or lie in one plane, if sines, cosines and decimals were not rounded.
+
+use super::*;
+use std::f64::consts::PI;
+
+fn prism(corners: u32, radius: f64, half: f64) -> Mesh {
+    let mut mesh = Mesh { positions: vec![[0.0, 0.0, -half], [0.0, 0.0, half]], faces: vec![] };
+    for i in 0..corners {
+        let (s, c) = libm::sincos(2.0 * PI * f64::from(i) / f64::from(corners));
+        mesh.positions.extend([-half, half].map(|z| [radius * c, radius * s, z]));
+        let (a, b) = (2 + 2 * i, 2 + 2 * ((i + 1) % corners));
+        mesh.faces.extend([[0, b, a], [1, a + 1, b + 1], [a, b, b + 1], [a, b + 1, a + 1]]);
+    }
+    mesh
+}
+
+fn torus([around, across]: [u32; 2], ring: f64, tube: f64) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (i, k) in (0..around).flat_map(|i| (0..across).map(move |k| (i, k))) {
+        let (s, c) = libm::sincos(2.0 * PI * f64::from(i) / f64::from(around));
+        let (t, d) = libm::sincos(2.0 * PI * f64::from(k) / f64::from(across));
+        let far = ring + tube * d;
+        mesh.positions.push([far * c, far * s, tube * t]);
+        let at = |i: u32, k: u32| (i % around) * across + k % across;
+        let [a, b, c, d] = [at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+/// A body turned about an axis by a part of the circle, at a place of few decimals.
+fn body(random: &mut Random) -> Mesh {
+    let mut of = |all: &[f64]| all[random.below(all.len() as u64) as usize];
+    let mut mesh = match of(&[0.0, 1.0, 2.0]) as u32 {
+        0 => prism(of(&[6.0, 8.0, 12.0]) as u32, of(&[0.3, 0.5, 1.0]), of(&[0.25, 0.5])),
+        1 => torus([of(&[8.0, 12.0]) as u32, of(&[6.0, 8.0]) as u32], of(&[0.5, 0.8]), of(&[0.2, 0.3])),
+        _ => {
+            let sides: Point = [(); 3].map(|()| of(&[0.5, 1.0, 2.0]));
+            let mut mesh = crate::topology::tests::block(1, 1.0);
+            mesh.positions.iter_mut().for_each(|p| *p = std::array::from_fn(|k| (p[k] - 0.5) * sides[k]));
+            mesh
+        }
+    };
+    for _ in 0..2 {
+        let (s, c) = libm::sincos(of(&[0.0, 30.0, 45.0, 60.0, 90.0, 120.0, 180.0]).to_radians());
+        let axis = of(&[0.0, 1.0, 2.0]) as usize;
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+        for p in &mut mesh.positions {
+            (p[x], p[y]) = (c * p[x] - s * p[y], s * p[x] + c * p[y]);
+        }
+    }
+    let at: Point = [(); 3].map(|()| of(&[-0.5, -0.3, 0.0, 0.1, 0.2, 0.25, 0.5]));
+    mesh.positions.iter_mut().for_each(|p| *p = std::array::from_fn(|k| p[k] + at[k]));
+    mesh
+}
+
+#[test]
+fn bodies_that_nearly_touch_become_their_union() {
+    let random = &mut Random::new(5);
+    for round in 0..400 {
+        let mut mesh = Mesh::default();
+        for _ in 0..2 + random.below(2) {
+            let one = body(random);
+            let first = mesh.positions.len() as u32;
+            mesh.faces.extend(one.faces.iter().map(|f| f.map(|v| v + first)));
+            mesh.positions.extend(one.positions);
+        }
+        for single in [false, true] {
+            let r = repair(&mesh, &Options { single, ..Options::default() }, &Silent).unwrap();
+            assert!(r.after.sound, "{round} {single}: {:?}", r.not_united);
+            let before = r.effect.enclosed.unwrap();
+            assert!(before.error < 1e-12, "{round} {single}: {}", before.error);
+            let after = r.after.properties.signed_volume;
+            assert!((after - before.volume).abs() < 1e-5, "{round} {single}: {} {after}", before.volume);
+            let surface = r.effect.surface.unwrap();
+            assert!(surface < 1e-4, "{round} {single}: {surface}");
+        }
+    }
+}
