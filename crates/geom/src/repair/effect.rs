@@ -1,7 +1,7 @@
 //! What a repair did to the places that the mesh encloses.
 
 use super::enclosed::{Enclosed, NotEnclosed, enclosed};
-use super::measure::{places, triangle_key};
+use super::measure::{Key, places, triangle_key};
 use super::work::Work;
 use super::{Options, RepairError, islands, orient};
 use crate::check::Report;
@@ -23,6 +23,8 @@ pub struct Effect {
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
+    /// Facets that did not bound what was enclosed, or in part only: sorted.
+    pub(super) inside: Vec<Key>,
 }
 
 impl Effect {
@@ -67,7 +69,13 @@ impl Effect {
             bodies(&known.topology, &known.properties),
             bodies(&topology, &Properties::of(after, &topology)),
         ];
-        Ok(Effect { enclosed, surface, bodies })
+        let inside = enclosed.as_ref().map_or(vec![], |enclosed| {
+            let all = base.mesh().faces.iter().zip(&enclosed.bounds).filter(|(_, bounds)| !**bounds);
+            let mut keys: Vec<Key> = all.map(|(f, _)| triangle_key(base.mesh(), f)).collect();
+            keys.sort_unstable();
+            keys
+        });
+        Ok(Effect { enclosed, surface, bodies, inside })
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a repair changed: how many vertices and facets, and how far the surface went.
 
+use super::Repaired;
 use crate::check::finding::area;
 use crate::closest::{MeshError, Query, QueryError, Tree};
 use crate::mesh::Mesh;
@@ -89,16 +90,24 @@ pub struct Deviation {
     pub back: Way,
 }
 
-/// Distances between `before` and `after`, both ways.
+/// Distances between `before`, the mesh that was repaired, and the result, both ways.
 ///
 /// Each facet is asked about at its corners, the middles of its edges and its middle, exactly to the nearest place of the
 /// other mesh; facets that both have are at distance 0 and not asked about. So the mean is that of the whole surface, and
-/// the maximum falls short by less than a third of the longest edge of a facet that changed.
+/// the maximum falls short by less than a third of the longest edge of a facet that changed. Of a mesh that encloses places
+/// only what bounds them counts as old surface; of facets that met others [`Effect::surface`] tells the distance.
 ///
 /// # Errors
 /// [`MeshError`] where one of them has no facet or a coordinate that is not finite, [`QueryError`] if cancelled.
-pub fn deviation(before: &Mesh, after: &Mesh, progress: &dyn Progress) -> Result<Deviation, DeviationError> {
-    Ok(Deviation { there: way(before, after, progress)?, back: way(after, before, progress)? })
+pub fn deviation(
+    before: &Mesh,
+    repaired: &Repaired,
+    progress: &dyn Progress,
+) -> Result<Deviation, DeviationError> {
+    let (after, effect) = (&repaired.mesh, &repaired.effect);
+    let mut there = way((before, &effect.inside), after, progress)?;
+    there.max = there.max.max(effect.surface.unwrap_or(0.0));
+    Ok(Deviation { there, back: way((after, &[]), before, progress)? })
 }
 
 /// Why nothing was measured.
@@ -122,22 +131,29 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
 const WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
 
-/// The three places of a facet, in whichever order it runs.
-pub(super) fn triangle_key(mesh: &Mesh, f: &[u32; 3]) -> [[u64; 3]; 3] {
+/// The three places of a facet, sorted.
+pub(super) type Key = [[u64; 3]; 3];
+
+/// The same for a facet in whichever order it runs.
+pub(super) fn triangle_key(mesh: &Mesh, f: &[u32; 3]) -> Key {
     let mut corners = f.map(|v| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits()));
     corners.sort_unstable();
     corners
 }
 
-fn way(from: &Mesh, to: &Mesh, progress: &dyn Progress) -> Result<Way, DeviationError> {
+/// Facets of `without`, sorted, do not count.
+fn way((from, without): (&Mesh, &[Key]), to: &Mesh, progress: &dyn Progress) -> Result<Way, DeviationError> {
     let mut there: Vec<_> = to.faces.iter().map(|f| triangle_key(to, f)).collect();
     there.sort_unstable();
     let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
     let finite = |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite());
-    let total: f64 = from.faces.iter().filter(finite).map(|f| area(corners(f))).sum();
-    let changed =
-        from.faces.iter().filter(finite).filter(|f| there.binary_search(&triangle_key(from, f)).is_err());
-    let changed: Vec<[Point; 3]> = changed.map(corners).collect();
+    let is_among =
+        |all: &[Key], f: &[u32; 3]| !all.is_empty() && all.binary_search(&triangle_key(from, f)).is_ok();
+    let counting: Vec<&[u32; 3]> =
+        from.faces.iter().filter(finite).filter(|f| !is_among(without, f)).collect();
+    let total: f64 = counting.iter().map(|f| area(corners(f))).sum();
+    let changed: Vec<[Point; 3]> =
+        counting.into_iter().filter(|f| !is_among(&there, f)).map(corners).collect();
     if changed.is_empty() {
         return Ok(Way::default());
     }

@@ -120,7 +120,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
             defects: BTreeMap::new(),
             at_least: vec![],
         },
-        deviation: repair::deviation(mesh, &repaired.mesh, &Silent),
+        deviation: repair::deviation(mesh, &repaired, &Silent),
         limit: 1000,
         max_change: 1e-4,
     };

@@ -1,5 +1,6 @@
 //! The alignment of a plan.
 
+use super::belonging::Belonging;
 use super::seed::Seeded;
 use super::{Data, Stop, Taken, take};
 use crate::characteristic::{Missing, datum_source};
@@ -61,7 +62,8 @@ pub(super) fn aligned(
         moved(&mut data, &alignment.motion);
     }
     if let Align::Datum { datums, rule, span, .. } = &plan.align {
-        let taken = take::features(plan, &data, seeds, progress)?;
+        let belonging = Belonging::new(plan, &data, seeds, progress)?;
+        let taken = take::features(plan, &data, seeds, belonging.as_ref(), progress)?;
         let motion = by_datums(&taken, datums, *rule, span, progress)?;
         moved(&mut data, &motion);
         alignment.motion = motion.after(&alignment.motion);

@@ -3,13 +3,13 @@
 //! A dent deeper than the extract distance is no part of its feature, and the feature is the better for it. Where the
 //! reference is at hand, such points are told: those whose nearest place on it belongs to the feature.
 
+use super::belonging::Belonging;
 use super::seed::Seeded;
 use super::taken::{LeftOut, Taken};
 use super::{Data, Stop};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
-use trueness_geom::closest::{Hit, Query, QueryError, Tree};
-use trueness_geom::feature::{Nominal, in_mesh};
+use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 
 /// Points farther off than this share of the size of the reference are of something else.
@@ -17,38 +17,30 @@ const ELSEWHERE: f64 = 0.1;
 
 /// Tells the features which points they leave out. Without a reference there is nothing to tell.
 ///
-/// Cost: a search tree of the reference, and a closest place for each measured point.
+/// Cost: a closest place on the reference for each measured point.
 pub(super) fn tell(
     plan: &Plan,
     data: &Data,
     seeds: &BTreeMap<usize, Seeded>,
+    belonging: Option<&Belonging>,
     features: &mut [Taken],
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else { return Ok(()) };
+    let (Some(measured), Some(belonging)) = (&data.measured, belonging) else { return Ok(()) };
     let of = |n: usize| seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref());
     let sought: Vec<usize> = (0..plan.features.len())
         .filter(|n| of(*n).is_some_and(|nominal| !matches!(nominal, Nominal::Edge { .. })))
         .filter(|n| !features[*n].points.is_empty() && !data.points.contains_key(n))
         .collect();
-    if sought.is_empty() || reference.faces.is_empty() {
+    if sought.is_empty() {
         return Ok(());
     }
-    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-    let size = reference.bounds().diagonal();
-    let query = Query { max_distance: ELSEWHERE * size, ..Query::default() };
-    let nearest = |hit: Option<Hit>| hit.map_or((u32::MAX, 0.0), |h| (h.face, h.distance()));
-    let nearest = match tree.map_closest(&measured.positions, &query, progress, |_, hit| nearest(hit)) {
-        Ok(nearest) => nearest,
-        Err(QueryError::Cancelled(_)) => return Err(Stop::Cancelled),
-        Err(e) => return Err(Stop::Mesh(e.to_string())),
-    };
+    let nearest = belonging.nearest(&measured.positions, ELSEWHERE * belonging.size(), progress)?;
     for n in sought {
         let Some(nominal) = of(n) else { continue };
         let near = plan.features[n].extract.near(nominal);
-        let Ok(there) = in_mesh(reference, &tree, nominal, &near, progress) else { continue };
-        let far =
-            |(face, off): &&(u32, f64)| *off > near.distance && there.facets.binary_search(face).is_ok();
+        let there = belonging.facets(nominal, &near, progress)?;
+        let far = |(face, off): &&(u32, f64)| *off > near.distance && there.binary_search(face).is_ok();
         let off: Vec<f64> = nearest.iter().filter(far).map(|(_, off)| *off).collect();
         if !off.is_empty() {
             let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));

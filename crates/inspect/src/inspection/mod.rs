@@ -1,6 +1,7 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
+mod belonging;
 pub mod decision;
 mod deviation;
 mod left_out;
@@ -122,8 +123,10 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let seeds = seed::seeded(plan, &data, progress)?;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
     let doubts = doubts(plan, &data);
-    let mut features = take::features(plan, &data, &seeds, progress)?;
-    left_out::tell(plan, &data, &seeds, &mut features, progress)?;
+    let belonging = belonging::Belonging::new(plan, &data, &seeds, progress)?;
+    let mut features = take::features(plan, &data, &seeds, belonging.as_ref(), progress)?;
+    left_out::tell(plan, &data, &seeds, belonging.as_ref(), &mut features, progress)?;
+    drop(belonging);
     let mut values = Vec::with_capacity(plan.specs.len());
     for spec in &plan.specs {
         let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };

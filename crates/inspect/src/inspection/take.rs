@@ -1,11 +1,12 @@
 //! Taking the features of a plan from the measured data.
 
+use super::belonging::Belonging;
 use super::seed::Seeded;
 use super::taken::{Element, Taken};
 use super::{Data, Stop};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{FeatureError, Found, Nominal, in_cloud, in_mesh};
 use trueness_geom::fit::{FitError, Options, fit};
@@ -21,6 +22,7 @@ pub(super) fn features(
     plan: &Plan,
     data: &Data,
     seeds: &BTreeMap<usize, Seeded>,
+    belonging: Option<&Belonging>,
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
     let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal | Source::Seed(_)));
@@ -46,7 +48,7 @@ pub(super) fn features(
                 associated(taken, feature, progress)?
             }
             Source::Nominal | Source::Seed(_) => {
-                let found = found(feature, seeds.get(&number), data, tree.as_ref(), progress)?;
+                let found = found(feature, seeds.get(&number), data, (tree.as_ref(), belonging), progress)?;
                 associated(found, feature, progress)?
             }
         };
@@ -88,7 +90,7 @@ fn found(
     feature: &Feature,
     seeded: Option<&Seeded>,
     data: &Data,
-    tree: Option<&Tree>,
+    (tree, belonging): (Option<&Tree>, Option<&Belonging>),
     progress: &dyn Progress,
 ) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
@@ -97,21 +99,73 @@ fn found(
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
-    let near = feature.extract.near(&nominal);
+    let near = match tree.is_none() && belonging.is_none() {
+        true => feature.extract.within(&nominal),
+        false => feature.extract.near(&nominal),
+    };
     let found = match tree {
         Some(tree) => in_mesh(mesh, tree, &nominal, &near, progress),
         None => in_cloud(&mesh.positions, &nominal, &near),
     };
-    let found = found.map_err(|e| match e {
+    let mut found = found.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     })?;
+    if let Some(belonging) = belonging {
+        let there = belonging.facets(&nominal, &near, progress)?;
+        if !there.is_empty() {
+            keep(&mut found, mesh, near.rim, |places, shared| {
+                belonging.belong(places, &there, shared, progress)
+            })?;
+        }
+    }
     taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
     taken.areas = areas(mesh, &found);
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
     taken.coverage = whole.filter(|_| tree.is_some()).map(|whole| found.area / whole);
     taken.facets = found.facets;
     Ok(taken)
+}
+
+/// Leaves out of what was found what does not belong there: of a mesh facets, by their middles, and vertices of such alone; of a
+/// cloud points.
+fn keep(
+    found: &mut Found,
+    mesh: &Mesh,
+    rim: bool,
+    belong: impl Fn(&[Point], bool) -> Result<Vec<bool>, Stop>,
+) -> Result<(), Stop> {
+    let at = |v: u32| mesh.positions.get(v as usize).copied().unwrap_or([f64::NAN; 3]);
+    if found.facets.is_empty() {
+        let places: Vec<Point> = found.points.iter().map(|p| at(*p)).collect();
+        let mut belong = belong(&places, rim)?.into_iter();
+        found.points.retain(|_| belong.next() == Some(true));
+        return Ok(());
+    }
+    let corners = |f: u32| mesh.faces[f as usize].map(at);
+    let middle = |[a, b, c]: [Point; 3]| times(1.0 / 3.0, plus(a, plus(b, c)));
+    let places: Vec<Point> = found.facets.iter().map(|f| middle(corners(*f))).collect();
+    let (mut kept, mut gone) = (vec![], BTreeSet::new());
+    for (f, belongs) in found.facets.iter().zip(belong(&places, true)?) {
+        if belongs {
+            kept.push(*f);
+        } else {
+            gone.extend(mesh.faces[*f as usize]);
+        }
+    }
+    if rim {
+        let stay: BTreeSet<u32> = kept.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+        gone.retain(|v| !stay.contains(v));
+    }
+    found.facets = kept;
+    found.points.retain(|v| !gone.contains(v));
+    found.area = found
+        .facets
+        .iter()
+        .map(|f| corners(*f))
+        .map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))))
+        .sum();
+    Ok(())
 }
 
 /// The area that each point stands for: a third of the feature's facets about it.

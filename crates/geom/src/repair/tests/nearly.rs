@@ -54,26 +54,37 @@ fn body(random: &mut Random) -> Mesh {
     mesh
 }
 
+/// Two or three of them.
+fn bodies(round: u64) -> Mesh {
+    let random = &mut Random::new(round);
+    let mut mesh = Mesh::default();
+    for _ in 0..2 + random.below(2) {
+        add(&mut mesh, &body(random), [0.0; 3]);
+    }
+    mesh
+}
+
+/// Why the repair of these bodies is not their union.
+fn fault(round: u64, single: bool) -> Option<String> {
+    let r = repair(&bodies(round), &Options { single, ..Options::default() }, &Silent).unwrap();
+    let Ok(before) = r.effect.enclosed else { return Some("nothing is enclosed".into()) };
+    let (volume, surface) = (r.after.properties.signed_volume, r.effect.surface.unwrap_or(f64::NAN));
+    let good = r.after.sound
+        && r.not_united.is_none()
+        && before.error < 1e-12
+        && (volume - before.volume).abs() < 1e-5
+        && surface < 1e-4;
+    (!good).then(|| {
+        let Enclosed { volume: was, error, .. } = before;
+        format!("{round} {single}: {} {:?} {was} {error} {volume} {surface}", r.after.sound, r.not_united)
+    })
+}
+
 #[test]
 fn bodies_that_nearly_touch_become_their_union() {
-    let random = &mut Random::new(5);
-    for round in 0..400 {
-        let mut mesh = Mesh::default();
-        for _ in 0..2 + random.below(2) {
-            let one = body(random);
-            let first = mesh.positions.len() as u32;
-            mesh.faces.extend(one.faces.iter().map(|f| f.map(|v| v + first)));
-            mesh.positions.extend(one.positions);
-        }
-        for single in [false, true] {
-            let r = repair(&mesh, &Options { single, ..Options::default() }, &Silent).unwrap();
-            assert!(r.after.sound, "{round} {single}: {:?}", r.not_united);
-            let before = r.effect.enclosed.unwrap();
-            assert!(before.error < 1e-12, "{round} {single}: {}", before.error);
-            let after = r.after.properties.signed_volume;
-            assert!((after - before.volume).abs() < 1e-5, "{round} {single}: {} {after}", before.volume);
-            let surface = r.effect.surface.unwrap();
-            assert!(surface < 1e-4, "{round} {single}: {surface}");
-        }
-    }
+    // Of the first 8,000 those where it takes more than one rounding, or where planes nearly coincide.
+    const HARD: [u64; 12] = [254, 704, 792, 1441, 2549, 3367, 4259, 5381, 5699, 5943, 6881, 7401];
+    let rounds = (0..60).chain(HARD).flat_map(|round| [(round, false), (round, true)]);
+    let faults: Vec<String> = rounds.filter_map(|(round, single)| fault(round, single)).collect();
+    assert_eq!(faults, [""; 0]);
 }
