@@ -25,7 +25,12 @@ use trueness_inspect::results::{InputRecord, Role};
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
     let options = ReportOptions { serial: Some("4711".into()), ..ReportOptions::default() };
-    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30)), ("torn", torn())] {
+    for (name, mesh) in [
+        ("defects", defects()),
+        ("sound", uv_sphere(30)),
+        ("torn", torn()),
+        ("block", super::clouds::cube(20.0)),
+    ] {
         written(folder, name, check_page(&mesh, &options));
     }
     written(folder, "mended", repair_page(&defects(), &options));

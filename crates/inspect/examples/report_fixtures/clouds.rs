@@ -73,7 +73,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
 }
 
 /// A cube from the origin, in 12 facets.
-fn cube(side: f64) -> Mesh {
+pub fn cube(side: f64) -> Mesh {
     let positions = (0..8u32).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|b| side * f64::from(b))).collect();
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
     let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();

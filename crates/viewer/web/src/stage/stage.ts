@@ -1,4 +1,4 @@
-import { ColorManagement, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
+import { ColorManagement, Group, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
 import { decodeAll } from '../decode/client'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
@@ -40,6 +40,8 @@ export class Stage {
   private readonly sight: Sight
   readonly parts: Part[] = []
   readonly marks: Marks[] = []
+  /** The parts' edges. */
+  private readonly edges = new Group()
   /** Middle of everything in the model's coordinates. */
   readonly center: Vector3
   private readonly pace: Pace
@@ -72,6 +74,8 @@ export class Stage {
     this.center = centerOf(state)
     this.eye.lookFrom(new Vector3(...(state.manifest.first?.toward ?? [0, 0, 1])))
     this.scene.matrixAutoUpdate = false
+    // First, and so under all marks.
+    this.scene.add(this.edges)
     applyLook(state)
   }
 
@@ -90,6 +94,7 @@ export class Stage {
       const part = new Part(object, decoded, this.center)
       this.parts.push(part)
       this.scene.add(part.drawn)
+      if (part.edges) this.edges.add(part.edges.drawn)
       this.measure()
       this.pace.forget()
       if (part.drawn.visible) this.frameAll()
@@ -281,7 +286,7 @@ export class Stage {
     this.setRatio(level === coarsest ? this.ratio * ROUGH : this.ratio)
     for (const part of this.parts) part.setPoints(this.eye.millimetresPerPixel, this.renderer.getPixelRatio())
     for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
-    for (const part of this.parts) part.setPixel(this.eye.millimetresPerPixel)
+    for (const part of this.parts) part.setEye(this.eye, this.renderer.getPixelRatio())
     this.renderer.setClearColor((this.ground ??= this.groundColor()), 1)
     const begin = performance.now()
     this.renderer.clear()
@@ -372,7 +377,7 @@ export class Stage {
 
   private async read(): Promise<void> {
     if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
-    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, this.marks.map((m) => m.drawn))
+    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, [this.edges, ...this.marks.map((m) => m.drawn)])
     if (!this.values.ready) return
     this.canvas.ariaBusy = 'false'
     for (const listener of this.listeners) listener()
