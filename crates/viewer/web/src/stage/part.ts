@@ -204,7 +204,9 @@ export class Part {
     const size = opaque ? wanted : Math.min(most, Math.max(DISC.least, wanted))
     const { own } = this.materials
     own.pointSize.value = ratio * size
-    own.lift.value = opaque ? 0 : Math.min(spacing, (size / 2) * millimetresPerPixel)
+    const radius = (size / 2) * millimetresPerPixel
+    own.lift.value = opaque ? 0 : Math.min(spacing, radius)
+    own.rise.value = opaque ? 0 : radius
   }
 
   /** How far behind its nearest place a surface of discs may have points of its own, millimetres. */

@@ -1,10 +1,11 @@
-import { ColorManagement, Group, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
+import { ColorManagement, Group, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer, type Object3D } from 'three'
 import { decodeAll } from '../decode/client'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
 import { Eye, type StandardView } from './eye'
 import { applyLook } from './look'
 import { Flight } from './flight'
+import { Front } from './front'
 import { Marks } from './marks'
 import { Pace } from './pace'
 import { Part } from './part'
@@ -37,6 +38,7 @@ export class Stage {
   readonly scene = new Scene()
   readonly eye: Eye
   readonly values: ValueBuffer
+  private readonly front: Front
   private readonly sight: Sight
   readonly parts: Part[] = []
   readonly marks: Marks[] = []
@@ -67,7 +69,8 @@ export class Stage {
     this.renderer.outputColorSpace = LinearSRGBColorSpace
     this.renderer.autoClear = false
     this.renderer.sortObjects = false
-    this.values = new ValueBuffer(this.renderer)
+    this.front = new Front(this.renderer)
+    this.values = new ValueBuffer(this.renderer, this.front)
     this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext, () => this.wanted && this.draw())
     this.eye = new Eye(state.manifest.up)
     this.sight = new Sight(this.eye, this.values, () => this.shown, () => this.surfaces)
@@ -284,6 +287,8 @@ export class Stage {
     const level = this.moving ? this.pace.level(coarsest) : 0
     for (const part of this.parts) part.setLevel(level)
     this.setRatio(level === coarsest ? this.ratio * ROUGH : this.ratio)
+    const surfaces = this.moving || !this.readable ? null : this.surfaces
+    if (surfaces?.some((p) => p.object.kind === 'mesh')) this.front.draw(this.scene, this.parts, this.eye, surfaces, this.besides)
     for (const part of this.parts) part.setPoints(this.eye.millimetresPerPixel, this.renderer.getPixelRatio())
     for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
     for (const part of this.parts) part.setEye(this.eye, this.renderer.getPixelRatio())
@@ -291,6 +296,7 @@ export class Stage {
     const begin = performance.now()
     this.renderer.clear()
     this.renderer.render(this.scene, this.eye.camera)
+    this.front.leave(this.parts)
     this.pace.follow(begin, this.moving ? { level, coarsest } : null)
     for (const listener of this.listeners) listener()
   }
@@ -365,6 +371,16 @@ export class Stage {
     return this.frame !== 0 || this.wanted || this.pace.busy
   }
 
+  /** Numbers can be drawn and read. */
+  private get readable(): boolean {
+    return this.renderer.extensions.has('EXT_color_buffer_float')
+  }
+
+  /** What is drawn beside the parts and has no values. */
+  private get besides(): Object3D[] {
+    return [this.edges, ...this.marks.map((m) => m.drawn)]
+  }
+
   /** Draws and reads anew what another size has left behind. */
   settle(): void {
     cancelAnimationFrame(this.frame)
@@ -376,8 +392,8 @@ export class Stage {
   }
 
   private async read(): Promise<void> {
-    if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
-    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, [this.edges, ...this.marks.map((m) => m.drawn)])
+    if (this.parts.length === 0 || !this.readable) return
+    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, this.besides)
     if (!this.values.ready) return
     this.canvas.ariaBusy = 'false'
     for (const listener of this.listeners) listener()
