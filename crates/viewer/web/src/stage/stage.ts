@@ -25,7 +25,7 @@ const AGAIN = 20
 const ROUGH = 0.5
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
-/** Room for a column of flags: with values, and with numbers alone where the stage is narrow. */
+/** Least room for a column of flags: with values, and with numbers alone where the stage is narrow. */
 const FLAGS = { wide: 150, narrow: 48 }
 /** Stages narrower than this have flags with numbers alone. */
 export const NARROW = 700
@@ -53,6 +53,8 @@ export class Stage {
   /** The view is a fitted one that the reader has not moved since. */
   private fitted = true
   private ground: number | null = null
+  /** Pixels that a column of flags takes. */
+  room = (): number => 0
   private ratio = 1
   private frame = 0
   /** Another frame is to follow the one that is not finished. */
@@ -190,9 +192,10 @@ export class Stage {
 
   /** Frames what is shown, and the flags' places that lie off it; draws nothing. */
   private frameAll(): void {
-    const flagged = this.state.flags ? this.state.picks.filter(([, p]) => p.value !== null) : []
+    const { flags, picks, mapped } = this.state
+    const flagged = flags ? picks.filter(([, p]) => (mapped ? p.value !== null : p.frame !== null)) : []
     const narrow = this.eye.width < NARROW
-    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : FLAGS.wide
+    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : Math.max(FLAGS.wide, this.room())
     const marks = this.marks.filter((m) => m.drawn.visible)
     const off = flagged.filter(([, p]) => p.off).map(([, p]) => this.placeOf(p))
     const places = [...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000)), ...off]
