@@ -115,7 +115,8 @@ fn stack(column: &mut [Placed], height: f64) {
 fn draw(h: &mut Html, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&Scale>) {
     let hidden = view.hidden.get(flag.pick) == Some(&true);
     let class = if hidden { " hidden" } else { "" };
-    let (Placed { label, x, y, top, left, width, inner, start: begin, .. }, middle) = (flag, flag.top + 0.5 * HEIGHT);
+    let (Placed { label, x, y, top, left, width, inner, start: begin, .. }, middle) =
+        (flag, flag.top + 0.5 * HEIGHT);
     let mut line = |class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| {
         h.raw(&format!(
             "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
