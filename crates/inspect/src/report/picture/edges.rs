@@ -3,7 +3,7 @@
 use super::{Camera, Canvas, FINE};
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
 
 /// Cosine of the angle (30 degrees) between facets beyond which they have an edge between them.
 const CREASE: f64 = 0.866_025_403_784_438_6;
@@ -15,6 +15,8 @@ const OPACITY: f64 = 0.75;
 const SHARE: f64 = 0.1;
 /// Fainter than this they are left out.
 const FAINTEST: f64 = 0.15;
+/// Rows of edges up to this long are short, as a share of the largest extent.
+const SHORT: f64 = 1.0 / 30.0;
 /// What they are darkened to.
 const DARK: f64 = 20.0;
 
@@ -66,7 +68,7 @@ impl Canvas {
 }
 
 /// The edges at which facets meet at more than 30 degrees. Vertices at one place are one; free edges are none, nor is an edge
-/// where a facet lies on another.
+/// where a facet lies on another, nor a short row of edges that ends on the surface: such are of its roughness.
 fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
     let (place, folded) = places(mesh, normals);
     let mut sides: Vec<Side> = vec![];
@@ -85,7 +87,43 @@ fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
     sides.par_sort_unstable_by_key(|s| (s.ends, s.facet));
     let edges = sides.chunk_by(|a, b| a.ends == b.ends);
     let sharp = edges.filter(|sides| sides[1..].iter().any(|s| meet_sharply(mesh, &sides[0], s)));
-    sharp.map(|sides| sides[0].ends.map(|v| mesh.positions[v as usize])).collect()
+    rows(mesh, sharp.map(|sides| sides[0].ends).collect())
+}
+
+/// The edges without short rows of them that end on the surface.
+fn rows(mesh: &Mesh, edges: Vec<[u32; 2]>) -> Vec<[Point; 2]> {
+    fn root(up: &mut [u32], mut v: u32) -> u32 {
+        while up[v as usize] != v {
+            up[v as usize] = up[up[v as usize] as usize];
+            v = up[v as usize];
+        }
+        v
+    }
+    let count = mesh.positions.len();
+    let finite = mesh.positions.iter().filter(|p| p.iter().all(|x| x.is_finite()));
+    let short = SHORT * Aabb::of(finite).sides().into_iter().fold(0.0, f64::max);
+    let mut up: Vec<u32> = (0..count as u32).collect();
+    let mut meeting = vec![0u8; count];
+    for [a, b] in &edges {
+        let (p, q) = (root(&mut up, *a), root(&mut up, *b));
+        up[p as usize] = q;
+        for v in [*a, *b] {
+            meeting[v as usize] = meeting[v as usize].saturating_add(1);
+        }
+    }
+    let places = |[a, b]: &[u32; 2]| [*a, *b].map(|v| mesh.positions[v as usize]);
+    // Of each row by its root.
+    let (mut lengths, mut open) = (vec![0.0; count], vec![false; count]);
+    for edge in &edges {
+        let ([a, b], row) = (places(edge), root(&mut up, edge[0]) as usize);
+        lengths[row] += norm(minus(b, a));
+        open[row] |= edge.iter().any(|v| meeting[*v as usize] == 1);
+    }
+    let mut kept = |edge: &&[u32; 2]| {
+        let row = root(&mut up, edge[0]) as usize;
+        !open[row] || lengths[row] > short
+    };
+    edges.iter().filter(|edge| kept(edge)).map(places).collect()
 }
 
 /// For each vertex the first one at its place, and for that whether an edge can begin there: it has no normal, or is several.
@@ -157,6 +195,22 @@ mod tests {
             assert_eq!(edges.len(), 12, "{apart}");
             assert!(edges.iter().all(|[a, b]| norm(minus(*b, *a)) == 2.0), "{edges:?}");
         }
+    }
+
+    #[test]
+    fn a_short_crease_on_a_face_is_roughness() {
+        let long = 100.0;
+        // A sheet folded by a right angle along its middle, and the same as a scrap beside a large facet.
+        let fold = |x: f64| vec![[0.0, 0.0, 0.0], [0.0, x, 0.0], [x, 0.0, 0.0], [0.0, 0.0, x]];
+        let faces = vec![[0, 2, 1], [0, 1, 3]];
+        let sheet = Mesh { positions: fold(long), faces: faces.clone() };
+        assert_eq!(sharp(&sheet, &smooth_normals(&sheet)).len(), 1);
+        let beside = [[long, long, 0.0], [0.0, long, 0.0], [0.0, long, long]];
+        let scrap = Mesh {
+            positions: [fold(1.0), beside.to_vec()].concat(),
+            faces: [faces, vec![[4, 5, 6]]].concat(),
+        };
+        assert!(sharp(&scrap, &smooth_normals(&scrap)).is_empty());
     }
 
     #[test]
