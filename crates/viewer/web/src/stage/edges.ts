@@ -6,7 +6,7 @@ import { EDGE, EDGE_VERTEX } from './mark_shaders'
 /** Pixels across. */
 const WIDE = 1.3
 /** Pixels that edges are drawn nearer than they are, so that they lie on the facets and not between them. */
-const LIFT = 1
+const LIFT = 2
 /** How much of what lies under an edge it covers. */
 const OPACITY = 0.75
 /** Edges may cover this share of the surface; where they lie denser than that they step back, for the colours' sake. */

@@ -33,8 +33,8 @@ uniform mat4 modelViewMatrix, projectionMatrix;
 uniform vec2 viewport;
 out vec2 vPlace;
 flat out float vLength, vRadius;
-/* From the ends of the line as the eye has them. */
-vec4 strip(vec4 p, vec4 q, float radius) {
+/* From the ends of the line as the eye has them; cap beyond each. */
+vec4 strip(vec4 p, vec4 q, float radius, float cap) {
   p = projectionMatrix * p;
   q = projectionMatrix * q;
   vec2 along = (q.xy / q.w - p.xy / p.w) * 0.5 * viewport;
@@ -42,8 +42,8 @@ vec4 strip(vec4 p, vec4 q, float radius) {
   vRadius = radius;
   along = vLength > 1e-3 ? along / vLength : vec2(1.0, 0.0);
   bool start = corner.x < 0.5;
-  vPlace = vec2(start ? -radius : vLength + radius, corner.y * radius);
-  vec2 shift = along * (start ? -radius : radius) + vec2(-along.y, along.x) * vPlace.y;
+  vPlace = vec2(start ? -cap : vLength + cap, corner.y * radius);
+  vec2 shift = along * (start ? -cap : cap) + vec2(-along.y, along.x) * vPlace.y;
   vec4 place = start ? p : q;
   place.xy += 2.0 * shift / viewport * place.w;
   return place;
@@ -74,7 +74,7 @@ void main() {
   float radius = 0.5 * wide * ratio * (chosen ? 2.0 + 2.0 * pulse : 1.0) + 0.5;
   vRim = chosen ? 1.4 * ratio : 0.0;
   vTint = chosen ? ${CHOSEN} : tint;
-  gl_Position = strip(p, q, radius);
+  gl_Position = strip(p, q, radius, radius);
   if (only && !chosen) gl_Position = ${NOWHERE};
 }`
 
@@ -101,7 +101,8 @@ void main() {
   vec4 q = modelViewMatrix * vec4(b, 1.0);
   p.z += lift;
   q.z += lift;
-  gl_Position = strip(p, q, 0.5 * wide + 0.5);
+  /* Without round ends: where they overlap a row of edges would be dotted. */
+  gl_Position = strip(p, q, 0.5 * wide + 0.5, 0.0);
 }`
 
 export const EDGE = `

@@ -25,8 +25,8 @@ const AGAIN = 20
 const ROUGH = 0.5
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
-/** Least room for a column of flags: with values, and with numbers alone where the stage is narrow. */
-const FLAGS = { wide: 150, narrow: 48 }
+/** Least room for a column of flags: with values, and with numbers alone where the stage is narrow; and the most, of its width. */
+const FLAGS = { wide: 150, narrow: 48, most: 0.22 }
 /** Stages narrower than this have flags with numbers alone. */
 export const NARROW = 700
 /** Room above and below the toolbar, which the part keeps clear of where the stage is narrow. */
@@ -195,7 +195,7 @@ export class Stage {
     const { flags, picks, mapped } = this.state
     const flagged = flags ? picks.filter(([, p]) => (mapped ? p.value !== null : p.frame !== null)) : []
     const narrow = this.eye.width < NARROW
-    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : Math.max(FLAGS.wide, this.room())
+    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : Math.max(FLAGS.wide, Math.min(this.room(), this.eye.width * FLAGS.most))
     const marks = this.marks.filter((m) => m.drawn.visible)
     const off = flagged.filter(([, p]) => p.off).map(([, p]) => this.placeOf(p))
     const places = [...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000)), ...off]
