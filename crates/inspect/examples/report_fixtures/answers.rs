@@ -25,7 +25,13 @@ use trueness_inspect::results::{InputRecord, Role};
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
     let options = ReportOptions { serial: Some("4711".into()), ..ReportOptions::default() };
-    for (name, mesh) in [("defects", defects()), ("sound", uv_sphere(30)), ("torn", torn())] {
+    for (name, mesh) in [
+        ("defects", defects()),
+        ("sound", uv_sphere(30)),
+        ("torn", torn()),
+        ("block", super::clouds::cube(20.0)),
+        ("pushed", pushed()),
+    ] {
         written(folder, name, check_page(&mesh, &options));
     }
     written(folder, "mended", repair_page(&defects(), &options));
@@ -80,6 +86,17 @@ fn torn() -> Mesh {
         let [x, y, z] = places[f[0] as usize];
         n % 29 != 0 && y - x - z <= 16.0
     });
+    mesh
+}
+
+/// A cube of 20 mm whose top is drawn down to a tip below its bottom: that they cross is seen from below.
+fn pushed() -> Mesh {
+    let mut mesh = super::clouds::cube(20.0);
+    let tip = mesh.positions.len() as u32;
+    mesh.positions.push([10.0, 10.0, -4.0]);
+    // The top's two facets.
+    mesh.faces.drain(2..4);
+    mesh.faces.extend([[4, 5, tip], [5, 7, tip], [7, 6, tip], [6, 4, tip]]);
     mesh
 }
 

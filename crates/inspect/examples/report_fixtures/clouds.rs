@@ -20,6 +20,7 @@ pub fn write_all(folder: &Path) {
     written(folder, "dent", page(&dent, &cube(20.0), 0.1));
     // Nothing was measured where x is above 12.
     written(folder, "half_dent", page(&dented_cube(30_000, |p| p[0] < 12.0), &cube(20.0), 0.1));
+    written(folder, "scratch", page(&scratched_cube(30_000), &cube(20.0), 0.1));
     let few: Vec<Point> = dent.iter().step_by(25).copied().collect();
     written(folder, "few", page(&few, &cube(20.0), 0.1));
     written(folder, "bunny", page(&bunny_scans(), &bunny_model(), 0.5));
@@ -73,7 +74,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
 }
 
 /// A cube from the origin, in 12 facets.
-fn cube(side: f64) -> Mesh {
+pub fn cube(side: f64) -> Mesh {
     let positions = (0..8u32).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|b| side * f64::from(b))).collect();
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]];
     let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
@@ -96,6 +97,22 @@ fn dented_cube(n: usize, wanted: impl Fn(&Point) -> bool) -> Vec<Point> {
         }
     }
     points
+}
+
+/// The same without the dent, and on the top instead a scratch across the middle, 0.24 mm wide and 0.6 mm deep: narrower than
+/// the points are apart.
+fn scratched_cube(n: usize) -> Vec<Point> {
+    let mut random = Random::new(7);
+    let mut point = || {
+        let (axis, high) = (random.below(3) as usize, random.below(2) == 1);
+        let mut p = [0.0; 3].map(|_: f64| 20.0 * random.unit());
+        p[axis] = if high { 20.0 } else { 0.0 } + 0.04 * (random.unit() - 0.5);
+        if axis == 2 && high && (p[1] - 10.0 - 0.2 * (p[0] - 10.0)).abs() < 0.12 {
+            p[2] -= 0.6;
+        }
+        p
+    };
+    (0..n).map(|_| point()).collect()
 }
 
 /// Numbers of a binary PLY after its header.

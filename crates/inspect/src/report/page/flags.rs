@@ -12,6 +12,8 @@ const WIDTH: f64 = 130.0;
 const NOTE: f64 = 104.0;
 const HEIGHT: f64 = 32.0;
 const GAP: f64 = 8.0;
+/// How far a leader runs straight out of the column before it turns to its place.
+const STUB: f64 = 6.0;
 /// Width of a sign, and of a letter of usual text.
 const SIGN: f64 = 22.0;
 const LETTER: f64 = 8.6;
@@ -23,10 +25,12 @@ struct Placed {
     x: f64,
     y: f64,
     top: f64,
-    /// Left end and width of its box, and where the leader begins.
+    /// Left end and width of its box, the end that looks to the place, and where the leader begins: beside the widest box of
+    /// the column, so that it runs behind none.
     left: f64,
     width: f64,
     inner: f64,
+    start: f64,
 }
 
 /// Writes the layer. It is there without flags too, for the script to draw into.
@@ -49,7 +53,7 @@ pub fn flags(h: &mut Html, picks: &[Pick], view: &FirstView, scale: Option<&Scal
                 true => (GAP, GAP + own),
                 false => (width - GAP - own, width - GAP - own),
             };
-            Placed { pick, label: n + 1, x, y, top: 0.0, left, width: own, inner }
+            Placed { pick, label: n + 1, x, y, top: 0.0, left, width: own, inner, start: inner }
         })
         .collect();
     let (mut left, mut right): (Vec<Placed>, Vec<Placed>) =
@@ -58,7 +62,9 @@ pub fn flags(h: &mut Html, picks: &[Pick], view: &FirstView, scale: Option<&Scal
         // The first matter most; the list has them all.
         column.truncate(((height - GAP) / (HEIGHT + GAP)) as usize);
         stack(column, height);
+        let reach = GAP + STUB + column.iter().map(|f| f.width).fold(0.0, f64::max);
         for flag in column {
+            flag.start = if flag.left > GAP { width - reach } else { reach };
             draw(h, flag, &picks[flag.pick], view, scale);
         }
     }
@@ -109,13 +115,15 @@ fn stack(column: &mut [Placed], height: f64) {
 fn draw(h: &mut Html, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&Scale>) {
     let hidden = view.hidden.get(flag.pick) == Some(&true);
     let class = if hidden { " hidden" } else { "" };
-    let (Placed { label, x, y, top, left, width, inner, .. }, middle) = (flag, flag.top + 0.5 * HEIGHT);
+    let (Placed { label, x, y, top, left, width, inner, start: begin, .. }, middle) =
+        (flag, flag.top + 0.5 * HEIGHT);
     let mut line = |class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| {
         h.raw(&format!(
             "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
         ));
     };
-    line(&format!("leader{class}"), [*inner, middle], [*x, *y]);
+    line(&format!("stub{class}"), [*inner, middle], [*begin, middle]);
+    line(&format!("leader{class}"), [*begin, middle], [*x, *y]);
     let off = view.off.get(flag.pick) == Some(&true);
     if let Some(surface) = pick.surface.filter(|_| off) {
         line("way", [*x, *y], view.pixel(&surface));

@@ -16,9 +16,7 @@ use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, t
 
 /// Places that the view is chosen for, at most.
 const PLACES: usize = 8;
-/// Places of a mark that are looked at.
-const SAMPLES: usize = 3;
-/// Places beside its own that the leader of a frame may end at.
+/// Places beside its own at which a pick is seen, at most.
 const OTHERS: usize = 8;
 /// A place farther than this from where it was measured, as a share of the diagonal, is not on the part.
 const OFF: f64 = 0.02;
@@ -61,13 +59,18 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let opaque = opaque(input.objects, &shown);
     let all = candidates(input.options.up, subject.facing(), &places);
     let usual = View::of(&places, &all[..1], &opaque).remove(0);
-    let best = if usual.shows_all_well() {
-        usual
-    } else {
-        // The first of the best: the order of the candidates decides between equals.
-        let views = View::of(&places, &all, &opaque);
-        views.into_iter().fold(usual, |best, v| if v.rank() > best.rank() { v } else { best })
+    // The first of the best: the order of the candidates decides between equals.
+    let best_of = |from: View, among: &[Vector]| {
+        let views = View::of(&places, among, &opaque);
+        views.into_iter().fold(from, |best, v| if v.rank() > best.rank() { v } else { best })
     };
+    let mut best = usual;
+    if !best.shows_all_well() {
+        best = best_of(best, &all);
+    }
+    if best.hides_the_first() {
+        best = best_of(best, &straight(input.options.up, &places));
+    }
     let mut hidden = vec![false; picks.len()];
     let mapped = mapped(&shown);
     let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n], mapped)).collect();
@@ -88,12 +91,20 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     Direction { toward: best.toward, places, off, hidden, ends }
 }
 
-/// Places of its feature, beside its own, that the leader of a frame may end at: an axis or a middle lies inside the part.
+/// Places beside its own at which a pick is seen where that is hidden. Of a frame, whose leader may end there: an axis or a
+/// middle lies inside the part. Of a mark that has areas alone: its middle lies inside the shell that it is.
 pub fn others(pick: &Pick, marks: &[Marks]) -> Vec<Point> {
-    let mark = pick.frame.as_ref().and(pick.mark).and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
-    let ends = mark.map_or(&[][..], |m| &m.segments);
-    let step = ends.len().div_ceil(OTHERS).max(1);
-    ends.iter().step_by(step).map(|segment| segment[0]).collect()
+    let Some(mark) = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n)) else {
+        return vec![];
+    };
+    let shell = mark.segments.is_empty() && mark.points.is_empty();
+    let all: Vec<Point> = match (pick.frame.is_some(), shell) {
+        (true, _) => mark.segments.iter().map(|segment| segment[0]).collect(),
+        (false, true) => mark.triangles.iter().map(|corners| corners[0]).collect(),
+        (false, false) => vec![],
+    };
+    let step = all.len().div_ceil(OTHERS).max(1);
+    all.into_iter().step_by(step).collect()
 }
 
 /// A pick has a flag in the first view: a value of the first map where that is shown, else its frame.
@@ -139,17 +150,12 @@ impl Place {
 
     fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> Place {
         let mark = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
-        let places: Vec<Point> = mark.map_or(vec![], |m| m.places().copied().collect());
-        let anchor = pick.surface.filter(|_| !off && !measured).unwrap_or(pick.position);
-        let step = (places.len() / SAMPLES).max(1);
-        let any = pick.frame.is_some();
-        let samples = if any {
-            [vec![pick.position], others(pick, marks)].concat()
-        } else if places.is_empty() {
-            vec![anchor]
-        } else {
-            places.into_iter().step_by(step).take(SAMPLES).collect()
-        };
+        // A mark lies where its row says, as the script has it: a facet of it may be seen where the fault is not.
+        let on = mark.is_some() || off || measured;
+        let anchor = pick.surface.filter(|_| !on).unwrap_or(pick.position);
+        let others = others(pick, marks);
+        let any = !others.is_empty();
+        let samples = [vec![anchor], others].concat();
         let under = if off { 0.0 } else { OBLIQUE * distance(pick) };
         let normal = pick.normal.or(mark.and_then(|m: &Mark| m.normal));
         Place {
@@ -196,6 +202,16 @@ fn candidates(up: Up, facing: Option<Vector>, places: &[Place]) -> Vec<Vector> {
     first.into_iter().chain(sides).chain(places.iter().filter_map(|p| oblique(p.normal?))).collect()
 }
 
+/// Directions straight on each side and each place: deep in a bore there is no other way out. Hardly tilted, so that there is an
+/// upright from above too.
+fn straight(up: Up, places: &[Place]) -> Vec<Vector> {
+    let (vertical, front) = vertical_and_front(up);
+    let right = cross(front, times(-1.0, vertical));
+    let sides = [vertical, front, right].into_iter().flat_map(|v| [v, times(-1.0, v)]);
+    let all = places.iter().filter_map(|p| p.normal).chain(sides);
+    all.filter_map(|v| unit(plus(v, times(0.02, front))).map(|(v, _)| v)).collect()
+}
+
 /// What a direction shows.
 struct View {
     toward: Vector,
@@ -221,6 +237,10 @@ impl View {
 
     fn shows_all_well(&self) -> bool {
         self.seen.iter().all(|s| s.is_some_and(|s| s >= 0.5))
+    }
+
+    fn hides_the_first(&self) -> bool {
+        self.seen.first().is_some_and(Option::is_none)
     }
 
     /// The most important place first, from its own side rather than from behind; then how many, then how squarely by and

@@ -4,6 +4,7 @@
 
 mod camera;
 mod direction;
+mod edges;
 mod overlay;
 mod png;
 
@@ -165,6 +166,8 @@ struct Canvas {
     color: Vec<[u8; 3]>,
     /// A mark behind the surface shows here.
     marked: Vec<bool>,
+    /// An edge of the surface is drawn here.
+    edged: Vec<bool>,
 }
 
 impl Canvas {
@@ -176,6 +179,7 @@ impl Canvas {
             depth: vec![f32::NEG_INFINITY; n],
             color: vec![[0; 3]; n],
             marked: vec![false; n],
+            edged: vec![false; n],
         }
     }
 
@@ -184,6 +188,7 @@ impl Canvas {
         if depth > self.depth[at] {
             self.depth[at] = depth;
             self.color[at] = color();
+            self.edged[at] = false;
         }
     }
 
@@ -219,6 +224,7 @@ impl Canvas {
                 });
             });
         }
+        edges::draw(self, mesh, &normals, camera);
         Ok(())
     }
 
@@ -284,7 +290,9 @@ impl Canvas {
             if !(x.is_finite() && y.is_finite()) {
                 continue;
             }
-            let color = paint.values.as_ref().map_or(paint.base, |(v, table)| table.color(v[i]));
+            let values = paint.values.as_ref();
+            let color = values.map_or(paint.base, |(v, table)| table.color(v[i]));
+            let z = z + values.map_or(0.0, |(v, table)| table.forward(v[i], radius, camera.scale));
             // As cones: each sample belongs to the point whose middle is nearest, and none is lost under its neighbours.
             let tip = (z + radius) as f32;
             self.disc([x, y], radius, |canvas, px, py, square| {
@@ -339,6 +347,17 @@ impl Colors<'_> {
         match self.scale.mode {
             crate::scale::Mode::Continuous => self.scale.color(value),
             _ => self.colors[crate::scale::slot(&self.limits, value)],
+        }
+    }
+
+    /// How far a point of this value and `radius` comes forward, in samples: one out of tolerance lies over those within it
+    /// that are up to a radius nearer, and where material is missing up to another one. `scale`: samples a millimetre.
+    fn forward(&self, value: f64, radius: f64, scale: f64) -> f64 {
+        match self.scale.tolerance {
+            Some([lower, upper]) if value < lower || value > upper => {
+                radius + (-value * scale).clamp(0.0, radius)
+            }
+            _ => 0.0,
         }
     }
 }

@@ -1,4 +1,5 @@
 import { unpack } from './blob'
+import { sharpEdges, type SharpEdges } from './edges'
 import { packNormals } from './normals'
 import { differences, wrapSigned } from './planes'
 import { ACROSS, BETWEEN, LIKE, rules } from './predict'
@@ -25,6 +26,8 @@ export interface DecodedObject {
   corners: Uint32Array
   /** One array a field, in millimetres; from 1e30 upwards: no value, for reason value / 1e30 − 1. */
   fields: Float32Array[]
+  /** Of a mesh. */
+  edges: SharpEdges | null
 }
 
 /** Values from here on are reasons why there is none. */
@@ -60,7 +63,7 @@ async function decodeMesh(object: PackedObject): Promise<DecodedObject> {
   for (let i = 0; i < corners.length; i++) if (corners[i] >= object.vertices) throw new Error('a triangle has no such vertex')
   const fields = []
   for (const field of object.fields) fields.push(await decodeField(field, object.vertices, (codes, v) => predictValue(rule, codes, v)))
-  return { packed, corners, fields }
+  return { packed, corners, fields, edges: sharpEdges(packed, full) }
 }
 
 async function decodePoints(object: PackedObject): Promise<DecodedObject> {
@@ -72,7 +75,7 @@ async function decodePoints(object: PackedObject): Promise<DecodedObject> {
   }
   const fields = []
   for (const field of object.fields) fields.push(await decodeField(field, object.vertices, (codes, v) => (v > 0 ? codes[v - 1] : 0)))
-  return { packed, corners: new Uint32Array(0), fields }
+  return { packed, corners: new Uint32Array(0), fields, edges: null }
 }
 
 function predictPlace(rule: Uint32Array, packed: Uint16Array, v: number, k: number): number {

@@ -33,7 +33,7 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
   const showSheet = (n: number) => {
     current = n
     sheets.forEach((sheet, i) => (sheet.hidden = i !== n))
-    views[n]?.apply()
+    views[n]?.resized()
   }
   const fill = () => {
     const items: HTMLElement[] = []
@@ -82,10 +82,12 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
     fill()
     views[current]?.apply()
   })
-  new ResizeObserver(() => views[current]?.apply()).observe(holder)
+  new ResizeObserver(() => views[current]?.resized()).observe(holder)
   window.addEventListener('beforeprint', () => {
     for (const details of document.querySelectorAll('details')) details.open = true
+    for (const view of views) view.paper()
   })
+  window.addEventListener('afterprint', () => views[current]?.resized())
   fill()
   showSheet(0)
   need('stage').classList.add('live')

@@ -6,6 +6,9 @@ export interface Seen {
   height: number
 }
 
+/** Pixels that stay free around the whole drawing: for signs with their numbers, and for the ruler at the foot. */
+const ROOM = { side: 28, head: 24, foot: 44 }
+
 /** Widest and narrowest that is seen, in widths of the drawing. */
 const LIMITS = [1e-6, 20] as const
 
@@ -13,6 +16,8 @@ const LIMITS = [1e-6, 20] as const
 export class PlanView {
   readonly all: Seen
   private seen: Seen
+  /** All is seen, and the reader has not moved it since. */
+  private fitted = true
   private readonly signs: SVGGElement[]
 
   constructor(readonly drawing: SVGSVGElement, private readonly changed: () => void) {
@@ -39,12 +44,34 @@ export class PlanView {
   }
 
   fit(): void {
-    this.look(this.all)
+    const { all } = this
+    const box = this.drawing.getBoundingClientRect()
+    const free = { width: Math.max(box.width - 2 * ROOM.side, box.width / 2), height: Math.max(box.height - ROOM.head - ROOM.foot, box.height / 2) }
+    // Nothing has a size while it is not shown.
+    const pixel = box.width > 0 && box.height > 0 ? Math.max(all.width / free.width, all.height / free.height) : 0
+    const down = (pixel * (ROOM.head - ROOM.foot)) / 2
+    const [width, height] = [pixel * box.width, pixel * box.height]
+    this.look(pixel > 0 ? { x: all.x + (all.width - width) / 2, y: all.y + (all.height - height) / 2 - down, width, height } : all)
+    this.fitted = true
   }
 
   look(seen: Seen): void {
     this.seen = { ...seen }
+    this.fitted = false
     this.apply()
+  }
+
+  /** The same for paper, whose shape nobody knows before it is printed: no room around the drawing. */
+  paper(): void {
+    if (!this.fitted) return
+    this.look(this.all)
+    this.fitted = true
+  }
+
+  /** The drawing has got another size, or has come into sight. */
+  resized(): void {
+    if (this.fitted) this.fit()
+    else this.apply()
   }
 
   /** Moves the drawing by pixels. */

@@ -9,6 +9,10 @@ import { NARROW, type Stage } from './stage'
 /** Room between flags of one column, and between a flag and the stage's rim. */
 const GAP = 6
 const RIM = 8
+/** How far a leader runs straight out of the column of flags before it turns to its place. */
+const STUB = 6
+/** Half the room that a leader takes where it runs between flags of the other column. */
+const LEADER = 9
 /** Height that the view cube takes in the corner at the right. */
 const CUBE = 110
 /** Height of the line at the foot. */
@@ -31,6 +35,8 @@ interface Flag {
   box: HTMLButtonElement
   size: { width: number; height: number }
   line: SVGLineElement
+  /** From the flag to where the leader begins, beside the widest flag of the column. */
+  stub: SVGLineElement
   /** From the place to the surface. */
   way: SVGLineElement
   dot: SVGCircleElement
@@ -41,10 +47,13 @@ interface Placed {
   hidden: boolean
   width: number
   height: number
-  /** The place, and the end of the leader at the flag. */
+  /** The place, the end of the flag that looks to it, and where the leader begins: no flag of the column reaches as far. */
   x: number
   y: number
   inner: number
+  start: number
+  /** The place lies on the stage; a leader to another one would only run out of the picture. */
+  within: boolean
   /** Left end of the flag: columns stay at the rims, wherever the places lie. */
   left: number
   top: number
@@ -65,6 +74,7 @@ export class Flags {
     private readonly words: Words,
   ) {
     overlay.append(this.lines)
+    stage.room = () => this.room
     stage.onDraw(() => this.place())
     words.onChange(() => this.rebuild())
     state.listen((what) => {
@@ -104,12 +114,13 @@ export class Flags {
     if (!frame) box.style.setProperty('--swatch', this.state.colors.css(value))
     box.addEventListener('click', () => this.state.pick(number))
     const line = svg('line', { class: 'leader' })
+    const stub = svg('line', { class: 'stub' })
     const way = svg('line', { class: 'way' })
     const dot = svg('circle', { class: pick.off ? 'anchor off' : 'anchor', r: 3.5 })
-    this.lines.append(way, line, dot)
+    this.lines.append(way, stub, line, dot)
     this.overlay.append(box)
     const surface = pick.off ? this.stage.surfaceOf(pick) : null
-    return { number, pick, surface, label, text, box, line, way, dot, size: { width: 0, height: 0 } }
+    return { number, pick, surface, label, text, box, line, stub, way, dot, size: { width: 0, height: 0 } }
   }
 
   /** Numbers alone where there is no room for values; sizes are read once, not in every frame. */
@@ -121,6 +132,12 @@ export class Flags {
     for (const { box, size } of this.flags) Object.assign(size, { width: box.offsetWidth, height: box.offsetHeight })
   }
 
+  /** Pixels that a column of flags takes. */
+  private get room(): number {
+    this.size()
+    return RIM + Math.max(0, ...this.flags.map((f) => f.size.width)) + 2 * GAP
+  }
+
   /** Puts the flags beside the part, nearest side first, without crossing leaders. */
   private place(): void {
     this.size()
@@ -128,17 +145,19 @@ export class Flags {
     this.lines.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     const tools = this.overlay.querySelector<HTMLElement>('.stage-tools')?.offsetHeight ?? 0
     const placed = this.layout((f) => f.size, tools + 2 * RIM)
-    for (const flag of this.flags) for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.add('left-out')
+    const marks = (flag: Flag) => [flag.stub, flag.line, flag.dot, flag.way]
+    for (const flag of this.flags) for (const e of [flag.box, ...marks(flag)]) e.classList.add('left-out')
     for (const c of placed) {
-      const { flag, hidden, x, y, inner, left, top } = c
-      for (const e of [flag.box, flag.line, flag.dot, flag.way]) e.classList.remove('left-out')
-      flag.box.classList.toggle('hidden', hidden)
-      flag.line.classList.toggle('hidden', hidden)
-      flag.dot.classList.toggle('hidden', hidden)
+      const { flag, hidden, x, y, inner, start, left, top } = c
+      flag.box.classList.remove('left-out')
+      for (const e of marks(flag)) e.classList.toggle('left-out', !c.within)
+      for (const e of [flag.box, flag.stub, flag.line, flag.dot]) e.classList.toggle('hidden', hidden || !c.within)
       flag.box.classList.toggle('selected', flag.number === this.state.picked)
       flag.box.style.top = `${top}px`
       flag.box.style.left = `${left}px`
-      write(flag.line, { x1: inner, y1: top + c.height / 2, x2: x, y2: y })
+      const middle = top + c.height / 2
+      write(flag.stub, { x1: inner, y1: middle, x2: start, y2: middle })
+      write(flag.line, { x1: start, y1: middle, x2: x, y2: y })
       write(flag.dot, { cx: x, cy: y })
       const foot = flag.surface ? this.stage.eye.project(flag.surface) : { x, y }
       write(flag.way, { x1: x, y1: y, x2: foot.x, y2: foot.y })
@@ -155,7 +174,7 @@ export class Flags {
       const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
       return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
     }
-    for (const { flag, hidden, x, y, inner, left, top, width: w, height: h } of this.layout(size, RIM)) {
+    for (const { flag, hidden, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(size, RIM)) {
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
@@ -166,7 +185,8 @@ export class Flags {
         target.append(svg('line', { class: 'way', x1: x, y1: y, x2: foot.x, y2: foot.y }))
       }
       target.append(
-        svg('line', { class: `leader ${name}`, x1: inner, y1: top + h / 2, x2: x, y2: y }),
+        svg('line', { class: `stub ${name}`, x1: inner, y1: top + h / 2, x2: begin, y2: top + h / 2 }),
+        svg('line', { class: `leader ${name}`, x1: begin, y1: top + h / 2, x2: x, y2: y }),
         svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 }),
         svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
         ...sign,
@@ -178,21 +198,30 @@ export class Flags {
 
   private layout(size: (flag: Flag) => { width: number; height: number }, head: number): Placed[] {
     const { eye } = this.stage
+    const widest = Math.max(0, ...this.flags.map((flag) => size(flag).width))
     const columns: [Placed[], Placed[]] = [[], []]
+    // Heights at which a leader runs in from the other column, to a place beneath this one.
+    const crossed: [number[], number[]] = [[], []]
     for (const flag of this.flags) {
       const { place, hidden } = this.stage.endOf(flag.pick)
       const { x, y } = eye.project(place)
-      const side = x < eye.width / 2 ? 0 : 1
       const own = size(flag)
+      const within = x >= 0 && x <= eye.width && y >= 0 && y <= eye.pixels
+      const near = x < eye.width / 2 ? 0 : 1
+      const beneath = within && Math.min(x, eye.width - x) < RIM + widest + GAP
+      if (beneath) crossed[near].push(y)
+      const side = beneath ? 1 - near : near
       const inner = side === 1 ? eye.width - RIM - own.width : RIM + own.width
-      columns[side].push({ flag, hidden, ...own, x, y, inner, left: side === 1 ? inner : RIM, top: 0 })
+      columns[side].push({ flag, hidden, ...own, x, y, inner, start: inner, within, left: side === 1 ? inner : RIM, top: 0 })
     }
     const wide = eye.width >= NARROW
     const kept = columns.map((column, side) => {
       const foot = eye.pixels - (side === 1 && wide ? CUBE : FOOT)
       // The first matter most; the list has them all.
       const some = column.slice(0, Math.max(1, Math.floor((foot - head) / (tallest(column) + GAP))))
-      stack(some, head, foot)
+      const reach = RIM + Math.max(0, ...some.map((c) => c.width)) + STUB
+      for (const c of some) c.start = side === 1 ? eye.width - reach : reach
+      stack(some, head, foot, crossed[side])
       return some
     })
     return kept.flat()
@@ -207,21 +236,25 @@ function tallest(column: Placed[]): number {
   return Math.max(...column.map((c) => c.height), 0)
 }
 
-/** Stacks a column between two heights, each flag as near to its place as the others let it. */
-function stack(column: Placed[], head: number, foot: number): void {
+/** Stacks a column between two heights, each flag as near to its place as the others let it, and none where a leader runs. */
+function stack(column: Placed[], head: number, foot: number, crossed: number[]): void {
   column.sort((a, b) => a.y - b.y)
   const tall = tallest(column)
+  const clear = [...crossed].sort((a, b) => a - b)
+  const hit = (top: number) => (y: number) => y > top - LEADER && y < top + tall + LEADER
   let free = head
   for (const c of column) {
     c.top = Math.max(free, c.y - tall / 2)
+    for (const y of clear) if (hit(c.top)(y)) c.top = y + LEADER
     free = c.top + tall + GAP
   }
   let limit = foot
   for (const c of [...column].reverse()) {
     c.top = Math.min(c.top, limit - tall)
+    for (const y of clear.toReversed()) if (hit(c.top)(y)) c.top = y - LEADER - tall
     limit = c.top - GAP
   }
-  uncross(column, (c) => [c.inner, c.top + tall / 2])
+  uncross(column, (c) => [c.start, c.top + tall / 2])
 }
 
 /** Swaps places of flags whose leaders cross; each swap shortens the leaders, so it ends. */

@@ -25,6 +25,7 @@ const shared: Record<string, IUniform> = {
   only: { value: new Vector2() },
   slots: { value: slots },
   ramp: { value: ramp },
+  asCover: { value: false },
 }
 
 function texture(width: number): DataTexture {
@@ -59,11 +60,16 @@ export function applyLook(state: State): void {
   paint(ramp, colors.ramp)
 }
 
+/** What is drawn next is to hide other things, and has no values. */
+export function asCover(on: boolean): void {
+  shared.asCover.value = on
+}
+
 export interface Materials {
   picture: RawShaderMaterial
   values: RawShaderMaterial
   /** Uniforms of this object alone. */
-  own: Record<'map' | 'slack' | 'pointSize' | 'lift' | 'opacity' | 'back' | 'sink' | 'cover' | 'covered' | 'near', IUniform>
+  own: Record<'map' | 'slack' | 'pointSize' | 'lift' | 'rise' | 'opacity' | 'back' | 'sink' | 'cover' | 'covered' | 'near', IUniform>
 }
 
 export function materialsFor(object: ViewObject): Materials {
@@ -74,6 +80,7 @@ export function materialsFor(object: ViewObject): Materials {
     slack: { value: 0 },
     pointSize: { value: 3 },
     lift: { value: 0 },
+    rise: { value: 0 },
     opacity: { value: opacity },
     back: { value: false },
     sink: { value: 0 },

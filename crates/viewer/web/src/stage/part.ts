@@ -1,6 +1,8 @@
 import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Points, Vector3, type Texture } from 'three'
 import { NO_VALUE, type DecodedObject } from '../decode/object'
 import type { ViewObject } from '../manifest'
+import { EdgeLines } from './edges'
+import type { Eye } from './eye'
 import { materialsFor, type Materials } from './look'
 
 /** What can hide a place: the places of a coarse level, relative to the stage's centre, and its triangles or its points' size. */
@@ -35,6 +37,8 @@ const DISC = { least: 2, most: 64, single: 24, few: 2000 }
 export class Part {
   readonly drawn: Mesh | Points
   readonly materials: Materials
+  /** Its sharp edges, where it is a surface with some that is not looked through. */
+  readonly edges: EdgeLines | null
   /** First element and count of each level: the full one first for meshes, the coarsest first for points. */
   private readonly levels: { start: number; count: number }[]
   private field = -2
@@ -58,6 +62,8 @@ export class Part {
     // The difference is taken in double precision: no world coordinate ever becomes a float.
     this.drawn.matrix.setPosition(x - center.x, y - center.y, z - center.z)
     this.drawn.matrixWorldNeedsUpdate = true
+    const sharp = data.edges && data.edges.ends.length > 0 && !this.translucent ? data.edges : null
+    this.edges = sharp && new EdgeLines(sharp, data.packed, this.drawn.matrix, object.step)
     this.levels = levelsOf(object)
     this.showField(0)
     this.setLevel(0)
@@ -77,9 +83,11 @@ export class Part {
     this.materials.own.map.value = on && this.field >= 0
   }
 
-  /** How large a pixel is, millimetres: what lies in one surface with the part is drawn before or behind it by that. */
-  setPixel(size: number): void {
-    this.materials.own.sink.value = size * (SINKING[this.object.role] ?? 0)
+  /** What depends on the eye: what lies in one surface with the part is drawn before or behind it by pixels. */
+  setEye(eye: Eye, ratio: number): void {
+    const sunk = eye.millimetresPerPixel * (SINKING[this.object.role] ?? 0)
+    this.materials.own.sink.value = sunk
+    this.edges?.update(eye, ratio, sunk)
   }
 
   /** Steps back to grey while another object is meant. */
@@ -104,6 +112,7 @@ export class Part {
   setLevel(level: number): void {
     const { start, count } = this.levels[Math.min(level, this.levels.length - 1)]
     this.drawn.geometry.setDrawRange(start, count)
+    this.edges?.show(this.drawn.visible, level > 0)
   }
 
   /** Why there is no value, by the number that the value buffer gives. */
@@ -195,7 +204,9 @@ export class Part {
     const size = opaque ? wanted : Math.min(most, Math.max(DISC.least, wanted))
     const { own } = this.materials
     own.pointSize.value = ratio * size
-    own.lift.value = opaque ? 0 : Math.min(spacing, (size / 2) * millimetresPerPixel)
+    const radius = (size / 2) * millimetresPerPixel
+    own.lift.value = opaque ? 0 : Math.min(spacing, radius)
+    own.rise.value = opaque ? 0 : radius
   }
 
   /** How far behind its nearest place a surface of discs may have points of its own, millimetres. */

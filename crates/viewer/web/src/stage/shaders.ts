@@ -1,3 +1,40 @@
+/** A way through a surface, seen obliquely, is up to this much longer than straight. */
+export const OBLIQUE = 3
+
+/**
+ * How far a point comes forward. Where discs overlap, one out of tolerance lies over those within it that are up to a disc's
+ * radius nearer, and the farther beyond the higher. Where material is missing, points lie under the surface that they are
+ * of, and discs beside them close over a narrow place: they come up to that surface, if they are of the one that is seen:
+ * where they lie as deep under it as they measure. What lies far deeper is of a far side, and stays hidden. Of a chosen
+ * range all come forward before what is grey.
+ */
+const FORWARD = `
+#ifdef POINTS
+#define OBLIQUE ${OBLIQUE.toFixed(1)}
+uniform bool map, covered;
+uniform vec2 range, zone, only;
+uniform float rise, slack;
+/* What is nearest at each pixel: how squarely it is seen, which discs are not, and its depth. */
+uniform highp sampler2D cover;
+flat out float vForward;
+float forward(float v, vec4 at, float depth) {
+  bool chosen = only.x > -1e38 || only.y < 1e38;
+  if (!map || v > 5e29 || v < only.x || v > only.y) return 0.0;
+  float beyond = zone.x <= zone.y ? max(v - zone.y, zone.x - v) - slack : 0.0;
+  if (beyond <= 0.0) return chosen ? 0.5 * rise : 0.0;
+  float room = max(range.y - zone.y, zone.x - range.x);
+  float up = mix(0.8, 1.0, clamp(beyond / max(room, 1e-30), 0.0, 1.0)) * rise;
+  if (!covered) return up;
+  ivec2 size = textureSize(cover, 0);
+  ivec2 pixel = ivec2(floor((at.xy / at.w * 0.5 + 0.5) * vec2(size)));
+  vec4 front = texelFetch(cover, clamp(pixel, ivec2(0), size - 1), 0);
+  if (front.z < 0.5 || front.x <= 0.0) return up;
+  float under = front.y - depth;
+  if (abs(under * front.x + v) < 1.5 * rise) return up + max(under, 0.0);
+  return under * front.x > OBLIQUE * abs(v) + 1.5 * rise ? 0.0 : up;
+}
+#endif`
+
 /** Shared by picture and value buffer: place, normal and value of a vertex. */
 export const VERTEX = `
 in vec4 position;
@@ -12,6 +49,7 @@ out float vValue;
 /* Share of corners without a value, and their reason weighted by it. */
 out vec2 vMissing;
 
+${FORWARD}
 vec3 unfold(float packed) {
   vec2 e = vec2(floor(packed / 256.0), mod(packed, 256.0)) / 127.5 - 1.0;
   vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
@@ -32,14 +70,15 @@ void main() {
   place.z -= sink;
   gl_Position = projectionMatrix * place;
   gl_PointSize = pointSize;
+#ifdef POINTS
+  vForward = forward(value, gl_Position, vPlace.z);
+#endif
 }`
-
-/** A way through a surface, seen obliquely, is up to this much longer than straight. */
-export const OBLIQUE = 3
 
 /**
  * A point is a disc, and lies in the depths as a cone with its tip to the eye: where discs overlap each pixel belongs to
- * the point whose middle is nearest, so that they close a surface and none is lost under its neighbours.
+ * the point whose middle is nearest, so that they close a surface and none is lost under its neighbours; but what matters
+ * more comes forward.
  * Only for points: a shader that may discard keeps the GPU from leaving out what is hidden.
  */
 const DISC = `
@@ -48,10 +87,11 @@ const DISC = `
 #define RIM 0.2
 uniform mat4 projectionMatrix;
 uniform float sink, lift;
+flat in float vForward;
 void disc() {
   float off = length(2.0 * gl_PointCoord - 1.0);
   if (off > 1.0) discard;
-  vec4 tip = projectionMatrix * vec4(vPlace.xy, vPlace.z - sink + lift * (1.0 - off), 1.0);
+  vec4 tip = projectionMatrix * vec4(vPlace.xy, vPlace.z - sink + lift * (1.0 - off) + vForward, 1.0);
   gl_FragDepth = clamp(0.5 * tip.z / tip.w + 0.5, 0.0, 1.0);
 }
 #endif`
@@ -155,7 +195,10 @@ void main() {
   color = vec4(c * shade, opacity);
 }`
 
-/** The value buffer: value, distance before the eye, object, reason why there is no value (0: there is one). */
+/**
+ * The value buffer: value, distance before the eye, object, reason why there is no value (0: there is one). As the cover: how
+ * squarely the surface is seen in place of its value.
+ */
 export const VALUES = `
 precision highp float;
 in vec3 vPlace;
@@ -163,9 +206,9 @@ in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
 uniform float objectId;
-/* What is nearest at each pixel, as this buffer has it: the surface that hides points. */
-uniform sampler2D cover;
-uniform bool covered;
+/* What is nearest at each pixel: the surface that hides points. */
+uniform highp sampler2D cover;
+uniform bool covered, asCover, perspective;
 /* How far behind it a point without a deviation of its own still lies on it. */
 uniform float near;
 out vec4 color;
@@ -177,5 +220,11 @@ void main() {
   vec4 front = covered ? texelFetch(cover, ivec2(gl_FragCoord.xy), 0) : vec4(0.0);
   if (front.z > 0.5 && front.y - vPlace.z > max(near, missing ? 0.0 : OBLIQUE * abs(vValue))) discard;
 #endif
-  color = vec4(vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
+  vec3 eye = perspective ? normalize(-vPlace) : vec3(0.0, 0.0, 1.0);
+#ifdef POINTS
+  float square = 0.0;
+#else
+  float square = abs(dot(normalize(cross(dFdx(vPlace), dFdy(vPlace))), eye));
+#endif
+  color = vec4(asCover ? square : vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
 }`

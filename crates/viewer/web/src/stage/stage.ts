@@ -1,10 +1,11 @@
-import { ColorManagement, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer } from 'three'
+import { ColorManagement, Group, LinearSRGBColorSpace, Scene, Vector3, WebGLRenderer, type Object3D } from 'three'
 import { decodeAll } from '../decode/client'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
 import { Eye, type StandardView } from './eye'
 import { applyLook } from './look'
 import { Flight } from './flight'
+import { Front } from './front'
 import { Marks } from './marks'
 import { Pace } from './pace'
 import { Part } from './part'
@@ -24,8 +25,8 @@ const AGAIN = 20
 const ROUGH = 0.5
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
-/** Room for a column of flags: with values, and with numbers alone where the stage is narrow. */
-const FLAGS = { wide: 150, narrow: 48 }
+/** Least room for a column of flags: with values, and with numbers alone where the stage is narrow; and the most, of its width. */
+const FLAGS = { wide: 150, narrow: 48, most: 0.22 }
 /** Stages narrower than this have flags with numbers alone. */
 export const NARROW = 700
 /** Room above and below the toolbar, which the part keeps clear of where the stage is narrow. */
@@ -37,9 +38,12 @@ export class Stage {
   readonly scene = new Scene()
   readonly eye: Eye
   readonly values: ValueBuffer
+  private readonly front: Front
   private readonly sight: Sight
   readonly parts: Part[] = []
   readonly marks: Marks[] = []
+  /** The parts' edges. */
+  private readonly edges = new Group()
   /** Middle of everything in the model's coordinates. */
   readonly center: Vector3
   private readonly pace: Pace
@@ -49,6 +53,8 @@ export class Stage {
   /** The view is a fitted one that the reader has not moved since. */
   private fitted = true
   private ground: number | null = null
+  /** Pixels that a column of flags takes. */
+  room = (): number => 0
   private ratio = 1
   private frame = 0
   /** Another frame is to follow the one that is not finished. */
@@ -65,13 +71,16 @@ export class Stage {
     this.renderer.outputColorSpace = LinearSRGBColorSpace
     this.renderer.autoClear = false
     this.renderer.sortObjects = false
-    this.values = new ValueBuffer(this.renderer)
+    this.front = new Front(this.renderer)
+    this.values = new ValueBuffer(this.renderer, this.front)
     this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext, () => this.wanted && this.draw())
     this.eye = new Eye(state.manifest.up)
     this.sight = new Sight(this.eye, this.values, () => this.shown, () => this.surfaces)
     this.center = centerOf(state)
     this.eye.lookFrom(new Vector3(...(state.manifest.first?.toward ?? [0, 0, 1])))
     this.scene.matrixAutoUpdate = false
+    // First, and so under all marks.
+    this.scene.add(this.edges)
     applyLook(state)
   }
 
@@ -90,6 +99,7 @@ export class Stage {
       const part = new Part(object, decoded, this.center)
       this.parts.push(part)
       this.scene.add(part.drawn)
+      if (part.edges) this.edges.add(part.edges.drawn)
       this.measure()
       this.pace.forget()
       if (part.drawn.visible) this.frameAll()
@@ -182,9 +192,10 @@ export class Stage {
 
   /** Frames what is shown, and the flags' places that lie off it; draws nothing. */
   private frameAll(): void {
-    const flagged = this.state.flags ? this.state.picks.filter(([, p]) => p.value !== null) : []
+    const { flags, picks, mapped } = this.state
+    const flagged = flags ? picks.filter(([, p]) => (mapped ? p.value !== null : p.frame !== null)) : []
     const narrow = this.eye.width < NARROW
-    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : FLAGS.wide
+    const margin = flagged.length === 0 ? 0 : narrow ? FLAGS.narrow : Math.max(FLAGS.wide, Math.min(this.room(), this.eye.width * FLAGS.most))
     const marks = this.marks.filter((m) => m.drawn.visible)
     const off = flagged.filter(([, p]) => p.off).map(([, p]) => this.placeOf(p))
     const places = [...this.shown.flatMap((p) => p.sample(20000)), ...marks.flatMap((m) => m.sample(2000)), ...off]
@@ -279,13 +290,16 @@ export class Stage {
     const level = this.moving ? this.pace.level(coarsest) : 0
     for (const part of this.parts) part.setLevel(level)
     this.setRatio(level === coarsest ? this.ratio * ROUGH : this.ratio)
+    const surfaces = this.moving || !this.readable ? null : this.surfaces
+    if (surfaces?.some((p) => p.object.kind === 'mesh')) this.front.draw(this.scene, this.parts, this.eye, surfaces, this.besides)
     for (const part of this.parts) part.setPoints(this.eye.millimetresPerPixel, this.renderer.getPixelRatio())
     for (const marks of this.marks) marks.update(this.eye, this.renderer.getPixelRatio())
-    for (const part of this.parts) part.setPixel(this.eye.millimetresPerPixel)
+    for (const part of this.parts) part.setEye(this.eye, this.renderer.getPixelRatio())
     this.renderer.setClearColor((this.ground ??= this.groundColor()), 1)
     const begin = performance.now()
     this.renderer.clear()
     this.renderer.render(this.scene, this.eye.camera)
+    this.front.leave(this.parts)
     this.pace.follow(begin, this.moving ? { level, coarsest } : null)
     for (const listener of this.listeners) listener()
   }
@@ -360,6 +374,16 @@ export class Stage {
     return this.frame !== 0 || this.wanted || this.pace.busy
   }
 
+  /** Numbers can be drawn and read. */
+  private get readable(): boolean {
+    return this.renderer.extensions.has('EXT_color_buffer_float')
+  }
+
+  /** What is drawn beside the parts and has no values. */
+  private get besides(): Object3D[] {
+    return [this.edges, ...this.marks.map((m) => m.drawn)]
+  }
+
   /** Draws and reads anew what another size has left behind. */
   settle(): void {
     cancelAnimationFrame(this.frame)
@@ -371,8 +395,8 @@ export class Stage {
   }
 
   private async read(): Promise<void> {
-    if (this.parts.length === 0 || !this.renderer.extensions.has('EXT_color_buffer_float')) return
-    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, this.marks.map((m) => m.drawn))
+    if (this.parts.length === 0 || !this.readable) return
+    await this.values.draw(this.scene, this.parts, this.eye, this.surfaces, this.besides)
     if (!this.values.ready) return
     this.canvas.ariaBusy = 'false'
     for (const listener of this.listeners) listener()

@@ -1,13 +1,7 @@
-import { FloatType, NearestFilter, RGBAFormat, WebGLRenderTarget, type Object3D, type Scene, type WebGLRenderer } from 'three'
+import type { Object3D, Scene, WebGLRenderer, WebGLRenderTarget } from 'three'
 import type { Eye } from './eye'
+import { sized, type Front } from './front'
 import type { Part } from './part'
-import { NEAR } from './sight'
-
-function sized(target: WebGLRenderTarget | null, width: number, height: number): WebGLRenderTarget {
-  if (target?.width === width && target.height === height) return target
-  target?.dispose()
-  return new WebGLRenderTarget(width, height, { type: FloatType, format: RGBAFormat, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer: true })
-}
 
 /** What lies under a pixel. */
 export interface Reading {
@@ -26,13 +20,15 @@ export interface Reading {
  */
 export class ValueBuffer {
   private target: WebGLRenderTarget | null = null
-  private cover: WebGLRenderTarget | null = null
   private pixels: Float32Array<ArrayBuffer> | null = null
   private generation = 0
   private width = 0
   private height = 0
 
-  constructor(private readonly renderer: WebGLRenderer) {}
+  constructor(
+    private readonly renderer: WebGLRenderer,
+    private readonly front: Front,
+  ) {}
 
   get ready(): boolean {
     return this.pixels !== null
@@ -50,36 +46,25 @@ export class ValueBuffer {
    */
   async draw(scene: Scene, parts: Part[], eye: Eye, surfaces: Part[] | null, besides: Object3D[]): Promise<void> {
     const generation = ++this.generation
-    const [width, height] = [Math.max(1, Math.round(eye.width)), Math.max(1, Math.round(eye.pixels))]
-    this.target = sized(this.target, width, height)
+    this.target = sized(this.target, eye)
+    const { width, height } = this.target
+    if (surfaces) this.front.draw(scene, parts, eye, surfaces, besides)
     const drawn = [...besides, ...parts.map((p) => p.drawn)]
     const before = drawn.map((d) => d.visible)
-    const show = (wanted: (part: Part, visible: boolean) => boolean) => {
-      for (const d of besides) d.visible = false
-      parts.forEach((part, i) => (part.drawn.visible = !part.translucent && wanted(part, before[besides.length + i])))
+    for (const d of besides) d.visible = false
+    for (const part of parts) {
+      part.drawn.visible &&= !part.translucent
+      part.drawn.material = part.materials.values
+      part.setPoints(eye.millimetresPerPixel, 1)
     }
-    const render = (target: WebGLRenderTarget) => {
-      this.renderer.setRenderTarget(target)
-      this.renderer.clear()
-      this.renderer.render(scene, eye.camera)
-    }
-    for (const part of parts) part.drawn.material = part.materials.values
     this.renderer.setClearColor(0, 0)
-    if (surfaces) {
-      this.cover = sized(this.cover, width, height)
-      for (const part of parts) part.setPoints(eye.millimetresPerPixel, 1, true)
-      show((part) => surfaces.includes(part))
-      render(this.cover)
-      const own = Math.max(0, ...surfaces.map((p) => p.depth))
-      for (const part of parts) if (part.hasMap || surfaces.includes(part)) part.setCover(this.cover.texture, NEAR * eye.size + own)
-    }
-    for (const part of parts) part.setPoints(eye.millimetresPerPixel, 1)
-    show((_, visible) => visible)
-    render(this.target)
+    this.renderer.setRenderTarget(this.target)
+    this.renderer.clear()
+    this.renderer.render(scene, eye.camera)
     this.renderer.setRenderTarget(null)
+    this.front.leave(parts)
     for (const part of parts) {
       part.drawn.material = part.materials.picture
-      part.setCover(null, 0)
       part.setPoints(eye.millimetresPerPixel, this.renderer.getPixelRatio())
     }
     drawn.forEach((d, i) => (d.visible = before[i]))

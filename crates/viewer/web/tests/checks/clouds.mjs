@@ -202,6 +202,44 @@ export const clouds = [
     },
   ],
   [
+    'a scratch narrower than the points are apart is seen from where one looks on its face, and from nowhere else',
+    async (session) => {
+      const page = await session.report('scratch')
+      assert.deepEqual(await shown(page), ['measured'])
+      await tool(page, 'Flat')
+      await tool(page, 'Flags')
+      await page.mouse.move(5, 5)
+      const box = await stageBox(page)
+      // Right and up in the model, for a look from above, from a corner, and from below.
+      const [s2, s6] = [Math.sqrt(2), Math.sqrt(6)]
+      const views = { 5: ([x, y]) => [x, y], 7: ([x, y, z]) => [(x + y) / s2, (2 * z - x + y) / s6], 6: ([x, y]) => [x, -y] }
+      for (const [view_, flat] of Object.entries(views)) {
+        await key(page, view_)
+        const scale = box.height / (await view(page))
+        const picture = await screen(page)
+        let [found, all] = [0, 0]
+        for (let x = 1; x < 19.1; x += 0.25) {
+          const [right, up] = flat([x - 10, 0.2 * (x - 10), 9.4])
+          const [i, j] = [Math.round(box.cx + right * scale), Math.round(box.cy - up * scale)]
+          all++
+          found += Number([-3, 0, 3].some((a) => [-3, 0, 3].some((b) => blue(picture.at(i + a, j + b)))))
+        }
+        if (view_ === '6') assert.ok(found < 0.05 * all, `from below: ${found} of ${all}`)
+        else assert.ok(found > 0.75 * all, `view ${view_}: ${found} of ${all}`)
+      }
+      // The cursor reads what is seen.
+      await key(page, '7')
+      const scale = box.height / (await view(page))
+      const read_ = []
+      for (let x = 4; x < 16.1; x += 1) {
+        const [right, up] = views[7]([x - 10, 0.2 * (x - 10), 9.4])
+        await page.mouse.move(Math.round(box.cx + right * scale), Math.round(box.cy - up * scale))
+        read_.push(Number((await read(page)).value))
+      }
+      assert.ok(read_.filter((v) => v < -0.4).length > 0.5 * read_.length, read_.join(' '))
+    },
+  ],
+  [
     'the bunny: thousands of points out of tolerance are seen, as points and on the reference',
     async (session) => {
       const page = await session.report('bunny')

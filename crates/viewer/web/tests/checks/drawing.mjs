@@ -167,6 +167,50 @@ export const drawing = [
     },
   ],
   [
+    'every column of a table is in sight, at any width and in every language',
+    async (session) => {
+      for (const width of [1440, 1280, 820, 390]) {
+        const page = await session.report('section', { width, height: 900, live: false })
+        await page.waitForSelector('.stage.live')
+        await page.evaluate(() => document.querySelectorAll('details').forEach((d) => (d.open = true)))
+        for (const language of ['en', 'de', 'ru', 'zh-Hans']) {
+          await page.locator('#tools select').selectOption(language)
+          const cut = await page.evaluate(() => {
+            const end = document.querySelector('.list').getBoundingClientRect().right
+            const cells = [...document.querySelectorAll('.list th, .list td')].filter((c) => c.getBoundingClientRect().right > end + 0.5)
+            const holders = [...document.querySelectorAll('.list, .wide')].filter((e) => e.scrollWidth > e.clientWidth)
+            return [...cells.map((c) => c.innerText), ...holders.map((e) => `${e.className} ${e.scrollWidth} in ${e.clientWidth}`)]
+          })
+          assert.deepEqual(cut, [], `${width} ${language}`)
+        }
+        await session.tidy()
+      }
+    },
+  ],
+  [
+    'no button and no ruler lies over a join, on the screen and the phone',
+    async (session) => {
+      for (const [width, height] of [[1440, 900], [1000, 900], [390, 844]]) {
+        const page = await session.report('section', { width, height, live: false })
+        await page.waitForSelector('.stage.live')
+        const found = await page.evaluate(() => {
+          const boxes = (css) => [...document.querySelectorAll(css)].filter((e) => e.getClientRects().length).map((e) => e.getBoundingClientRect())
+          const joins = boxes('svg.plan .join circle, svg.plan .join path')
+          const over = boxes('.stage-tools button, .stage-tools select, .ruler')
+          const sheet = document.querySelector('svg.plan').getBoundingClientRect()
+          const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
+          const inside = (a) => a.left > sheet.left && a.right < sheet.right && a.top > sheet.top && a.bottom < sheet.bottom
+          // The strip of the tools is above all of the drawing.
+          const strip = Math.max(...boxes('.stage-tools').map((b) => b.bottom))
+          return { joins: joins.length, covered: joins.filter((j) => over.some((o) => meets(j, o))).length, out: joins.filter((j) => !inside(j)).length, strip, top: sheet.top }
+        })
+        assert.ok(found.joins >= JOINS)
+        assert.deepEqual([found.covered, found.out], [0, 0], `${width}`)
+        assert.ok(found.strip <= found.top + 0.5, `${width}: the tools reach to ${found.strip}, the drawing begins at ${found.top}`)
+      }
+    },
+  ],
+  [
     'paper: drawing, residuals and tables on few pages, nothing of the tools',
     async (session) => {
       const page = await session.report('section', { width: 800, height: 1100, live: false, colorScheme: 'dark' })

@@ -119,4 +119,19 @@ export const first = [
       assert.ok(looksHere(largest.position, first.toward), `${first.toward}`)
     },
   ],
+  [
+    'a check opens from where its faults are seen, not only facets that have them; and the script says of them what the page said',
+    async (session) => {
+      const still = await session.report('pushed', { scripts: false })
+      const said = (await still.locator('#unseen').textContent()).match(/(\d+) \/ (\d+)/).slice(1).map(Number)
+      assert.ok(said[1] > 1 && said[0] < said[1], `${said}`)
+      const page = await session.report('pushed')
+      const { first, picks } = await manifest(page)
+      // The places lie in the bottom, over which there is the rest of the cube.
+      for (const n of first.places) assert.ok(Math.abs(picks[n].position[2]) < 1e-6, `${picks[n].position}`)
+      assert.ok(first.toward[2] < 0, `${first.toward}`)
+      const live = (await page.locator('#unseen').textContent()).match(/(\d+) \/ (\d+)/).slice(1).map(Number)
+      assert.deepEqual(live, said)
+    },
+  ],
 ]

@@ -3,9 +3,11 @@ import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { curvature } from './curvature.mjs'
 import { defects } from './defects.mjs'
+import { edges } from './edges.mjs'
 import { first } from './first.mjs'
 import { drawing } from './drawing.mjs'
 import { fit } from './fit.mjs'
+import { flags } from './flags.mjs'
 import { inspect } from './inspect.mjs'
 import { layout } from './layout.mjs'
 import { pace } from './pace.mjs'
@@ -17,4 +19,4 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...pace, ...words, ...layout]
