@@ -10,7 +10,7 @@
 //! | `polygon` | rows that are polygons, exactly |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
-//! | `slab` | points of a cloud near a plane, put in order |
+//! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
 //! | `cut` | where a plane cuts a mesh |
 //! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
 //! | `foot` | where on a segment the foot of a point is |
@@ -31,6 +31,7 @@ mod follow;
 mod foot;
 mod free;
 mod least;
+mod link;
 mod nominal;
 mod paper;
 mod polygon;
@@ -44,6 +45,7 @@ mod start;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod untangle;
 
 pub use chain::Kind;
 pub use contour::contour;
@@ -53,5 +55,5 @@ pub use foot::SegmentFoot;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
-pub use slab::{Ordered, order, ordered_contour, slab};
+pub use slab::{Order, Ordered, order, ordered_contour, slab};
 pub use tessellated::{chain_contour, rounding};
