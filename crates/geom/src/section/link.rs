@@ -26,7 +26,7 @@ pub(super) struct Limits {
 }
 
 /// A gap longer than those that uneven points have by chance: one in a thousand rows has a longer one.
-pub(super) const CHANCE: f64 = 7.0;
+const CHANCE: f64 = 7.0;
 /// The direction of an end is that over so many cells.
 const BACK: usize = 4;
 /// Two ends head for a common corner where the cosines of their angles with the line between them sum up to more than this; of

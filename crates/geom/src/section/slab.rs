@@ -8,7 +8,7 @@
 
 use super::contour::contour;
 use super::cut::{Plane, PlaneFrame};
-use super::link::{CHANCE, Limits, Linked, Way, gap_to_close, link, longest_by_chance};
+use super::link::{Limits, Linked, Way, gap_to_close, link, longest_by_chance};
 use super::result::{Contour, Options, SectionError};
 use super::untangle::untangle;
 use crate::progress::{Cancelled, Progress};
@@ -92,8 +92,7 @@ const FEWER: f64 = 0.7;
 const GROWTH: (f64, usize) = (1.4, 24);
 /// A tree reaches over so many cells.
 const REACH: f64 = 4.0;
-/// The longest gap by chance is not longer than that of random points so many times less dense, and than this share of all.
-const DENSER: f64 = 1.5;
+/// The longest gap by chance is no larger than this share of all.
 const LARGEST: f64 = 0.25;
 /// Fewest cells and points of a contour.
 const FEWEST: (usize, usize) = (4, 8);
@@ -130,22 +129,19 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         return Ok(Order::default());
     };
     let Grown { cells, tree, reach, follows } = grown;
-    let steps = tree.iter().enumerate().flat_map(|(i, near)| near.iter().map(move |j| (i, *j)));
-    let lengths: Vec<f64> =
-        steps.filter(|(i, j)| i < j).map(|(i, j)| far(cells.middles[i], cells.middles[j])).collect();
+    let ways = tree_paths(&cells, &tree);
     let gap = match (gap, follows) {
         (Some(gap), _) => gap.max(1.5 * cells.width),
         (None, true) => {
-            // Steps over cells that are wide because points scatter are uneven by that too.
-            let by_points = DENSER * lengths.iter().sum::<f64>() / n as f64 * (libm::log(n as f64) + CHANCE);
-            let most = by_points.min(LARGEST * size).max(reach);
-            longest_by_chance(lengths, reach).min(most)
+            let all = ways.iter().map(|way| cells.along(points, way, false).0);
+            let steps = all.flat_map(|all| all.windows(2).map(|w| w[1].0 - w[0].0).collect::<Vec<f64>>());
+            longest_by_chance(steps.collect(), reach).min((LARGEST * size).max(reach))
         }
         // A tree that branches everywhere follows no contour: nothing is known of its gaps.
         (None, false) => reach,
     };
     let limits = Limits { gap, closing: reach, fewest: 2 * FEWEST.0 };
-    let linked = link(tree_paths(&cells, &tree), &cells.middles, &limits);
+    let linked = link(ways, &cells.middles, &limits);
     let mut rows: Vec<Ordered> = linked.iter().map(|way| cells.row(points, way)).collect();
     rows.retain(|r| r.numbers.len() >= FEWEST.1);
     rows.sort_by_key(|r| std::cmp::Reverse(r.numbers.len()));
@@ -202,7 +198,7 @@ fn grow(
         {
             break;
         }
-        let torn = pieces as f64 > PIECES.0 * n as f64 + PIECES.1 as f64;
+        let torn = gap.is_none() && pieces as f64 > PIECES.0 * n as f64 + PIECES.1 as f64;
         best = Some((Grown { cells, tree, reach, follows }, pieces));
         if follows && !torn {
             break;
@@ -280,9 +276,10 @@ impl Cells {
         tree
     }
 
-    /// The points of the cells along a way, each cell with what hangs beside it, in order.
-    fn row(&self, points: &[[f64; 2]], Linked { way, closed }: &Linked) -> Ordered {
-        let (m, closed) = (way.len(), *closed);
+    /// The points of the cells along a way, each cell with what hangs beside it, in order, each with its place along; the length
+    /// of the way.
+    fn along(&self, points: &[[f64; 2]], way: &Way, closed: bool) -> (Vec<(f64, usize)>, f64) {
+        let m = way.len();
         let middle = |k: usize| self.middles[way[k].0];
         let mut all: Vec<(f64, usize)> = vec![];
         let mut station = 0.0;
@@ -300,11 +297,15 @@ impl Cells {
             }
             station += if k + 1 < m { far(middle(k), middle(k + 1)) } else { 0.0 };
         }
-        let way = station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 };
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        (all, station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 })
+    }
+
+    fn row(&self, points: &[[f64; 2]], Linked { way, closed }: &Linked) -> Ordered {
+        let (all, way) = self.along(points, way, *closed);
         let mut numbers: Vec<usize> = all.into_iter().map(|(_, i)| i).collect();
-        untangle(points, &mut numbers, closed, way);
-        Ordered { numbers, closed, way }
+        untangle(points, &mut numbers, *closed, way);
+        Ordered { numbers, closed: *closed, way }
     }
 }
 

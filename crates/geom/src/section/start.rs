@@ -339,8 +339,19 @@ fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, Kind)>, stride: usize, penalty:
         let places = low.max(a + fewest)..=high.min(c.saturating_sub(fewest));
         places.map(|at| (at, sum(at))).min_by(|x, y| x.1.total_cmp(&y.1))
     };
+    let move_all = |breaks: &mut [(usize, Kind)]| {
+        for k in 1..breaks.len() - 1 {
+            let [a, (at, after), c] = [breaks[k - 1], breaks[k], breaks[k + 1]];
+            let now = cost(a.0, at, a.1) + cost(at, c.0, after);
+            let found = best(a, (c.0, after), (at + 1).saturating_sub(stride), at + stride - 1);
+            if let Some((best, _)) = found.filter(|(_, sum)| *sum < now) {
+                breaks[k].0 = best;
+            }
+        }
+    };
+    move_all(breaks);
     let variance = penalty.noise * penalty.noise;
-    let mut k = 1;
+    let (mut k, count) = (1, breaks.len());
     while k + 2 < breaks.len() {
         let [a, b, c, d] = [k - 1, k, k + 1, k + 2].map(|i| breaks[i]);
         let own = if b.1 == Kind::Line { penalty.line } else { penalty.arc };
@@ -353,12 +364,7 @@ fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, Kind)>, stride: usize, penalty:
             k += 1;
         }
     }
-    for k in 1..breaks.len() - 1 {
-        let [a, (at, after), c] = [breaks[k - 1], breaks[k], breaks[k + 1]];
-        let now = cost(a.0, at, a.1) + cost(at, c.0, after);
-        let found = best(a, (c.0, after), at + 1 - stride, at + stride - 1);
-        if let Some((best, _)) = found.filter(|(_, sum)| *sum < now) {
-            breaks[k].0 = best;
-        }
+    if breaks.len() < count {
+        move_all(breaks);
     }
 }

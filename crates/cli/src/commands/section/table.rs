@@ -117,12 +117,16 @@ fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
     if let Some(area) = plane.area {
         let _ = write!(line, "   area {}", fixed(area, 6));
     }
+    if let Some(gap) = plane.gap {
+        let _ = write!(line, "   gap {}", fixed(gap, 4));
+    }
     if plane.loose > 0 {
         let _ = write!(line, "   {} points of no contour", grouped(plane.loose));
     }
     let [x, y] = [plane.frame.x, plane.frame.y].map(|a| a.map(|n| fixed(n, 4)).join(" "));
     let origin = plane.frame.origin.map(|n| fixed(n, 6)).join(" ");
-    format!("{line}\n          x along {x}, y along {y}, from {origin}\n")
+    let hint = plane.hint.as_ref().map_or(String::new(), |hint| format!("! {hint}\n"));
+    format!("{line}\n          x along {x}, y along {y}, from {origin}\n{hint}")
 }
 
 fn segments(contour: &ContourRecord) -> String {
