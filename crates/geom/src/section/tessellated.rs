@@ -59,7 +59,7 @@ pub fn chain_contour(
     let forced = options.noise.is_some() || options.continuity.is_some();
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
-        if is_exact(&points, &polygon, &items) {
+        if is_exact(&points, &polygon, &items, rounding) {
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
@@ -70,10 +70,11 @@ pub fn chain_contour(
     Ok(spread(contour(&row, &own, progress)?, &kept, &points, Taken::Scan))
 }
 
-fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
+fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f64) -> bool {
     let straight = points.len() - polygon.at.len();
     let chords: usize = items.iter().filter(|i| i.shape != Shape::Line).map(|i| i.to - i.from - 1).sum();
-    polygon.at.len() < FEW || (straight + chords) as f64 >= EXACT * points.len() as f64
+    let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
+    polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
 
 /// Points whose edges share no vertex with that of the one before: their noise is independent.

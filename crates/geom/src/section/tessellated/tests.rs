@@ -130,6 +130,66 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
     found[2..].iter().for_each(holds_together);
 }
 
+/// Regular polygons wherever they lie, whatever rounding does to their turns: up to ten sides lines, from eleven on circles.
+#[test]
+fn polygons_of_up_to_ten_sides_are_lines_and_of_eleven_circles() {
+    let random = &mut Random::new(8);
+    for sides in 3..14 {
+        for _ in 0..20 {
+            let center = [200.0 * random.unit() - 100.0, 200.0 * random.unit() - 100.0];
+            let start = 360.0 * random.unit();
+            let outline = arc(center, 1.0 + 20.0 * random.unit(), start, start + 360.0, sides);
+            let found = &sections(&[outline])[0];
+            let want = if sides <= 10 { vec![Kind::Line; sides] } else { vec![Kind::Arc] };
+            assert_eq!(kinds(found), want, "{sides} {center:?} {start}");
+            holds_together(found);
+        }
+    }
+    // Uneven chords of one circle that turn by a little more or less than the limit are of one kind.
+    for _ in 0..50 {
+        let mut angles: Vec<f64> = (0..10).map(|i| 36.0 * f64::from(i) + 4.0 * random.unit()).collect();
+        angles.push(angles[0] + 360.0);
+        let outline: Vec<[f64; 2]> =
+            angles.windows(2).flat_map(|w| arc([3.0, 1.0], 9.0, w[0], w[1], 1)).collect();
+        let found = &sections(&[outline])[0];
+        assert!(kinds(found).windows(2).all(|w| w[0] == w[1]), "{:?} {angles:?}", kinds(found));
+    }
+}
+
+/// The sides of a pyramid are one facet each: their cut has no points but the corners. Ten of them are no scan.
+#[test]
+fn a_pyramid_of_ten_sides_has_ten_lines() {
+    for sides in [9, 10] {
+        let mut mesh = Mesh::default();
+        let base = arc([2.0, 1.0], 12.0, 7.0, 367.0, sides);
+        mesh.positions.extend(base.iter().map(|p| [p[0], p[1], 0.0]));
+        mesh.positions.push([2.0, 1.0, 20.0]);
+        let n = sides as u32;
+        mesh.faces.extend((0..n).map(|i| [i, (i + 1) % n, n]));
+        let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 3.0 };
+        let chains = cut(&mesh, &plane, &Silent).unwrap();
+        let options = Options::default();
+        let found =
+            chain_contour(&chains[0], &plane.frame().unwrap(), rounding(&mesh), &options, &Silent).unwrap();
+        assert_eq!((kinds(&found), found.taken), (vec![Kind::Line; sides], Taken::Facets));
+    }
+}
+
+/// The half circles of a slot in two to six chords are arcs: they are tangent to its sides.
+#[test]
+fn coarse_slots_have_arcs() {
+    for chords in 2..7 {
+        let right = arc([50.0, 0.0], 6.0, -90.0, 90.0, chords);
+        let left = arc([20.0, 0.0], 6.0, 90.0, 270.0, chords);
+        let slot = [right, vec![[50.0, 6.0]], left, vec![[20.0, -6.0]]].concat();
+        let found = &sections(&[slot])[0];
+        use Kind::{Arc, Line};
+        assert_eq!(kinds(found), [Line, Arc, Line, Arc], "{chords}");
+        assert!(found.joins.iter().all(|j| j.continuity == Continuity::G1), "{chords}");
+        holds_together(found);
+    }
+}
+
 /// A line goes on as half a wave of a cosine and a line again: the free curve is no row of lines.
 #[test]
 fn a_free_curve_between_lines_is_a_spline() {
