@@ -59,7 +59,9 @@ impl Clean {
             }
         }
         let mut ends_meet = false;
-        while numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
+        // An open contour may come back to where it started.
+        let open = options.closed == Some(false);
+        while !open && numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
             ends_meet = true;
             repeated.extend(numbers.pop());
         }

@@ -170,7 +170,9 @@ impl Sheet<'_> {
         }
         let mut runs = self.smooth_runs(items);
         let closed = self.polygon.closed;
-        let whole = closed && runs.len() == 1 && self.is_smooth(&items[items.len() - 1], &items[0]);
+        // A run of all facets starts at the corner, if there is one.
+        let smooth = |run: &Run| self.is_smooth(&run.items[run.items.len() - 1], &run.items[0]);
+        let whole = closed && runs.len() == 1 && smooth(&runs[0]);
         for run in &mut runs {
             if self.is_curve(&run.items) {
                 run.curve = Some(self.fit(&run.items, whole, progress)?);
@@ -203,9 +205,14 @@ impl Sheet<'_> {
                 continue;
             };
             segments.extend(found.segments.iter().cloned());
-            (segments[first].start, segments[first].end) = (self.polygon.vertex(from), segments[first].end);
             let last = segments.len() - 1;
-            segments[last].end = self.polygon.vertex(to);
+            let (start, end) = (segments[last].start, segments[first].end);
+            if first == last {
+                segments[first].end_at(self.polygon.vertex(from), self.polygon.vertex(to));
+            } else {
+                segments[first].end_at(self.polygon.vertex(from), end);
+                segments[last].end_at(start, self.polygon.vertex(to));
+            }
             joins.extend(found.joins.iter().cloned().map(Some));
             joins.push(None);
             let slack = self.chord_turn(&run.items);

@@ -190,6 +190,43 @@ fn coarse_slots_have_arcs() {
     }
 }
 
+/// A torus cut at the plane tangent to its inner equator: two loops that touch each other in a corner, on the saddle.
+#[test]
+fn loops_that_touch_have_their_corner() {
+    // By 4,000,000 chords of the curve itself.
+    let length_of_loop = 31.9196;
+    for (around, across) in [(96_u32, 48_u32), (120, 60), (200, 100), (64, 32)] {
+        let mut mesh = Mesh::default();
+        for i in 0..around {
+            let (s, c) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(around));
+            for j in 0..across {
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(j) / f64::from(across));
+                let r = 10.0 + 4.0 * cos;
+                mesh.positions.push([r * c, r * s, 4.0 * sin].map(|x| f64::from(x as f32)));
+                let at = |i: u32, j: u32| (i % around) * across + j % across;
+                mesh.faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                mesh.faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            }
+        }
+        let plane = Plane { normal: [1.0, 0.0, 0.0], offset: 6.0 };
+        let frame = plane.frame().unwrap();
+        let chains = cut(&mesh, &plane, &Silent).unwrap();
+        assert_eq!(chains.len(), 2, "{around}");
+        for chain in &chains {
+            let found = chain_contour(chain, &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
+            assert!(found.closed && found.astray.is_empty());
+            assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
+            let corner = found.joins.iter().find(|j| length(j.point, [0.0, 0.0]) < 1e-4).unwrap();
+            assert_eq!(corner.continuity, Continuity::G0, "{around}");
+            // What is drawn ends there.
+            let near =
+                found.segments.iter().map(|s| s.foot([0.0, 0.0]).1.abs()).fold(f64::INFINITY, f64::min);
+            assert!(near < 1e-4, "{around}: {near}");
+            holds_together(&found);
+        }
+    }
+}
+
 /// A line goes on as half a wave of a cosine and a line again: the free curve is no row of lines.
 #[test]
 fn a_free_curve_between_lines_is_a_spline() {
