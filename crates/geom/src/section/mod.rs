@@ -7,7 +7,7 @@
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
 //! | `search` | number and kinds of pieces |
-//! | `polygon` | rows that are polygons, exactly |
+//! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
@@ -26,6 +26,7 @@ mod convert;
 mod corner;
 mod cut;
 mod dimension;
+mod exact;
 mod facets;
 mod follow;
 mod foot;

@@ -2,6 +2,7 @@
 
 mod astray;
 mod scattered;
+mod sparse;
 
 use super::*;
 use crate::num::random::Random;
