@@ -6,7 +6,7 @@ use super::corner::crossing;
 use super::exact::{missed, rounded};
 use super::polygon::{self, polygon, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
-use super::row::Clean;
+use super::row::{Clean, size, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
 use super::start::{Part, Penalty, noise, partition, scatter, shares};
@@ -83,9 +83,7 @@ pub fn contour(
     let (mut turned, mut parts, mut outliers, mut known) = (0, vec![], vec![], false);
     let mut weights = vec![1.0; n];
     let free = options.noise.is_none() && options.continuity.is_none();
-    // Coordinates in files are rounded: to within the first of these shares of the size, or the second.
-    let round = |share: f64| rounded(&clean, least.max(share * size(&clean.points)));
-    let exact = if free { round(1e-6).or_else(|| round(1e-5)) } else { None };
+    let exact = if free { rounded(&clean, least) } else { None };
     known |= exact.is_some();
     if options.noise.is_none()
         && let Some((by, found)) = exact.or_else(|| polygon(&clean, &penalty(least)))
@@ -128,30 +126,6 @@ pub fn contour(
     }
     found.finish(&clean, turned, points.len(), outliers);
     Ok(found.contour)
-}
-
-fn size(points: &[[f64; 2]]) -> f64 {
-    let range = |k: usize| {
-        let (low, high) =
-            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
-        high - low
-    };
-    libm::hypot(range(0), range(1))
-}
-
-/// Mean distance between neighbors, of means of five: noise makes the row itself longer.
-fn spacing(clean: &Clean, step: usize) -> f64 {
-    let points: Vec<[f64; 2]> = clean.points.iter().step_by(step).copied().collect();
-    let n = points.len();
-    let smooth: Vec<[f64; 2]> = (0..n)
-        .map(|i| {
-            let k = i.min(n - 1 - i).min(2);
-            let w = (2 * k + 1) as f64;
-            [0, 1].map(|d| points[i - k..=i + k].iter().map(|p| p[d]).sum::<f64>() / w)
-        })
-        .collect();
-    let length: f64 = smooth.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
-    (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
 }
 
 /// What all spans of a row have in common.

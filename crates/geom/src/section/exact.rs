@@ -9,7 +9,7 @@ use super::facets::{angle, length};
 use super::least::State;
 use super::polygon::CORNER;
 use super::result::Contour;
-use super::row::Clean;
+use super::row::{Clean, size};
 use super::search::{Model, Search};
 use super::start::Part;
 
@@ -43,9 +43,17 @@ fn left(p: [f64; 2], at: [f64; 2], along: [f64; 2]) -> f64 {
     along[0] * d[1] - along[1] * d[0]
 }
 
-/// The lines and arcs of a row whose points lie on them to within `tolerance`, every arc tangent to the lines beside it; and where
-/// the row is turned to, so that it begins with a line.
-pub(super) fn rounded(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
+/// Coordinates in files are rounded: to within the first of these shares of the size, or the second.
+const ROUNDED: [f64; 2] = [1e-6, 1e-5];
+
+/// The lines and arcs of a row whose points lie on them exactly, to within `least` or what coordinates are rounded by, every arc
+/// tangent to the lines beside it; and where the row is turned to, so that it begins with a line.
+pub(super) fn rounded(clean: &Clean, least: f64) -> Option<(usize, Vec<Part>)> {
+    ROUNDED.iter().find_map(|share| within(clean, least.max(share * size(&clean.points))))
+}
+
+/// The same to within `tolerance`.
+fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
     let n = clean.points.len();
     if !(2 * FEWEST..=MOST).contains(&n) {
         return None;

@@ -6,7 +6,7 @@
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
-//! | `search` | number and kinds of pieces |
+//! | `search`, `smooth` | number and kinds of pieces |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
@@ -41,6 +41,7 @@ mod result;
 mod row;
 mod search;
 mod slab;
+mod smooth;
 mod span;
 mod start;
 mod tessellated;

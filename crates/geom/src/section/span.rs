@@ -175,7 +175,7 @@ impl Span {
             return Ok(search.known(parts, task.closed));
         }
         let first = search.first(parts, task.closed);
-        search.run(first, progress)
+        search.best(first, progress)
     }
 
     /// The pieces by every `step`-th point alone, then refined by all.
@@ -198,7 +198,7 @@ impl Span {
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
         let mut search = own.search(&thinned);
         let first = search.first(&kept, task.closed);
-        let found = search.run(first, progress)?.state;
+        let found = search.best(first, progress)?.state;
         let n = self.points.len();
         let few = own.points.len();
         // Round and round a closed row, the place of a point among all.

@@ -2,6 +2,7 @@
 
 mod astray;
 mod scattered;
+mod smooth;
 mod sparse;
 
 use super::*;
