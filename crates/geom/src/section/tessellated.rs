@@ -149,6 +149,9 @@ fn nearest(
     best
 }
 
+/// An edge so many times as long as the facets beside it are in the middle is that of a flat face.
+const LONG: f64 = 8.0;
+
 /// Consecutive items of one treatment: exact, or a curve of segments found from its points.
 struct Run {
     items: Vec<Item>,
@@ -168,7 +171,8 @@ impl Sheet<'_> {
         if items.len() == 1 && self.polygon.closed {
             return Ok(self.finish(vec![self.segment(&items[0])], vec![], &[(items[0], 0..1)]));
         }
-        let mut runs = self.smooth_runs(items);
+        let smooth_runs = self.smooth_runs(items);
+        let mut runs: Vec<Run> = smooth_runs.into_iter().flat_map(|run| self.without_lines(run)).collect();
         let closed = self.polygon.closed;
         // A run of all facets starts at the corner, if there is one.
         let smooth = |run: &Run| self.is_smooth(&run.items[run.items.len() - 1], &run.items[0]);
@@ -260,6 +264,20 @@ impl Sheet<'_> {
             }
         }
         runs
+    }
+
+    /// A run of chords of a curve without the edges of flat faces in it: these are far longer than chords, and lines exactly.
+    fn without_lines(&self, run: Run) -> Vec<Run> {
+        if !self.is_curve(&run.items) {
+            return vec![run];
+        }
+        let facets = |item: &Item| (item.from..item.to).map(|i| self.polygon.facet_length(i));
+        let mut lengths: Vec<f64> = run.items.iter().flat_map(facets).collect();
+        lengths.sort_by(f64::total_cmp);
+        let long = LONG * lengths[lengths.len() / 2];
+        let is_long = |item: &Item| item.shape == Shape::Line && facets(item).sum::<f64>() > long;
+        let parts = run.items.chunk_by(|a, b| !is_long(a) && !is_long(b));
+        parts.map(|items| Run { items: items.to_vec(), curve: None }).collect()
     }
 
     /// Whether items without a corner are chords of a curve.

@@ -227,6 +227,44 @@ fn loops_that_touch_have_their_corner() {
     }
 }
 
+/// A slot cut by an oblique plane: half ellipses between lines that are the edges of flat faces, as far apart as these exactly.
+#[test]
+fn sides_of_an_oblique_slot_are_exact() {
+    let normal = [0.3, 0.2, 1.0];
+    let plane = Plane { normal, offset: 6.0 };
+    let frame = plane.frame().unwrap();
+    for chords in [12, 24, 48] {
+        for degrees in [0.0, 33.0, 57.0, 80.0_f64] {
+            let right = arc([4.0, 0.0], 1.5, -90.0, 90.0, chords);
+            let left = arc([-4.0, 0.0], 1.5, 90.0, 270.0, chords);
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            let slot = [right, vec![[4.0, 1.5]], left, vec![[-4.0, -1.5]]].concat();
+            let slot = slot.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect();
+            let mesh = prisms(&[slot], 0.0);
+            let chains = cut(&mesh, &plane, &Silent).unwrap();
+            let found =
+                chain_contour(&chains[0], &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
+            holds_together(&found);
+            // The walls' distance over the length of their normal's part in the plane.
+            let along = 0.2 * cos - 0.3 * sin;
+            let want = 3.0 / (1.0 - along * along / 1.13_f64).sqrt();
+            let widths: Vec<_> = crate::section::dimensions(&[found])
+                .into_iter()
+                .filter(|d| d.kind == crate::section::DimensionKind::Width)
+                .collect();
+            assert!(!widths.is_empty(), "{chords} {degrees}");
+            for d in widths {
+                let off = (d.value - want).abs();
+                assert!(
+                    off < 2e-5 && d.uncertainty.is_none(),
+                    "{chords} {degrees}: {off} {:?}",
+                    d.uncertainty
+                );
+            }
+        }
+    }
+}
+
 /// A line goes on as half a wave of a cosine and a line again: the free curve is no row of lines.
 #[test]
 fn a_free_curve_between_lines_is_a_spline() {
