@@ -168,6 +168,40 @@ fn a_cloud_of_a_tube_has_a_circle() {
     assert!(answer["planes"][0]["area"].is_null() && answer["planes"][0]["area_reason"].is_string());
 }
 
+/// A tube sampled at random is one contour; the gap is told. A gap that tears it comes with a hint, and so with a remedy.
+#[test]
+fn a_scattered_cloud_is_one_contour_and_a_torn_one_has_a_hint() {
+    let folder = Folder::new();
+    let mut state = 1_u64;
+    // Knuth's linear congruential generator.
+    let mut unit = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let text: String = (0..8000)
+        .map(|_| {
+            let (a, z) = (unit() * std::f64::consts::TAU, 20.0 * unit());
+            format!("{} {} {z}\n", 10.0 * a.cos(), 10.0 * a.sin())
+        })
+        .collect();
+    let file = folder.write("tube.xyz", text);
+    let words = ["section", file.to_str().unwrap(), "--plane", "0,0,1,10", "--thickness", "1"];
+    let answer = document(words);
+    let plane = &answer["planes"][0];
+    assert_eq!((&plane["contours"], &plane["loose"]), (&1.into(), &0.into()), "{plane}");
+    assert_eq!(answer["contours"][0]["closed"], true);
+    let gap = plane["gap"].as_f64().unwrap();
+    assert!((0.2..6.0).contains(&gap) && plane["hint"].is_null(), "{plane}");
+    assert!(stdout(&trueness(words)).contains(&format!("   gap {gap:.4}")));
+    let torn = [&words[..], &["--gap", "0.3"]].concat();
+    let text = stdout(&trueness(&torn));
+    assert!(text.contains("   gap 0.3000") && text.contains("open and end near each other"), "{text}");
+    let wider = text.split_once("; --gap ").unwrap().1.split_once(' ').unwrap().0;
+    let mended = document([&words[..], &["--gap", wider]].concat());
+    let count = |answer: &serde_json::Value| answer["planes"][0]["contours"].as_u64().unwrap();
+    assert!(2 * count(&mended) < count(&document(&torn)), "{wider}");
+}
+
 /// The three methods side by side on a line at 45° and a curve, and a clear word where there is no line.
 #[test]
 fn the_methods_of_the_paper_stand_side_by_side() {

@@ -3,9 +3,10 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
+use super::exact::{missed, rounded};
 use super::polygon::{self, polygon, turn};
-use super::result::{Continuity, Contour, Join, Options, SectionError};
-use super::row::Clean;
+use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
+use super::row::{Clean, size, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
 use super::start::{Part, Penalty, noise, partition, scatter, shares};
@@ -79,10 +80,13 @@ pub fn contour(
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let (mut turned, mut parts, mut outliers) = (0, vec![], vec![]);
+    let (mut turned, mut parts, mut outliers, mut known) = (0, vec![], vec![], false);
     let mut weights = vec![1.0; n];
+    let free = options.noise.is_none() && options.continuity.is_none();
+    let exact = if free { rounded(&clean, least) } else { None };
+    known |= exact.is_some();
     if options.noise.is_none()
-        && let Some((by, found)) = polygon(&clean, &penalty(least))
+        && let Some((by, found)) = exact.or_else(|| polygon(&clean, &penalty(least)))
     {
         (turned, parts) = (by, found);
         clean.points.rotate_left(by);
@@ -112,36 +116,16 @@ pub fn contour(
         (own, sigma) = (own.min(found), found);
     }
     let spacing = spacing(&clean, step);
+    let given = options.noise;
     let mut plan =
-        Plan { clean: &clean, weights: &weights, options, spacing, step, sigma, given: options.noise, own };
+        Plan { clean: &clean, weights: &weights, options, spacing, step, sigma, given, own, known };
     let (founds, corners) = plan.all(&parts, progress)?;
     let mut found = plan.join(founds, corners)?;
+    if given.is_none() && options.resolution.is_none() {
+        found.astray(missed(&clean.points, &found.contour));
+    }
     found.finish(&clean, turned, points.len(), outliers);
     Ok(found.contour)
-}
-
-fn size(points: &[[f64; 2]]) -> f64 {
-    let range = |k: usize| {
-        let (low, high) =
-            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
-        high - low
-    };
-    libm::hypot(range(0), range(1))
-}
-
-/// Mean distance between neighbors, of means of five: noise makes the row itself longer.
-fn spacing(clean: &Clean, step: usize) -> f64 {
-    let points: Vec<[f64; 2]> = clean.points.iter().step_by(step).copied().collect();
-    let n = points.len();
-    let smooth: Vec<[f64; 2]> = (0..n)
-        .map(|i| {
-            let k = i.min(n - 1 - i).min(2);
-            let w = (2 * k + 1) as f64;
-            [0, 1].map(|d| points[i - k..=i + k].iter().map(|p| p[d]).sum::<f64>() / w)
-        })
-        .collect();
-    let length: f64 = smooth.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
-    (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
 }
 
 /// What all spans of a row have in common.
@@ -155,6 +139,8 @@ struct Plan<'a> {
     sigma: f64,
     given: Option<f64>,
     own: f64,
+    /// The parts are known exactly: arcs are tangent to the lines beside them.
+    known: bool,
 }
 
 /// Where a corner is: the first point after it.
@@ -173,6 +159,9 @@ impl Plan<'_> {
         let corner = |k: usize| match forced {
             Some(Continuity::G0) => true,
             Some(_) => false,
+            None if self.known => {
+                parts[k].kind == Kind::Line && parts[(k + 1) % parts.len()].kind == Kind::Line
+            }
             None => self.is_corner(&parts[k], &parts[(k + 1) % parts.len()]),
         };
         let mut ends: Vec<usize> = (0..parts.len() - 1).filter(|k| corner(*k)).map(|k| k + 1).collect();
@@ -283,6 +272,7 @@ impl Plan<'_> {
             closed,
             even,
             level: self.options.level,
+            known: self.known,
         }
     }
 
@@ -413,7 +403,12 @@ impl Joined {
                 contour.stations[number] = self.length + parts.before + found.stations[i % n];
             }
         }
-        let astray = parts.segments.iter().enumerate().filter(|(_, s)| found.astray || s.strays());
+        // A free curve of as many unknowns as points is any curve through them: its coefficients, and where it starts and heads.
+        let free = |k: usize, s: &Segment| {
+            s.geometry.kind() == Kind::Spline && found.pieces()[k].coefficients.len() + 2 >= s.count
+        };
+        let strays = |(k, s): &(usize, &Segment)| found.astray || s.strays() || free(*k, s);
+        let astray = parts.segments.iter().enumerate().filter(strays);
         contour.astray.extend(astray.map(|(k, _)| first + k));
         self.length += parts.length;
         contour.segments.extend(parts.segments);
@@ -431,10 +426,16 @@ impl Joined {
             *off = off.max(contour.segments[*label as usize].off_drawn(*p));
         }
         let far = |(k, off): &(usize, f64)| *off > contour.segments[*k].max + BEYOND * contour.noise;
-        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k);
-        contour.astray.extend(astray.collect::<Vec<usize>>());
-        contour.astray.sort_unstable();
-        contour.astray.dedup();
+        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
+        self.astray(astray);
+    }
+
+    /// These segments are astray too.
+    fn astray(&mut self, segments: Vec<usize>) {
+        let all = &mut self.contour.astray;
+        all.extend(segments);
+        all.sort_unstable();
+        all.dedup();
     }
 
     /// Back to the numbers and places of the row given.

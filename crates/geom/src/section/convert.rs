@@ -228,6 +228,26 @@ fn spline(
     best.map_or(Geometry::Line, |(curve, deviation)| Geometry::Spline { curve, deviation })
 }
 
+impl Segment {
+    /// Lets it start and end at places beside its own ends; a free curve is led there.
+    pub(super) fn end_at(&mut self, start: [f64; 2], end: [f64; 2]) {
+        (self.start, self.end) = (start, end);
+        let Geometry::Spline { curve, deviation } = &mut self.geometry else { return };
+        let last = curve.points().len() - 1;
+        let off = |to: [f64; 2], at: [f64; 2]| [to[0] - at[0], to[1] - at[1]];
+        let ends = [off(start, curve.points()[0]), off(end, curve.points()[last])];
+        let led = |(i, p): (usize, &[f64; 2])| {
+            let t = i as f64 / last as f64;
+            p.plus((1.0 - t).powi(LEAD), ends[0]).plus(t.powi(LEAD), ends[1])
+        };
+        let points = curve.points().iter().enumerate().map(led).collect();
+        if let Ok(moved) = Curve::new(curve.knots().clone(), points) {
+            *curve = moved;
+            *deviation += ends.iter().map(|d| libm::hypot(d[0], d[1])).fold(0.0, f64::max);
+        }
+    }
+}
+
 impl Contour {
     /// All places moved by `by`.
     pub(super) fn shift(&mut self, by: [f64; 2]) {

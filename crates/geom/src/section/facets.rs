@@ -3,15 +3,23 @@
 //! The points of such a polyline carry no random noise. The edge of a flat face is straight to rounding, however long; the
 //! chords of an arc have their ends on the circle. So a polyline is first reduced to its vertices: points on a straight run
 //! are passed over. Then vertices on one circle are looked for, from each vertex on as far as they go. An arc needs three
-//! chords: four vertices on a circle are one more than determine it. Two chords are an arc where its tangents at both ends
-//! are the facets before and after.
+//! chords: four vertices on a circle are one more than determine it. Two wide chords, or a few, are an arc where its tangents at
+//! both ends are the facets before and after.
 
 use super::start::circle;
 
-/// A chord turns by no more than this, 36 degrees: polygons of fewer than ten sides are polygons.
-pub(super) const SHARP: f64 = std::f64::consts::PI / 5.0;
+/// A chord turns by no more than this, 34.4 degrees: midway between those of regular polygons of ten sides, which are polygons,
+/// and of eleven, which are circles.
+pub(super) const SHARP: f64 = 0.6;
+/// Turns that differ from that by less than this factor are near it: where some chords of a circle turn by less and others by
+/// more, all are lines.
+const NEAR: f64 = 1.15;
 /// A chord of an arc that is tangent to the facets beside may turn by a right angle.
 const WIDE: f64 = std::f64::consts::FRAC_PI_2;
+/// Three chords of an arc are not more uneven than this.
+const UNEVEN: f64 = 3.0;
+/// Most chords of an arc that is known by its tangents.
+const CHORDS: usize = 8;
 /// The middle of an arc lies off its chord by at least so many distances that are lost in rounding.
 const BENT: f64 = 4.0;
 
@@ -176,6 +184,7 @@ impl Polygon {
             i = item.to;
         }
         self.join_seam(&mut items, tolerance);
+        self.dissolve(&mut items, tolerance);
         self.fillets(&mut items, tolerance);
         items
     }
@@ -197,7 +206,10 @@ impl Polygon {
                 None => (fails, step) = (to, 1.max((to - best.to) / 2)),
             }
         }
-        Some(best)
+        // The corners of any symmetric trapezoid lie on a circle.
+        let sizes = || (best.from..best.to).map(|i| self.facet_length(i));
+        let uneven = sizes().fold(0.0, f64::max) > UNEVEN * sizes().fold(f64::INFINITY, f64::min);
+        (best.to > best.from + 3 || !uneven).then_some(best)
     }
 
     /// The arc through these vertices, where they lie on a circle and no chord turns by more than `widest`.
@@ -230,39 +242,84 @@ impl Polygon {
         }
     }
 
-    /// Pairs of short facets between longer ones that are the chords of an arc tangent to these.
-    fn fillets(&self, items: &mut Vec<Item>, tolerance: f64) {
-        let line = |item: &Item| item.shape == Shape::Line;
+    /// Arcs of chords that turn by nearly as much as a corner become lines where chords of the same circle beside them turn by
+    /// little more: which are arcs there, and which lines, would be left to rounding.
+    fn dissolve(&self, items: &mut Vec<Item>, tolerance: f64) {
         let mut k = 0;
-        while k + 1 < items.len() {
+        while k < items.len() {
             let n = items.len();
-            let (a, b) = (items[k], items[k + 1]);
-            let inner = self.closed || k > 0 && k + 2 < n;
-            let (before, after) = (items[(k + n - 1) % n], items[(k + 2) % n]);
-            if !inner || n < 4 || ![a, b, before, after].iter().all(line) {
+            let (item, beside) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
+            let Shape::Arc(center, curvature) = item.shape else {
+                k += 1;
+                continue;
+            };
+            let turn = |i: usize| libm::asin((0.5 * curvature * self.facet_length(i)).abs().min(1.0)) * 2.0;
+            let widest = (item.from..item.to).map(turn).fold(0.0, f64::max);
+            let off =
+                |i: usize| (length(center, self.vertex(i)) * curvature.abs() - 1.0).abs() / curvature.abs();
+            let doubtful = |other: &Item| {
+                let on = off(other.from).max(off(other.to)) <= 2.0 * tolerance;
+                other.shape == Shape::Line && on && turn(other.from) <= NEAR * SHARP
+            };
+            let whole = item.to - item.from == self.facets();
+            if widest * NEAR < SHARP || whole || !beside.iter().any(doubtful) {
                 k += 1;
                 continue;
             }
-            let size = |item: &Item| self.facet_length(item.from);
-            let shorter = size(&a).max(size(&b)) < size(&before).min(size(&after));
-            let slack = self.slack(size(&a).min(size(&b)), tolerance);
-            let bend = self.turn(b.from % self.at.len());
-            let tangent = |item: &Item| {
-                let Shape::Arc(center, curvature) = item.shape else { return false };
-                let along = |i: usize| {
-                    let r = minus(self.vertex(i), center);
-                    [-r[1] * curvature, r[0] * curvature]
-                };
-                angle(self.facet(before.from), along(item.from)).abs() < slack
-                    && angle(along(item.to), self.facet(after.from)).abs() < slack
-            };
-            let arc = Some((a.from, b.to)).filter(|_| shorter && bend.abs() <= WIDE);
-            let arc = arc.and_then(|(from, to)| self.arc(from, to, WIDE, tolerance)).filter(tangent);
-            if let Some(arc) = arc {
-                items.splice(k..k + 2, [arc]);
+            let line = |from: usize| Item { shape: Shape::Line, from, to: from + 1 };
+            items.splice(k..=k, (item.from..item.to).map(line));
+            // Arcs before may touch lines now.
+            k = 0;
+        }
+    }
+
+    /// Whether a line item and those after it, short ones between longer ones, are the chords of an arc tangent to these.
+    fn fillet(&self, items: &[Item], k: usize, count: usize, tolerance: f64) -> Option<Item> {
+        let n = items.len();
+        let inner = self.closed || k > 0 && k + count < n;
+        if !inner || k + count > n || n < count + 2 {
+            return None;
+        }
+        let chords = &items[k..k + count];
+        let (before, after) = (items[(k + n - 1) % n], items[(k + count) % n]);
+        if chords.iter().chain([&before, &after]).any(|i| i.shape != Shape::Line) {
+            return None;
+        }
+        let sizes = || chords.iter().map(|i| self.facet_length(i.from));
+        let beside = self.facet_length(before.from).min(self.facet_length(after.from));
+        let bent = chords[1..].iter().map(|i| self.turn(i.from % self.at.len()).abs()).fold(0.0, f64::max);
+        if sizes().fold(0.0, f64::max) >= beside || bent > WIDE {
+            return None;
+        }
+        let arc = self.arc(chords[0].from, chords[count - 1].to, WIDE, tolerance)?;
+        let Shape::Arc(center, curvature) = arc.shape else { return None };
+        let slack = self.slack(sizes().fold(f64::INFINITY, f64::min), tolerance);
+        let along = |i: usize| {
+            let r = minus(self.vertex(i), center);
+            [-r[1] * curvature, r[0] * curvature]
+        };
+        let tangent = angle(self.facet(before.from), along(arc.from)).abs() < slack
+            && angle(along(arc.to), self.facet(after.from)).abs() < slack;
+
+        tangent.then_some(arc)
+    }
+
+    /// Two or a few short facets between longer ones that are the chords of an arc tangent to these.
+    fn fillets(&self, items: &mut Vec<Item>, tolerance: f64) {
+        let mut k = 0;
+        while k + 1 < items.len() {
+            let found = (2..=CHORDS).rev().find_map(|c| Some((c, self.fillet(items, k, c, tolerance)?)));
+            if let Some((count, arc)) = found {
+                items.splice(k..k + count, [arc]);
             }
             k += 1;
         }
+    }
+
+    /// Number of vertices that lie on one circle with the three after them, however wide the chords.
+    pub fn round(&self, tolerance: f64) -> usize {
+        let last = if self.closed { self.at.len() } else { self.at.len().saturating_sub(3) };
+        (0..last).filter(|i| self.arc(*i, i + 3, std::f64::consts::PI, tolerance).is_some()).count()
     }
 
     /// Angle up to which two directions are the same where the shorter facet beside has this length.

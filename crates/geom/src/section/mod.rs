@@ -6,11 +6,11 @@
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
-//! | `search` | number and kinds of pieces |
-//! | `polygon` | rows that are polygons, exactly |
+//! | `search`, `smooth` | number and kinds of pieces |
+//! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
-//! | `slab` | points of a cloud near a plane, put in order |
+//! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
 //! | `cut` | where a plane cuts a mesh |
 //! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
 //! | `foot` | where on a segment the foot of a point is |
@@ -26,11 +26,13 @@ mod convert;
 mod corner;
 mod cut;
 mod dimension;
+mod exact;
 mod facets;
 mod follow;
 mod foot;
 mod free;
 mod least;
+mod link;
 mod nominal;
 mod paper;
 mod polygon;
@@ -39,11 +41,13 @@ mod result;
 mod row;
 mod search;
 mod slab;
+mod smooth;
 mod span;
 mod start;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod untangle;
 
 pub use chain::Kind;
 pub use contour::contour;
@@ -53,5 +57,5 @@ pub use foot::SegmentFoot;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
-pub use slab::{Ordered, order, ordered_contour, slab};
+pub use slab::{Order, Ordered, order, ordered_contour, slab};
 pub use tessellated::{chain_contour, rounding};

@@ -59,7 +59,9 @@ impl Clean {
             }
         }
         let mut ends_meet = false;
-        while numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
+        // An open contour may come back to where it started.
+        let open = options.closed == Some(false);
+        while !open && numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
             ends_meet = true;
             repeated.extend(numbers.pop());
         }
@@ -157,6 +159,31 @@ fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> b
     let enough = pairs.filter(|(a, b)| n - 1 - usize::from(a != b) >= 6);
     let best = enough.filter_map(without).min_by(|x, y| x.1.total_cmp(&y.1));
     best.is_some_and(|(own, rest)| own > limit && rest < agreed)
+}
+
+/// Length of the diagonal of the box around points.
+pub(super) fn size(points: &[[f64; 2]]) -> f64 {
+    let range = |k: usize| {
+        let (low, high) =
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])));
+        high - low
+    };
+    libm::hypot(range(0), range(1))
+}
+
+/// Mean distance between neighbors, of means of five: noise makes the row itself longer.
+pub(super) fn spacing(clean: &Clean, step: usize) -> f64 {
+    let points: Vec<[f64; 2]> = clean.points.iter().step_by(step).copied().collect();
+    let n = points.len();
+    let smooth: Vec<[f64; 2]> = (0..n)
+        .map(|i| {
+            let k = i.min(n - 1 - i).min(2);
+            let w = (2 * k + 1) as f64;
+            [0, 1].map(|d| points[i - k..=i + k].iter().map(|p| p[d]).sum::<f64>() / w)
+        })
+        .collect();
+    let length: f64 = smooth.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
+    (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
 }
 
 pub(super) fn check(options: &Options) -> Result<(), SectionError> {

@@ -71,11 +71,11 @@ pub(super) struct Model {
 /// A piece to be made: its kind, the number of its coefficients if it is free, and where it begins and ends on the model it
 /// comes from.
 #[derive(Clone, Copy, Debug)]
-struct Plan {
-    kind: Kind,
-    count: usize,
-    from: f64,
-    to: f64,
+pub(super) struct Plan {
+    pub kind: Kind,
+    pub count: usize,
+    pub from: f64,
+    pub to: f64,
 }
 
 /// The search over the models of one row.
@@ -151,7 +151,7 @@ impl Search<'_> {
         Model { cost: if cost.is_nan() { f64::INFINITY } else { cost }, state }
     }
 
-    fn follows(&mut self, state: &mut State) -> bool {
+    pub fn follows(&mut self, state: &mut State) -> bool {
         self.work.follows(&self.row, state, self.spacing)
     }
 
@@ -171,7 +171,7 @@ impl Search<'_> {
     }
 
     /// The model made of `plans` on `base`; given up early where a few steps leave it far above the cost `bar`.
-    fn build(&mut self, base: &Base, plans: &[Plan], bar: f64) -> Model {
+    pub fn build(&mut self, base: &Base, plans: &[Plan], bar: f64) -> Model {
         let chain = &base.model.state.chain;
         let pieces: Vec<Piece> = plans
             .iter()
@@ -273,16 +273,16 @@ impl Search<'_> {
 }
 
 /// A model with the places of its joins and points along it.
-struct Base {
+pub(super) struct Base {
     model: Model,
     stations: Vec<f64>,
     /// Of the points, in the order of the chain.
     order: Vec<f64>,
-    plans: Vec<Plan>,
+    pub plans: Vec<Plan>,
 }
 
 impl Base {
-    fn new(search: &mut Search, mut model: Model) -> Base {
+    pub fn new(search: &mut Search, mut model: Model) -> Base {
         let row = search.row;
         let all = search.work.stations(&row, &mut model.state);
         let n = row.points.len();

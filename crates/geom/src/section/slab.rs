@@ -2,13 +2,15 @@
 //!
 //! Points scatter across a contour by more than they lie apart along it, so the nearest neighbor is not the next. The points
 //! are gathered in square cells, made larger until the shortest tree over their middles hardly branches: then it follows the
-//! contour. The longest way through the tree is the contour's course; what hangs beside it is put in where it hangs. (After
-//! Lee, Curve reconstruction from unorganized points, Computer Aided Geometric Design 17, 2000; cells in place of moving least
-//! squares.)
+//! contour. The longest way through the tree is the contour's course; what hangs beside it is put in where it hangs. Ways are
+//! linked over gaps that uneven points have by chance. (After Lee, Curve reconstruction from unorganized points, Computer Aided
+//! Geometric Design 17, 2000; cells in place of moving least squares.)
 
 use super::contour::contour;
 use super::cut::{Plane, PlaneFrame};
+use super::link::{Limits, Linked, Way, gap_to_close, link, longest_by_chance};
 use super::result::{Contour, Options, SectionError};
+use super::untangle::untangle;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, dot, norm};
 use std::collections::{HashMap, HashSet};
@@ -42,6 +44,18 @@ pub struct Ordered {
     pub way: f64,
 }
 
+/// The contours of points in a plane, and over what gaps they go on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Order {
+    /// The contours: that of the most points first.
+    pub rows: Vec<Ordered>,
+    /// A contour goes on over gaps up to this, mm: the one given, or told from how uneven the points are. 0 where there are too
+    /// few points to tell.
+    pub gap: f64,
+    /// Where contours are suspiciously many and open: the gap over which most of their ends would meet others, mm.
+    pub wider: Option<f64>,
+}
+
 /// A contour that is so many times as long as the way along its points goes to and fro between them.
 const LONGEST: f64 = 2.0;
 
@@ -70,18 +84,26 @@ pub fn ordered_contour(
 
 /// Share of branching cells up to which a tree follows a contour.
 const BRANCHING: f64 = 0.04;
+/// A tree in more pieces than this share of its cells, and so many more, reaches too short for how uneven the points are; a
+/// longer reach is worth it while it leaves no more than this share of the pieces.
+const PIECES: (f64, usize) = (0.03, 4);
+const FEWER: f64 = 0.7;
 /// Cells grow by this factor, so many times at most.
 const GROWTH: (f64, usize) = (1.4, 24);
-/// A contour goes on over a gap of so many cells.
-const GAP: f64 = 4.0;
+/// A tree reaches over so many cells.
+const REACH: f64 = 4.0;
+/// The longest gap by chance is no larger than this share of all.
+const LARGEST: f64 = 0.25;
 /// Fewest cells and points of a contour.
 const FEWEST: (usize, usize) = (4, 8);
+/// So many open contours are suspicious where they are more than half of all.
+const SUSPICIOUS: usize = 6;
 
-/// Contours of points in the plane, in any order: the longest first.
+/// Contours of points in the plane, in any order.
 ///
-/// A contour goes on over gaps up to `gap`, where it is not given up to four times the width of the cells found. Points of
-/// no contour, fewer than eight together, are left out. Contours that touch each other are one with branches: the longest way
-/// is a contour, each of the rest that is long enough another. Cost: the points' number times its logarithm.
+/// A contour goes on over gaps up to `gap`; where it is not given, over gaps that points so uneven have by chance, and four cells
+/// at least. Points of no contour, fewer than eight together, are left out. Contours that touch each other are one with branches:
+/// the longest way is a contour, each of the rest that is long enough another. Cost: the points' number times its logarithm.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
@@ -89,52 +111,101 @@ const FEWEST: (usize, usize) = (4, 8);
 /// ```
 /// use trueness_geom::section::order;
 /// let line: Vec<[f64; 2]> = (0..40).map(|i| [f64::from(i * 7 % 40), 0.0]).collect();
-/// let found = order(&line, None, &trueness_geom::progress::Silent).unwrap();
+/// let found = order(&line, None, &trueness_geom::progress::Silent).unwrap().rows;
 /// assert!(found.len() == 1 && !found[0].closed);
 /// let along: Vec<f64> = found[0].numbers.iter().map(|i| line[*i][0]).collect();
 /// assert!(along.is_sorted() || along.iter().rev().is_sorted());
 /// ```
-pub fn order(
-    points: &[[f64; 2]],
-    gap: Option<f64>,
-    progress: &dyn Progress,
-) -> Result<Vec<Ordered>, Cancelled> {
+pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> Result<Order, Cancelled> {
     let n = points.len();
     let range = |k: usize| {
         points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])))
     };
     let size = libm::hypot(range(0).1 - range(0).0, range(1).1 - range(1).0);
     if n < FEWEST.1 || size <= 0.0 || !size.is_finite() {
-        return Ok(vec![]);
+        return Ok(Order { gap: gap.unwrap_or(0.0), ..Order::default() });
     }
-    let mut width = 2.0 * size / n as f64;
-    let mut best = None;
+    let Some(grown) = grow(points, 2.0 * size / n as f64, gap, progress)? else {
+        return Ok(Order::default());
+    };
+    let Grown { cells, tree, reach, follows } = grown;
+    let ways = tree_paths(&cells, &tree);
+    let gap = match (gap, follows) {
+        (Some(gap), _) => gap.max(1.5 * cells.width),
+        (None, true) => {
+            let all = ways.iter().map(|way| cells.along(points, way, false).0);
+            let steps = all.flat_map(|all| all.windows(2).map(|w| w[1].0 - w[0].0).collect::<Vec<f64>>());
+            longest_by_chance(steps.collect(), reach).min((LARGEST * size).max(reach))
+        }
+        // A tree that branches everywhere follows no contour: nothing is known of its gaps.
+        (None, false) => reach,
+    };
+    let limits = Limits { gap, closing: reach, fewest: 2 * FEWEST.0 };
+    let linked = link(ways, &cells.middles, &limits);
+    let mut rows: Vec<Ordered> = linked.iter().map(|way| cells.row(points, way)).collect();
+    rows.retain(|r| r.numbers.len() >= FEWEST.1);
+    rows.sort_by_key(|r| std::cmp::Reverse(r.numbers.len()));
+    let wider = wider(points, &rows, gap);
+    Ok(Order { rows, gap, wider })
+}
+
+/// The gap that would let most ends of open contours meet, where these are suspiciously many.
+fn wider(points: &[[f64; 2]], rows: &[Ordered], gap: f64) -> Option<f64> {
+    let open: Vec<&Ordered> = rows.iter().filter(|r| !r.closed).collect();
+    if open.len() < SUSPICIOUS || 2 * open.len() <= rows.len() {
+        return None;
+    }
+    let ends = open.iter().flat_map(|r| [r.numbers[0], r.numbers[r.numbers.len() - 1]]);
+    let ends: Vec<[f64; 2]> = ends.map(|i| points[i]).collect();
+    gap_to_close(&ends, 2 * SUSPICIOUS).map(|wider| wider.max(gap))
+}
+
+/// Cells of the width that was found, and the tree over them.
+struct Grown {
+    cells: Cells,
+    tree: Tree,
+    reach: f64,
+    /// The tree hardly branches: it follows contours.
+    follows: bool,
+}
+
+/// Cells made larger until the tree over them hardly branches, and as long as that leaves far fewer pieces.
+fn grow(
+    points: &[[f64; 2]],
+    mut width: f64,
+    gap: Option<f64>,
+    progress: &dyn Progress,
+) -> Result<Option<Grown>, Cancelled> {
+    let mut best: Option<(Grown, usize)> = None;
     for _ in 0..GROWTH.1 {
         if progress.cancelled() {
             return Err(Cancelled);
         }
         let cells = Cells::new(points, width);
-        let tree = cells.tree(gap.unwrap_or(GAP * width).max(1.5 * width));
+        let reach = gap.map_or(REACH * width, |g| g.min(REACH * width).max(1.5 * width));
+        let tree = cells.tree(reach);
+        let n = cells.middles.len();
         let branching = tree.iter().filter(|near| near.len() > 2).count() as f64;
         let lonely = tree.iter().filter(|near| near.is_empty()).count() as f64;
-        let rest = (branching + lonely) / cells.middles.len() as f64;
-        let enough = cells.middles.len() >= 2 * FEWEST.0;
+        let pieces = n - tree.iter().map(Vec::len).sum::<usize>() / 2;
+        let enough = n >= 2 * FEWEST.0;
+        let follows = (branching + lonely) / n as f64 <= BRANCHING;
         if best.is_some() && !enough {
             break;
         }
-        best = Some((cells, tree));
-        if rest <= BRANCHING {
+        if let Some((_, before)) = best.as_ref().filter(|(b, _)| b.follows)
+            && (!follows || pieces as f64 > FEWER * *before as f64)
+        {
+            break;
+        }
+        let torn = gap.is_none() && pieces as f64 > PIECES.0 * n as f64 + PIECES.1 as f64;
+        best = Some((Grown { cells, tree, reach, follows }, pieces));
+        if follows && !torn {
             break;
         }
         width *= GROWTH.0;
     }
-    let Some((cells, tree)) = best else { return Ok(vec![]) };
-    let reach = gap.unwrap_or(GAP * cells.width).max(1.5 * cells.width);
-    let mut rows: Vec<Ordered> =
-        tree_paths(&cells, &tree).iter().map(|way| cells.row(points, way, reach)).collect();
-    rows.retain(|r| r.numbers.len() >= FEWEST.1);
-    rows.sort_by_key(|r| std::cmp::Reverse(r.numbers.len()));
-    Ok(rows)
+    Ok(best.map(|(grown, _)| grown))
 }
 
 /// Points gathered in square cells.
@@ -205,13 +276,13 @@ impl Cells {
         tree
     }
 
-    /// The points of the cells along a way, each cell with what hangs beside it, in order.
-    fn row(&self, points: &[[f64; 2]], way: &[(usize, Vec<usize>)], reach: f64) -> Ordered {
+    /// The points of the cells along a way, each cell with what hangs beside it, in order, each with its place along; the length
+    /// of the way.
+    fn along(&self, points: &[[f64; 2]], way: &Way, closed: bool) -> (Vec<(f64, usize)>, f64) {
         let m = way.len();
         let middle = |k: usize| self.middles[way[k].0];
         let mut all: Vec<(f64, usize)> = vec![];
         let mut station = 0.0;
-        let closed = m > 2 * FEWEST.0 && far(middle(0), middle(m - 1)) <= reach;
         for k in 0..m {
             let (before, after) = match closed {
                 true => (middle((k + m - 1) % m), middle((k + 1) % m)),
@@ -226,9 +297,15 @@ impl Cells {
             }
             station += if k + 1 < m { far(middle(k), middle(k + 1)) } else { 0.0 };
         }
-        let way = station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 };
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Ordered { numbers: all.into_iter().map(|(_, i)| i).collect(), closed, way }
+        (all, station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 })
+    }
+
+    fn row(&self, points: &[[f64; 2]], Linked { way, closed }: &Linked) -> Ordered {
+        let (all, way) = self.along(points, way, *closed);
+        let mut numbers: Vec<usize> = all.into_iter().map(|(_, i)| i).collect();
+        untangle(points, &mut numbers, *closed, way);
+        Ordered { numbers, closed: *closed, way }
     }
 }
 
@@ -241,7 +318,7 @@ fn find(root: &mut [usize], mut i: usize) -> usize {
 }
 
 /// The longest ways through each tree: cells in order, each with the cells of short branches beside it.
-fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Vec<(usize, Vec<usize>)>> {
+fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Way> {
     let n = tree.len();
     let mut used = vec![false; n];
     let mut ways = vec![];
@@ -257,7 +334,7 @@ fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Vec<(usize, Vec<usize>)>> {
             way.push(last);
         }
         way.iter().for_each(|c| used[*c] = true);
-        let mut rows: Vec<(usize, Vec<usize>)> = vec![];
+        let mut rows: Way = vec![];
         for cell in way {
             let mut beside = vec![];
             for &next in &tree[cell] {
@@ -328,7 +405,7 @@ mod tests {
         }
         (1..points.len()).rev().for_each(|i| points.swap(i, random.below(i as u64 + 1) as usize));
         let flat: Vec<[f64; 2]> = points.iter().map(|p| p.0).collect();
-        let rows = order(&flat, None, &Silent).unwrap();
+        let rows = order(&flat, None, &Silent).unwrap().rows;
         assert_eq!(
             rows.iter().map(|r| (r.numbers.len(), r.closed)).collect::<Vec<_>>(),
             [(1500, true), (600, false)]
@@ -356,7 +433,7 @@ mod tests {
                 .flat_map(|i| (0..rows).map(move |j| [f64::from(i) * 0.1, f64::from(j) * step]))
                 .map(|[x, y]| [x, y + 0.01 * random.unit()])
                 .collect();
-            let found = order(&points, None, &Silent).unwrap();
+            let found = order(&points, None, &Silent).unwrap().rows;
             let contour = ordered_contour(&points, &found[0], &Options::default(), &Silent).unwrap();
             contour.astray.len() == contour.segments.len()
         };
@@ -366,12 +443,12 @@ mod tests {
 
     #[test]
     fn nothing_comes_of_nothing() {
-        assert!(order(&[], None, &Silent).unwrap().is_empty());
-        assert!(order(&[[1.0, 2.0]; 50], None, &Silent).unwrap().is_empty());
+        assert!(order(&[], None, &Silent).unwrap().rows.is_empty());
+        assert!(order(&[[1.0, 2.0]; 50], None, &Silent).unwrap().rows.is_empty());
         // A gap divides, or not, as told.
         let line: Vec<[f64; 2]> =
             (0..200).map(|i| [f64::from(i) + if i < 100 { 0.0 } else { 20.0 }, 0.0]).collect();
-        assert_eq!(order(&line, Some(3.0), &Silent).unwrap().len(), 2);
-        assert_eq!(order(&line, Some(30.0), &Silent).unwrap().len(), 1);
+        assert_eq!(order(&line, Some(3.0), &Silent).unwrap().rows.len(), 2);
+        assert_eq!(order(&line, Some(30.0), &Silent).unwrap().rows.len(), 1);
     }
 }

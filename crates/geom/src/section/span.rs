@@ -23,6 +23,8 @@ const QUIET: f64 = 0.25;
 const STARTS: [usize; 3] = [4, 8, 16];
 const EACH: usize = 4;
 
+/// Least length of a piece that is known, in distances between points.
+const KNOWN: f64 = 0.1;
 /// More points than this are thinned while pieces are looked for.
 const SEARCHED: usize = 1500;
 
@@ -48,6 +50,8 @@ pub(super) struct Task {
     /// At joins of free pieces the curvature must not jump.
     pub even: bool,
     pub level: f64,
+    /// The pieces are those of the parts: nothing is searched.
+    pub known: bool,
 }
 
 /// A chain found.
@@ -85,7 +89,7 @@ impl Span {
             spacing: task.spacing,
             kinds,
             even: task.even,
-            shortest: 2.0 * task.step as f64,
+            shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
         }
     }
 
@@ -167,8 +171,11 @@ impl Span {
             return self.find_thinned(parts, task, thin, progress);
         }
         let mut search = self.search(task);
+        if task.known {
+            return Ok(search.known(parts, task.closed));
+        }
         let first = search.first(parts, task.closed);
-        search.run(first, progress)
+        search.best(first, progress)
     }
 
     /// The pieces by every `step`-th point alone, then refined by all.
@@ -191,7 +198,7 @@ impl Span {
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
         let mut search = own.search(&thinned);
         let first = search.first(&kept, task.closed);
-        let found = search.run(first, progress)?.state;
+        let found = search.best(first, progress)?.state;
         let n = self.points.len();
         let few = own.points.len();
         // Round and round a closed row, the place of a point among all.

@@ -311,13 +311,60 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
             costs[k - 1] <= limit
         });
     }
-    let mut parts = vec![];
+    let mut breaks = vec![(n, Kind::Line)];
     let mut j = last;
     while j > 0 {
         let (i, kind) = from[j];
-        parts.push(sums.part(points, kind, index(i), index(j)));
+        breaks.push((index(i), kind));
         j = i;
     }
-    parts.reverse();
-    parts
+    breaks.reverse();
+    if stride > 1 {
+        sharpen(&sums, &mut breaks, stride, penalty);
+    }
+    breaks.windows(2).map(|w| sums.part(points, w[0].1, w[0].0, w[1].0)).collect()
+}
+
+/// Moves the starts of parts, each with its kind, that were looked for at every `stride`-th point alone to the best point between;
+/// short parts that are dear beside their neighbors go to these.
+fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, Kind)>, stride: usize, penalty: &Penalty) {
+    let fewest = penalty.fewest.max(2);
+    let cost = |from: usize, to: usize, kind: Kind| match (kind, sums.fit(from, to)) {
+        (Kind::Line, (line, _)) | (_, (line, None)) => line,
+        (_, (_, Some((arc, _, _)))) => arc,
+    };
+    // The best place between two for the start of the second of two parts, and what both cost.
+    let best = |(a, before): (usize, Kind), (c, after): (usize, Kind), low: usize, high: usize| {
+        let sum = |at: usize| cost(a, at, before) + cost(at, c, after);
+        let places = low.max(a + fewest)..=high.min(c.saturating_sub(fewest));
+        places.map(|at| (at, sum(at))).min_by(|x, y| x.1.total_cmp(&y.1))
+    };
+    let move_all = |breaks: &mut [(usize, Kind)]| {
+        for k in 1..breaks.len() - 1 {
+            let [a, (at, after), c] = [breaks[k - 1], breaks[k], breaks[k + 1]];
+            let now = cost(a.0, at, a.1) + cost(at, c.0, after);
+            let found = best(a, (c.0, after), (at + 1).saturating_sub(stride), at + stride - 1);
+            if let Some((best, _)) = found.filter(|(_, sum)| *sum < now) {
+                breaks[k].0 = best;
+            }
+        }
+    };
+    move_all(breaks);
+    let variance = penalty.noise * penalty.noise;
+    let (mut k, count) = (1, breaks.len());
+    while k + 2 < breaks.len() {
+        let [a, b, c, d] = [k - 1, k, k + 1, k + 2].map(|i| breaks[i]);
+        let own = if b.1 == Kind::Line { penalty.line } else { penalty.arc };
+        let now = cost(a.0, b.0, a.1) + cost(b.0, c.0, b.1) + cost(c.0, d.0, c.1) + own * variance;
+        let without = if c.0 - b.0 <= 2 * stride { best(a, (d.0, c.1), b.0, c.0) } else { None };
+        if let Some((at, _)) = without.filter(|(_, sum)| *sum <= now) {
+            breaks[k + 1].0 = at;
+            breaks.remove(k);
+        } else {
+            k += 1;
+        }
+    }
+    if breaks.len() < count {
+        move_all(breaks);
+    }
 }

@@ -59,7 +59,7 @@ pub fn chain_contour(
     let forced = options.noise.is_some() || options.continuity.is_some();
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
-        if is_exact(&points, &polygon, &items) {
+        if is_exact(&points, &polygon, &items, rounding) {
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
@@ -70,10 +70,11 @@ pub fn chain_contour(
     Ok(spread(contour(&row, &own, progress)?, &kept, &points, Taken::Scan))
 }
 
-fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
+fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f64) -> bool {
     let straight = points.len() - polygon.at.len();
     let chords: usize = items.iter().filter(|i| i.shape != Shape::Line).map(|i| i.to - i.from - 1).sum();
-    polygon.at.len() < FEW || (straight + chords) as f64 >= EXACT * points.len() as f64
+    let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
+    polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
 
 /// Points whose edges share no vertex with that of the one before: their noise is independent.
@@ -148,6 +149,9 @@ fn nearest(
     best
 }
 
+/// An edge so many times as long as the facets beside it are in the middle is that of a flat face.
+const LONG: f64 = 8.0;
+
 /// Consecutive items of one treatment: exact, or a curve of segments found from its points.
 struct Run {
     items: Vec<Item>,
@@ -167,9 +171,12 @@ impl Sheet<'_> {
         if items.len() == 1 && self.polygon.closed {
             return Ok(self.finish(vec![self.segment(&items[0])], vec![], &[(items[0], 0..1)]));
         }
-        let mut runs = self.smooth_runs(items);
+        let smooth_runs = self.smooth_runs(items);
+        let mut runs: Vec<Run> = smooth_runs.into_iter().flat_map(|run| self.without_lines(run)).collect();
         let closed = self.polygon.closed;
-        let whole = closed && runs.len() == 1 && self.is_smooth(&items[items.len() - 1], &items[0]);
+        // A run of all facets starts at the corner, if there is one.
+        let smooth = |run: &Run| self.is_smooth(&run.items[run.items.len() - 1], &run.items[0]);
+        let whole = closed && runs.len() == 1 && smooth(&runs[0]);
         for run in &mut runs {
             if self.is_curve(&run.items) {
                 run.curve = Some(self.fit(&run.items, whole, progress)?);
@@ -202,9 +209,14 @@ impl Sheet<'_> {
                 continue;
             };
             segments.extend(found.segments.iter().cloned());
-            (segments[first].start, segments[first].end) = (self.polygon.vertex(from), segments[first].end);
             let last = segments.len() - 1;
-            segments[last].end = self.polygon.vertex(to);
+            let (start, end) = (segments[last].start, segments[first].end);
+            if first == last {
+                segments[first].end_at(self.polygon.vertex(from), self.polygon.vertex(to));
+            } else {
+                segments[first].end_at(self.polygon.vertex(from), end);
+                segments[last].end_at(start, self.polygon.vertex(to));
+            }
             joins.extend(found.joins.iter().cloned().map(Some));
             joins.push(None);
             let slack = self.chord_turn(&run.items);
@@ -252,6 +264,20 @@ impl Sheet<'_> {
             }
         }
         runs
+    }
+
+    /// A run of chords of a curve without the edges of flat faces in it: these are far longer than chords, and lines exactly.
+    fn without_lines(&self, run: Run) -> Vec<Run> {
+        if !self.is_curve(&run.items) {
+            return vec![run];
+        }
+        let facets = |item: &Item| (item.from..item.to).map(|i| self.polygon.facet_length(i));
+        let mut lengths: Vec<f64> = run.items.iter().flat_map(facets).collect();
+        lengths.sort_by(f64::total_cmp);
+        let long = LONG * lengths[lengths.len() / 2];
+        let is_long = |item: &Item| item.shape == Shape::Line && facets(item).sum::<f64>() > long;
+        let parts = run.items.chunk_by(|a, b| !is_long(a) && !is_long(b));
+        parts.map(|items| Run { items: items.to_vec(), curve: None }).collect()
     }
 
     /// Whether items without a corner are chords of a curve.

@@ -60,6 +60,7 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
             plane: (!one).then_some(([0.0, 0.0, 1.0], n as f64)),
             area: Err("points have no facets"),
             loose: 0,
+            gap: None,
             contours: rows.iter().map(|r| contour(r, &wish, &Silent).unwrap()).collect(),
         })
         .collect();

@@ -119,6 +119,11 @@ pub struct PlaneRecord {
     pub area_reason: Option<String>,
     /// Points of a cloud in its slab that belong to no contour.
     pub loose: u64,
+    /// Contours of a cloud go on over gaps up to this: the one given, or told from how uneven the points lie.
+    pub gap: Option<f64>,
+    /// What may help where contours of a cloud are suspiciously many.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub hint: Option<String>,
 }
 
 /// A contour.
@@ -283,6 +288,9 @@ pub struct Section {
     pub area: Result<f64, &'static str>,
     /// Points of a cloud that belong to no contour.
     pub loose: usize,
+    /// Over what gaps contours of a cloud go on; where they are suspiciously many, also over what gap most of their ends would
+    /// meet others.
+    pub gap: Option<(f64, Option<f64>)>,
     /// The contours.
     pub contours: Vec<Contour>,
 }
@@ -350,7 +358,28 @@ fn plane(section: &Section) -> Option<PlaneRecord> {
         area: section.area.ok(),
         area_reason: section.area.err().map(Into::into),
         loose: section.loose as u64,
+        gap: section.gap.map(|(gap, _)| gap),
+        hint: hint(section),
     })
+}
+
+/// What may help where contours of a cloud are suspiciously many.
+fn hint(section: &Section) -> Option<String> {
+    let (gap, wider) = section.gap?;
+    let open = section.contours.iter().filter(|c| !c.closed).count();
+    Some(format!(
+        "{open} of {} contours are open and end near each other: points are missing over more than the gap of {}; \
+         --gap {} lets most of them go on, a thicker slab (--thickness) brings points nearer together",
+        section.contours.len(),
+        digits(gap),
+        digits(wider? * 1.05)
+    ))
+}
+
+/// A length with two digits, for words.
+fn digits(x: f64) -> String {
+    let places = (1.0 - x.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{x:.places$}")
 }
 
 fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourRecord {

@@ -198,7 +198,7 @@ fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Foun
     let contours = vec![section::contour(&flat, options, stage)?];
     let area = Err("points in order have no facets");
     let frame = described(&frame, flatness);
-    Ok((vec![Section { frame, plane: None, area, loose: 0, contours }], vec![flat]))
+    Ok((vec![Section { frame, plane: None, area, loose: 0, gap: None, contours }], vec![flat]))
 }
 
 fn described(frame: &PlaneFrame, flatness: f64) -> FrameRecord {

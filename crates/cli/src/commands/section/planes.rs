@@ -6,7 +6,7 @@ use crate::progress::Stage;
 use clap::Args;
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::section::{self, Chain, Contour, Options, Plane, PlaneFrame, SectionError};
+use trueness_geom::section::{self, Chain, Contour, Options, Order, Plane, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::results::InputRecord;
 use trueness_inspect::results::section::Section;
@@ -24,7 +24,7 @@ pub struct PlaneArgs {
     /// Thickness of the slab of a cloud whose points count as on the plane, mm
     #[arg(long, value_name = "MM")]
     thickness: Option<f64>,
-    /// Contours of a cloud go on over gaps up to this, mm [default: told from the density]
+    /// Contours of a cloud go on over gaps up to this, mm [default: told from how uneven the points lie; the table names it]
     #[arg(long, value_name = "MM")]
     gap: Option<f64>,
 }
@@ -133,7 +133,7 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
             false => Err("a contour is open"),
         };
         let rows = chains.iter().map(|c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect());
-        Ok((cut.section(contours, area, 0), rows.collect()))
+        Ok((Section { area, ..cut.section(contours) }, rows.collect()))
     };
     gather(planes.par_iter().map(of).collect())
 }
@@ -142,13 +142,14 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
 pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, stage: &Stage) -> Found {
     let of = |cut: &Cut| -> Result<WithRows, SectionError> {
         let (numbers, flat) = section::slab(points, &cut.plane, &cut.frame, slab.thickness);
-        let rows = section::order(&flat, slab.gap, stage)?;
+        let Order { rows, gap, wider } = section::order(&flat, slab.gap, stage)?;
         let contours = (rows.par_iter())
             .map(|row| section::ordered_contour(&flat, row, options, stage))
             .collect::<Result<Vec<Contour>, SectionError>>()?;
         let own = rows.iter().map(|row| row.numbers.iter().map(|i| flat[*i]).collect()).collect();
         let loose = numbers.len() - rows.iter().map(|r| r.numbers.len()).sum::<usize>();
-        Ok((cut.section(contours, Err("points have no facets"), loose), own))
+        let area = Err("points have no facets");
+        Ok((Section { area, loose, gap: Some((gap, wider)), ..cut.section(contours) }, own))
     };
     gather(planes.par_iter().map(of).collect())
 }
@@ -172,9 +173,11 @@ impl Cut {
         self.plane
     }
 
-    fn section(&self, contours: Vec<Contour>, area: Result<f64, &'static str>, loose: usize) -> Section {
+    /// What was found in the plane, but for what meshes and clouds have each for themselves.
+    fn section(&self, contours: Vec<Contour>) -> Section {
         let plane = Some((self.plane.normal, self.plane.offset));
-        Section { frame: described(&self.frame, 0.0), plane, area, loose, contours }
+        let (frame, area) = (described(&self.frame, 0.0), Err("not asked"));
+        Section { frame, plane, area, loose: 0, gap: None, contours }
     }
 }
 

@@ -34,11 +34,7 @@ pub fn table(document: &SectionDocument) -> String {
             scientific(contour.noise, 2)
         );
         if !contour.astray.is_empty() {
-            let which = match contour.astray.len() == contour.segments.len() {
-                true => "the segments do not run along the points and tell".into(),
-                false => format!("{} do not run along their points and tell", numbered(&contour.astray)),
-            };
-            let _ = writeln!(out, "! {which} {ASTRAY}");
+            out.push_str(&astray(contour));
         }
         out.push_str(&segments(contour));
         if !contour.joins.is_empty() {
@@ -73,16 +69,31 @@ pub fn table(document: &SectionDocument) -> String {
     out
 }
 
-/// What is said of segments that do not run along their points.
-const ASTRAY: &str = "nothing of the part; points that cover an area follow no curve: a thinner slab, or a plane that cuts \
-                      less obliquely, may help";
+/// What is said of segments that do not run along their points: what may help depends on where these come from.
+fn astray(contour: &ContourRecord) -> String {
+    let (one, all) = (contour.astray.len() == 1, contour.astray.len() == contour.segments.len());
+    let (which, run, tell) = match (all, one) {
+        (true, true) => ("the segment".into(), "does not run along the points", "tells"),
+        (true, false) => ("the segments".into(), "do not run along the points", "tell"),
+        (false, true) => (numbered(&contour.astray), "does not run along its points", "tells"),
+        (false, false) => (numbered(&contour.astray), "do not run along their points", "tell"),
+    };
+    let help = match (contour.plane, contour.taken.as_str()) {
+        (None, _) => "more points around corners and bends, or --noise if it is known, may help",
+        (_, "row") => {
+            "points that cover an area follow no curve: a thinner slab, or a plane that cuts less obliquely, may help"
+        }
+        _ => "a plane a little beside, or a finer mesh, may help",
+    };
+    format!("! {which} {run} and {tell} nothing of the part; {help}\n")
+}
 
 /// Numbers of segments from 0 as the table counts them: the first few.
 fn numbered(segments: &[u64]) -> String {
     const FEW: usize = 8;
     let some: Vec<String> = segments.iter().take(FEW).map(|s| (s + 1).to_string()).collect();
     let more = if segments.len() > FEW { " …" } else { "" };
-    format!("segments {}{more}", some.join(", "))
+    format!("segment{} {}{more}", if segments.len() == 1 { "" } else { "s" }, some.join(", "))
 }
 
 /// The paper's table of its methods.
@@ -117,12 +128,16 @@ fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
     if let Some(area) = plane.area {
         let _ = write!(line, "   area {}", fixed(area, 6));
     }
+    if let Some(gap) = plane.gap {
+        let _ = write!(line, "   gap {}", fixed(gap, 4));
+    }
     if plane.loose > 0 {
         let _ = write!(line, "   {} points of no contour", grouped(plane.loose));
     }
     let [x, y] = [plane.frame.x, plane.frame.y].map(|a| a.map(|n| fixed(n, 4)).join(" "));
     let origin = plane.frame.origin.map(|n| fixed(n, 6)).join(" ");
-    format!("{line}\n          x along {x}, y along {y}, from {origin}\n")
+    let hint = plane.hint.as_ref().map_or(String::new(), |hint| format!("! {hint}\n"));
+    format!("{line}\n          x along {x}, y along {y}, from {origin}\n{hint}")
 }
 
 fn segments(contour: &ContourRecord) -> String {

@@ -130,6 +130,141 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
     found[2..].iter().for_each(holds_together);
 }
 
+/// Regular polygons wherever they lie, whatever rounding does to their turns: up to ten sides lines, from eleven on circles.
+#[test]
+fn polygons_of_up_to_ten_sides_are_lines_and_of_eleven_circles() {
+    let random = &mut Random::new(8);
+    for sides in 3..14 {
+        for _ in 0..20 {
+            let center = [200.0 * random.unit() - 100.0, 200.0 * random.unit() - 100.0];
+            let start = 360.0 * random.unit();
+            let outline = arc(center, 1.0 + 20.0 * random.unit(), start, start + 360.0, sides);
+            let found = &sections(&[outline])[0];
+            let want = if sides <= 10 { vec![Kind::Line; sides] } else { vec![Kind::Arc] };
+            assert_eq!(kinds(found), want, "{sides} {center:?} {start}");
+            holds_together(found);
+        }
+    }
+    // Uneven chords of one circle that turn by a little more or less than the limit are of one kind.
+    for _ in 0..50 {
+        let mut angles: Vec<f64> = (0..10).map(|i| 36.0 * f64::from(i) + 4.0 * random.unit()).collect();
+        angles.push(angles[0] + 360.0);
+        let outline: Vec<[f64; 2]> =
+            angles.windows(2).flat_map(|w| arc([3.0, 1.0], 9.0, w[0], w[1], 1)).collect();
+        let found = &sections(&[outline])[0];
+        assert!(kinds(found).windows(2).all(|w| w[0] == w[1]), "{:?} {angles:?}", kinds(found));
+    }
+}
+
+/// The sides of a pyramid are one facet each: their cut has no points but the corners. Ten of them are no scan.
+#[test]
+fn a_pyramid_of_ten_sides_has_ten_lines() {
+    for sides in [9, 10] {
+        let mut mesh = Mesh::default();
+        let base = arc([2.0, 1.0], 12.0, 7.0, 367.0, sides);
+        mesh.positions.extend(base.iter().map(|p| [p[0], p[1], 0.0]));
+        mesh.positions.push([2.0, 1.0, 20.0]);
+        let n = sides as u32;
+        mesh.faces.extend((0..n).map(|i| [i, (i + 1) % n, n]));
+        let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 3.0 };
+        let chains = cut(&mesh, &plane, &Silent).unwrap();
+        let options = Options::default();
+        let found =
+            chain_contour(&chains[0], &plane.frame().unwrap(), rounding(&mesh), &options, &Silent).unwrap();
+        assert_eq!((kinds(&found), found.taken), (vec![Kind::Line; sides], Taken::Facets));
+    }
+}
+
+/// The half circles of a slot in two to six chords are arcs: they are tangent to its sides.
+#[test]
+fn coarse_slots_have_arcs() {
+    for chords in 2..7 {
+        let right = arc([50.0, 0.0], 6.0, -90.0, 90.0, chords);
+        let left = arc([20.0, 0.0], 6.0, 90.0, 270.0, chords);
+        let slot = [right, vec![[50.0, 6.0]], left, vec![[20.0, -6.0]]].concat();
+        let found = &sections(&[slot])[0];
+        use Kind::{Arc, Line};
+        assert_eq!(kinds(found), [Line, Arc, Line, Arc], "{chords}");
+        assert!(found.joins.iter().all(|j| j.continuity == Continuity::G1), "{chords}");
+        holds_together(found);
+    }
+}
+
+/// A torus cut at the plane tangent to its inner equator: two loops that touch each other in a corner, on the saddle.
+#[test]
+fn loops_that_touch_have_their_corner() {
+    // By 4,000,000 chords of the curve itself.
+    let length_of_loop = 31.9196;
+    for (around, across) in [(96_u32, 48_u32), (120, 60), (200, 100), (64, 32)] {
+        let mut mesh = Mesh::default();
+        for i in 0..around {
+            let (s, c) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(around));
+            for j in 0..across {
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(j) / f64::from(across));
+                let r = 10.0 + 4.0 * cos;
+                mesh.positions.push([r * c, r * s, 4.0 * sin].map(|x| f64::from(x as f32)));
+                let at = |i: u32, j: u32| (i % around) * across + j % across;
+                mesh.faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+                mesh.faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            }
+        }
+        let plane = Plane { normal: [1.0, 0.0, 0.0], offset: 6.0 };
+        let frame = plane.frame().unwrap();
+        let chains = cut(&mesh, &plane, &Silent).unwrap();
+        assert_eq!(chains.len(), 2, "{around}");
+        for chain in &chains {
+            let found = chain_contour(chain, &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
+            assert!(found.closed && found.astray.is_empty());
+            assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
+            let corner = found.joins.iter().find(|j| length(j.point, [0.0, 0.0]) < 1e-4).unwrap();
+            assert_eq!(corner.continuity, Continuity::G0, "{around}");
+            // What is drawn ends there.
+            let near =
+                found.segments.iter().map(|s| s.foot([0.0, 0.0]).1.abs()).fold(f64::INFINITY, f64::min);
+            assert!(near < 1e-4, "{around}: {near}");
+            holds_together(&found);
+        }
+    }
+}
+
+/// A slot cut by an oblique plane: half ellipses between lines that are the edges of flat faces, as far apart as these exactly.
+#[test]
+fn sides_of_an_oblique_slot_are_exact() {
+    let normal = [0.3, 0.2, 1.0];
+    let plane = Plane { normal, offset: 6.0 };
+    let frame = plane.frame().unwrap();
+    for chords in [12, 24, 48] {
+        for degrees in [0.0, 33.0, 57.0, 80.0_f64] {
+            let right = arc([4.0, 0.0], 1.5, -90.0, 90.0, chords);
+            let left = arc([-4.0, 0.0], 1.5, 90.0, 270.0, chords);
+            let (sin, cos) = libm::sincos(degrees.to_radians());
+            let slot = [right, vec![[4.0, 1.5]], left, vec![[-4.0, -1.5]]].concat();
+            let slot = slot.iter().map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]).collect();
+            let mesh = prisms(&[slot], 0.0);
+            let chains = cut(&mesh, &plane, &Silent).unwrap();
+            let found =
+                chain_contour(&chains[0], &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
+            holds_together(&found);
+            // The walls' distance over the length of their normal's part in the plane.
+            let along = 0.2 * cos - 0.3 * sin;
+            let want = 3.0 / (1.0 - along * along / 1.13_f64).sqrt();
+            let widths: Vec<_> = crate::section::dimensions(&[found])
+                .into_iter()
+                .filter(|d| d.kind == crate::section::DimensionKind::Width)
+                .collect();
+            assert!(!widths.is_empty(), "{chords} {degrees}");
+            for d in widths {
+                let off = (d.value - want).abs();
+                assert!(
+                    off < 2e-5 && d.uncertainty.is_none(),
+                    "{chords} {degrees}: {off} {:?}",
+                    d.uncertainty
+                );
+            }
+        }
+    }
+}
+
 /// A line goes on as half a wave of a cosine and a line again: the free curve is no row of lines.
 #[test]
 fn a_free_curve_between_lines_is_a_spline() {

@@ -1,6 +1,9 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
 mod astray;
+mod scattered;
+mod smooth;
+mod sparse;
 
 use super::*;
 use crate::num::random::Random;
@@ -241,22 +244,29 @@ fn a_circle_has_no_join_and_a_slot_has_four() {
     }
 }
 
-/// A stadium of long lines and half circles of radius 10, `count` points, closed.
-fn stadium(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
-    let random = &mut Random::new(seed);
+/// Length of a stadium of two lines of 50 and two half circles of radius 10.
+const STADIUM: f64 = 100.0 + 20.0 * std::f64::consts::PI;
+
+/// Its place at a length from where its first line starts.
+fn on_stadium(s: f64) -> [f64; 2] {
     let half = 10.0 * std::f64::consts::PI;
     let around = |x: f64, a: f64| {
         let (sin, cos) = libm::sincos(a);
         [x + 10.0 * sin, 10.0 - 10.0 * cos]
     };
+    match s {
+        s if s < 50.0 => [s, 0.0],
+        s if s < 50.0 + half => around(50.0, (s - 50.0) / 10.0),
+        s if s < 100.0 + half => [100.0 + half - s, 20.0],
+        s => around(0.0, std::f64::consts::PI + (s - 100.0 - half) / 10.0),
+    }
+}
+
+/// A stadium of `count` points, closed.
+fn stadium(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
+    let random = &mut Random::new(seed);
     (0..count)
-        .map(|i| (100.0 + 2.0 * half) * i as f64 / count as f64)
-        .map(|s| match s {
-            s if s < 50.0 => [s, 0.0],
-            s if s < 50.0 + half => around(50.0, (s - 50.0) / 10.0),
-            s if s < 100.0 + half => [100.0 + half - s, 20.0],
-            s => around(0.0, std::f64::consts::PI + (s - 100.0 - half) / 10.0),
-        })
+        .map(|i| on_stadium(STADIUM * i as f64 / count as f64))
         .map(|p| [p[0] + noise * normal(random), p[1] + noise * normal(random)])
         .collect()
 }
