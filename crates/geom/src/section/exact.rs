@@ -29,6 +29,9 @@ struct Run {
     along: [f64; 2],
 }
 
+/// Center and curvature of an arc between two lines; `None` where they meet in a corner.
+type Between = Option<([f64; 2], f64)>;
+
 fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
@@ -80,7 +83,7 @@ fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
     }
     let proven = |k: usize| {
         let (from, to, radius) = (arcs[k].0, arcs[k].1, arcs[k].2.map(|(_, c)| 1.0 / c.abs()));
-        let same = |r: f64, (i, j, other): &(usize, usize, Option<([f64; 2], f64)>)| {
+        let same = |r: f64, (i, j, other): &(usize, usize, Between)| {
             j > i && other.is_some_and(|(_, c)| (r * c.abs() - 1.0).abs() <= EQUAL)
         };
         to - from != 1 || radius.is_some_and(|r| arcs.iter().filter(|a| same(r, a)).count() > 1)
@@ -124,7 +127,7 @@ fn runs(points: &[[f64; 2]], tolerance: f64) -> Vec<Run> {
 
 /// The arc tangent to two lines through the points between them: its center and curvature. `Some(None)` without points: a corner.
 /// `None` where the points lie on no such arc.
-fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Option<Option<([f64; 2], f64)>> {
+fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Option<Between> {
     let between = &points[a.to..end];
     let turn = angle(a.along, b.along);
     let (last, first) = (points[a.to - 1], points[b.from]);
@@ -162,7 +165,7 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
     (radius > slack && behind && between.iter().all(near)).then_some(Some((center, sense / radius)))
 }
 
-fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Option<([f64; 2], f64)>)]) -> Vec<Part> {
+fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) -> Vec<Part> {
     let mut all = vec![];
     for (k, run) in runs.iter().enumerate() {
         let center = [0, 1].map(|i| 0.5 * (points[run.from][i] + points[run.to - 1][i]));
