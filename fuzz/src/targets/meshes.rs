@@ -177,7 +177,7 @@ fn as_reported(before: &Mesh, result: &Repaired) {
     assert!(c.vertices_kept <= kept, "{} vertices kept, {kept} at their place", c.vertices_kept);
     assert_eq!(c.vertices_kept + c.vertices_added, mesh.positions.len() as u64, "vertices kept and added");
     assert_eq!(c.facets_kept + c.facets_added, mesh.faces.len() as u64, "facets kept and added");
-    if let Ok(deviation) = repair::deviation(before, result, &Silent) {
+    if let Ok(deviation) = result.deviation(before, &Silent) {
         let sensible = |w: repair::Way| (0.0..f64::INFINITY).contains(&w.mean) && w.max.is_finite();
         let both = sensible(deviation.there) && sensible(deviation.back);
         assert!(both || !in_range(before), "{deviation:?}");

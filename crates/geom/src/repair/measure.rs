@@ -1,6 +1,5 @@
 //! What a repair changed: how many vertices and facets, and how far the surface went.
 
-use super::Repaired;
 use crate::check::finding::area;
 use crate::closest::{MeshError, Query, QueryError, Tree};
 use crate::mesh::Mesh;
@@ -90,26 +89,6 @@ pub struct Deviation {
     pub back: Way,
 }
 
-/// Distances between `before`, the mesh that was repaired, and the result, both ways.
-///
-/// Each facet is asked about at its corners, the middles of its edges and its middle, exactly to the nearest place of the
-/// other mesh; facets that both have are at distance 0 and not asked about. So the mean is that of the whole surface, and
-/// the maximum falls short by less than a third of the longest edge of a facet that changed. Of a mesh that encloses places
-/// only what bounds them counts as old surface; of facets that met others [`Effect::surface`] tells the distance.
-///
-/// # Errors
-/// [`MeshError`] where one of them has no facet or a coordinate that is not finite, [`QueryError`] if cancelled.
-pub fn deviation(
-    before: &Mesh,
-    repaired: &Repaired,
-    progress: &dyn Progress,
-) -> Result<Deviation, DeviationError> {
-    let (after, effect) = (&repaired.mesh, &repaired.effect);
-    let mut there = way((before, &effect.inside), after, progress)?;
-    there.max = there.max.max(effect.surface.unwrap_or(0.0));
-    Ok(Deviation { there, back: way((after, &[]), before, progress)? })
-}
-
 /// Why nothing was measured.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DeviationError {
@@ -141,8 +120,12 @@ pub(super) fn triangle_key(mesh: &Mesh, f: &[u32; 3]) -> Key {
     corners
 }
 
-/// Facets of `without`, sorted, do not count.
-fn way((from, without): (&Mesh, &[Key]), to: &Mesh, progress: &dyn Progress) -> Result<Way, DeviationError> {
+/// Distances from one surface to another. Facets of `without`, sorted, do not count.
+pub(super) fn way(
+    (from, without): (&Mesh, &[Key]),
+    to: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Way, DeviationError> {
     let mut there: Vec<_> = to.faces.iter().map(|f| triangle_key(to, f)).collect();
     there.sort_unstable();
     let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);

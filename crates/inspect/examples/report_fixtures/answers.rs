@@ -137,7 +137,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
             defects: BTreeMap::new(),
             at_least: vec![],
         },
-        deviation: repair::deviation(mesh, &repaired, &Silent),
+        deviation: repaired.deviation(mesh, &Silent),
         limit: 1000,
         max_change: 1e-4,
     };

@@ -1,8 +1,9 @@
 //! The alignment of a plan.
 
 use super::belonging::Belonging;
+use super::data::{Data, Stop};
 use super::seed::Seeded;
-use super::{Data, Stop, Taken, take};
+use super::{Taken, take};
 use crate::characteristic::{Missing, datum_source};
 use crate::plan::{Align, Plan};
 use std::collections::BTreeMap;

@@ -4,8 +4,8 @@
 //! from the beginning of a fillet. Where the reference is at hand, its facets do: a measured place belongs to a feature if no
 //! other facet of the reference is nearer than the feature's own.
 
+use super::data::{Data, Stop};
 use super::seed::Seeded;
-use super::{Data, Stop};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use trueness_geom::closest::{Hit, Query, QueryError, Tree};

@@ -1,6 +1,6 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
-use super::{Data, Stop};
+use super::data::{Data, Stop};
 use crate::compare::{self, CompareError, Comparisons, Options, Reference};
 use crate::plan::Deviation;
 use std::convert::Infallible;

@@ -4,9 +4,9 @@
 //! reference is at hand, such points are told: those whose nearest place on it belongs to the feature.
 
 use super::belonging::Belonging;
+use super::data::{Data, Stop};
 use super::seed::Seeded;
 use super::taken::{LeftOut, Taken};
-use super::{Data, Stop};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;

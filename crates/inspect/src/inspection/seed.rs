@@ -1,6 +1,6 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
-use super::{Data, Stop};
+use super::data::{Data, Stop};
 use crate::plan::region::{facets_of, nominal_of};
 use crate::plan::{Class, Plan, Source};
 use std::collections::BTreeMap;

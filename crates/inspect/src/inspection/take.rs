@@ -1,9 +1,9 @@
 //! Taking the features of a plan from the measured data.
 
 use super::belonging::Belonging;
+use super::data::{Data, Stop};
 use super::seed::Seeded;
 use super::taken::{Element, Taken};
-use super::{Data, Stop};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::{BTreeMap, BTreeSet};

@@ -15,12 +15,14 @@ mod page;
 mod payload;
 mod picture;
 mod text;
+mod up;
 
 pub use documents::{Answer, flat};
 pub use marks::{Mark, MarkGroup, Marks};
 pub use payload::NoValue;
 pub(crate) use picture::first_view;
 pub use text::Language;
+pub use up::Up;
 
 use crate::results::Role;
 use crate::scale::Scale;
@@ -80,16 +82,6 @@ impl Default for ReportOptions {
             up: Up::Z,
         }
     }
-}
-
-/// The axis that points up in the standard views.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Up {
-    /// The model's y axis; the front looks along −z.
-    Y,
-    /// The model's z axis; the front looks along +y.
-    #[default]
-    Z,
 }
 
 /// What an object is to the reader: what it is called, its colour, and what switches it on and off.

@@ -146,7 +146,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     drop(stage);
     let stage = Stage::new(common.progress, "measuring", "points", None);
-    let deviation = repair::deviation(&source.mesh, &repaired, &stage);
+    let deviation = repaired.deviation(&source.mesh, &stage);
     drop(stage);
     read::hash(&mut record, &args.mesh)?;
     let mut file = MeshFile::write(args.target(), &repaired.mesh)?;

@@ -53,7 +53,7 @@ fn sound_meshes_come_back_bit_for_bit() {
     let bits = |m: &Mesh| m.positions.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
     assert_eq!((bits(&repaired.mesh), &repaired.mesh.faces), (bits(&mesh), &mesh.faces));
     assert_eq!((repaired.changes.len(), repaired.rounds, repaired.after.sound), (0, 1, true));
-    assert_eq!(deviation(&mesh, &repaired, &Silent).unwrap().there, Way::default());
+    assert_eq!(repaired.deviation(&mesh, &Silent).unwrap().there, Way::default());
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn counts_are_true_even_where_numbers_end() {
         if kind.name == "not_finite_facets" {
             continue;
         }
-        let deviation = match deviation(&mesh, &repaired, &Silent) {
+        let deviation = match repaired.deviation(&mesh, &Silent) {
             // Distances among such small numbers would be nothing but rounding.
             Err(DeviationError::Mesh(MeshError::BadVertex(_))) if scale < MIN_COORDINATE => continue,
             deviation => deviation.unwrap(),
@@ -154,7 +154,7 @@ fn counts_are_true_even_where_numbers_end() {
 fn facets_at_no_place_are_not_part_of_the_mean() {
     let (mesh, ..) = planted("not_finite_facets", 1);
     let holed = Mesh { faces: mesh.faces[1..].to_vec(), ..mesh.clone() };
-    let mean = |to: &Repaired| deviation(&mesh, to, &Silent).unwrap().there.mean;
+    let mean = |to: &Repaired| to.deviation(&mesh, &Silent).unwrap().there.mean;
     assert_eq!(mean(&mend(&mesh)), 0.0);
     assert!(mean(&mend_with(&holed, &Options { steps: vec!["not_finite"], ..Options::default() })) > 0.0);
 }

@@ -183,7 +183,7 @@ fn a_gap_is_stitched_and_the_vertex_with_more_facets_stays() {
     assert_eq!(repaired.mesh.positions, sound.positions);
     let largest = repaired.changes.iter().map(|c| c.size).fold(0.0, f64::max);
     assert!((largest - norm([3e-5, -2e-5, 1e-5])).abs() < 1e-12);
-    let back = deviation(&mesh, &repaired, &Silent).unwrap();
+    let back = repaired.deviation(&mesh, &Silent).unwrap();
     assert!(back.there.max > 1e-5 && back.there.max <= largest && back.there.mean < 1e-6, "{back:?}");
     // Beyond the distance given nothing is stitched.
     let narrow = Options { stitch: Some(1e-5), holes: Holes::UpTo(0.0), ..Options::default() };
@@ -209,7 +209,7 @@ fn several_vertices_on_one_edge_cut_one_facet() {
     assert_eq!(did(&repaired, "t_junctions"), 2);
     assert_eq!(repaired.counts.vertices_added, 0);
     assert_eq!(repaired.after.properties.signed_volume, 64.0);
-    let away = deviation(&mesh, &repaired, &Silent).unwrap();
+    let away = repaired.deviation(&mesh, &Silent).unwrap();
     assert_eq!((away.there.max, away.back.max), (0.0, 0.0));
 }
 

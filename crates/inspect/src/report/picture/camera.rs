@@ -1,6 +1,6 @@
 //! The first view: orthographic, the part in the middle.
 
-use super::super::Up;
+use super::super::up::Up;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, unit};
 
 /// Share of the picture's smaller side that the part fills at most.

@@ -1,12 +1,16 @@
 //! The sharp edges of a surface as lines: without them faces of one colour run into each other.
 
-use super::{Camera, Canvas, FINE};
+use super::camera::Camera;
+use super::canvas::{Canvas, FINE};
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, unit};
 
 /// Cosine of the angle (30 degrees) between facets beyond which they have an edge between them.
 const CREASE: f64 = 0.866_025_403_784_438_6;
+/// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
+/// a crease: the facet then keeps its own normal throughout.
+const BENT: f64 = 0.965_925_826_289_068_3;
 /// Width of a line in samples.
 const WIDE: f64 = 1.3 * FINE as f64;
 /// How much of what lies under an edge it covers.
@@ -29,6 +33,32 @@ struct Side {
     opposite: u32,
     /// The facet runs along it from the higher number to the lower.
     turned: bool,
+}
+
+/// Normals of the vertices, area-weighted; none on creases, and where the facets around cancel out.
+pub fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
+    let mut sums = vec![[0.0; 3]; mesh.positions.len()];
+    let normal = |face: &[u32; 3]| {
+        let corner =
+            |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
+        let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
+        Some(cross(minus(*b, *a), minus(*c, *a)))
+    };
+    for face in &mesh.faces {
+        let Some(n) = normal(face) else { continue };
+        face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], n));
+    }
+    let mut normals: Vec<Option<Vector>> = sums.into_iter().map(|n| unit(n).map(|(n, _)| n)).collect();
+    let means = normals.clone();
+    for face in &mesh.faces {
+        let Some((n, _)) = normal(face).and_then(unit) else { continue };
+        for v in face.map(|v| v as usize) {
+            if means[v].is_some_and(|mean| dot(mean, n) < BENT) {
+                normals[v] = None;
+            }
+        }
+    }
+    normals
 }
 
 /// Draws the edges of a mesh over it, where nothing is in front of them. `normals`: those of its vertices, none on creases.
@@ -168,8 +198,7 @@ fn facet(mesh: &Mesh, face: &[u32; 3]) -> Option<Vector> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::Up;
-    use super::super::smooth_normals;
+    use super::super::super::up::Up;
     use super::*;
 
     /// The cube from −1 to 1, its facets with vertices of their own where `apart`.

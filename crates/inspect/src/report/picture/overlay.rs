@@ -1,7 +1,8 @@
 //! Marks in the stored picture: over the part, and paler or not at all where it is in front of them.
 
 use super::super::marks::Mark;
-use super::{Camera, Canvas, FINE};
+use super::camera::Camera;
+use super::canvas::{Canvas, FINE};
 use crate::scale::palette::Rgb;
 
 /// Half the width of a line and radius of a dot, in samples.
@@ -52,7 +53,7 @@ impl Canvas {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::Up;
+    use super::super::super::up::Up;
     use super::*;
     use trueness_geom::space::Point;
 

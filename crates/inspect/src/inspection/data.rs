@@ -1,0 +1,62 @@
+//! What an inspection is given, and why it may stop.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Cancelled;
+use trueness_geom::space::Point;
+
+/// What was measured, in measured coordinates, millimetres.
+#[derive(Clone, Debug, Default)]
+pub struct Data {
+    /// The measured mesh; a cloud has no facets.
+    pub measured: Option<Mesh>,
+    /// The nominal mesh, where the plan names one and has a use for it: alignment, deviations, features sought by nominals or seeds.
+    pub reference: Option<Mesh>,
+    /// Points that a report can show; 0 without a report.
+    pub shown: usize,
+    /// The points of features that have files of their own, by the number of the feature.
+    pub points: BTreeMap<usize, OwnPoints>,
+    /// Seed of the random choices of the alignment.
+    pub seed: u64,
+}
+
+/// Points of a feature's own.
+#[derive(Clone, Debug, Default)]
+pub struct OwnPoints {
+    /// The points.
+    pub points: Vec<Point>,
+    /// Whether they have two coordinates only.
+    pub planar: bool,
+}
+
+/// Why an inspection stops without an answer.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Stop {
+    /// The plan asks for what cannot be, as the data show.
+    #[error("{what}")]
+    Plan {
+        /// Bytes of the plan's text.
+        span: Range<usize>,
+        /// What is wrong.
+        what: String,
+    },
+    /// The measured mesh cannot be searched.
+    #[error("{0}")]
+    Mesh(String),
+    /// The measured data could not be aligned.
+    #[error("the measured data cannot be aligned to the reference: {0}")]
+    Align(String),
+    /// There are no deviations from the reference.
+    #[error("the measured data cannot be compared with the reference: {0}")]
+    Deviation(String),
+    /// The result is no longer wanted.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for Stop {
+    fn from(_: Cancelled) -> Stop {
+        Stop::Cancelled
+    }
+}

@@ -1,0 +1,141 @@
+//! Meshes and points drawn in the colours of their values.
+
+use super::camera::Camera;
+use super::canvas::Canvas;
+use super::edges::{self, smooth_normals};
+use crate::scale::palette::Rgb;
+use crate::scale::{NO_VALUE, Scale};
+use crate::spacing::spacing;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::space::{Point, cross, dot, minus, unit};
+
+/// Least brightness of a surface seen edge-on.
+const DARKEST: f64 = 0.72;
+/// How much darker than its middle a point is at its rim, which tells points apart.
+const RIM: f64 = 0.2;
+/// Places drawn between two questions whether to go on.
+const TASK: usize = 1 << 13;
+
+/// What an object is coloured by: its values where it has some, else its own colour.
+pub struct Paint<'a> {
+    pub base: Rgb,
+    pub values: Option<(&'a [f64], Colors<'a>)>,
+}
+
+impl Canvas {
+    /// Triangles with a missing or non-finite corner are passed over; one without all three values is drawn as no value.
+    pub fn mesh(
+        &mut self,
+        mesh: &Mesh,
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
+        let normals = smooth_normals(mesh);
+        for (n, face) in mesh.faces.iter().enumerate() {
+            if n % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let corner =
+                |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
+            let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
+            let Some((facet, _)) = unit(cross(minus(*b, *a), minus(*c, *a))) else { continue };
+            let at = [a, b, c].map(|p| camera.project(p));
+            // A facet on a crease is as flat in the picture as it is.
+            let smooth = face.map(|v| normals[v as usize]);
+            let smooth = smooth.map(|n| n.filter(|n| dot(*n, facet) > 0.0));
+            let smooth = if smooth.iter().all(Option::is_some) { smooth } else { [None; 3] };
+            let light = smooth.map(|n| dot(n.unwrap_or(facet), camera.toward).abs());
+            let value = paint.values.as_ref().map(|(v, table)| (face.map(|i| v[i as usize]), table));
+            self.each_sample(&at, |canvas, x, y, depth, w| {
+                let mix = |x: &[f64; 3]| (0..3).map(|k| w[k] * x[k]).sum::<f64>();
+                canvas.put(x, y, depth as f32, || {
+                    let base = value.map_or(paint.base, |(v, table)| table.color(mix(&v)));
+                    shade(base, mix(&light))
+                });
+            });
+        }
+        edges::draw(self, mesh, &normals, camera);
+        Ok(())
+    }
+
+    /// Round dots.
+    pub fn points(
+        &mut self,
+        points: &[Point],
+        paint: &Paint,
+        camera: &Camera,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
+        // Large enough to close the surface that they lie on, as far as that is no more than a dot.
+        let finite: Vec<Point> = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).copied().collect();
+        let radius = (camera.scale * spacing(&finite)).clamp(1.5, 16.0);
+        for (i, p) in points.iter().enumerate() {
+            if i % TASK == 0 && progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let [x, y, z] = camera.project(p);
+            if !(x.is_finite() && y.is_finite()) {
+                continue;
+            }
+            let values = paint.values.as_ref();
+            let color = values.map_or(paint.base, |(v, table)| table.color(v[i]));
+            let z = z + values.map_or(0.0, |(v, table)| table.forward(v[i], radius, camera.scale));
+            // As cones: each sample belongs to the point whose middle is nearest, and none is lost under its neighbours.
+            let tip = (z + radius) as f32;
+            self.disc([x, y], radius, |canvas, px, py, square| {
+                // Most points of a scan are behind others.
+                if tip <= canvas.depth[(py * canvas.width + px) as usize] {
+                    return;
+                }
+                let off = square.sqrt() / radius;
+                let shade = 1.0 - RIM * off * off;
+                canvas.put(px, py, (z + radius * (1.0 - off)) as f32, || {
+                    color.map(|c| (f64::from(c) * shade + 0.5) as u8)
+                });
+            });
+        }
+        Ok(())
+    }
+}
+
+/// A scale looked up once, not once a pixel.
+pub struct Colors<'a> {
+    scale: &'a Scale,
+    limits: Vec<f64>,
+    colors: Vec<[u8; 3]>,
+}
+
+impl Colors<'_> {
+    pub fn of(scale: &Scale) -> Colors<'_> {
+        Colors { scale, limits: scale.limits(), colors: scale.colors() }
+    }
+
+    fn color(&self, value: f64) -> [u8; 3] {
+        if value.is_nan() {
+            return NO_VALUE;
+        }
+        match self.scale.mode {
+            crate::scale::Mode::Continuous => self.scale.color(value),
+            _ => self.colors[crate::scale::slot(&self.limits, value)],
+        }
+    }
+
+    /// How far a point of this value and `radius` comes forward, in samples: one out of tolerance lies over those within it
+    /// that are up to a radius nearer, and where material is missing up to another one. `scale`: samples a millimetre.
+    fn forward(&self, value: f64, radius: f64, scale: f64) -> f64 {
+        match self.scale.tolerance {
+            Some([lower, upper]) if value < lower || value > upper => {
+                radius + (-value * scale).clamp(0.0, radius)
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// Diffuse light from the eye.
+fn shade(color: [u8; 3], cosine: f64) -> [u8; 3] {
+    let factor = DARKEST + (1.0 - DARKEST) * cosine.clamp(0.0, 1.0);
+    color.map(|c| (f64::from(c) * factor + 0.5) as u8)
+}
