@@ -185,7 +185,7 @@ fn rounded(
     let as_they_are = count == old && close.is_none();
     if let Some((movable, reach)) = close {
         let movable: Vec<u32> = movable.into_iter().chain(old as u32..count as u32).collect();
-        snap(&mut positions, &movable, reach);
+        snap(&mut positions, &kept.faces, &movable, reach);
     }
     let mut out = Mesh { positions, faces: kept.faces };
     let mut source = kept.source;

@@ -8,9 +8,11 @@ use std::collections::{HashMap, HashSet};
 
 type Cell = [i64; 3];
 
-/// Puts each point of `may_move` (ascending) upon the nearest one that is no farther than `reach` along any axis, of
-/// those that may not move or were not moved; the lowest of equally near ones. Cost: linear.
-pub(super) fn snap(positions: &mut [Point], may_move: &[u32], reach: f64) {
+/// Puts each point of `may_move` (ascending) upon the nearest corner of `faces` that is no farther than `reach` along any axis,
+/// of those that may not move or were not moved; the lowest of equally near ones. Cost: linear.
+pub(super) fn snap(positions: &mut [Point], faces: &[[u32; 3]], may_move: &[u32], reach: f64) {
+    let mut used = vec![false; positions.len()];
+    faces.iter().flatten().for_each(|v| used[*v as usize] = true);
     let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
     let around = |c: Cell| {
         let by = |i: i64| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
@@ -20,11 +22,11 @@ pub(super) fn snap(positions: &mut [Point], may_move: &[u32], reach: f64) {
     let mut stay: HashMap<Cell, Vec<u32>> = HashMap::new();
     let mut movable = may_move.iter().peekable();
     for (v, p) in (0..).zip(&*positions) {
-        if movable.next_if(|m| **m == v).is_none() && asked.contains(&cell(p)) {
+        if movable.next_if(|m| **m == v).is_none() && used[v as usize] && asked.contains(&cell(p)) {
             stay.entry(cell(p)).or_default().push(v);
         }
     }
-    for &v in may_move {
+    for &v in may_move.iter().filter(|v| used[**v as usize]) {
         let p = positions[v as usize];
         let far = |w: u32| {
             let q = positions[w as usize];
