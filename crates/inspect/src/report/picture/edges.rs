@@ -256,7 +256,7 @@ mod tests {
         draw(&mut canvas, &mesh, &smooth_normals(&mesh), &camera);
         let at = |p: Point| {
             let [x, y, _] = camera.project(&p);
-            canvas.color[y.round() as usize * 400 + x.round() as usize][0]
+            canvas.color[y as usize * 400 + x as usize][0]
         };
         assert!(at([0.2, -1.0, 1.0]) < 100, "an edge in front");
         assert_eq!(at([0.2, 0.2, 1.0]), 200, "a diagonal of a face");
