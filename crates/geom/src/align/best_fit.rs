@@ -20,6 +20,8 @@ const SOON: usize = 20;
 const FAR: f64 = 20.0;
 /// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
 const AS_WELL: f64 = 1.25;
+/// Within this ratio it fits equally: what is symmetric is not turned without need.
+const EQUAL: f64 = 1.01;
 /// Starts whose cost is within this ratio of the best are iterated to the end.
 const PROMISING: f64 = 4.0;
 /// Worth of a start below which normals are tried the other way round.
@@ -87,6 +89,11 @@ pub fn best_fit(
     let mut result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
     if let Some(search) = &start.search {
         result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
+        if let Some(pose) = nearest(search, &result) {
+            let ended = all.run(pose, work.reach(sigma), MOST, progress)?;
+            result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
+            result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
+        }
     }
     result.warnings = work.warnings(&result, &start, measured);
     Ok(result)
@@ -347,6 +354,14 @@ impl<'a> Work<'a> {
         warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
         warnings
     }
+}
+
+/// Of the poses that fit equally well the one that moves least, if that is not the result's.
+fn nearest(search: &Search, result: &Alignment) -> Option<Rigid> {
+    let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
+    let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
+    let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
 }
 
 /// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.

@@ -204,6 +204,25 @@ fn a_part_that_looks_the_same_in_several_ways_is_told() {
     assert!(found.freedoms.is_empty() && found.condition.is_some());
 }
 
+/// Of poses that fit equally the one that moves least is taken, whatever the samples.
+#[test]
+fn a_symmetric_part_is_not_turned_without_need() {
+    for sides in [[40.0, 25.0, 10.0], [40.0, 40.0, 10.0], [20.0, 20.0, 20.0]] {
+        let reference = block([0.0; 3], sides, 2.0);
+        let tree = Tree::build(&reference).unwrap();
+        let target = Target::new(&reference, &tree);
+        for seed in 0..4 {
+            let pose = Rigid::rotation_about([5.0, 0.0, 3.0], [0.02, -0.1, 0.03 * seed as f64]);
+            let measured = moved(&reference, &pose);
+            let options = BestFit { seed, ..BestFit::default() };
+            let found = best_fit(&Measured::Mesh(&measured), &target, &options, &Silent).unwrap();
+            let [angle, shift] = off(&found, &pose, MIDDLE);
+            assert!(angle < 1e-9 && shift < 1e-8, "{sides:?} {seed}: {angle} {shift}");
+            assert!(!found.alternatives.is_empty());
+        }
+    }
+}
+
 #[test]
 fn a_body_of_revolution_turns_about_its_axis() {
     let profile = [[0.0, 0.0], [12.0, 0.0], [12.0, 10.0], [7.0, 14.0], [7.0, 30.0], [0.0, 30.0]];
