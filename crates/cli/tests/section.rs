@@ -95,6 +95,11 @@ fn wrong_input_is_refused_with_a_remedy() {
             3,
             "the plane meets nothing; along the first normal it reaches from",
         ),
+        (
+            vec![cube, "--plane", "0,0,1,0"],
+            3,
+            "or lies in a face of it, there is no section: move it inwards",
+        ),
         (vec![good, "--plane", "0,0,1,0"], 2, "its points have two coordinates; leave --plane"),
         (vec![cloud, "--plane", "0,0,1,0"], 2, "say with --thickness how far from the plane they count"),
         (vec![good, "--dxf", &twice, "--svg", &twice], 2, "are the same file; give each its own"),

@@ -87,12 +87,15 @@ pub fn outer_boundary(
     let mut current = as_it_is(mesh)?;
     let vertices = current.positions.len();
     let step = step(&current, options.single);
+    let given = current.faces.clone();
     let mut source: Vec<u32> = (0..current.faces.len() as u32).collect();
     let mut most = usize::MAX;
     for cut in 0..CUTS {
         let topology = Topology::of(&current)?;
-        let is_new = |f: &[u32; 3]| cut == 0 || f.iter().any(|v| *v as usize >= vertices);
-        let some: Vec<bool> = current.faces.iter().map(is_new).collect();
+        let is_new = |(f, source): (&[u32; 3], &u32)| {
+            cut == 0 || f.iter().any(|v| !given[*source as usize].contains(v))
+        };
+        let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
         let pairs = pairs(&current, &topology, &some, progress)?;
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
         if cut > 0 && pairs.is_empty() && fine {

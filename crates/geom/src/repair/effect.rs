@@ -18,7 +18,7 @@ pub struct Effect {
     /// shells that are removed on request.
     pub enclosed: Result<Enclosed, NotEnclosed>,
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
-    /// others the middle of each part that bounded it, of others that are gone those of [`deviation`](super::deviation).
+    /// others the middle of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation).
     /// With what rounding the vertices has added at most. `None` where nothing was enclosed or nothing is left.
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.

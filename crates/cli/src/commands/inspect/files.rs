@@ -93,7 +93,9 @@ impl PlanFile {
             let taken = take(&path, &options);
             let (mesh, record, _) = match part {
                 Some(_) => taken?,
-                None => taken.with_context(|| self.at(own, "the measured data"))?,
+                None => taken.with_context(|| {
+                    self.at(own, "the measured data (--measured FILE names another file)")
+                })?,
             };
             data.measured = Some(mesh);
             inputs.push(record);

@@ -195,9 +195,14 @@ pub fn nothing_met(planes: &[Cut], record: &InputRecord) -> String {
     };
     let (normal, offset) = (planes[0].plane.normal, planes[0].plane.offset);
     let Some([low, high]) = range(normal) else { return "no plane meets it".into() };
-    let which = if planes.len() == 1 { "the plane meets" } else { "no plane meets" };
+    let which = if planes.len() == 1 { "the plane meets nothing" } else { "no plane meets it" };
+    let touches = match (low..=high).contains(&offset) {
+        true => {
+            "; where a plane only touches the part, or lies in a face of it, there is no section: move it inwards"
+        }
+        false => "",
+    };
     format!(
-        "{which} {}; along the first normal it reaches from {low} to {high} mm, the first plane lies at {offset}",
-        if planes.len() == 1 { "nothing" } else { "it" }
+        "{which}; along the first normal it reaches from {low} to {high} mm, the first plane lies at {offset}{touches}"
     )
 }
