@@ -296,7 +296,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Other poses that fit about as well: the other starts, and turns of the kind that common symmetries have. What the
+    /// Other poses that fit about as well: where it lies, the other starts, and turns of the kind that common symmetries have. What the
     /// freedom of the shape allows is no other pose.
     fn alternatives(
         &self,
@@ -309,7 +309,8 @@ impl<'a> Work<'a> {
         let pose = result.reference_from_measured;
         let few = self.problem(&search.samples);
         let mut candidates = search.symmetric(&pose);
-        candidates.extend(poses.iter().map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
+        let others = [Rigid::IDENTITY].iter().chain(poses);
+        candidates.extend(others.map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
         candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
         let problem = self.problem(some);
         let cap = self.cap(1.4826 * result.median);

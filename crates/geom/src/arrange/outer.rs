@@ -42,8 +42,9 @@ pub struct Boundary {
 
 /// How often a mesh is cut at most.
 const CUTS: usize = 16;
-/// It is given up where more facets cross than this many times those, and those that met, at first.
-const MORE: usize = 4;
+/// It is given up where more pairs meet than this many times those before, and some: cutting again makes it worse.
+const MORE: usize = 2;
+const FEW: usize = 1000;
 /// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
 /// with one more for each cut up to the highest.
 const HIGHEST: usize = 11;
@@ -104,7 +105,7 @@ pub fn outer_boundary(
         if pairs.len() > most {
             break;
         }
-        most = most.min(MORE * (pairs.len() + current.faces.len()));
+        most = most.min(MORE * pairs.len() + FEW);
         let turn = options.turn && cut == 0;
         let kept = kept(&current, &topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.

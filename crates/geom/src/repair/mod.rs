@@ -355,7 +355,10 @@ fn go_through(work: &mut Work) -> Result<usize, RepairError> {
         }
         // A tangle that two rounds have not undone gets no better.
         let idle = work.changes.len() == done;
-        if idle && !work.may_tear && wanted.iter().any(|s| s.name == self_intersections::STEP.name) {
+        let tears = wanted.iter().any(|s| s.name == self_intersections::STEP.name);
+        // Bodies whose union cannot be written stay whole.
+        let is_close = matches!(work.not_united, Some(ArrangeError::Unresolved { .. }));
+        if idle && !work.may_tear && tears && !is_close {
             // Nothing else helps: the last resort, if there is anything to tear out.
             work.may_tear = true;
             if work.crossings(|_, _| true)?.is_some_and(|pairs| !pairs.is_empty()) {

@@ -41,7 +41,10 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     let options = Options { single: work.options.single, turn: true };
     match outer_boundary(&mesh, &options, work.progress) {
-        Ok(boundary) => replace(work, (&facets, &first), &mesh, boundary),
+        Ok(boundary) => {
+            work.not_united = None;
+            replace(work, (&facets, &first), &mesh, boundary);
+        }
         Err(ArrangeError::Weld(e)) => return Err(e.into()),
         Err(ArrangeError::Cancelled(e)) => return Err(e.into()),
         Err(e) => work.not_united = Some(e),

@@ -1,8 +1,9 @@
-//! What of the measured data belongs to a feature of the reference: what is nearest to it.
+//! Where the measured data lie on the reference, and which points of a cloud belong to what is beside a feature.
 //!
-//! Nearness to a nominal surface alone does not tell the points of a plane from those at the upper end of a wall beside it, nor
-//! from the beginning of a fillet. Where the reference is at hand, its facets do: a measured place belongs to a feature if no
-//! other facet of the reference is nearer than the feature's own.
+//! Nearness to a nominal surface alone does not tell the points of a plane from those at the upper end of a wall beside it, and a
+//! cloud has no facets that would tell by their angle. Where the reference is at hand, it does: a point that lies upon one of
+//! its facets that runs at an angle to the feature is none of the feature's. Upon: as near as most of the cloud lies to the
+//! reference. What lies farther off counts, so that no dent is taken for the wall beside it.
 
 use super::data::{Data, Stop};
 use super::seed::Seeded;
@@ -12,22 +13,32 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{Nearness, Nominal, in_mesh};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::Point;
+use trueness_geom::space::{Point, Vector, cross, dot, minus, unit};
 
-/// Facets of a plane lie in it but for this share of the size of the reference; those of a fillet beside it do not.
-const PLANE: f64 = 1e-5;
-/// Distances that differ by no more than this share of the size of the reference are the same: edges are shared.
+/// Points farther off than this share of the size of the reference are of something else.
+const ELSEWHERE: f64 = 0.1;
+/// So many times the median distance from the reference a point lies upon it: above three standard deviations of noise.
+const UPON: f64 = 5.0;
+/// But no farther than this share of the distance up to which points are sought.
+const FARTHEST: f64 = 0.25;
+/// Distances that differ by less than this share of the size of the reference are the same.
 const SAME: f64 = 1e-9;
 
-/// A reference, ready to be asked.
+/// The measured data on the reference.
 pub(super) struct Belonging<'a> {
     reference: &'a Mesh,
+    measured: &'a [Point],
     tree: Tree,
     size: f64,
+    /// Of each measured point the nearest facet and how far off it is, mm; `u32::MAX` for what is elsewhere.
+    nearest: Vec<(u32, f64)>,
+    /// Median of the distances, mm.
+    median: f64,
 }
 
 impl<'a> Belonging<'a> {
-    /// Of the reference, where there is one and a feature is sought by a nominal. Cost: a search tree.
+    /// Where there is a reference and a feature is sought by a nominal. Cost: a search tree, and a closest place for each measured
+    /// point.
     pub fn new(
         plan: &Plan,
         data: &'a Data,
@@ -35,81 +46,73 @@ impl<'a> Belonging<'a> {
         progress: &dyn Progress,
     ) -> Result<Option<Belonging<'a>>, Stop> {
         let sought = !seeds.is_empty() || plan.features.iter().any(|f| f.nominal.is_some());
-        let Some(reference) = data.reference.as_ref().filter(|r| sought && !r.faces.is_empty()) else {
+        let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else { return Ok(None) };
+        if !sought || reference.faces.is_empty() {
             return Ok(None);
-        };
+        }
         let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        Ok(Some(Belonging { reference, tree, size: reference.bounds().diagonal() }))
+        let size = reference.bounds().diagonal();
+        let nearest = nearest(&tree, &measured.positions, ELSEWHERE * size, progress)?;
+        let mut all: Vec<f64> = nearest.iter().filter(|n| n.0 != u32::MAX).map(|n| n.1).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let median = all.get(all.len() / 2).copied().unwrap_or(0.0);
+        Ok(Some(Belonging { reference, measured: &measured.positions, tree, size, nearest, median }))
     }
 
-    /// Size of the reference, mm.
-    pub fn size(&self) -> f64 {
-        self.size
+    /// How far off the measured points are whose nearest facet is one of the nominal's, where that is beyond its distance, mm.
+    pub fn beyond(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<f64> {
+        let own = self.facets(nominal, near, progress);
+        let far = |(face, off): &&(u32, f64)| *off > near.distance && own.binary_search(face).is_ok();
+        self.nearest.iter().filter(far).map(|(_, off)| *off).collect()
     }
 
-    /// The facets of the reference that the nominal names, ascending. Of an edge none: its facets are those of its neighbours.
-    pub fn facets(
+    /// Leaves out those of these measured points that lie upon facets beside the nominal.
+    pub fn keep(
         &self,
+        points: &mut Vec<u32>,
         nominal: &Nominal,
         near: &Nearness,
         progress: &dyn Progress,
-    ) -> Result<Vec<u32>, Stop> {
-        let find = |near: &Nearness| {
-            let found = in_mesh(self.reference, &self.tree, nominal, near, progress);
-            found.map_or(vec![], |found| found.facets)
-        };
-        let facets = match nominal {
-            Nominal::Edge { .. } => vec![],
-            Nominal::Plane { .. } => {
-                let exact = find(&Nearness { distance: (PLANE * self.size).min(near.distance), ..*near });
-                if exact.is_empty() { find(near) } else { exact }
-            }
-            _ => find(near),
-        };
-        if progress.cancelled() { Err(Stop::Cancelled) } else { Ok(facets) }
-    }
-
-    /// The nearest facet of the reference to each place and how far off it is, mm; `u32::MAX` beyond `farthest`.
-    pub fn nearest(
-        &self,
-        places: &[Point],
-        farthest: f64,
-        progress: &dyn Progress,
-    ) -> Result<Vec<(u32, f64)>, Stop> {
-        nearest(&self.tree, places, farthest, progress)
-    }
-
-    /// Which of these places belong to these facets. `shared`: those on an edge that they share with others do too.
-    pub fn belong(
-        &self,
-        places: &[Point],
-        facets: &[u32],
-        shared: bool,
-        progress: &dyn Progress,
-    ) -> Result<Vec<bool>, Stop> {
-        let all = self.nearest(places, f64::INFINITY, progress)?;
-        let is_own = |face: u32| facets.binary_search(&face).is_ok();
-        let mut belong: Vec<bool> = all.iter().map(|(face, _)| is_own(*face)).collect();
-        let doubtful: Vec<usize> = (0..places.len()).filter(|i| belong[*i] != shared).collect();
-        // With shared edges the feature may be as near as the nearest; without them another one may be as near as it.
-        let others = |f: &u32| is_own(*f) == shared;
-        let kept = (0..self.reference.faces.len() as u32).filter(others);
-        let faces: Vec<[u32; 3]> = kept.map(|f| self.reference.faces[f as usize]).collect();
-        if doubtful.is_empty() || faces.is_empty() {
-            return Ok(belong);
+    ) -> Result<(), Stop> {
+        if matches!(nominal, Nominal::Edge { .. }) {
+            return Ok(());
         }
+        // All of the face counts, however its facets lie to its bounds.
+        let whole = Nearness { margin: -near.distance, ..*near };
+        let own = self.facets(nominal, &whole, progress);
+        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(SAME * self.size);
+        let is_upon_other = |p: &u32| {
+            let (face, off) = self.nearest[*p as usize];
+            face != u32::MAX && off <= upon && own.binary_search(&face).is_err()
+        };
+        let doubtful: Vec<u32> = points.iter().copied().filter(is_upon_other).collect();
+        if own.is_empty() || doubtful.is_empty() {
+            return Ok(());
+        }
+        let faces: Vec<[u32; 3]> = own.iter().map(|f| self.reference.faces[*f as usize]).collect();
         let mesh = Mesh { positions: self.reference.positions.clone(), faces };
         let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let asked: Vec<Point> = doubtful.iter().map(|i| places[*i]).collect();
-        for (i, (_, off)) in doubtful.into_iter().zip(nearest(&tree, &asked, f64::INFINITY, progress)?) {
-            if off <= all[i].1 + SAME * self.size {
-                belong[i] = shared;
-            }
-        }
-        Ok(belong)
+        let asked: Vec<Point> = doubtful.iter().map(|p| self.measured[*p as usize]).collect();
+        let on_own = nearest(&tree, &asked, f64::INFINITY, progress)?;
+        let is_other = |(p, (own, away)): (&u32, (u32, f64))| {
+            let (face, off) = self.nearest[*p as usize];
+            let angle = normal(self.reference, face).zip(normal(&mesh, own)).map(|(a, b)| dot(a, b).abs());
+            // A wall of a thin part runs along the other one: which of them a point is of is not told by its place.
+            let aside = angle.is_some_and(|cosine| cosine < libm::cos(near.angle));
+            (aside && off + SAME * self.size < away).then_some(*p)
+        };
+        let others: Vec<u32> = doubtful.iter().zip(on_own).filter_map(is_other).collect();
+        points.retain(|p| others.binary_search(p).is_err());
+        Ok(())
+    }
+
+    /// The facets of the reference that the nominal names, ascending.
+    fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
+        in_mesh(self.reference, &self.tree, nominal, near, progress).map_or(vec![], |found| found.facets)
     }
 }
 
+/// The nearest facet to each place and how far off it is; `u32::MAX` beyond `farthest`.
 fn nearest(
     tree: &Tree,
     places: &[Point],
@@ -122,6 +125,11 @@ fn nearest(
         QueryError::Cancelled(_) => Stop::Cancelled,
         e => Stop::Mesh(e.to_string()),
     })
+}
+
+fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {
+    let [a, b, c] = mesh.faces.get(face as usize)?.map(|v| mesh.positions[v as usize]);
+    unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
 }
 
 #[cfg(test)]
@@ -158,67 +166,93 @@ mod tests {
         mesh
     }
 
-    fn flatness(measured: Mesh, reference: Option<Mesh>) -> (f64, usize) {
-        let plan = Plan::parse(
+    /// Flatness of the plane z = 0 over a rectangle in x and y from the points of a cloud, and how many they are.
+    fn flatness(
+        cloud: &Mesh,
+        reference: Option<&Mesh>,
+        [x, y]: [[f64; 2]; 2],
+        extract: &str,
+    ) -> (f64, usize) {
+        let ([a, b], [c, d]) = (x, y);
+        let plan = Plan::parse(&format!(
             r#"
             schema = "trueness/plan/1"
             measured = "part.stl"
             [[feature]]
             id = "A"
             shape = "plane"
-            extract = { distance = 0.5 }
+            extract = {{ {extract} }}
             [feature.nominal]
             point = [0, 0, 0]
-            normal = [0, 0, 1]
-            boundary = [[-10, 0, 0], [10, 0, 0], [10, 20, 0], [-10, 20, 0]]
+            normal = [0.0001, 0, 1]
+            boundary = [[{a}, {c}, 0], [{b}, {c}, 0], [{b}, {d}, 0], [{a}, {d}, 0]]
             [[characteristic]]
             id = "1"
             kind = "flatness"
             feature = "A"
             tolerance = 0.1
-            "#,
-        )
+            "#
+        ))
         .unwrap();
-        let data = Data { measured: Some(measured), reference, ..Data::default() };
+        let measured = Some(Mesh { positions: cloud.positions.clone(), faces: vec![] });
+        let data = Data { measured, reference: reference.cloned(), ..Data::default() };
         let found = run(&plan, data, &Silent).unwrap();
         (found.values[0].as_ref().unwrap().value, found.features[0].points.len())
     }
 
-    /// Neither the upper ends of the walls nor the beginning of the fillet are part of the plane between them.
+    const TOP: [[f64; 2]; 2] = [[-10.0, 10.0], [0.0, 20.0]];
+
+    /// Neither the upper ends of the walls nor the fillet, but for what faces as it does, are part of the plane between them.
     #[test]
     fn what_is_beside_a_plane_is_no_part_of_it() {
-        for (fillet, cloud) in [(false, true), (false, false), (true, true), (true, false)] {
-            let reference = bar(fillet);
-            let mut measured = reference.clone();
-            if cloud {
-                measured.faces.clear();
-            }
-            let (value, points) = flatness(measured, Some(reference));
-            assert!(value < 1e-9, "{fillet} {cloud}: {value}");
-            assert!(points >= 51 * 51, "{fillet} {cloud}: {points}");
+        let wall = bar(false);
+        for extract in ["distance = 0.5", "distance = 0.5, margin = 0"] {
+            let (value, points) = flatness(&wall, Some(&wall), TOP, extract);
+            assert!(value < 1e-9 && points >= 49 * 49, "{extract}: {value} {points}");
         }
-        // Without a reference what lies along its bounds is left out.
-        let mut measured = bar(false);
-        measured.faces.clear();
-        let (value, points) = flatness(measured, None);
-        assert!(value < 1e-9 && points > 45 * 45, "{value} {points}");
+        // Nothing tells the two apart.
+        assert!(flatness(&wall, None, TOP, "distance = 0.5").0 > 0.3);
+        let fillet = bar(true);
+        let wide = "distance = 0.5, margin = -2";
+        assert!(flatness(&fillet, None, TOP, wide).0 > 0.3);
+        let (value, points) = flatness(&fillet, Some(&fillet), TOP, wide);
+        // Its second facet of 10 degrees lies at 15.
+        assert!(value < 2.0 * (1.0 - libm::cos(20f64.to_radians())) + 1e-3, "{value}");
+        assert!(points >= 51 * 51, "{points}");
     }
 
-    /// The plane lies as much too low as its walls reach: its own rim stays with it.
+    /// Points with these deviations from the plane z = 0.
+    fn lowered(mesh: &Mesh, by: impl Fn(f64, f64) -> f64) -> Mesh {
+        let mut mesh = mesh.clone();
+        mesh.positions.iter_mut().filter(|p| p[2] == 0.0).for_each(|p| p[2] -= by(p[0], p[1]));
+        mesh
+    }
+
+    /// Whatever lies beside or below it, no defect is taken for something else.
     #[test]
-    fn a_coarse_measured_plane_keeps_its_corners() {
-        let mut measured = bar(false);
-        measured.positions = vec![
-            [-10.0, 0.0, -0.1],
-            [10.0, 0.0, -0.1],
-            [10.0, 20.0, -0.1],
-            [-10.0, 20.0, -0.12],
-            [10.0, 0.0, -8.0],
-            [10.0, 20.0, -8.0],
-        ];
-        measured.faces = vec![[0, 1, 2], [0, 2, 3], [1, 4, 5], [1, 5, 2]];
-        let (value, points) = flatness(measured, Some(bar(false)));
-        assert_eq!(points, 4);
-        assert!((value - 0.01).abs() < 1e-6, "{value}");
+    fn defects_of_a_plane_stay_with_it() {
+        // A sheet of thickness 1 with a dent deeper than half of it.
+        let mut sheet = bar(false);
+        let below: Vec<Point> = sheet.positions.iter().map(|p| [p[0], p[1], -1.0]).collect();
+        let first = sheet.positions.len() as u32;
+        sheet.faces.extend(sheet.faces.clone().iter().map(|[a, b, c]| [a + first, c + first, b + first]));
+        sheet.positions.extend(below);
+        let dented = lowered(&sheet, |x, y| if libm::hypot(x, y - 10.0) < 3.0 { 0.7 } else { 0.0 });
+        let (value, _) = flatness(&dented, Some(&sheet), TOP, "distance = 0.8");
+        assert!(value > 0.65, "{value}");
+        // A bar, narrow or wide, worn down towards one end, deeper than half its width; and a dent beside its rim.
+        for width in [0.2, 1.0] {
+            let mut rib = bar(false);
+            rib.positions.iter_mut().for_each(|p| p[0] *= 0.1 * width);
+            let worn = lowered(&rib, |_, y| 0.05 * (y - 10.0).max(0.0));
+            let across = [TOP[0].map(|x| 0.1 * width * x), TOP[1]];
+            let (value, _) = flatness(&worn, Some(&rib), across, "distance = 0.6");
+            // Half of its slope lies flat, half falls by 0.5: a quarter is left between two planes.
+            assert!((0.22..0.3).contains(&value), "{width}: {value}");
+        }
+        let wall = bar(false);
+        let nick = |x: f64, y: f64| if x > 9.0 && (y - 10.0).abs() < 3.0 { 0.3 } else { 0.0 };
+        let (value, _) = flatness(&lowered(&wall, nick), Some(&wall), TOP, "distance = 0.5, margin = 0.3");
+        assert!(value > 0.25, "{value}");
     }
 }

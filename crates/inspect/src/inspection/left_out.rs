@@ -12,12 +12,9 @@ use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 
-/// Points farther off than this share of the size of the reference are of something else.
-const ELSEWHERE: f64 = 0.1;
-
 /// Tells the features which points they leave out. Without a reference there is nothing to tell.
 ///
-/// Cost: a closest place on the reference for each measured point.
+/// Cost: one look at each measured point for each feature.
 pub(super) fn tell(
     plan: &Plan,
     data: &Data,
@@ -26,22 +23,16 @@ pub(super) fn tell(
     features: &mut [Taken],
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let (Some(measured), Some(belonging)) = (&data.measured, belonging) else { return Ok(()) };
+    let Some(belonging) = belonging else { return Ok(()) };
     let of = |n: usize| seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref());
     let sought: Vec<usize> = (0..plan.features.len())
         .filter(|n| of(*n).is_some_and(|nominal| !matches!(nominal, Nominal::Edge { .. })))
         .filter(|n| !features[*n].points.is_empty() && !data.points.contains_key(n))
         .collect();
-    if sought.is_empty() {
-        return Ok(());
-    }
-    let nearest = belonging.nearest(&measured.positions, ELSEWHERE * belonging.size(), progress)?;
     for n in sought {
         let Some(nominal) = of(n) else { continue };
         let near = plan.features[n].extract.near(nominal);
-        let there = belonging.facets(nominal, &near, progress)?;
-        let far = |(face, off): &&(u32, f64)| *off > near.distance && there.binary_search(face).is_ok();
-        let off: Vec<f64> = nearest.iter().filter(far).map(|(_, off)| *off).collect();
+        let off = belonging.beyond(nominal, &near, progress);
         if !off.is_empty() {
             let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
             features[n].left_out = Some(LeftOut { points: off.len() as u64, farthest, limit: near.distance });

@@ -6,7 +6,7 @@ use super::seed::Seeded;
 use super::taken::{Element, Taken};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{FeatureError, Found, Nominal, in_cloud, in_mesh};
 use trueness_geom::fit::{FitError, Options, fit};
@@ -99,10 +99,7 @@ fn found(
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
-    let near = match tree.is_none() && belonging.is_none() {
-        true => feature.extract.within(&nominal),
-        false => feature.extract.near(&nominal),
-    };
+    let near = feature.extract.near(&nominal);
     let found = match tree {
         Some(tree) => in_mesh(mesh, tree, &nominal, &near, progress),
         None => in_cloud(&mesh.positions, &nominal, &near),
@@ -111,13 +108,8 @@ fn found(
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     })?;
-    if let Some(belonging) = belonging {
-        let there = belonging.facets(&nominal, &near, progress)?;
-        if !there.is_empty() {
-            keep(&mut found, mesh, near.rim, |places, shared| {
-                belonging.belong(places, &there, shared, progress)
-            })?;
-        }
+    if let Some(belonging) = belonging.filter(|_| tree.is_none()) {
+        belonging.keep(&mut found.points, &nominal, &near, progress)?;
     }
     taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
     taken.areas = areas(mesh, &found);
@@ -125,47 +117,6 @@ fn found(
     taken.coverage = whole.filter(|_| tree.is_some()).map(|whole| found.area / whole);
     taken.facets = found.facets;
     Ok(taken)
-}
-
-/// Leaves out of what was found what does not belong there: of a mesh facets, by their middles, and vertices of such alone; of a
-/// cloud points.
-fn keep(
-    found: &mut Found,
-    mesh: &Mesh,
-    rim: bool,
-    belong: impl Fn(&[Point], bool) -> Result<Vec<bool>, Stop>,
-) -> Result<(), Stop> {
-    let at = |v: u32| mesh.positions.get(v as usize).copied().unwrap_or([f64::NAN; 3]);
-    if found.facets.is_empty() {
-        let places: Vec<Point> = found.points.iter().map(|p| at(*p)).collect();
-        let mut belong = belong(&places, rim)?.into_iter();
-        found.points.retain(|_| belong.next() == Some(true));
-        return Ok(());
-    }
-    let corners = |f: u32| mesh.faces[f as usize].map(at);
-    let middle = |[a, b, c]: [Point; 3]| times(1.0 / 3.0, plus(a, plus(b, c)));
-    let places: Vec<Point> = found.facets.iter().map(|f| middle(corners(*f))).collect();
-    let (mut kept, mut gone) = (vec![], BTreeSet::new());
-    for (f, belongs) in found.facets.iter().zip(belong(&places, true)?) {
-        if belongs {
-            kept.push(*f);
-        } else {
-            gone.extend(mesh.faces[*f as usize]);
-        }
-    }
-    if rim {
-        let stay: BTreeSet<u32> = kept.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
-        gone.retain(|v| !stay.contains(v));
-    }
-    found.facets = kept;
-    found.points.retain(|v| !gone.contains(v));
-    found.area = found
-        .facets
-        .iter()
-        .map(|f| corners(*f))
-        .map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))))
-        .sum();
-    Ok(())
 }
 
 /// The area that each point stands for: a third of the feature's facets about it.

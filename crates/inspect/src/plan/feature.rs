@@ -391,11 +391,4 @@ impl Extract {
         let margin = self.margin.unwrap_or(-distance);
         Nearness { distance, angle: self.angle, margin, rim: self.rim }
     }
-
-    /// As [`Extract::near`], where neither facets nor a reference tell the upper end of a wall beside the feature from the feature:
-    /// what lies along its bounds is left out.
-    pub fn within(&self, nominal: &Nominal) -> Nearness {
-        let near = self.near(nominal);
-        Nearness { margin: self.margin.unwrap_or(near.distance), ..near }
-    }
 }
