@@ -26,6 +26,7 @@ export class EdgeLines {
   private asked = true
   private coarse = false
   private faint = false
+  private under = false
 
   /** `packed`: four numbers a vertex; `matrix` leads from its grid to the stage, with `step` millimetres a step. */
   constructor(edges: SharpEdges, packed: Uint16Array, matrix: Matrix4, step: number) {
@@ -54,8 +55,9 @@ export class EdgeLines {
     this.apply()
   }
 
-  /** What depends on the eye; the surface is drawn `sunk` millimetres farther away. */
-  update(eye: Eye, ratio: number, sunk: number): void {
+  /** What depends on the eye; the surface is drawn `sunk` millimetres farther away, `under` one with edges of its own. */
+  update(eye: Eye, ratio: number, sunk: number, under: boolean): void {
+    this.under = under
     const { viewport, wide, lift, opacity } = this.uniforms
     viewport.value.set(eye.width * ratio, eye.pixels * ratio)
     wide.value = WIDE * ratio
@@ -67,6 +69,6 @@ export class EdgeLines {
   }
 
   private apply(): void {
-    this.drawn.visible = this.asked && !this.faint && !(this.coarse && this.count > QUICK)
+    this.drawn.visible = this.asked && !this.faint && !this.under && !(this.coarse && this.count > QUICK)
   }
 }

@@ -83,11 +83,17 @@ export class Part {
     this.materials.own.map.value = on && this.field >= 0
   }
 
-  /** What depends on the eye: what lies in one surface with the part is drawn before or behind it by pixels. */
-  setEye(eye: Eye, ratio: number): void {
+  /** Drawn behind what lies in one surface with it. */
+  get sinks(): boolean {
+    return this.object.role in SINKING
+  }
+
+  /** What depends on the eye: what lies in one surface with the part is drawn before or behind it by pixels. `others`: a surface that
+   *  does not sink shows its edges; two that hardly differ would be one dark edge. */
+  setEye(eye: Eye, ratio: number, others: boolean): void {
     const sunk = eye.millimetresPerPixel * (SINKING[this.object.role] ?? 0)
     this.materials.own.sink.value = sunk
-    this.edges?.update(eye, ratio, sunk)
+    this.edges?.update(eye, ratio, sunk, this.sinks && others)
   }
 
   /** Steps back to grey while another object is meant. */
