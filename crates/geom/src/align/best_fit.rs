@@ -296,8 +296,8 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Other poses that fit about as well: where it lies, the other starts, and turns of the kind that common symmetries have. What the
-    /// freedom of the shape allows is no other pose.
+    /// Other poses that fit about as well: where it lies, the other starts, and turns of the kind that common symmetries
+    /// have. What the freedom of the shape allows is no other pose.
     fn alternatives(
         &self,
         search: &Search,

@@ -42,8 +42,9 @@ pub struct Boundary {
 
 /// How often a mesh is cut at most.
 const CUTS: usize = 16;
-/// It is given up where more pairs meet than this many times those before, and some: cutting again makes it worse.
+/// It is given up where more pairs meet than this many times the fewest before, and [`FEW`]: cutting again makes it worse.
 const MORE: usize = 2;
+/// Pairs that few crossings may grow by.
 const FEW: usize = 1000;
 /// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
 /// with one more for each cut up to the highest.

@@ -63,7 +63,9 @@ pub(super) fn aligned(
         moved(&mut data, &alignment.motion);
     }
     if let Align::Datum { datums, rule, span, .. } = &plan.align {
-        let belonging = Belonging::new(plan, &data, seeds, progress)?;
+        // A mesh has facets that tell.
+        let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
+        let belonging = if is_cloud { Belonging::new(plan, &data, seeds, progress)? } else { None };
         let taken = take::features(plan, &data, seeds, belonging.as_ref(), progress)?;
         let motion = by_datums(&taken, datums, *rule, span, progress)?;
         moved(&mut data, &motion);
