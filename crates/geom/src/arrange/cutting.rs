@@ -1,8 +1,8 @@
 //! All facets of a mesh, cut where they meet.
 
-use super::ArrangeError;
 use super::cluster::{Cluster, Crossing, Cut, Line, plane_of};
 use super::cut::{Piece, Pieces, along, cut};
+use super::error::ArrangeError;
 use super::meetings::{Edge, Meeting, Name, meeting};
 use super::points::{Place, Points};
 use crate::mesh::Mesh;

@@ -11,7 +11,9 @@
 //! 4. The pieces around each edge are sorted (`around`), which gives the cells of space, and each cell has a winding
 //!    number (`cells`, `ray`).
 //! 5. Only then are points rounded to numbers a file can hold. Where that makes facets cross or flat, the rounded mesh is cut
-//!    again (`outer`).
+//!    again (`outer`), new points first put upon others a few steps of the numbers away (`snap`).
+//! 6. Where that comes to no end, surfaces lie upon each other but for rounding: they are given the same vertices and edges, and
+//!    all begins anew (`imprint`, `retile`).
 //!
 //! After Zhou, Grinspun, Zorin, Jacobson, Mesh Arrangements for Solid Geometry, 2016; filters before exact numbers as in
 //! Cherchi, Livesu, Scateni, Attene, Fast and Robust Mesh Arrangements using Floating-point Arithmetic, 2020.
@@ -21,24 +23,28 @@ mod cells;
 mod cluster;
 mod cut;
 mod cutting;
+mod error;
+mod imprint;
 mod meetings;
 mod outer;
+mod pairs;
 mod points;
 mod ray;
+mod retile;
 mod snap;
 #[cfg(test)]
 mod tests;
 mod triangulate;
 
+pub use error::ArrangeError;
 pub use outer::{Boundary, Options, outer_boundary};
 
-use crate::check::intersect;
 use crate::mesh::Mesh;
-use crate::progress::{Cancelled, Progress};
-use crate::space::Point;
+use crate::progress::Progress;
 use crate::topology::Topology;
-use crate::topology::weld::{WeldError, as_it_is};
+use crate::topology::weld::as_it_is;
 use cutting::cutting;
+use pairs::pairs;
 
 /// A mesh cut where its facets meet.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,52 +54,6 @@ pub struct Arranged {
     /// For each face the facet that it is a piece of. Where facets coincide, each has a piece of its own with the same
     /// vertices.
     pub source: Vec<u32>,
-}
-
-/// Why a mesh was not cut.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ArrangeError {
-    /// The faces cannot be connected.
-    #[error(transparent)]
-    Weld(#[from] WeldError),
-    /// The work was stopped.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    /// The mesh is a tangle.
-    #[error("more than {most} pairs of its facets meet: that is a tangle, not a surface")]
-    Tangle {
-        /// Pairs that would have been dealt with.
-        most: usize,
-    },
-    /// The facets do not enclose anything.
-    #[error("the surface is not closed near ({:.6}, {:.6}, {:.6}), or runs both ways round there", position[0], position[1], position[2])]
-    Open {
-        /// A place at a gap, mm.
-        position: Point,
-    },
-    /// Facets cross again wherever the cut is rounded to.
-    #[error("facets near ({:.6}, {:.6}, {:.6}) lie so close that the cut cannot be written with the numbers there are", position[0], position[1], position[2])]
-    Unresolved {
-        /// The first such place, mm.
-        position: Point,
-    },
-}
-
-/// The most pairs of facets that meet, for a mesh of so many: beyond, time and memory would grow with their square.
-fn most_pairs(facets: usize) -> usize {
-    10_000 + 16 * facets
-}
-
-/// All pairs of facets that meet where they should not, if they are not too many.
-fn pairs(
-    mesh: &Mesh,
-    topology: &Topology,
-    some: &[bool],
-    progress: &dyn Progress,
-) -> Result<Vec<[u32; 2]>, ArrangeError> {
-    let most = most_pairs(mesh.faces.len());
-    let found = intersect::few_self_intersections(mesh, topology, some, most, progress)?;
-    found.ok_or(ArrangeError::Tangle { most })
 }
 
 /// Cuts the facets of a mesh along all that they have in common with other facets.

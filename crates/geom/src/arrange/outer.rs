@@ -2,9 +2,12 @@
 
 use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
+use super::error::ArrangeError;
+use super::imprint::imprints;
+use super::pairs::pairs;
 use super::points::Points;
+use super::retile::retiled;
 use super::snap::snap;
-use super::{ArrangeError, pairs};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
@@ -31,24 +34,23 @@ impl Default for Options {
 /// The boundary of the material that closed shells enclose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// The vertices of the mesh first, all of them; then those at the ends of cuts. Where vertices are at the same place or
+    /// The vertices of the mesh first, all of them, some perhaps unused; then those at the ends of cuts. Where vertices are at the same place or
     /// unused, the mesh is welded first.
     pub mesh: Mesh,
     /// For each face the facet that it is, or is a piece of. Facets that nothing cuts come first, in their order.
     pub source: Vec<u32>,
-    /// How often the mesh was cut: 1, and once more for each time that rounding made facets cross.
+    /// How often the mesh was cut in the end: 1, and once more for each time that rounding made facets cross.
     pub cuts: usize,
 }
 
 /// How often a mesh is cut at most.
 const CUTS: usize = 16;
-/// It is given up where more pairs meet than this many times the fewest before, and [`FEW`]: cutting again makes it worse.
-const MORE: usize = 2;
-/// Pairs that few crossings may grow by.
-const FEW: usize = 1000;
 /// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
 /// with one more for each cut up to the highest.
 const HIGHEST: usize = 11;
+/// Where cutting comes to no end, surfaces no farther apart than so many times the spacing of numbers are taken to lie upon each
+/// other, one after another: corners that were turned and rounded; planes that such corners span; sums of several roundings.
+const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
@@ -60,7 +62,9 @@ const HIGHEST: usize = 11;
 /// they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
-/// cut. No vertex moves, and facets that nothing cuts stay as they are. The result is free of crossings, flat and doubled
+/// cut. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding, so that
+/// cutting them comes to no end, are taken to coincide: places of them that are less than 4, or else 64 or 1024, times the spacing of
+/// numbers at the largest coordinate apart become one. The result is free of crossings, flat and doubled
 /// facets in `f64`, or in single precision with [`Options::single`], where the vertices of the mesh must have it too: that is
 /// checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the cells.
 ///
@@ -86,16 +90,40 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let mut current = as_it_is(mesh)?;
-    let vertices = current.positions.len();
-    let step = step(&current, options.single);
-    let given = current.faces.clone();
-    let mut source: Vec<u32> = (0..current.faces.len() as u32).collect();
+    let given = as_it_is(mesh)?;
+    let source = (0..given.faces.len() as u32).collect();
+    let mut result = settled(&given, (given.clone(), source), options, progress);
+    let step = step(&given, options.single);
+    let round = |x: f64| rounded_to(x, options.single);
+    for reach in REACHES.map(|steps| steps * step) {
+        if !matches!(result, Err(ArrangeError::Unresolved { .. })) {
+            break;
+        }
+        let topology = Topology::of(&given)?;
+        let pairs = pairs(&given, &topology, &vec![true; given.faces.len()], progress)?;
+        if let Some((mesh, source, imprints)) = imprints(&given, &pairs, reach, &round, progress)?
+            && let Some(start) = retiled(mesh, &source, &imprints, reach)
+        {
+            result = settled(&given, start, options, progress);
+        }
+    }
+    result
+}
+
+/// Cuts a mesh, whose faces are pieces of those of `given`, until what is left does not cross.
+fn settled(
+    given: &Mesh,
+    (mut current, mut source): (Mesh, Vec<u32>),
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Boundary, ArrangeError> {
+    let vertices = given.positions.len();
+    let step = step(given, options.single);
     let mut most = usize::MAX;
     for cut in 0..CUTS {
         let topology = Topology::of(&current)?;
         let is_new = |(f, source): (&[u32; 3], &u32)| {
-            cut == 0 || f.iter().any(|v| !given[*source as usize].contains(v))
+            cut == 0 || f.iter().any(|v| !given.faces[*source as usize].contains(v))
         };
         let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
         let pairs = pairs(&current, &topology, &some, progress)?;
@@ -106,7 +134,7 @@ pub fn outer_boundary(
         if pairs.len() > most {
             break;
         }
-        most = most.min(MORE * pairs.len() + FEW);
+        most = pairs.len() / 2;
         let turn = options.turn && cut == 0;
         let kept = kept(&current, &topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.
@@ -174,15 +202,20 @@ fn step(mesh: &Mesh, single: bool) -> f64 {
     (largest.next_up() - largest) * f64::from(1u32 << digits)
 }
 
+/// To the numbers of the file.
+fn rounded_to(x: f64, single: bool) -> f64 {
+    (if single { f64::from(x as f32) } else { x }) + 0.0
+}
+
 /// The faces as a mesh, new points rounded, and for each the facet it comes from. With `close`, new points and those given
 /// are put upon others that are no farther than the distance given. Faces that lose a corner by it are left out.
 fn rounded(
     mesh: &Mesh,
-    kept: Kept,
+    mut kept: Kept,
     single: bool,
     close: Option<(BTreeSet<u32>, f64)>,
 ) -> Result<(Mesh, Vec<u32>), ArrangeError> {
-    let round = |x: f64| (if single { f64::from(x as f32) } else { x }) + 0.0;
+    let round = |x: f64| rounded_to(x, single);
     let (old, count) = (mesh.positions.len(), kept.points.len());
     let mut positions = mesh.positions.clone();
     let new = (old..count).into_par_iter().map(|p| kept.points.at(p as u32).nearest().map(round));
@@ -190,7 +223,8 @@ fn rounded(
     let as_they_are = count == old && close.is_none();
     if let Some((movable, reach)) = close {
         let movable: Vec<u32> = movable.into_iter().chain(old as u32..count as u32).collect();
-        snap(&mut positions, &kept.faces, &movable, reach);
+        let to = snap(&positions, &kept.faces, &movable, reach);
+        kept.faces.iter_mut().flatten().for_each(|v| *v = to.get(v).copied().unwrap_or(*v));
     }
     let mut out = Mesh { positions, faces: kept.faces };
     let mut source = kept.source;

@@ -8,9 +8,14 @@ use std::collections::{HashMap, HashSet};
 
 type Cell = [i64; 3];
 
-/// Puts each point of `may_move` (ascending) upon the nearest corner of `faces` that is no farther than `reach` along any axis,
-/// of those that may not move or were not moved; the lowest of equally near ones. Cost: linear.
-pub(super) fn snap(positions: &mut [Point], faces: &[[u32; 3]], may_move: &[u32], reach: f64) {
+/// For each point of `may_move` (ascending) the nearest corner of `faces` that is no farther than `reach` along any axis, of those
+/// that may not move or are not moved; the lowest of equally near ones. Points without one are not listed. Cost: linear.
+pub(super) fn snap(
+    positions: &[Point],
+    faces: &[[u32; 3]],
+    may_move: &[u32],
+    reach: f64,
+) -> HashMap<u32, u32> {
     let mut used = vec![false; positions.len()];
     faces.iter().flatten().for_each(|v| used[*v as usize] = true);
     let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
@@ -21,11 +26,12 @@ pub(super) fn snap(positions: &mut [Point], faces: &[[u32; 3]], may_move: &[u32]
     let asked: HashSet<Cell> = may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
     let mut stay: HashMap<Cell, Vec<u32>> = HashMap::new();
     let mut movable = may_move.iter().peekable();
-    for (v, p) in (0..).zip(&*positions) {
+    for (v, p) in (0..).zip(positions) {
         if movable.next_if(|m| **m == v).is_none() && used[v as usize] && asked.contains(&cell(p)) {
             stay.entry(cell(p)).or_default().push(v);
         }
     }
+    let mut to = HashMap::new();
     for &v in may_move.iter().filter(|v| used[**v as usize]) {
         let p = positions[v as usize];
         let far = |w: u32| {
@@ -34,8 +40,9 @@ pub(super) fn snap(positions: &mut [Point], faces: &[[u32; 3]], may_move: &[u32]
         };
         let near = around(cell(&p)).filter_map(|c| stay.get(&c)).flatten().map(|w| (far(*w), *w));
         match near.filter(|n| n.0 <= reach).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
-            Some((_, w)) => positions[v as usize] = positions[w as usize],
+            Some((_, w)) => drop(to.insert(v, w)),
             None => stay.entry(cell(&p)).or_default().push(v),
         }
     }
+    to
 }

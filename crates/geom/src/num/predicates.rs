@@ -4,7 +4,7 @@
 //! Geometric Predicates, 1997). They are exact for finite coordinates that are 0 or between 1e-80 and 1e60 in
 //! magnitude; beyond that, products may leave the range of `f64`.
 
-use crate::space::Point;
+use crate::space::{Point, cross, minus, norm};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 fn sign(x: f64) -> i32 {
@@ -20,6 +20,13 @@ pub fn side_of_plane(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     }
     let p = |p: &Point| Coord3D { x: p[0], y: p[1], z: p[2] };
     sign(orient3d(p(a), p(b), p(c), p(d)))
+}
+
+/// Distance of `d` from the plane through `a`, `b`, `c`, with the sign of [`side_of_plane`] the other way round: positive where
+/// the face looks to. As exact as the length of the normal; NaN for a flat triangle.
+pub fn height([a, b, c]: [&Point; 3], d: &Point) -> f64 {
+    let p = |p: &Point| Coord3D { x: p[0], y: p[1], z: p[2] };
+    -orient3d(p(a), p(b), p(c), p(d)) / norm(cross(minus(*b, *a), minus(*c, *a)))
 }
 
 /// Side of `c` on the line through `a` and `b`, all seen along axis `axis` (0, 1 or 2): +1 on the left, 0 on the line.

@@ -1,12 +1,15 @@
 //! Arrangements and unions against closed forms, brute force in whole numbers, and properties.
 
 mod pieces;
+mod touching;
 mod twin;
 mod unions;
 
 use super::*;
+use crate::check::intersect;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::space::Point;
 use crate::topology::Properties;
 
 /// Adds a box between two corners, looking outwards.

@@ -25,6 +25,7 @@ use crate::simd::Level;
 use crate::simd::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::lanes_x86::A8;
+use crate::space::Aabb;
 use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
@@ -122,6 +123,36 @@ pub fn any_self_intersection(
 ) -> Result<bool, Cancelled> {
     let search = Search { mesh, topology, some: None, limit: 0, most: 0, alone: false };
     Ok(with(&search, progress, Level::detect())?.count > 0)
+}
+
+/// For each of some boxes the facets with area whose own box meets it, ascending. `None` if there are more than `most` in all.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn reaching(
+    mesh: &Mesh,
+    topology: &Topology,
+    boxes: &[Aabb],
+    most: usize,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<Vec<u32>>>, Cancelled> {
+    let in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
+    let tree = Tree::build(mesh, topology, &in_tree, None, progress);
+    let found = AtomicUsize::new(0);
+    let of_box = |b: &Aabb| {
+        if found.load(Relaxed) > most || progress.cancelled() {
+            return vec![];
+        }
+        let mut facets = tree.reaching(b);
+        facets.sort_unstable();
+        found.fetch_add(facets.len(), Relaxed);
+        facets
+    };
+    let all = boxes.par_iter().map(of_box).collect();
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    Ok((found.into_inner() <= most).then_some(all))
 }
 
 /// What is searched.

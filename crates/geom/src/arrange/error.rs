@@ -1,0 +1,34 @@
+//! Why a mesh cannot be cut where its facets meet.
+
+use crate::progress::Cancelled;
+use crate::space::Point;
+use crate::topology::weld::WeldError;
+
+/// Why a mesh was not cut.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ArrangeError {
+    /// The faces cannot be connected.
+    #[error(transparent)]
+    Weld(#[from] WeldError),
+    /// The work was stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The mesh is a tangle.
+    #[error("more than {most} pairs of its facets meet: that is a tangle, not a surface")]
+    Tangle {
+        /// Pairs that would have been dealt with.
+        most: usize,
+    },
+    /// The facets do not enclose anything.
+    #[error("the surface is not closed near ({:.6}, {:.6}, {:.6}), or runs both ways round there", position[0], position[1], position[2])]
+    Open {
+        /// A place at a gap, mm.
+        position: Point,
+    },
+    /// Facets cross again wherever the cut is rounded to.
+    #[error("facets near ({:.6}, {:.6}, {:.6}) lie so close that the cut cannot be written with the numbers there are", position[0], position[1], position[2])]
+    Unresolved {
+        /// The first such place, mm.
+        position: Point,
+    },
+}

@@ -1,0 +1,274 @@
+//! Surfaces that lie upon each other but for rounding, given the same vertices and edges.
+//!
+//! Faces of two bodies that touch have no common plane once their corners were turned and rounded: facets of the one cross those
+//! of the other anyhow, and what lies between them is as thin as the spacing of numbers. Here vertices, edges and facets that
+//! are no farther apart than a reach of some such spacings share what they have in common: vertices become one; where edges
+//! pass each other there is a new vertex; vertices that lie upon edges and facets become points of these. Then the facets
+//! are cut along all that lies upon them (`retile`). Facets of two faces are the same triangles where the faces overlap,
+//! and an arrangement cancels or merges them. No place of the surface moves farther than about the reach.
+//!
+//! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space, with the vertices that are
+//! there in place of the pixels of a grid.
+
+use super::error::ArrangeError;
+use super::meetings::{Edge, edge};
+use super::snap::snap;
+use crate::check::intersect::reaching;
+use crate::mesh::Mesh;
+use crate::num::predicates::{axis, height, side_of_line};
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
+use crate::topology::Topology;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Beyond so many neighbours (64 MiB of them) surfaces are not taken to lie upon each other.
+pub(super) const MOST: usize = 1 << 24;
+
+/// What lies upon the edges and facets of a mesh.
+pub(super) struct Imprints {
+    /// Vertices on an edge, from its lower end to the higher one.
+    pub on_edge: BTreeMap<Edge, Vec<u32>>,
+    /// Vertices inside a facet, ascending.
+    pub inside: BTreeMap<u32, Vec<u32>>,
+    /// The facets whose edges may lie upon others, ascending.
+    pub facets: Vec<u32>,
+}
+
+impl Imprints {
+    /// The facets upon which something lies, ascending.
+    pub fn marked(&self, mesh: &Mesh) -> Vec<u32> {
+        let is_marked = |f: u32, face: [u32; 3]| {
+            self.inside.contains_key(&f) || edges(face).iter().any(|e| self.on_edge.contains_key(e))
+        };
+        (0..).zip(&mesh.faces).filter(|(f, face)| is_marked(*f, **face)).map(|(f, _)| f).collect()
+    }
+}
+
+/// The edges of a face.
+fn edges([a, b, c]: [u32; 3]) -> [Edge; 3] {
+    [edge(a, b), edge(b, c), edge(c, a)]
+}
+
+/// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet
+/// that it was; and what lies upon its edges and facets. New vertices come last, their coordinates made with `round`; those given stay
+/// where they are. `None` if more than [`MOST`] pairs of facets have boxes that meet there. Cost: n log n, and about a
+/// microsecond for each such pair.
+pub(super) fn imprints(
+    mesh: &Mesh,
+    pairs: &[[u32; 2]],
+    reach: f64,
+    round: &(impl Fn(f64) -> f64 + Sync),
+    progress: &dyn Progress,
+) -> Result<Option<(Mesh, Vec<u32>, Imprints)>, ArrangeError> {
+    let mut crossing: Vec<u32> = pairs.iter().flatten().copied().collect();
+    crossing.sort_unstable();
+    crossing.dedup();
+    let Some(near) = reaching(mesh, &Topology::of(mesh)?, &boxes(mesh, &crossing, reach), MOST, progress)?
+    else {
+        return Ok(None);
+    };
+    let near: BTreeSet<u32> = near.into_iter().flatten().collect();
+    let (mesh, source) = joined(mesh, &near, reach);
+    let topology = Topology::of(&mesh)?;
+    let of_near = (0..).zip(&source).filter(|(_, s)| near.contains(s));
+    let mut facets: BTreeSet<u32> = of_near.map(|(f, _)| f).collect();
+    loop {
+        let known = facets.len();
+        let looked_at = facets.iter().copied().collect();
+        let Some((positions, imprints)) = upon(&mesh, &topology, looked_at, reach, round, progress)? else {
+            return Ok(None);
+        };
+        // What lies upon further facets may lie across their edges too.
+        facets.extend(imprints.marked(&mesh));
+        if facets.len() == known {
+            return Ok(Some((Mesh { positions, ..mesh }, source, imprints)));
+        }
+    }
+}
+
+/// What lies upon these facets and others no farther off than `reach`; and all vertices, new ones last.
+fn upon(
+    mesh: &Mesh,
+    topology: &Topology,
+    facets: Vec<u32>,
+    reach: f64,
+    round: &impl Fn(f64) -> f64,
+    progress: &dyn Progress,
+) -> Result<Option<(Vec<Point>, Imprints)>, Cancelled> {
+    let around = |boxes: &[Aabb]| reaching(mesh, topology, boxes, MOST, progress);
+    let Some(others) = around(&boxes(mesh, &facets, reach))? else { return Ok(None) };
+    let passing = passing(mesh, &facets, &others, reach, progress)?;
+    let (positions, mut on_edge) = met(mesh, passing, reach, round);
+    let mut vertices: BTreeSet<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+    vertices.extend(on_edge.iter().map(|(_, v)| *v));
+    let places: Vec<Aabb> = vertices.iter().map(|v| grown([&positions[*v as usize]], reach)).collect();
+    let Some(below) = around(&places)? else { return Ok(None) };
+    let mut inside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (v, below) in vertices.into_iter().zip(below) {
+        for f in below {
+            match lies(mesh, (v, &positions[v as usize]), f, reach) {
+                Lies::Apart => {}
+                Lies::On(edges) => on_edge.extend(edges.into_iter().map(|e| (e, v))),
+                Lies::Inside => inside.entry(f).or_default().push(v),
+            }
+        }
+    }
+    let on_edge = ordered(&positions, on_edge);
+    Ok(Some((positions, Imprints { on_edge, inside, facets })))
+}
+
+fn corners(mesh: &Mesh, facet: u32) -> [Point; 3] {
+    mesh.faces[facet as usize].map(|v| mesh.positions[v as usize])
+}
+
+fn boxes(mesh: &Mesh, facets: &[u32], reach: f64) -> Vec<Aabb> {
+    facets.iter().map(|f| grown(&corners(mesh, *f), reach)).collect()
+}
+
+/// The box of some points, and `reach` more on all sides.
+fn grown<'a>(points: impl IntoIterator<Item = &'a Point>, reach: f64) -> Aabb {
+    let Aabb { min, max } = Aabb::of(points);
+    Aabb { min: min.map(|x| x - reach), max: max.map(|x| x + reach) }
+}
+
+/// The mesh whose facets near those given name one vertex where several are no farther apart than `reach`. Facets that lose a
+/// corner by it are left out. For each facet the one that it was.
+fn joined(mesh: &Mesh, near: &BTreeSet<u32>, reach: f64) -> (Mesh, Vec<u32>) {
+    let movable: BTreeSet<u32> = near.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+    let movable: Vec<u32> = movable.into_iter().collect();
+    let to = snap(&mesh.positions, &mesh.faces, &movable, reach);
+    let is_whole = |f: &[u32; 3]| f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
+    let faces = mesh.faces.iter().map(|f| f.map(|v| to.get(&v).copied().unwrap_or(v)));
+    let (faces, source) = faces.zip(0..).filter(|(f, _)| is_whole(f)).unzip();
+    (Mesh { positions: mesh.positions.clone(), faces }, source)
+}
+
+/// Two edges that pass each other, and the place on the first where they do.
+type Passing = ([Edge; 2], Point);
+
+/// The edges of these facets that pass edges of `others`, listed for each, no farther off than `reach`.
+fn passing(
+    mesh: &Mesh,
+    facets: &[u32],
+    others: &[Vec<u32>],
+    reach: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<Passing>, Cancelled> {
+    let edges = |f: u32| edges(mesh.faces[f as usize]);
+    let of_facet = |(f, others): (&u32, &Vec<u32>)| {
+        let mut found = vec![];
+        for g in others.iter().filter(|g| *g > f && !progress.cancelled() && !are_apart(mesh, *f, **g, reach))
+        {
+            for (e, d) in edges(*f).into_iter().flat_map(|e| edges(*g).map(|d| (e.min(d), e.max(d)))) {
+                found.extend(pass(mesh, [e, d], reach).map(|place| ([e, d], place)));
+            }
+        }
+        found
+    };
+    let mut all: Vec<Passing> = facets.par_iter().zip(others).flat_map_iter(of_facet).collect();
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    all.par_sort_unstable_by_key(|p| p.0);
+    all.dedup_by_key(|p| p.0);
+    Ok(all)
+}
+
+/// Whether one of two facets lies wholly on one side of the plane of the other, and farther off than `reach`.
+fn are_apart(mesh: &Mesh, f: u32, g: u32, reach: f64) -> bool {
+    let (t, u) = (corners(mesh, f), corners(mesh, g));
+    let beyond = |[a, b, c]: [Point; 3], of: [Point; 3]| {
+        let high = of.map(|p| height([&a, &b, &c], &p));
+        high.iter().all(|h| *h > reach) || high.iter().all(|h| *h < -reach)
+    };
+    beyond(t, u) || beyond(u, t)
+}
+
+/// Where the first of two edges passes the second no farther off than `reach`. Not where they share an end, or run side by
+/// side: then the ends of one lie upon the other.
+fn pass(mesh: &Mesh, [e, d]: [Edge; 2], reach: f64) -> Option<Point> {
+    if e.iter().any(|v| d.contains(v)) {
+        return None;
+    }
+    let ([a, b], [p, q]) = (e.map(|v| mesh.positions[v as usize]), d.map(|v| mesh.positions[v as usize]));
+    let (u, v, w) = (minus(b, a), minus(q, p), minus(p, a));
+    let n = cross(u, v);
+    if norm(n) <= reach * norm(u).max(norm(v)) {
+        return None;
+    }
+    let [s, t] = [v, u].map(|other| dot(cross(w, other), n) / dot(n, n));
+    let is_within = |x: f64| (0.0..=1.0).contains(&x);
+    let place = plus(a, times(s, u));
+    let away = minus(place, plus(p, times(t, v)));
+    (is_within(s) && is_within(t) && norm(away) <= reach).then_some(place)
+}
+
+/// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`: pairs of an
+/// edge and a vertex on it; before them all vertices.
+fn met(
+    mesh: &Mesh,
+    passing: Vec<Passing>,
+    reach: f64,
+    round: impl Fn(f64) -> f64,
+) -> (Vec<Point>, Vec<(Edge, u32)>) {
+    let mut positions = mesh.positions.clone();
+    positions.extend(passing.iter().map(|p| p.1.map(&round)));
+    let new: Vec<u32> = (mesh.positions.len() as u32..positions.len() as u32).collect();
+    // As corners of facets that are no facets.
+    let mut used = mesh.faces.clone();
+    used.extend(new.iter().map(|v| [*v; 3]));
+    let to = snap(&positions, &used, &new, reach);
+    let put = |v: u32| to.get(&v).copied().unwrap_or(v);
+    let on = passing.iter().zip(new).flat_map(|((edges, _), v)| edges.map(|e| (e, put(v))));
+    let on = on.filter(|(e, v)| !e.contains(v)).collect();
+    (positions, on)
+}
+
+/// How a vertex lies to a facet.
+enum Lies {
+    Apart,
+    /// Upon some of its edges.
+    On(Vec<Edge>),
+    Inside,
+}
+
+fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> Lies {
+    let face = mesh.faces[facet as usize];
+    if face.contains(&v) {
+        return Lies::Apart;
+    }
+    let on: Vec<Edge> = edges(face).into_iter().filter(|e| is_on(mesh, p, *e, reach)).collect();
+    if !on.is_empty() {
+        return Lies::On(on);
+    }
+    let [a, b, c] = corners(mesh, facet);
+    // Flat facets have edges only.
+    let Some(axis) = axis(&[a, b, c]) else { return Lies::Apart };
+    let turn = side_of_line(axis, &a, &b, &c);
+    let is_within = [[&a, &b], [&b, &c], [&c, &a]].iter().all(|[a, b]| side_of_line(axis, a, b, p) == turn);
+    if is_within && height([&a, &b, &c], p).abs() <= reach { Lies::Inside } else { Lies::Apart }
+}
+
+/// Whether a place is no farther than `reach` from an edge.
+fn is_on(mesh: &Mesh, p: &Point, e: Edge, reach: f64) -> bool {
+    let [a, b] = e.map(|v| mesh.positions[v as usize]);
+    let (u, w) = (minus(b, a), minus(*p, a));
+    let t = dot(u, w) / dot(u, u);
+    (0.0..=1.0).contains(&t) && norm(minus(w, times(t, u))) <= reach
+}
+
+/// The vertices on each edge, in their order along it.
+fn ordered(positions: &[Point], mut pairs: Vec<(Edge, u32)>) -> BTreeMap<Edge, Vec<u32>> {
+    pairs.sort_unstable();
+    pairs.dedup();
+    let chain = |on: &[(Edge, u32)]| {
+        let e = on[0].0;
+        let [a, b] = e.map(|v| positions[v as usize]);
+        let along = |v: &u32| dot(minus(positions[*v as usize], a), minus(b, a));
+        let mut on: Vec<u32> = on.iter().map(|p| p.1).collect();
+        on.sort_by(|v, w| along(v).total_cmp(&along(w)));
+        (e, on)
+    };
+    pairs.chunk_by(|a, b| a.0 == b.0).map(chain).collect()
+}

@@ -1,0 +1,24 @@
+//! The pairs of facets that meet, as long as they are not too many.
+
+use super::error::ArrangeError;
+use crate::check::intersect;
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::topology::Topology;
+
+/// The most pairs of facets that meet, for a mesh of so many: beyond, time and memory would grow with their square.
+fn most_pairs(facets: usize) -> usize {
+    10_000 + 16 * facets
+}
+
+/// All pairs of facets that meet where they should not, if they are not too many.
+pub(super) fn pairs(
+    mesh: &Mesh,
+    topology: &Topology,
+    some: &[bool],
+    progress: &dyn Progress,
+) -> Result<Vec<[u32; 2]>, ArrangeError> {
+    let most = most_pairs(mesh.faces.len());
+    let found = intersect::few_self_intersections(mesh, topology, some, most, progress)?;
+    found.ok_or(ArrangeError::Tangle { most })
+}

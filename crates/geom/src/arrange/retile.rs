@@ -1,0 +1,218 @@
+//! Facets cut along the vertices and edges that lie upon them, those that lie upon each other together.
+//!
+//! Facets that have three vertices in common which are no line overlap: they are triangulated as one, seen along one axis, so
+//! that each triangle of the part they have in common is the same for all of them.
+
+use super::cluster::axis_of;
+use super::imprint::{Imprints, MOST};
+use super::meetings::{Edge, edge};
+use super::triangulate::{self, Triangles, next, triangulate};
+use crate::check::finding::area;
+use crate::mesh::Mesh;
+use crate::num::predicates::side_of_line;
+use crate::space::{Point, cross, minus, norm};
+use crate::topology::union::Sets;
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Cuts the facets of `mesh`, which `source` names, along what lies upon them. Facets upon which nothing lies come first, in
+/// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MOST`] vertices.
+pub(super) fn retiled(
+    mesh: Mesh,
+    source: &[u32],
+    imprints: &Imprints,
+    reach: f64,
+) -> Option<(Mesh, Vec<u32>)> {
+    let of_facet = |f: u32| (f, vertices(imprints, f, mesh.faces[f as usize]));
+    let marked: BTreeMap<u32, Vec<u32>> = imprints.marked(&mesh).into_iter().map(of_facet).collect();
+    let groups = groups(&mesh, &marked, reach)?;
+    let beside = beside(&mesh, imprints);
+    let tile = |facets: &Vec<u32>| tiled(&mesh, imprints, &marked, &beside, facets);
+    let tiles: Vec<Vec<([u32; 3], u32)>> = groups.par_iter().map(tile).collect::<Option<_>>()?;
+    let whole = (0..).zip(&mesh.faces).filter(|(f, _)| !marked.contains_key(f));
+    let all = whole.map(|(f, face)| (*face, f)).chain(tiles.into_iter().flatten());
+    let (faces, source) = all.map(|(face, f)| (face, source[f as usize])).unzip();
+    Some((Mesh { positions: mesh.positions, faces }, source))
+}
+
+/// The sides of a face, the way it runs.
+fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
+}
+
+/// All vertices of a facet, ascending.
+fn vertices(imprints: &Imprints, facet: u32, face: [u32; 3]) -> Vec<u32> {
+    let inside = imprints.inside.get(&facet).into_iter().flatten().copied();
+    let mut all: Vec<u32> =
+        sides(face).into_iter().flat_map(|side| chain(imprints, side)).chain(inside).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// The facets that overlap, together.
+fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<Vec<Vec<u32>>> {
+    let mut at: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    let number: Vec<u32> = marked.keys().copied().collect();
+    for (i, vertices) in (0..).zip(marked.values()) {
+        vertices.iter().for_each(|v| at.entry(*v).or_default().push(i));
+    }
+    if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MOST {
+        return None;
+    }
+    let sets = Sets::new(number.len());
+    for (i, vertices) in (0..).zip(marked.values()) {
+        let mut shared: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for v in vertices {
+            at[v].iter().filter(|j| **j > i).for_each(|j| shared.entry(*j).or_default().push(*v));
+        }
+        for (j, _) in shared.iter().filter(|(_, shared)| is_wide(mesh, shared, reach)) {
+            sets.join(i, *j);
+        }
+    }
+    let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for i in 0..number.len() as u32 {
+        members.entry(sets.root(i)).or_default().push(number[i as usize]);
+    }
+    Some(members.into_values().collect())
+}
+
+/// Whether some vertex lies farther than twice the reach from the line through the first and the one farthest from it.
+fn is_wide(mesh: &Mesh, vertices: &[u32], reach: f64) -> bool {
+    let at = |v: u32| mesh.positions[v as usize];
+    let a = at(vertices[0]);
+    let from = |v: &u32| norm(minus(at(*v), a));
+    let Some(far) = vertices.iter().max_by(|v, w| from(v).total_cmp(&from(w))) else { return false };
+    let way = minus(at(*far), a);
+    vertices.iter().any(|v| norm(cross(minus(at(*v), a), way)) > 2.0 * reach * norm(way))
+}
+
+/// The next vertices along the edges of all facets that were looked at.
+fn beside(mesh: &Mesh, imprints: &Imprints) -> BTreeMap<u32, BTreeSet<u32>> {
+    let mut beside: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for side in imprints.facets.iter().flat_map(|f| sides(mesh.faces[*f as usize])) {
+        for w in chain(imprints, side).windows(2) {
+            beside.entry(w[0]).or_default().insert(w[1]);
+            beside.entry(w[1]).or_default().insert(w[0]);
+        }
+    }
+    beside
+}
+
+/// The vertices from `a` to `b`, both among them.
+fn chain(imprints: &Imprints, [a, b]: Edge) -> Vec<u32> {
+    let on = imprints.on_edge.get(&edge(a, b)).into_iter().flatten().copied();
+    let mut all: Vec<u32> = std::iter::once(a.min(b)).chain(on).chain([a.max(b)]).collect();
+    if a > b {
+        all.reverse();
+    }
+    all
+}
+
+/// Vertices as they are seen along an axis.
+struct Seen<'a> {
+    mesh: &'a Mesh,
+    axis: usize,
+    numbers: &'a [u32],
+}
+
+impl Seen<'_> {
+    fn at(&self, point: u32) -> &Point {
+        &self.mesh.positions[self.numbers[point as usize] as usize]
+    }
+}
+
+impl triangulate::Plane for Seen<'_> {
+    fn orient(&self, points: [u32; 3]) -> i32 {
+        let [a, b, c] = points.map(|p| self.at(p));
+        side_of_line(self.axis, a, b, c)
+    }
+    fn compare(&self, a: u32, b: u32) -> Ordering {
+        let ([px, py], [qx, qy]) = (self.rough(a), self.rough(b));
+        px.total_cmp(&qx).then(py.total_cmp(&qy))
+    }
+    fn rough(&self, point: u32) -> [f64; 2] {
+        let p = self.at(point);
+        // Without the sign of zero.
+        [p[(self.axis + 1) % 3] + 0.0, p[(self.axis + 2) % 3] + 0.0]
+    }
+}
+
+/// The pieces of facets that overlap, each with its facet.
+fn tiled(
+    mesh: &Mesh,
+    imprints: &Imprints,
+    marked: &BTreeMap<u32, Vec<u32>>,
+    beside: &BTreeMap<u32, BTreeSet<u32>>,
+    facets: &[u32],
+) -> Option<Vec<([u32; 3], u32)>> {
+    let numbers: BTreeSet<u32> = facets.iter().flat_map(|f| &marked[f]).copied().collect();
+    let numbers: Vec<u32> = numbers.into_iter().collect();
+    let local = |v: &u32| numbers.binary_search(v).ok().map(|i| i as u32);
+    let size = |f: u32| area(mesh.faces[f as usize].map(|v| mesh.positions[v as usize]));
+    let largest = facets.iter().max_by(|f, g| size(**f).total_cmp(&size(**g)).then(g.cmp(f)))?;
+    let seen = Seen { mesh, axis: axis_of(mesh, *largest), numbers: &numbers };
+    let mut fixed: Vec<[u32; 2]> = vec![];
+    for (i, v) in (0..).zip(&numbers) {
+        fixed.extend(beside[v].iter().filter_map(local).filter(|j| i < *j).map(|j| [i, j]));
+    }
+    let triangles = triangulate(numbers.len() as u32, &fixed, &seen)?;
+    let mut pieces = vec![];
+    for &f in facets {
+        let [a, b, c] = mesh.faces[f as usize];
+        let [p, q, r] = [a, b, c].map(|v| &mesh.positions[v as usize]);
+        let turn = side_of_line(seen.axis, p, q, r);
+        let outline = outline(imprints, [a, b, c], local)?;
+        for t in within(&triangles, &outline, turn > 0)? {
+            let [a, b, c] = [0, 1, 2].map(|k| numbers[triangles.from[3 * t as usize + k] as usize]);
+            pieces.push((if turn > 0 { [a, b, c] } else { [a, c, b] }, f));
+        }
+    }
+    Some(pieces)
+}
+
+/// The steps along the sides of a face, the way it runs. Where they run back along themselves, there is nothing between.
+fn outline(
+    imprints: &Imprints,
+    face: [u32; 3],
+    local: impl Fn(&u32) -> Option<u32>,
+) -> Option<BTreeSet<[u32; 2]>> {
+    let mut outline = BTreeSet::new();
+    for side in sides(face) {
+        let along: Vec<u32> = chain(imprints, side).iter().map(&local).collect::<Option<_>>()?;
+        for w in along.windows(2) {
+            if !outline.remove(&[w[1], w[0]]) && !outline.insert([w[0], w[1]]) {
+                return None;
+            }
+        }
+    }
+    Some(outline)
+}
+
+/// The triangles to the left of a closed outline, or to its right; `None` if the hull is reached from there.
+fn within(triangles: &Triangles, outline: &BTreeSet<[u32; 2]>, left: bool) -> Option<Vec<u32>> {
+    let mut barrier = vec![false; triangles.from.len()];
+    let mut stack = vec![];
+    for [p, q] in outline {
+        let e = if left { triangles.directed(*p, *q) } else { triangles.directed(*q, *p) }?;
+        barrier[e as usize] = true;
+        stack.push(e / 3);
+    }
+    let mut reached = vec![false; triangles.from.len() / 3];
+    let mut all = vec![];
+    while let Some(t) = stack.pop() {
+        if std::mem::replace(&mut reached[t as usize], true) {
+            continue;
+        }
+        all.push(t);
+        for e in [3 * t, next(3 * t), 3 * t + 2].into_iter().filter(|e| !barrier[*e as usize]) {
+            match triangles.twin[e as usize] {
+                u32::MAX => return None,
+                twin => stack.push(twin / 3),
+            }
+        }
+    }
+    all.sort_unstable();
+    Some(all)
+}
