@@ -33,7 +33,7 @@ mod ray;
 mod retile;
 mod snap;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod triangulate;
 
 pub use error::ArrangeError;

@@ -9,6 +9,7 @@ use super::points::Points;
 use super::retile::retiled;
 use super::snap::snap;
 use crate::mesh::Mesh;
+use crate::num::predicates::height;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
 use crate::topology::Topology;
@@ -48,9 +49,13 @@ const CUTS: usize = 16;
 /// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
 /// with one more for each cut up to the highest.
 const HIGHEST: usize = 11;
+/// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
+const FEW: usize = 16;
 /// Where cutting comes to no end, surfaces no farther apart than so many times the spacing of numbers are taken to lie upon each
 /// other, one after another: corners that were turned and rounded; planes that such corners span; sums of several roundings.
 const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
+/// Facets that cross at so many times the spacing of numbers, or less, lie upon each other.
+const UPON: f64 = 64.0;
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
@@ -91,23 +96,47 @@ pub fn outer_boundary(
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
     let given = as_it_is(mesh)?;
-    let source = (0..given.faces.len() as u32).collect();
-    let mut result = settled(&given, (given.clone(), source), options, progress);
     let step = step(&given, options.single);
     let round = |x: f64| rounded_to(x, options.single);
-    for reach in REACHES.map(|steps| steps * step) {
+    let topology = Topology::of(&given)?;
+    let crossing = pairs(&given, &topology, &vec![true; given.faces.len()], progress)?;
+    let mut result = Err(ArrangeError::Unresolved { position: [0.0; 3] });
+    for reach in reaches(&given, &crossing, step) {
+        let start = match reach {
+            None => Some((given.clone(), (0..given.faces.len() as u32).collect())),
+            Some(reach) => imprints(&given, &crossing, reach, &round, progress)?
+                .and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach)),
+        };
+        if let Some(start) = start {
+            result = settled(&given, start, options, progress);
+        }
         if !matches!(result, Err(ArrangeError::Unresolved { .. })) {
             break;
         }
-        let topology = Topology::of(&given)?;
-        let pairs = pairs(&given, &topology, &vec![true; given.faces.len()], progress)?;
-        if let Some((mesh, source, imprints)) = imprints(&given, &pairs, reach, &round, progress)?
-            && let Some(start) = retiled(mesh, &source, &imprints, reach)
-        {
-            result = settled(&given, start, options, progress);
-        }
     }
     result
+}
+
+/// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets that
+/// cross lie upon each other but for rounding, the reach that bridges it comes first: cut as they are, they may leave walls with
+/// nothing between.
+fn reaches(mesh: &Mesh, pairs: &[[u32; 2]], step: f64) -> Vec<Option<f64>> {
+    let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
+    // Of the corners of one facet above the plane of the other.
+    let above = |[f, g]: [u32; 2]| {
+        let [a, b, c] = corners(g);
+        corners(f).iter().map(|p| height([&a, &b, &c], p).abs()).fold(0.0, f64::max)
+    };
+    let apart = |[f, g]: &[u32; 2]| above([*f, *g]).min(above([*g, *f]));
+    let is_upon = |h: &f64| *h > 0.0 && *h <= UPON * step;
+    let widest = pairs.par_iter().map(apart).filter(is_upon).reduce(|| 0.0, f64::max);
+    let mut all: Vec<Option<f64>> = std::iter::once(None).chain(REACHES.map(|r| Some(r * step))).collect();
+    if widest > 0.0
+        && let Some(fits) = all.iter().position(|r| r.is_some_and(|r| widest <= r))
+    {
+        all[..=fits].rotate_right(1);
+    }
+    all
 }
 
 /// Cuts a mesh, whose faces are pieces of those of `given`, until what is left does not cross.
@@ -134,7 +163,7 @@ fn settled(
         if pairs.len() > most {
             break;
         }
-        most = pairs.len() / 2;
+        most = (pairs.len() / 2).max(FEW);
         let turn = options.turn && cut == 0;
         let kept = kept(&current, &topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.

@@ -1,7 +1,7 @@
 //! Arrangements and unions against closed forms, brute force in whole numbers, and properties.
 
 mod pieces;
-mod touching;
+pub(crate) mod touching;
 mod twin;
 mod unions;
 

@@ -56,7 +56,7 @@ fn ring(mesh: &mut Mesh, inner: &[[f64; 2]], outer: &[[f64; 2]], low: f64, high:
 }
 
 /// Bodies that touch without having any material in common, or that have faces in common, and the volume of their union.
-fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
+pub(crate) fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
     let mut all = vec![];
     let mut add = |name, volume: f64, build: &dyn Fn(&mut Mesh)| {
         let mut mesh = Mesh { positions: vec![], faces: vec![] };
@@ -110,6 +110,12 @@ fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
         m.faces.extend((1..n - 1).map(|i| [1, 1 + i, 2 + i].map(|v| v + first)));
     });
     all
+}
+
+/// A rotation about any place.
+pub(crate) fn anyhow(random: &mut Random) -> Rigid {
+    let mut any = || 6.0 * random.unit() - 3.0;
+    Rigid::rotation_about([any(), any(), any()], [any(), any(), any()])
 }
 
 /// What touches becomes one body or stays in touch, wherever it is turned to: to double and to single precision.

@@ -38,8 +38,8 @@ pub struct Enclosed {
     pub error: f64,
     /// Facets that meet no other and bound either, by number.
     pub(super) bounds: Vec<bool>,
-    /// Middles of the parts that bound either, of facets that meet others.
-    pub(super) middles: Vec<Point>,
+    /// Middles of the parts that bound either, of facets that meet others, each with its facet.
+    pub(super) middles: Vec<(u32, Point)>,
 }
 
 impl Enclosed {
@@ -209,7 +209,7 @@ impl Facet {
 #[derive(Default)]
 struct Part {
     terms: [f64; 9],
-    middles: Vec<Point>,
+    middles: Vec<(u32, Point)>,
 }
 
 struct Solid<'a> {
@@ -331,7 +331,7 @@ impl Solid<'_> {
                 let weight = 1.0 / (1 + there.len()) as f64;
                 sums.add(facet.terms(&winding, area / vector[axis].abs(), weight));
                 if area > HAIR * vector[axis].abs() {
-                    middles.push(p);
+                    middles.push((f, p));
                 }
             }
         }

@@ -257,3 +257,25 @@ fn facets_that_crossed_before_do_not_drive_parts_away() {
     assert_eq!(new.len(), 5);
     assert!(new.iter().all(|p| p[..2].iter().all(|x| (x - 4.0).abs() < 1e-4)), "{new:?}");
 }
+
+/// Bodies that touch in faces, turned anyhow, become one: what rounding left between them is no surface that was lost. In edges and
+/// points they are parted.
+#[test]
+fn bodies_that_touch_are_united_however_they_are_turned() {
+    use crate::arrange::tests::touching::{anyhow, touching};
+    let random = &mut Random::new(17);
+    for _ in 0..3 {
+        let turn = anyhow(random);
+        for (name, mut mesh, _) in touching(random) {
+            mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
+            let repaired = mend(&mesh);
+            let (enclosed, surface) =
+                (repaired.effect.enclosed.as_ref().unwrap(), repaired.effect.surface.unwrap());
+            assert!(repaired.after.sound && repaired.taken_back.is_empty(), "{name}");
+            let near = if name.contains("edges") || name.contains("tip") { 0.1 } else { 1e-12 };
+            assert!(surface < near, "{name}: {surface}");
+            let volume = repaired.after.properties.signed_volume;
+            assert!((volume - enclosed.volume).abs() <= near * enclosed.volume, "{name}: {volume}");
+        }
+    }
+}
