@@ -1,5 +1,6 @@
 //! From an element fitted to points to the result document, and to what a report draws of it.
 
+mod distances;
 mod element;
 mod extent;
 mod view;
@@ -10,9 +11,8 @@ use crate::compare::histogram;
 use crate::results::InputRecord;
 use crate::results::fit::FitDocument;
 use crate::scale::Scale;
-use rayon::prelude::*;
+use distances::distances;
 use trueness_geom::fit::Fit;
-use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
 use trueness_geom::stats::histogram::{Histogram, nice_edges};
 use trueness_geom::stats::statistics::Summary;
@@ -40,9 +40,4 @@ pub fn document(fit: &Fit, points: &[Point], inputs: Vec<InputRecord>, seed: u64
     let p95 = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
     document.scale = Some(Scale::for_deviations(p95, None));
     document
-}
-
-/// Signed distance of each point from the element.
-fn distances(shape: &Shape, points: &[Point]) -> Vec<f64> {
-    points.par_iter().map(|p| shape.distance(*p)).collect()
 }
