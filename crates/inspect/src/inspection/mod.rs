@@ -8,13 +8,12 @@ mod deviation;
 mod left_out;
 mod seed;
 mod take;
-mod taken;
 mod view;
 
+pub use crate::characteristic::{Element, LeftOut, Taken};
 pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints, Stop};
 pub use deviation::Deviations;
-pub use taken::{Element, LeftOut, Taken};
 pub use view::View;
 
 use crate::characteristic::{Measuring, Missing, Value};

@@ -168,7 +168,7 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
         ("curvature", text(schemars::schema_for!(curvature::CurvatureDocument))),
         ("inspect", text(schemars::schema_for!(inspect::InspectDocument))),
-        ("plan", text(schemars::schema_for!(crate::plan::text::PlanText))),
+        ("plan", text(crate::plan::schema())),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),
         ("fit", text(schemars::schema_for!(fit::FitDocument))),
         ("section", text(schemars::schema_for!(section::SectionDocument))),
