@@ -6,15 +6,13 @@ mod view;
 pub use kind::{Kind, values};
 pub use view::View;
 
-use crate::compare::{histogram, statistics};
 use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, Range, SCHEMA};
 use crate::results::surface::MapRecord;
-use crate::results::{InputRecord, UNITS, VERSION};
+use crate::results::{self, Histogram, InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
 use trueness_geom::space::{Aabb, Point};
-use trueness_geom::stats::histogram::{Histogram, nice_edges};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 
 /// Name of a reason in documents, files and text tables.
@@ -98,7 +96,7 @@ fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Opti
     };
     let place = |index: usize| Some(place(index, points, found.places[index].as_ref().ok()?));
     Some(Quantity {
-        statistics: statistics(&all_known, 0.0),
+        statistics: results::Statistics::of(&all_known, 0.0),
         histogram: map.histogram,
         maximum: place(extreme(|a, b| a > b)?)?,
         minimum: place(extreme(|a, b| a < b)?)?,
@@ -114,15 +112,8 @@ pub(crate) fn map(known: &[f64], kind: Kind, size: f64) -> (Statistics, MapRecor
     let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
     let scale = Scale::for_values(most.max(kind.least(size)), kind.unit());
     let mean = all.mean.ok();
-    let record = MapRecord { histogram: counted(&all, known), mean, scale };
+    let record = MapRecord { histogram: Histogram::counted(&all, known), mean, scale };
     (all, record)
-}
-
-/// Counts of values between round edges.
-pub(crate) fn counted(all: &Statistics, values: &[f64]) -> Option<crate::results::compare::Histogram> {
-    let mut counted = Histogram::new(nice_edges(all)?).ok()?;
-    counted.push(values);
-    Some(histogram(&counted))
 }
 
 fn place(index: usize, points: &[Point], jet: &Jet) -> Place {

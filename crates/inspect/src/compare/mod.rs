@@ -10,8 +10,7 @@ mod shown;
 mod view;
 mod worst;
 
-pub(crate) use document::histogram;
-pub use document::{Inputs, document, statistics};
+pub use document::{Inputs, document};
 pub use map::MapSurface;
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};

@@ -19,7 +19,7 @@ pub use view::View;
 use crate::characteristic::{Measuring, Missing, Value};
 use crate::compare::plausibility;
 use crate::plan::Plan;
-use crate::results::compare::{Warning, WarningKind};
+use crate::results::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
@@ -109,7 +109,7 @@ fn doubts(plan: &Plan, data: &Data) -> Vec<Warning> {
             Aabb::of(&nominals.flat_map(Nominal::places).collect::<Vec<_>>())
         }
     };
-    let bounds = plausibility::bounds(&measured.bounds()).zip(plausibility::bounds(&reference));
+    let bounds = Bounds::of(&measured.bounds()).zip(Bounds::of(&reference));
     let mut found = bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, "units in the plan"));
     found.retain(|w| w.kind == WarningKind::HardlyOverlapping || data.reference.is_some());
     found

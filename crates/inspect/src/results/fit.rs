@@ -1,6 +1,6 @@
 //! `trueness/fit/1`: an element fitted to points.
 
-use super::compare::Histogram;
+use super::Histogram;
 use super::{InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use schemars::JsonSchema;
