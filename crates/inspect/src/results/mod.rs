@@ -24,7 +24,7 @@ pub use bounds::Bounds;
 pub use input::{ColumnRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::Verdict;
-pub(crate) use verdict::{overall, rank};
+pub(crate) use verdict::overall;
 
 /// Name and JSON schema of every result document, as kept under `docs/schema/`.
 pub fn schemas() -> Vec<(&'static str, String)> {
