@@ -79,3 +79,30 @@ impl Command {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_command_says_what_it_does_and_takes_its_own_examples() {
+        let whole = Arguments::command();
+        whole.clone().debug_assert();
+        for command in whole.get_subcommands() {
+            let name = command.get_name();
+            assert!(command.get_about().is_some(), "{name}");
+            // Commands of two words have their help at the second one.
+            let texts = std::iter::once(command).chain(command.get_subcommands());
+            let help: String =
+                texts.filter_map(|c| c.get_after_help()).map(|help| format!("{help}\n")).collect();
+            let start = format!("trueness {name} ");
+            let examples: Vec<&str> = help.lines().map(str::trim).filter(|l| l.starts_with(&start)).collect();
+            assert!(!examples.is_empty(), "{name} has no example");
+            for example in examples {
+                let read = Arguments::try_parse_from(example.split_whitespace());
+                assert!(read.is_ok(), "{example}: {}", read.unwrap_err());
+            }
+        }
+    }
+}
