@@ -136,6 +136,17 @@ mod tests {
     }
 
     #[test]
+    fn a_name_re_exported_from_a_child_of_that_name_is_followed() {
+        let files = [
+            ("lib.rs", "mod data; mod room;"),
+            ("data.rs", "pub use crate::room::x as write; pub struct Data;"),
+            ("room/mod.rs", "mod x; pub use x::run as x;"),
+            ("room/x.rs", "use crate::data::Data; pub fn run() {}"),
+        ];
+        assert_eq!(found("named", &files).len(), 1);
+    }
+
+    #[test]
     fn tests_and_other_crates_draw_no_arrow() {
         let files = [
             ("lib.rs", "mod a; mod b;"),

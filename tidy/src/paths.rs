@@ -56,7 +56,7 @@ fn inside(modules: &[Module], at: usize, path: &[String], depth: usize) -> Optio
         return Some(at);
     }
     if let Some(import) = module.imports.get(name) {
-        if import.first() == Some(name) {
+        if import.first() == Some(name) && !module.children.contains_key(name) {
             return None; // the name of another crate
         }
         let whole: Vec<String> = import.iter().chain(rest).cloned().collect();

@@ -17,7 +17,7 @@ mod time_left;
 mod tolerance;
 
 use clap::Parser;
-use command::Arguments;
+use commands::Arguments;
 use exit::Outcome;
 use std::process::ExitCode;
 

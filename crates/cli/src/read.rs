@@ -5,8 +5,7 @@ use anyhow::{Context, bail};
 use std::path::Path;
 use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
 use trueness_geom::space::{Aabb, Point};
-use trueness_inspect::compare::plausibility;
-use trueness_inspect::results::{ColumnRecord, InputRecord, Role, TableRecord};
+use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 
 /// A file of this run: what the document says of it, and what is in it.
 pub struct Opened {
@@ -72,7 +71,7 @@ pub fn all_points(mut source: PointSource) -> anyhow::Result<Vec<Point>> {
 /// Fills in number and box of the points of a file.
 pub fn describe(record: &mut InputRecord, points: &[Point]) {
     record.points = points.len() as u64;
-    record.bounds = plausibility::bounds(&Aabb::of(points));
+    record.bounds = Bounds::of(&Aabb::of(points));
 }
 
 /// What the document says about a file; its counts and hash are filled in later.

@@ -1,27 +1,7 @@
 //! B-spline surfaces for CAD programs.
 
+pub(crate) mod spline_surface;
+
 pub use crate::formats::iges::surface as iges;
 pub use crate::formats::step::surface as step;
-
-/// A B-spline surface with clamped knots, millimetres. Its control points lie row after row, those of the first knot of `u`
-/// first.
-#[derive(Clone, Copy, Debug)]
-pub struct SplineSurface<'a> {
-    /// Degrees along `u` and `v`.
-    pub degree: [usize; 2],
-    /// Whole knots of both directions.
-    pub knots: [&'a [f64]; 2],
-    /// Control points.
-    pub points: &'a [[f64; 3]],
-}
-
-impl SplineSurface<'_> {
-    /// Control points along `u` and `v`.
-    pub(crate) fn counts(&self) -> [usize; 2] {
-        [0, 1].map(|k| self.knots[k].len() - self.degree[k] - 1)
-    }
-    /// The control point in this row and column.
-    pub(crate) fn point(&self, i: usize, j: usize) -> [f64; 3] {
-        self.points[i * self.counts()[1] + j]
-    }
-}
+pub use spline_surface::SplineSurface;

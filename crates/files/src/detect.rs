@@ -2,8 +2,8 @@
 
 use crate::{
     error::{Fault, Result},
-    format::{FORMATS, Format, Head},
-    formats::table,
+    format::{Format, Head},
+    formats::{FORMATS, table},
     source::{HEAD, Source},
 };
 use std::path::Path;
@@ -31,11 +31,6 @@ pub(crate) fn by_extension(path: &Path) -> Option<&'static Format> {
     let packed = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
     let inner = if packed { Path::new(path.file_stem()?) } else { path };
     Format::by_extension(inner.extension()?.to_str()?)
-}
-
-/// Whether bytes are text in some 8-bit code: no control characters but white space.
-pub(crate) fn is_text(bytes: &[u8]) -> bool {
-    !bytes.iter().any(|b| matches!(b, 0..=8 | 14..=26 | 28..=31 | 127))
 }
 
 /// Well-known kinds of files that are not read, by their first bytes, so that the message can name them.

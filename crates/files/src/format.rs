@@ -1,15 +1,11 @@
-//! The list of formats, and what each of them is.
-//!
-//! A new format is one file in `formats/` and one line in [`FORMATS`]. Its manual is its page in the handbook.
+//! What a format is: what its reader is told and gives, and how it is written.
 
 use crate::{
-    Unit, Warning,
+    Columns, Unit, Warning,
     content::{SourceMesh, TableReading},
     error::{Located, Result},
-    formats,
-    open::ReadOptions,
     source::Source,
-    write::{MeshWriter, PointsWriter},
+    write::sink::{MeshWriter, PointsWriter},
 };
 use trueness_geom::{
     cloud::{PointStream, Whole},
@@ -26,6 +22,8 @@ pub struct Format {
     pub written_as: &'static [&'static str],
     /// The page of the handbook: what is read, what is written, what is lost. Markdown.
     pub manual: &'static str,
+    /// Whether it is a table, whose columns can be chosen.
+    pub(crate) columns: bool,
     /// Whether the content is beyond doubt of this format.
     pub(crate) sniff: fn(&Head) -> bool,
     pub(crate) read: Option<fn(Source, &ReadOptions) -> Result<Parsed>>,
@@ -33,38 +31,14 @@ pub struct Format {
     pub(crate) mesh: Option<MeshWriter>,
 }
 
-/// All formats. Those that show themselves plainly come first.
-pub static FORMATS: &[&Format] = &[
-    &formats::ply::PLY,
-    &formats::npy::NPY,
-    &formats::off::OFF,
-    &formats::stl::STL,
-    &formats::obj::OBJ,
-    &formats::table::TABLE,
-    &formats::npz::NPZ,
-    &formats::vtp::VTP,
-    #[cfg(feature = "parquet")]
-    &formats::parquet::PARQUET,
-];
-
 impl Format {
-    /// The format of this name or extension (upper or lower case).
-    pub fn named(name: &str) -> Option<&'static Format> {
-        let is = |s: &&str| s.eq_ignore_ascii_case(name);
-        let by_name = FORMATS.iter().copied().find(|f| is(&f.name));
-        by_name.or_else(|| Format::by_extension(name))
-    }
-    /// The format whose files end in `extension`, given without dot, upper or lower case.
-    pub fn by_extension(extension: &str) -> Option<&'static Format> {
-        FORMATS.iter().copied().find(|f| f.extensions.iter().any(|e| e.eq_ignore_ascii_case(extension)))
-    }
     /// Whether files of this format can be read.
     pub fn reads(&self) -> bool {
         self.read.is_some()
     }
     /// Whether it is a table, whose columns can be chosen.
     pub fn has_columns(&self) -> bool {
-        *self == formats::table::TABLE || *self == formats::npy::NPY
+        self.columns
     }
     /// Whether points, with deviations or without, can be written.
     pub fn writes_points(&self) -> bool {
@@ -85,6 +59,49 @@ impl std::fmt::Debug for Format {
 impl PartialEq for Format {
     fn eq(&self, other: &Format) -> bool {
         self.name == other.name
+    }
+}
+
+/// What a file does not say itself.
+#[derive(Clone, Debug)]
+pub struct ReadOptions {
+    /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
+    pub units: Option<Unit>,
+    /// The unit where neither `units` nor the file says one; millimetres where this is absent too.
+    pub unit_else: Option<Unit>,
+    /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
+    pub columns: Option<Columns>,
+    /// Its format; found out otherwise.
+    pub format: Option<&'static Format>,
+    /// Which vertices of a mesh become one.
+    pub weld: Weld,
+    /// About how many points a block of a stream holds.
+    pub block: usize,
+}
+
+/// Which vertices of a mesh become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weld {
+    /// None. An STL file is then a heap of loose triangles, and other formats are torn open where textures or materials
+    /// meet.
+    None,
+    /// Those at the same place.
+    #[default]
+    Same,
+    /// Those within this distance of one another, millimetres.
+    Within(f64),
+}
+
+impl Default for ReadOptions {
+    fn default() -> ReadOptions {
+        ReadOptions {
+            units: None,
+            unit_else: None,
+            columns: None,
+            format: None,
+            weld: Weld::Same,
+            block: 1 << 21,
+        }
     }
 }
 

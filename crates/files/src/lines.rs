@@ -1,6 +1,14 @@
 //! Lines and words of text in memory.
 
-use crate::unicode::without_mark;
+/// Whether bytes are text in some 8-bit code: no control characters but white space.
+pub(crate) fn is_text(bytes: &[u8]) -> bool {
+    !bytes.iter().any(|b| matches!(b, 0..=8 | 14..=26 | 28..=31 | 127))
+}
+
+/// The bytes after a byte order mark of UTF-8, if there is one.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
 
 /// The byte that ends lines: `\r` in files of old Macintoshes, else `\n` (with `\r` before it counted as blank).
 pub(crate) fn line_end(head: &[u8]) -> u8 {

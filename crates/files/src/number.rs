@@ -99,6 +99,13 @@ pub(crate) fn integer(word: &[u8]) -> Option<i64> {
     }
 }
 
+/// The shortest digits that give the same number back.
+pub(crate) fn push_number(text: &mut Vec<u8>, x: f64) {
+    let mut digits = zmij::Buffer::new();
+    let shown = digits.format(x);
+    text.extend_from_slice(shown.strip_suffix(".0").unwrap_or(shown).as_bytes());
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

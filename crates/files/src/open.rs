@@ -1,9 +1,9 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
+    Body, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
     error::Located,
-    format::{Format, Parts},
+    format::{Parts, ReadOptions, Weld},
     source::Source,
 };
 use std::path::Path;
@@ -11,49 +11,6 @@ use trueness_geom::{
     cloud::{PointStream, Whole},
     space::{Aabb, Point},
 };
-
-/// What a file does not say itself.
-#[derive(Clone, Debug)]
-pub struct ReadOptions {
-    /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
-    pub units: Option<Unit>,
-    /// The unit where neither `units` nor the file says one; millimetres where this is absent too.
-    pub unit_else: Option<Unit>,
-    /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
-    pub columns: Option<Columns>,
-    /// Its format; found out otherwise.
-    pub format: Option<&'static Format>,
-    /// Which vertices of a mesh become one.
-    pub weld: Weld,
-    /// About how many points a block of a stream holds.
-    pub block: usize,
-}
-
-/// Which vertices of a mesh become one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Weld {
-    /// None. An STL file is then a heap of loose triangles, and other formats are torn open where textures or materials
-    /// meet.
-    None,
-    /// Those at the same place.
-    #[default]
-    Same,
-    /// Those within this distance of one another, millimetres.
-    Within(f64),
-}
-
-impl Default for ReadOptions {
-    fn default() -> ReadOptions {
-        ReadOptions {
-            units: None,
-            unit_else: None,
-            columns: None,
-            format: None,
-            weld: Weld::Same,
-            block: 1 << 21,
-        }
-    }
-}
 
 /// Reads a file, `-` being standard input: a mesh as a whole, points as a stream.
 ///

@@ -1,6 +1,7 @@
 //! Text in UTF-16, as some exporters and spreadsheets write it, becomes UTF-8.
 
 use crate::error::{Fault, Result};
+use crate::lines::line_of;
 
 /// Byte order of UTF-16 text, and whether a mark tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,15 +56,10 @@ pub(crate) fn to_utf8(bytes: &[u8], code: Utf16) -> Result<Vec<u8>> {
     Ok(text.into_bytes())
 }
 
-/// The bytes after a byte order mark of UTF-8, if there is one.
-pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
-}
-
 /// Refuses text that holds zero bytes, which no text has: the file was not written to its end, or it is no text.
 pub(crate) fn no_zeros(text: &[u8]) -> Result<()> {
     match memchr::memchr(0, text) {
-        Some(at) => Err(Fault::Zeros.at_line(crate::lines::line_of(text, at))),
+        Some(at) => Err(Fault::Zeros.at_line(line_of(text, at))),
         None => Ok(()),
     }
 }

@@ -9,7 +9,6 @@ use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
 use crate::results::{InputRecord, UNITS, VERSION};
 use trueness_geom::check::{Finding, Found, Kind, Options, Report, Severity};
-use trueness_geom::space::Aabb;
 
 /// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
 pub fn document(
@@ -41,8 +40,8 @@ pub fn document(
         vertices: report.vertices as u64,
         edges: report.edges as u64,
         shells: s.shells as u64,
-        bounds: bounds(&p.bounds),
-        dimensions: bounds(&p.bounds).map(|_| p.bounds.sides()),
+        bounds: Bounds::of(&p.bounds),
+        dimensions: Bounds::of(&p.bounds).map(|_| p.bounds.sides()),
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(why_not),
@@ -93,12 +92,8 @@ fn item(finding: &Finding) -> Item {
         facets: finding.facets.clone(),
         vertices: finding.vertices.clone(),
         position: finding.position,
-        bounds: bounds(&finding.bounds),
+        bounds: Bounds::of(&finding.bounds),
         size: finding.size,
         measures: finding.measures.iter().map(|(name, x)| (name.to_string(), *x)).collect(),
     }
-}
-
-fn bounds(b: &Aabb) -> Option<Bounds> {
-    (!b.is_empty()).then_some(Bounds { min: b.min, max: b.max })
 }

@@ -1,85 +1,19 @@
 //! From the curvatures of a mesh or cloud to the result document, and to what a report draws of them.
 
+mod kind;
 mod view;
 
+pub use kind::{Kind, values};
 pub use view::View;
 
-use crate::compare::{histogram, statistics};
 use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, Range, SCHEMA};
 use crate::results::surface::MapRecord;
-use crate::results::{InputRecord, UNITS, VERSION};
+use crate::results::{self, Histogram, InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
 use trueness_geom::space::{Aabb, Point};
-use trueness_geom::spline::surface::Bend;
-use trueness_geom::stats::histogram::{Histogram, nice_edges};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-
-/// One of the curvatures of a place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Mean of the principal curvatures.
-    Mean,
-    /// Their product.
-    Gaussian,
-    /// The greater one.
-    K1,
-    /// The lesser one.
-    K2,
-}
-
-impl Kind {
-    /// All of them, in the order in which reports show them.
-    pub const ALL: [Kind; 4] = [Kind::Mean, Kind::Gaussian, Kind::K1, Kind::K2];
-
-    /// Name in documents and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::Mean => "mean",
-            Kind::Gaussian => "gaussian",
-            Kind::K1 => "k1",
-            Kind::K2 => "k2",
-        }
-    }
-
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
-        if self == Kind::Gaussian { "mm⁻²" } else { "mm⁻¹" }
-    }
-
-    /// What is drawn flat on a body of this size, millimetres: less than that is rounding or noise. Over the whole body the surface
-    /// then bows by no more than an 80,000th of the size.
-    pub fn least(self, size: f64) -> f64 {
-        const FLAT: f64 = 1e-4;
-        if size == 0.0 {
-            return 0.0;
-        }
-        if self == Kind::Gaussian { FLAT / (size * size) } else { FLAT / size }
-    }
-
-    /// The value of a place.
-    pub fn of(self, bend: &Bend) -> f64 {
-        match self {
-            Kind::Mean => bend.mean,
-            Kind::Gaussian => bend.gaussian,
-            Kind::K1 => bend.principal[0].curvature,
-            Kind::K2 => bend.principal[1].curvature,
-        }
-    }
-}
-
-impl CurvatureDocument {
-    /// What was found of a curvature.
-    pub fn quantity(&self, kind: Kind) -> &Quantity {
-        match kind {
-            Kind::Mean => &self.mean,
-            Kind::Gaussian => &self.gaussian,
-            Kind::K1 => &self.k1,
-            Kind::K2 => &self.k2,
-        }
-    }
-}
 
 /// Name of a reason in documents, files and text tables.
 pub fn reason(reason: NoCurvature) -> &'static str {
@@ -152,11 +86,6 @@ pub fn without(found: &Curvatures) -> BTreeMap<String, u64> {
     all
 }
 
-/// The values of all places, NaN where there is none.
-pub fn values(found: &Curvatures, kind: Kind) -> Vec<f64> {
-    found.places.iter().map(|p| p.as_ref().map_or(f64::NAN, |jet| kind.of(&jet.bend))).collect()
-}
-
 fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Option<Quantity> {
     let all = values(found, kind);
     let known: Vec<f64> = all.iter().copied().filter(|v| !v.is_nan()).collect();
@@ -167,7 +96,7 @@ fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Opti
     };
     let place = |index: usize| Some(place(index, points, found.places[index].as_ref().ok()?));
     Some(Quantity {
-        statistics: statistics(&all_known, 0.0),
+        statistics: results::Statistics::of(&all_known, 0.0),
         histogram: map.histogram,
         maximum: place(extreme(|a, b| a > b)?)?,
         minimum: place(extreme(|a, b| a < b)?)?,
@@ -183,15 +112,8 @@ pub(crate) fn map(known: &[f64], kind: Kind, size: f64) -> (Statistics, MapRecor
     let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
     let scale = Scale::for_values(most.max(kind.least(size)), kind.unit());
     let mean = all.mean.ok();
-    let record = MapRecord { histogram: counted(&all, known), mean, scale };
+    let record = MapRecord { histogram: Histogram::counted(&all, known), mean, scale };
     (all, record)
-}
-
-/// Counts of values between round edges.
-pub(crate) fn counted(all: &Statistics, values: &[f64]) -> Option<crate::results::compare::Histogram> {
-    let mut counted = Histogram::new(nice_edges(all)?).ok()?;
-    counted.push(values);
-    Some(histogram(&counted))
 }
 
 fn place(index: usize, points: &[Point], jet: &Jet) -> Place {

@@ -1,20 +1,18 @@
 //! From an element fitted to points to the result document, and to what a report draws of it.
 
+mod distances;
 mod element;
 mod extent;
 mod view;
 
 pub use view::{View, side_color};
 
-use crate::compare::histogram;
-use crate::results::InputRecord;
 use crate::results::fit::FitDocument;
+use crate::results::{Histogram, InputRecord};
 use crate::scale::Scale;
-use rayon::prelude::*;
+use distances::distances;
 use trueness_geom::fit::Fit;
-use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
-use trueness_geom::stats::histogram::{Histogram, nice_edges};
 use trueness_geom::stats::statistics::Summary;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,
@@ -30,19 +28,10 @@ pub fn document(fit: &Fit, points: &[Point], inputs: Vec<InputRecord>, seed: u64
     let distances = distances(&fit.shape, points);
     let all = Summary::of(&distances).all;
     document.extent = extent::extent(&fit.shape, points);
-    document.histogram = nice_edges(&all).and_then(|edges| {
-        let mut counted = Histogram::new(edges).ok()?;
-        counted.push(&distances);
-        Some(histogram(&counted))
-    });
+    document.histogram = Histogram::counted(&all, &distances);
     // A single point far off must not hide the form of the rest.
     let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
     let p95 = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
     document.scale = Some(Scale::for_deviations(p95, None));
     document
-}
-
-/// Signed distance of each point from the element.
-fn distances(shape: &Shape, points: &[Point]) -> Vec<f64> {
-    points.par_iter().map(|p| shape.distance(*p)).collect()
 }

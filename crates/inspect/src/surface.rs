@@ -4,14 +4,13 @@ mod view;
 
 pub use view::View;
 
-use crate::compare::statistics;
-use crate::curvature::{Kind, counted, map};
+use crate::curvature::{Kind, map};
 use crate::results::curvature::Range;
 use crate::results::surface::{
     BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
     SurfaceDocument, ToleranceRecord, WorstPoint,
 };
-use crate::results::{InputRecord, UNITS, VERSION};
+use crate::results::{self, InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use rayon::prelude::*;
 use trueness_geom::space::{Aabb, Point};
@@ -50,7 +49,7 @@ pub fn document(
         degrees_of_freedom: fit.degrees_of_freedom,
         degrees_of_freedom_reason: fit.degrees_of_freedom.is_none().then(|| "the fairness was given".into()),
         map: deviation_map(&all, fit, options),
-        deviation: statistics(&all, 0.0),
+        deviation: results::Statistics::of(&all, 0.0),
         worst: worst(fit, points),
         residual: Residual {
             sum_of_squares: fit.sum_of_squares,
@@ -119,7 +118,7 @@ fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRe
         _ => None,
     };
     MapRecord {
-        histogram: counted(all, &fit.deviations),
+        histogram: results::Histogram::counted(all, &fit.deviations),
         mean: all.mean.ok(),
         scale: Scale::for_deviations(most, zone),
     }

@@ -7,9 +7,8 @@ use crate::{
     Column, Columns,
     error::{Fault, Located, Result},
     feed::Feed,
-    format::{Format, Head, Parsed},
+    format::{Format, Head, Parsed, ReadOptions},
     number::count,
-    open::ReadOptions,
     scalar::{Order, Scalar},
     source::Source,
 };
@@ -22,6 +21,7 @@ pub(crate) const NPY: Format = Format {
     extensions: &["npy"],
     written_as: &[],
     manual: include_str!("npy.md"),
+    columns: true,
     sniff: |head: &Head| head.bytes.starts_with(MAGIC),
     read: Some(read),
     points: None,

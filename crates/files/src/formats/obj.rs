@@ -7,13 +7,12 @@ use crate::{
     AtomicFile, SourceMesh,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
-    format::{Format, Head, Parsed},
-    lines::{count_lines, line_end, parts},
-    number::{integer, number},
-    open::{ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld},
+    lines::{count_lines, is_text, line_end, parts, without_mark},
+    number::{integer, number, push_number},
     source::{HEAD, Source},
-    unicode::{no_zeros, without_mark},
-    write::{Loss, corner_positions, push_number},
+    unicode::no_zeros,
+    write::{Loss, corners::corner_positions},
 };
 use rayon::prelude::*;
 use std::{borrow::Cow, io::Write};
@@ -25,6 +24,7 @@ pub(crate) const OBJ: Format = Format {
     extensions: &["obj"],
     written_as: &["obj"],
     manual: include_str!("obj.md"),
+    columns: false,
     sniff,
     read: Some(read),
     points: None,
@@ -35,7 +35,7 @@ pub(crate) const OBJ: Format = Format {
 const PART: usize = 1 << 20;
 
 fn sniff(head: &Head) -> bool {
-    if !crate::detect::is_text(head.bytes) {
+    if !is_text(head.bytes) {
         return false;
     }
     let known = |l: &[u8]| {

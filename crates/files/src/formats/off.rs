@@ -4,13 +4,12 @@ use crate::{
     AtomicFile, SourceMesh, Warning,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
-    format::{Format, Head, Parsed},
-    lines::{Lines, words},
-    number::{count, whole_number},
-    open::{ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld},
+    lines::{Lines, without_mark, words},
+    number::{count, push_number, whole_number},
     source::{HEAD, Source},
-    unicode::{no_zeros, without_mark},
-    write::{Loss, corner_positions, push_number},
+    unicode::no_zeros,
+    write::{Loss, corners::corner_positions},
 };
 use std::io::Write;
 use trueness_geom::{mesh::Mesh, space::Point};
@@ -21,6 +20,7 @@ pub(crate) const OFF: Format = Format {
     extensions: &["off"],
     written_as: &["off"],
     manual: include_str!("off.md"),
+    columns: false,
     sniff: |head: &Head| {
         let text = without_mark(head.bytes).trim_ascii_start();
         keyword(text)

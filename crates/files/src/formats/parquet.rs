@@ -4,7 +4,7 @@ use crate::{
     AtomicFile,
     error::WriteFault,
     format::{Format, Head},
-    write::{Block, Layout, PointsSink},
+    write::sink::{Block, Layout, PointsSink},
 };
 use parquet::{
     basic::{Compression, LogicalType, Repetition, Type as Physical},
@@ -24,6 +24,7 @@ pub(crate) const PARQUET: Format = Format {
     extensions: &[],
     written_as: &["parquet"],
     manual: include_str!("parquet.md"),
+    columns: false,
     sniff: |_: &Head| false,
     read: None,
     points: Some(begin),

@@ -4,7 +4,12 @@ use crate::{
     AtomicFile,
     error::WriteFault,
     format::{Format, Head},
-    write::{Block, Layout, Loss, PointsSink, corner_positions, spool::Spool},
+    write::{
+        Loss,
+        corners::corner_positions,
+        sink::{Block, Layout, PointsSink},
+        spool::Spool,
+    },
 };
 use std::{
     fmt::Write as _,
@@ -18,6 +23,7 @@ pub(crate) const VTP: Format = Format {
     extensions: &[],
     written_as: &["vtp"],
     manual: include_str!("vtp.md"),
+    columns: false,
     sniff: |_: &Head| false,
     read: None,
     points: Some(begin),

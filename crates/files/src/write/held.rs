@@ -1,7 +1,8 @@
 //! Points that are coloured only when all of them have been seen.
 
+use super::points_file::{PointsFile, begin};
+use super::sink::{Block, Layout};
 use super::spool::Spool;
-use super::{Block, Layout, PointsFile, begin};
 use crate::error::{WriteError, WriteFault};
 use std::path::Path;
 use trueness_geom::space::Point;

@@ -1,6 +1,6 @@
 //! Points or vertices, each with named numbers.
 
-use super::{Writable, push_number};
+use super::Writable;
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
@@ -120,7 +120,7 @@ fn csv<const N: usize>(
     rows(file, points.len(), |i, text| {
         for x in points[i].iter().chain(&(values.of)(i)) {
             if x.is_finite() {
-                push_number(text, *x);
+                crate::number::push_number(text, *x);
             }
             text.push(b',');
         }

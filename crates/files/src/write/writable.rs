@@ -52,7 +52,18 @@ impl Writable {
         self.endings().into_iter().find(|e| e.eq_ignore_ascii_case(given)).ok_or_else(|| self.unknown())
     }
 
-    pub(crate) fn unknown(self) -> WriteFault {
+    /// The writer of a path's extension, and that extension.
+    pub(super) fn writer<W>(
+        self,
+        path: &Path,
+        writer: impl Fn(&Format) -> Option<W>,
+    ) -> Result<(W, &'static str), WriteFault> {
+        let ending = self.ending_of(path)?;
+        let format = FORMATS.iter().find(|f| f.written_as.contains(&ending) && writer(f).is_some());
+        format.and_then(|f| Some((writer(f)?, ending))).ok_or_else(|| self.unknown())
+    }
+
+    fn unknown(self) -> WriteFault {
         let what = match self {
             Writable::Points => "points",
             Writable::Mesh => "a mesh",

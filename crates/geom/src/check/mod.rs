@@ -17,6 +17,7 @@ mod inconsistent_orientation;
 mod inside_out_shells;
 pub mod intersect;
 mod islands;
+mod kinds;
 pub(crate) mod near;
 pub(crate) mod nesting;
 mod non_manifold_edges;
@@ -35,6 +36,7 @@ pub(crate) mod tests;
 mod unshared_vertices;
 
 pub use finding::{Finding, Found, Inspected, Kind, Severity};
+pub use kinds::KINDS;
 pub use options::Options;
 pub use precision::spacing;
 pub use precondition::Precondition;
@@ -44,27 +46,6 @@ use crate::progress::{Cancelled, Progress};
 use crate::topology::weld::WeldError;
 use crate::topology::{Properties, Soundness, Topology, TopologyError};
 use free_edges::FreeEdges;
-
-/// All kinds of defect, in the order in which they are told.
-pub const KINDS: [&Kind; 17] = [
-    &boundary_edges::KIND,
-    &holes::KIND,
-    &cracks::KIND,
-    &dangling_facets::KIND,
-    &non_manifold_edges::KIND,
-    &non_manifold_vertices::KIND,
-    &duplicate_facets::KIND,
-    &degenerate_facets::KIND,
-    &sliver_facets::KIND,
-    &reversed_normals::KIND,
-    &inconsistent_orientation::KIND,
-    &inside_out_shells::KIND,
-    &self_intersections::KIND,
-    &t_junctions::KIND,
-    &unshared_vertices::KIND,
-    &islands::KIND,
-    &not_finite_facets::KIND,
-];
 
 /// What [`check`] found.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! What keeps statistics of deviations from a mesh from being beyond doubt, with its places.
 
 use super::free_edges::FreeEdges;
+use super::kinds::KINDS;
 use super::overlap::shells_overlap;
-use super::{Found, Inspected, KINDS, Kind, Options, spacing};
+use super::{Found, Inspected, Kind, Options, spacing};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::{Properties, Soundness, Topology, TopologyError};

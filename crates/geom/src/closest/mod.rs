@@ -34,6 +34,7 @@ mod layout;
 mod limits;
 mod order;
 mod query;
+mod segment;
 mod settle;
 mod sign;
 mod solid_angle;

@@ -5,7 +5,7 @@
 //! twice the digits, so the distance stays as good as that to a segment. The brute-force twin and the search both come
 //! here.
 
-use crate::closest::triangle::rim;
+use crate::closest::segment::rim;
 use crate::num::double::Double;
 use crate::space::Point;
 

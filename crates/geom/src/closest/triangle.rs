@@ -9,43 +9,14 @@
 //! or a point is answered by its edges. Where the normal is not well determined ([`THIN`]), [`thin`] goes on.
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
+use crate::closest::segment::{along, aside, dot, edge, sub};
 use crate::closest::thin::{self, THIN};
 use crate::simd::lanes::Real;
 use crate::space::Point;
 
 #[inline(always)]
-fn sub<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-#[inline(always)]
-fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-#[inline(always)]
 fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// Where between its ends the segment along `v` (squared length `vv`), seen from its tail, is nearest to the head of `w`.
-#[inline(always)]
-fn along<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
-    let t = T::select(vv.above(zero), dot(w, v) / vv, zero);
-    t.most(zero).least(one)
-}
-
-/// Squared distance from the head of `w` to the point at `t` of the segment along `v`.
-#[inline(always)]
-fn aside<T: Real>(w: [T; 3], v: [T; 3], t: T) -> T {
-    let e = sub(w, [t * v[0], t * v[1], t * v[2]]);
-    dot(e, e)
-}
-
-/// Squared distance from the head of `w` to the segment along `v` (squared length `vv`) from its tail.
-///
-/// A function, not a closure: closures over vector types are not reliably inlined into `#[target_feature]` functions.
-#[inline(always)]
-fn edge<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
-    aside(w, v, along(w, v, vv, zero, one))
 }
 
 /// Squared distance from `p` to the triangle `a b c`, any of which may coincide; where the closest point lies inside the
@@ -80,15 +51,6 @@ pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
     // SAFETY: `f64` needs no special instructions.
     let (distance, height, thin) = unsafe { squared::<f64>(*p, *t) };
     if thin == 0.0 { (distance, height) } else { thin::squared(p, t) }
-}
-
-/// Squared distance to the nearest edge.
-pub(super) fn rim(p: &Point, [a, b, c]: &[Point; 3]) -> f64 {
-    let to = |from: &Point, to: &Point| {
-        let (v, w) = (sub(*to, *from), sub(*p, *from));
-        edge(w, v, dot(v, v), 0.0, 1.0)
-    };
-    to(a, b).least(to(a, c)).least(to(b, c))
 }
 
 /// Whether the normal of a triangle is a matter for [`thin`].

@@ -2,37 +2,12 @@
 
 use super::fold;
 use super::rectangle::minimum_rectangle;
-use super::{SurfaceError, range};
+use super::{BaseKind, SurfaceError};
 use crate::fit::{self, FitError};
 use crate::progress::{Cancelled, Progress};
 use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
-
-/// What the parameters are taken from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BaseKind {
-    /// The least-squares plane: lengths along the sides of the minimum bounding rectangle.
-    Plane,
-    /// x and y themselves.
-    Xy,
-    /// The least-squares cylinder: lengths around and along it.
-    Cylinder,
-    /// The least-squares sphere: lengths along its equator and its meridians, whose cross lies amid the points.
-    Sphere,
-}
-
-impl BaseKind {
-    /// The word for it: `plane`, `xy`, …
-    pub fn name(self) -> &'static str {
-        match self {
-            BaseKind::Plane => "plane",
-            BaseKind::Xy => "xy",
-            BaseKind::Cylinder => "cylinder",
-            BaseKind::Sphere => "sphere",
-        }
-    }
-}
 
 /// The base of a surface, and how the points lie over it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,4 +181,10 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
         },
         seen,
     )
+}
+
+/// Least and greatest of a parameter.
+pub(super) fn range(parameters: &[[f64; 2]], k: usize) -> (f64, f64) {
+    let both = (f64::INFINITY, f64::NEG_INFINITY);
+    parameters.iter().fold(both, |(low, high), p| (low.min(p[k]), high.max(p[k])))
 }

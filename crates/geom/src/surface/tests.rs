@@ -4,8 +4,9 @@ mod references;
 
 use super::*;
 use crate::num::random::Random;
-use crate::progress::Silent;
+use crate::progress::{Cancelled, Silent};
 use crate::space::norm;
+use crate::spline::surface::Surface;
 use std::f64::consts::PI;
 
 fn franke(x: f64, y: f64) -> f64 {

@@ -1,5 +1,9 @@
+use super::weld::WeldError;
 use super::*;
+use crate::mesh::Mesh;
+use crate::num::predicates;
 use crate::num::random::Random;
+use crate::simd::Level;
 use crate::space::Point;
 use std::collections::BTreeMap;
 

@@ -5,7 +5,7 @@
 //! in what sticks out most.
 
 use super::datum::Freedom;
-use super::{ZoneError, sane};
+use super::error::{ZoneError, sane};
 use crate::fit::{Function, lowest};
 use crate::progress::Progress;
 use crate::rigid::Rigid;

@@ -2,7 +2,7 @@
 
 use super::azimuth::Cone;
 use super::datum::mean;
-use super::{ZoneError, sane};
+use super::error::{ZoneError, sane};
 use crate::space::{Point, Vector, dot, minus, unit};
 
 /// Two parallel planes that hold points between them.

@@ -2,7 +2,7 @@
 
 use super::azimuth::Cone;
 use super::circle::smallest;
-use super::{ZoneError, sane};
+use super::error::{ZoneError, sane};
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, least_axis, plus, times, unit};
 

@@ -1,7 +1,8 @@
 //! Angle between a feature and a datum: an angular dimension (ISO 14405-3:2016).
 
+use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 use super::located::single;
-use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::plan::text::TextureWord;
 use crate::tolerance_class::Table;

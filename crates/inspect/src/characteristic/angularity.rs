@@ -1,6 +1,8 @@
 //! Angularity: ISO 1101:2017, 17.12. ASME Y14.5-2018, section 9 agrees for surfaces and axes.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, orientation, refuse};
+use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
+use super::orientation;
+use super::value::{Missing, Value};
 
 /// The width, with the sign ∅ the diameter, of the least zone at the theoretically exact angle `basic.angle` to the datum.
 #[derive(Debug)]

@@ -1,8 +1,9 @@
 //! Circular run-out: ISO 1101:2017, 17.16. ASME Y14.5-2018, section 12, agrees.
 
+use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
 use super::located::single;
 use super::total_runout::reading;
-use super::{AXES, Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::tolerance_class::Table;
 

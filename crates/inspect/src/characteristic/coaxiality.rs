@@ -1,7 +1,8 @@
 //! Coaxiality and concentricity: ISO 1101:2017, 17.14. ASME Y14.5-2018 has position instead.
 
+use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
 use super::located::single;
-use super::{AXES, Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use trueness_geom::space::{cross, minus, norm};
 use trueness_geom::zone::datum::Datum;
@@ -34,7 +35,7 @@ impl Characteristic for Coaxiality {
         };
         let points = m.feature().zoned()?;
         let far = points.iter().map(|p| norm(cross(minus(*p, point), direction)));
-        let (at, greatest) = super::greatest(far)?;
+        let (at, greatest) = super::value::greatest(far)?;
         Ok(Value { value: 2.0 * greatest, diametral: true, witness: vec![points[at]], ..Value::default() })
     }
 }

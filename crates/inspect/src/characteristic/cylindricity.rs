@@ -1,6 +1,7 @@
 //! Cylindricity: ISO 1101:2017, 17.5; ISO 12180-1. ASME Y14.5-2018, 8.4.4 agrees.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use trueness_geom::shape::Kind;
 

@@ -2,8 +2,9 @@
 //!
 //! ISO 14405-2 shows that a plus-minus distance between features is ambiguous; what is taken here is stated.
 
+use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, refuse};
 use super::located::single;
-use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
+use super::value::{Missing, Value};
 use crate::tolerance_class::Table;
 use trueness_geom::space::{cross, dot, minus, norm};
 use trueness_geom::zone::datum::Datum;

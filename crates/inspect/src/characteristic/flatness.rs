@@ -1,6 +1,7 @@
 //! Flatness: ISO 1101:2017, 17.3; ISO 12781-1. ASME Y14.5-2018, 8.4.2 agrees.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::tolerance_class::Table;
 use trueness_geom::shape::Kind;

@@ -1,7 +1,8 @@
 //! The datum system of a characteristic, from the measured datum features.
 
-use super::{Measuring, Missing};
-use crate::inspection::Taken;
+use super::kind::Measuring;
+use super::taken::Taken;
+use super::value::Missing;
 use crate::plan::Class;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;

@@ -17,9 +17,10 @@
 //! A datum with a requirement is no longer the axis of its feature: the part may shift and lean as far as the datum's surface
 //! keeps its own virtual condition, and the value is the least over all these motions.
 
+use super::kind::Measuring;
 use super::located::{frame, system};
-use super::{Measuring, Missing, Value};
-use crate::inspection::Taken;
+use super::taken::Taken;
+use super::value::{Missing, Value};
 use crate::plan::Boundary;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;

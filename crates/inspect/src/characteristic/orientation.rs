@@ -6,9 +6,10 @@
 //! exact direction, and the value is the zone in it. Its angle about the first datum is the exact one of the drawing, along
 //! or across the direction that the second datum gives where the plan says no other.
 
+use super::kind::{Measuring, Question, Refusal, is_axis, refuse};
 use super::located::system;
 use super::material::{Axis, oriented};
-use super::{Measuring, Missing, Question, Refusal, Value, is_axis, refuse};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::rigid::Rigid;

@@ -1,6 +1,8 @@
 //! Parallelism: ISO 1101:2017, 17.10. ASME Y14.5-2018, section 9 agrees for surfaces and axes.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, orientation};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::orientation;
+use super::value::{Missing, Value};
 
 /// The width, with the sign ∅ the diameter, of the least zone parallel to the datum.
 #[derive(Debug)]

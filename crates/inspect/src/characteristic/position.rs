@@ -1,7 +1,8 @@
 //! Position: ISO 1101:2017, 17.13; ISO 5458. ASME Y14.5-2018, section 10 agrees where no material requirement is stated.
 
+use super::kind::{Characteristic, Measuring, Question, Refusal, is_axis, refuse};
 use super::located::frame;
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, is_axis, refuse};
+use super::value::{Missing, Value};
 use crate::plan::{Class, Spec};
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::zone::motion::{Search, placed};

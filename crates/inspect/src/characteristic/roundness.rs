@@ -1,6 +1,7 @@
 //! Roundness: ISO 1101:2017, 17.4; ISO 12181-1. ASME Y14.5-2018, 8.4.3 (circularity) agrees.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 
 /// The difference of radius of the two nearest concentric circles that hold the profile of one section between them. The

@@ -1,6 +1,7 @@
 //! Sizes: ISO 14405-1:2016, 3.7 (global linear sizes).
 
-use super::{Allowed, Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
+use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, refuse};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::plan::text::SizeWord;
 use crate::tolerance_class::Table;

@@ -1,6 +1,7 @@
 //! Straightness: ISO 1101:2017, 17.2; ISO 12780-1. ASME Y14.5-2018, 8.4.1 agrees.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;

@@ -1,7 +1,8 @@
 //! Profile of a surface: ISO 1101:2017, 17.8; ISO 1660. ASME Y14.5-2018, section 11, agrees for equally disposed zones.
 
+use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::located::frame;
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;

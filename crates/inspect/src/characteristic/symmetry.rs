@@ -1,7 +1,8 @@
 //! Symmetry: ISO 1101:2017, 17.15. ASME Y14.5-2018 has position instead.
 
+use super::kind::{Characteristic, Measuring, Question, Refusal};
 use super::located::single;
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::tolerance_class::Table;
 use trueness_geom::space::{dot, minus};
@@ -37,7 +38,8 @@ impl Characteristic for Symmetry {
             return Err(Missing::Impossible("the datum is no plane".into()));
         };
         let points = m.feature().zoned()?;
-        let (at, greatest) = super::greatest(points.iter().map(|p| dot(minus(*p, point), normal).abs()))?;
+        let (at, greatest) =
+            super::value::greatest(points.iter().map(|p| dot(minus(*p, point), normal).abs()))?;
         Ok(Value { value: 2.0 * greatest, witness: vec![points[at]], ..Value::default() })
     }
 }

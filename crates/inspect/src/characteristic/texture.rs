@@ -3,7 +3,8 @@
 //! The form that is taken off is the associated element (the F-operator). No filter is applied: the scan's own resolution
 //! bounds the scale.
 
-use super::{Characteristic, Measuring, Missing, Question, Refusal, Value};
+use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use crate::plan::text::TextureWord;
 use trueness_geom::zone::texture::texture;

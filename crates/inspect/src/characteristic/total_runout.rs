@@ -1,7 +1,8 @@
 //! Total run-out: ISO 1101:2017, 17.17. ASME Y14.5-2018, section 12, agrees.
 
+use super::kind::{AXES, Characteristic, Measuring, Question, Refusal, refuse};
 use super::located::single;
-use super::{AXES, Characteristic, Measuring, Missing, Question, Refusal, Value, refuse};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use trueness_geom::space::{cross, dot, minus, norm};
 use trueness_geom::zone::datum::Datum;
@@ -46,7 +47,7 @@ pub(super) fn reading(m: &Measuring, datum: Datum, axial: bool) -> Result<Value,
         let q = minus(*p, point);
         if axial { dot(q, direction) } else { norm(cross(q, direction)) }
     };
-    let (high, most) = super::greatest(points.iter().map(read))?;
-    let (low, least) = super::greatest(points.iter().map(|p| -read(p)))?;
+    let (high, most) = super::value::greatest(points.iter().map(read))?;
+    let (low, least) = super::value::greatest(points.iter().map(|p| -read(p)))?;
     Ok(Value { value: most + least, witness: vec![points[high], points[low]], ..Value::default() })
 }

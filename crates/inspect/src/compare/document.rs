@@ -14,9 +14,7 @@ use trueness_geom::deviation::sign_choice::SignChoice;
 use trueness_geom::stats::histogram::Limits;
 
 mod geom {
-    pub use trueness_geom::stats::histogram::Histogram;
     pub use trueness_geom::stats::paired::Paired;
-    pub use trueness_geom::stats::statistics::Statistics;
 }
 use trueness_geom::deviation::surface::Disagreement;
 
@@ -37,7 +35,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
     let mut files = inputs.files;
     if let Some(measured) = files.first_mut() {
         measured.points = found.count;
-        measured.bounds = plausibility::bounds(&found.bounds);
+        measured.bounds = Bounds::of(&found.bounds);
     }
     let names: Vec<String> = files.iter().skip(1).map(|f| f.path.clone()).collect();
     let ranks = ranks(&found.references);
@@ -68,7 +66,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         measured: Measured {
             kind: inputs.kind.into(),
             count: found.count,
-            bounds: plausibility::bounds(&found.bounds),
+            bounds: Bounds::of(&found.bounds),
         },
         alignment: None,
         method: options.method.name().into(),
@@ -98,11 +96,7 @@ fn comparison(
         warnings: vec![],
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),
-        deviation: BySide {
-            all: statistics(&c.summary.all, c.summary.quantile_error),
-            positive: statistics(&c.summary.positive, c.summary.quantile_error),
-            negative: statistics(&c.summary.negative, c.summary.quantile_error),
-        },
+        deviation: BySide::of(&c.summary),
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         verdict: tolerance.as_ref().map(|t| match c.summary.all.count {
             0 => Verdict::NotMeasured,
@@ -110,7 +104,7 @@ fn comparison(
             _ => Verdict::Fail,
         }),
         tolerance,
-        histogram: c.histogram.as_ref().map(histogram),
+        histogram: c.histogram.as_ref().map(Histogram::of),
         worst: c.worst.iter().map(worst).collect(),
         reverse,
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
@@ -184,31 +178,6 @@ fn finding((kind, found): &(&'static Kind, Found)) -> (String, Defects) {
     (kind.name.to_string(), crate::check::defects(kind, Some(found)))
 }
 
-/// The document's form of a set of statistics; `quantile_error` is the relative error of order statistics.
-pub fn statistics(s: &geom::Statistics, quantile_error: f64) -> Statistics {
-    macro_rules! fill {
-        ($($name:ident $reason:ident,)*) => {
-            Statistics {
-                count: s.count,
-                $($name: s.$name.ok(), $reason: s.$name.err().map(|e| e.to_string()),)*
-                percentiles: percentiles(s),
-                percentile_error: quantile_error,
-            }
-        };
-    }
-    fill! {
-        min min_reason, max max_reason, range range_reason, mean mean_reason, variance variance_reason,
-        std_dev std_dev_reason, six_sigma six_sigma_reason, cv cv_reason, rms rms_reason,
-        mean_abs mean_abs_reason, median median_reason, mad mad_reason, skewness skewness_reason,
-        kurtosis kurtosis_reason,
-    }
-}
-
-fn percentiles(s: &geom::Statistics) -> Percentiles {
-    let [p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9] = s.percentiles.map(Result::ok);
-    Percentiles { p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9 }
-}
-
 /// Shares of the points against the tolerance; none where there is no point.
 fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     let [below, inside, above] =
@@ -225,11 +194,6 @@ fn shares(limits: &Limits, required: f64) -> ToleranceShares {
         below_reason: reason,
         required,
     }
-}
-
-/// The document's form of a histogram.
-pub(crate) fn histogram(h: &geom::Histogram) -> Histogram {
-    Histogram { edges: h.edges().to_vec(), counts: h.counts().to_vec(), below: h.below(), above: h.above() }
 }
 
 fn worst(w: &WorstPlace) -> Worst {

@@ -1,7 +1,9 @@
 //! One measured set against one or several references, in one pass over the points.
 
 mod document;
+mod found;
 mod map;
+mod options;
 pub mod plausibility;
 mod reference;
 mod research;
@@ -10,92 +12,24 @@ mod shown;
 mod view;
 mod worst;
 
-pub(crate) use document::histogram;
-pub use document::{Inputs, document, statistics};
+pub use document::{Inputs, document};
+pub use found::{Comparisons, Reference};
 pub use map::MapSurface;
+pub use options::{Method, Options};
 pub use reference::{Compared, ReferenceError, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;
 pub use worst::Place;
 
-use crate::tolerance::Tolerance;
 use reference::Running;
 use trueness_geom::closest::{MeshError, QueryError, Tree};
 use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::paper::PaperError;
-use trueness_geom::deviation::surface::SurfaceOptions;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::paired::Paired;
 use trueness_geom::topology::TopologyError;
-
-/// How distances are computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Method {
-    /// The true minimum over all facets.
-    #[default]
-    Exact,
-    /// The nearest-vertex method of the paper, see [`trueness_geom::deviation::paper`].
-    Paper,
-}
-
-impl Method {
-    /// The word of the result document.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Exact => "exact",
-            Method::Paper => "paper",
-        }
-    }
-}
-
-/// What is asked.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// How distances are computed.
-    pub method: Method,
-    /// Sign and exclusions.
-    pub surface: SurfaceOptions,
-    /// The zone that deviations must keep.
-    pub tolerance: Option<Tolerance>,
-    /// Share of the points that must lie within it (0 to 1).
-    pub required_share: f64,
-    /// Points that a report can show; 0 without a report.
-    pub shown: usize,
-    /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
-    /// a sketch with a stated error.
-    pub kept_values: usize,
-    /// Intervals, tests and models.
-    pub research: bool,
-    /// Seed of everything random.
-    pub seed: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            method: Method::Exact,
-            surface: SurfaceOptions::default(),
-            tolerance: None,
-            required_share: 1.0,
-            shown: 0,
-            kept_values: 1 << 27,
-            research: false,
-            seed: 0,
-        }
-    }
-}
-
-/// A mesh that points are compared with.
-#[derive(Clone, Debug)]
-pub struct Reference<'a> {
-    /// For messages and documents: its path.
-    pub name: String,
-    /// The mesh.
-    pub mesh: &'a Mesh,
-}
 
 /// A block of points with their deviations, on its way to a file.
 #[derive(Clone, Copy, Debug)]
@@ -130,22 +64,6 @@ pub enum CompareError<S, K> {
     /// There is nothing to compare.
     #[error("there are no measured points")]
     NoPoints,
-}
-
-/// All that the comparison found.
-pub struct Comparisons {
-    /// Number of points.
-    pub count: u64,
-    /// Their box.
-    pub bounds: Aabb,
-    /// One entry a reference.
-    pub references: Vec<Compared>,
-    /// `(first, second, differences)` for every pair of references.
-    pub paired: Vec<(usize, usize, Paired)>,
-    /// Sample for the report.
-    pub shown: ShownPoints,
-    /// The worst places of every reference, as far as the sample lacks them.
-    pub flagged: ShownPoints,
 }
 
 /// Compares all points of `measured` with every reference and hands each block to `sink`.

@@ -5,7 +5,7 @@
 //! small part of a model looks much the same, what is noticed is a warning and no error.
 
 use crate::results::compare::{Bounds, Warning, WarningKind};
-use trueness_geom::space::{Aabb, minus, norm};
+use trueness_geom::space::{minus, norm};
 
 /// Quotients of two units of length in use: micrometres, millimetres, centimetres, inches, metres.
 const RATIOS: [f64; 8] = [10.0, 25.4, 1000.0 / 25.4, 100.0, 1000.0, 1e4, 25400.0, 1e6];
@@ -42,11 +42,6 @@ pub fn warnings(measured: &Bounds, reference: &Bounds, remedy: &str) -> Vec<Warn
         found.push(Warning { kind: WarningKind::HardlyOverlapping, value: share, text });
     }
     found
-}
-
-/// The box of points as the documents have it; none of no points.
-pub fn bounds(points: &Aabb) -> Option<Bounds> {
-    (!points.is_empty()).then_some(Bounds { min: points.min, max: points.max })
 }
 
 fn near_ratio_of_units(ratio: f64) -> bool {

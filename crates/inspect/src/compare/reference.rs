@@ -1,8 +1,8 @@
 //! The running comparison with one reference.
 
 use super::map::{Flagged, Foot, MapSurface, PointMap};
+use super::options::{Method, Options};
 use super::worst::{Place, WorstPlaces, sort};
-use super::{Method, Options};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};

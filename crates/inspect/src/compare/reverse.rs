@@ -1,8 +1,7 @@
 //! From the reference back to the measured mesh: what a one-way comparison cannot see is missing material.
 
-use super::document::statistics;
 use super::reference::Compared;
-use crate::results::compare::Reverse;
+use crate::results::compare::{Reverse, Statistics};
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
 use trueness_geom::deviation::sample::TwoSided;
 use trueness_geom::mesh::Mesh;
@@ -46,6 +45,6 @@ pub fn reverse(
     Ok(Reverse {
         hausdorff: both.hausdorff.ok(),
         mean: both.mean.ok(),
-        deviation: statistics(&back.all, back.quantile_error),
+        deviation: Statistics::of(&back.all, back.quantile_error),
     })
 }

@@ -1,6 +1,6 @@
 //! What a report draws of curvatures: the mesh or cloud in the colours of each of them.
 
-use super::{Kind, values};
+use super::kind::{Kind, values};
 use crate::report::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::curvature::CurvatureDocument;
 use trueness_geom::curvature::{Curvatures, NoCurvature};

@@ -1,6 +1,6 @@
 //! What a report draws of a fit: the points by their distance, the element through them, the points that hold it.
 
-use super::distances;
+use super::distances::distances;
 use super::element::element;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::fit::FitDocument;

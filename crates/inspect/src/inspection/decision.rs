@@ -39,21 +39,6 @@ pub fn utilisation(value: f64, limits: &Limits) -> Option<f64> {
     share.is_finite().then_some(share)
 }
 
-/// How bad a verdict is.
-pub(crate) fn rank(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Fail => 3,
-        Verdict::Undecided => 2,
-        Verdict::NotMeasured => 1,
-        Verdict::Pass => 0,
-    }
-}
-
-/// The verdict on all: the worst of them.
-pub fn overall(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
-    verdicts.into_iter().max_by_key(|v| rank(*v)).unwrap_or(Verdict::NotMeasured)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,13 +68,5 @@ mod tests {
         use Verdict::{Fail, Pass, Undecided};
         assert_eq!([at(10.375), at(10.4), at(10.625), at(10.626)], [Pass, Undecided, Undecided, Fail]);
         assert_eq!([at(9.625), at(9.6), at(9.375), at(9.374)], [Pass, Undecided, Undecided, Fail]);
-    }
-
-    #[test]
-    fn the_worst_verdict_stands_for_all() {
-        use Verdict::{Fail, NotMeasured, Pass, Undecided};
-        assert_eq!(overall([Pass, Undecided, Fail, NotMeasured]), Fail);
-        assert_eq!(overall([Pass, NotMeasured]), NotMeasured);
-        assert_eq!(overall([Pass, Pass]), Pass);
     }
 }

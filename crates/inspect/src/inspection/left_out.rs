@@ -6,7 +6,7 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::seed::Seeded;
-use super::taken::{LeftOut, Taken};
+use crate::characteristic::{LeftOut, Taken};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;

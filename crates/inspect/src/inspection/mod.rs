@@ -5,42 +5,27 @@ mod belonging;
 mod data;
 pub mod decision;
 mod deviation;
+mod document;
+mod found;
 mod left_out;
 mod seed;
 mod take;
-mod taken;
 mod view;
 
+pub use crate::characteristic::{Element, LeftOut, Taken};
 pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints, Stop};
 pub use deviation::Deviations;
-pub use taken::{Element, LeftOut, Taken};
+pub use found::Inspection;
 pub use view::View;
 
-use crate::characteristic::{Measuring, Missing, Value};
+use crate::characteristic::{Measuring, Missing};
 use crate::compare::plausibility;
 use crate::plan::Plan;
-use crate::results::compare::{Warning, WarningKind};
+use crate::results::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::feature::Nominal;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::Aabb;
-
-/// All features and values of a plan.
-pub struct Inspection {
-    /// The features, in the plan's order.
-    pub features: Vec<Taken>,
-    /// The values of the characteristics, in the plan's order, or why there are none.
-    pub values: Vec<Result<Value, String>>,
-    /// The measured data where they were evaluated: aligned.
-    pub measured: Option<Mesh>,
-    /// What took them there.
-    pub alignment: Alignment,
-    /// What makes it unlikely that the aligned data are of the part that the plan describes.
-    pub doubts: Vec<Warning>,
-    /// Deviations from the reference, where the plan asks for them.
-    pub deviations: Option<Deviations>,
-}
 
 /// Evaluates the plan. The data are moved by the plan's alignment first; then features are taken, then values.
 ///
@@ -110,7 +95,7 @@ fn doubts(plan: &Plan, data: &Data) -> Vec<Warning> {
             Aabb::of(&nominals.flat_map(Nominal::places).collect::<Vec<_>>())
         }
     };
-    let bounds = plausibility::bounds(&measured.bounds()).zip(plausibility::bounds(&reference));
+    let bounds = Bounds::of(&measured.bounds()).zip(Bounds::of(&reference));
     let mut found = bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, "units in the plan"));
     found.retain(|w| w.kind == WarningKind::HardlyOverlapping || data.reference.is_some());
     found

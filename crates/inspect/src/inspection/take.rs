@@ -3,7 +3,7 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::seed::Seeded;
-use super::taken::{Element, Taken};
+use crate::characteristic::{Element, Taken};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;

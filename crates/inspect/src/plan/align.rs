@@ -1,10 +1,10 @@
 //! How the measured data come to lie on the reference.
 
 use super::at::At;
-use super::feature::{Class, Feature};
-use super::spec::named;
+use super::checker::Checker;
+use super::error::PlanError;
+use super::feature::{Class, Feature, named};
 use super::text::{AlignText, AlignWord, DatumMethodWord, PairText, PlanText};
-use super::{Checker, PlanError};
 use std::ops::Range;
 use trueness_geom::align::Row;
 use trueness_geom::rigid::Rigid;

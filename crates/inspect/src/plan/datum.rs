@@ -1,11 +1,11 @@
 //! The datums of a characteristic: single ones, and common ones of several features.
 
 use super::at::At;
-use super::error::unknown;
+use super::boundary::Boundary;
+use super::checker::Checker;
+use super::error::{PlanError, unknown};
 use super::feature::{Class, Feature, Source};
-use super::material::Boundary;
 use super::text::{CharacteristicText, MaterialWord};
-use super::{Checker, PlanError};
 
 /// A datum that can be associated.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! What a plan asks of the deviations from the reference.
 
+use super::checker::Checker;
+use super::error::PlanError;
 use super::text::PlanText;
-use super::{Checker, PlanError};
 use crate::tolerance::Tolerance;
 
 /// What is asked of the deviations. Lengths in millimetres.

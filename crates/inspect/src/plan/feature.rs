@@ -1,7 +1,7 @@
 //! The features of a plan.
 
-use super::Checker;
 use super::at::At;
+use super::checker::Checker;
 use super::error::{PlanError, unknown};
 use super::text::{DerivedWord, ExtractText, FeatureText, MethodWord, NominalText, PlanText, ShapeWord};
 use std::ops::Range;
@@ -113,6 +113,20 @@ pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feat
         all.push(feature(checker, value, span, &all, written)?);
     }
     Ok(all)
+}
+
+/// The number of a feature by its name.
+pub(super) fn named(
+    checker: &Checker,
+    name: &str,
+    span: &Range<usize>,
+    features: &[Feature],
+) -> Result<usize, PlanError> {
+    let known: Vec<&str> = features.iter().map(|f| f.id.as_str()).collect();
+    features
+        .iter()
+        .position(|f| f.id == name)
+        .map_or_else(|| checker.wrong(span, unknown("feature", name, &known)), Ok)
 }
 
 fn feature(

@@ -1,28 +1,13 @@
 //! Material requirements of a plan: the boundary that each sets (ISO 2692:2021).
 
+use super::boundary::Boundary;
+use super::checker::Checker;
+use super::error::PlanError;
 use super::feature::{Class, Feature};
-use super::spec::{Limits, Spec};
+use super::limits::Limits;
 use super::text::{MaterialWord, PlanText};
-use super::{Checker, PlanError};
+use crate::characteristic::kind::Spec;
 use std::ops::Range;
-
-/// The boundary that a material requirement sets to a feature of size: a perfect cylinder, which the surface must not pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Boundary {
-    /// Which requirement.
-    pub word: MaterialWord,
-    /// Whether the surface must lie within it, as that of a shaft in a gauge ring; else around it.
-    pub around: bool,
-    /// Maximum or least material size: a diameter, millimetres.
-    pub size: f64,
-}
-
-impl Boundary {
-    /// Diameter of the virtual condition with this geometrical tolerance.
-    pub fn virtual_size(&self, tolerance: f64) -> f64 {
-        if self.around { self.size + tolerance } else { self.size - tolerance }
-    }
-}
 
 /// The boundaries of all characteristics, once all are known: the limits of size stand in one characteristic, the
 /// geometrical tolerance of a datum feature in another.

@@ -5,28 +5,35 @@
 
 mod align;
 mod at;
+mod boundary;
+mod checker;
 mod datum;
+mod decision;
 mod deviation;
 mod error;
 mod feature;
+mod limits;
 mod material;
 mod proposal;
 pub mod region;
 mod spec;
 pub mod text;
 
+pub use crate::characteristic::kind::Spec;
 pub use align::Align;
 pub use at::At;
+pub use boundary::Boundary;
 pub use datum::DatumSpec;
+pub use decision::{Decision, Rule};
 pub use deviation::Deviation;
 pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};
-pub use material::Boundary;
+pub use limits::{Basic, Limits};
 pub use proposal::proposal;
-pub use spec::{Basic, Limits, Spec};
 
-use std::ops::Range;
-use text::{PlanText, RuleWord, UnitWord};
+use crate::characteristic;
+use checker::Checker;
+use text::{PlanText, UnitWord};
 
 /// Name of the plan's schema.
 pub const SCHEMA: &str = "trueness/plan/1";
@@ -52,68 +59,6 @@ pub struct Plan {
     pub specs: Vec<Spec>,
     /// How verdicts are reached.
     pub decision: Decision,
-}
-
-/// How verdicts are reached.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Decision {
-    /// The rule.
-    pub rule: Rule,
-    /// Expanded uncertainty of values that have none of their own, millimetres (degrees for angles).
-    pub uncertainty: Option<f64>,
-}
-
-/// A decision rule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// The value alone decides.
-    Simple,
-    /// ISO 14253-1:2017: conformity is proven where the value is within the limits by the expanded uncertainty,
-    /// non-conformity where it is beyond them by it.
-    Iso14253,
-}
-
-impl Rule {
-    /// The word for it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Rule::Simple => "simple",
-            Rule::Iso14253 => "iso14253-1",
-        }
-    }
-}
-
-/// A text under examination: what is wrong is told with its place.
-struct Checker<'a> {
-    text: &'a str,
-    /// Millimetres in the plan's unit.
-    unit: f64,
-}
-
-impl Checker<'_> {
-    fn wrong<T>(&self, span: &Range<usize>, what: impl Into<String>) -> Result<T, PlanError> {
-        Err(PlanError::at(self.text, span, what))
-    }
-
-    /// A finite length in millimetres.
-    fn length(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
-        match number.value.is_finite() {
-            true => Ok(number.value * self.unit),
-            false => self.wrong(&number.span, format!("{what} is {}; give a finite number", number.value)),
-        }
-    }
-
-    /// A finite length in millimetres that is not below zero.
-    fn not_negative(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
-        match self.length(number, what)? {
-            x if x >= 0.0 => Ok(x),
-            _ => self.wrong(&number.span, format!("{what} is {}; it cannot be below 0", number.value)),
-        }
-    }
-
-    fn place(&self, p: [f64; 3]) -> [f64; 3] {
-        p.map(|x| x * self.unit)
-    }
 }
 
 impl Plan {
@@ -151,7 +96,7 @@ impl Plan {
             return checker.wrong(&written.schema.span, what);
         }
         let features = feature::features(&checker, &written)?;
-        let decision = decision(&checker, &written)?;
+        let decision = decision::decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;
         let deviation = deviation::deviation(&checker, &written)?;
         if specs.is_empty() && deviation.is_none_or(|d| d.tolerance.is_none()) {
@@ -178,17 +123,12 @@ impl Plan {
     }
 }
 
-fn decision(checker: &Checker, written: &PlanText) -> Result<Decision, PlanError> {
-    let Some(written) = &written.decision else {
-        return Ok(Decision { rule: Rule::Simple, uncertainty: None });
-    };
-    let rule = match written.rule.value {
-        RuleWord::Simple => Rule::Simple,
-        RuleWord::Iso14253 => Rule::Iso14253,
-    };
-    let uncertainty = match &written.uncertainty {
-        Some(u) => Some(checker.not_negative(u, "the uncertainty")?),
-        None => None,
-    };
-    Ok(Decision { rule, uncertainty })
+/// The JSON schema of plans: that of the text, with the words of all characteristics.
+pub fn schema() -> schemars::Schema {
+    let mut schema = schemars::schema_for!(PlanText);
+    let words: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
+    if let Some(kind) = schema.pointer_mut("/$defs/Kind").and_then(|kind| kind.as_object_mut()) {
+        kind.insert("enum".into(), words.into());
+    }
+    schema
 }

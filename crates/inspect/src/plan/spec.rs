@@ -1,113 +1,23 @@
 //! The characteristics of a plan.
 
 use super::at::At;
-use super::datum::{self as datums, DatumSpec};
+use super::checker::Checker;
+use super::datum as datums;
+use super::decision::{Decision, Rule};
 use super::error::{PlanError, unknown};
-use super::feature::Feature;
-use super::material::{self, Boundary};
+use super::feature::{Feature, named};
+use super::limits::{Basic, Limits};
+use super::material;
 use super::text::{
-    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, MaterialWord, OneOrTwo, PlanText,
-    RunoutWord, SizeWord, TextureWord,
+    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OneOrTwo, PlanText, RunoutWord,
+    TextureWord,
 };
-use super::{Checker, Decision, Rule};
-use crate::characteristic::{self, Allowed, Characteristic, Question};
+use crate::characteristic;
+use crate::characteristic::kind::{Allowed, Characteristic, Question, Spec};
 use std::ops::Range;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::zone::datum;
-
-/// A characteristic that can be evaluated. Lengths in millimetres, angles in radians.
-#[derive(Clone, Debug)]
-pub struct Spec {
-    /// Its name.
-    pub id: String,
-    /// Where the name stands.
-    pub span: Range<usize>,
-    /// What it is.
-    pub kind: &'static dyn Characteristic,
-    /// Numbers of the features: one, or two of a size.
-    pub features: Vec<usize>,
-    /// The datums, the first one first.
-    pub datums: Vec<DatumSpec>,
-    /// How datums are associated.
-    pub datum_rule: datum::Rule,
-    /// The datum system as given: frame from measured.
-    pub frame: Option<Rigid>,
-    /// Theoretically exact dimensions.
-    pub basic: Basic,
-    /// Whether the zone is a cylinder or sphere, where the plan says so.
-    pub diametral: Option<bool>,
-    /// How a form is evaluated.
-    pub form: Method,
-    /// Which size.
-    pub size: Option<SizeWord>,
-    /// What is allowed.
-    pub limits: Limits,
-    /// The tolerance class that it comes from.
-    pub class: Option<String>,
-    /// Whether a run-out is read along the datum axis.
-    pub axial: bool,
-    /// Which parameter of a texture.
-    pub parameter: TextureWord,
-    /// Its material requirement.
-    pub material: Option<MaterialWord>,
-    /// The boundary that the requirement sets.
-    pub boundary: Option<Boundary>,
-    /// Expanded uncertainty of the value, as the plan gives it for this characteristic or for all.
-    pub uncertainty: Option<f64>,
-}
-
-/// Theoretically exact dimensions, millimetres and radians.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Basic {
-    /// Coordinates in the datum system.
-    pub place: [Option<f64>; 3],
-    /// Angle.
-    pub angle: Option<f64>,
-    /// Angle about the first datum from the direction of the second.
-    pub turn: Option<f64>,
-}
-
-/// What is allowed; the limits belong to it. Millimetres; degrees for angles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limits {
-    /// No more than this.
-    Greatest(f64),
-    /// Between two deviations from a nominal value.
-    Between {
-        /// Nominal value.
-        nominal: f64,
-        /// Lower limit deviation.
-        lower: f64,
-        /// Upper limit deviation.
-        upper: f64,
-    },
-}
-
-impl Spec {
-    /// The unit of its value.
-    pub fn unit(&self) -> &'static str {
-        self.kind.unit(self.parameter)
-    }
-}
-
-impl Limits {
-    /// Least and greatest allowed value.
-    pub fn range(&self) -> (Option<f64>, f64) {
-        match *self {
-            Limits::Greatest(t) => (None, t),
-            Limits::Between { nominal, lower, upper } => (Some(nominal + lower), nominal + upper),
-        }
-    }
-
-    /// With this much added to the greatest allowed value.
-    pub fn widened(&self, bonus: f64) -> Limits {
-        match *self {
-            Limits::Greatest(t) => Limits::Greatest(t + bonus),
-            between => between,
-        }
-    }
-}
 
 pub(super) fn specs(
     checker: &Checker,
@@ -232,20 +142,6 @@ fn keys(w: &CharacteristicText) -> Vec<(&'static str, Range<usize>)> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// The number of a feature by its name.
-pub(super) fn named(
-    checker: &Checker,
-    name: &str,
-    span: &Range<usize>,
-    features: &[Feature],
-) -> Result<usize, PlanError> {
-    let known: Vec<&str> = features.iter().map(|f| f.id.as_str()).collect();
-    features
-        .iter()
-        .position(|f| f.id == name)
-        .map_or_else(|| checker.wrong(span, unknown("feature", name, &known)), Ok)
 }
 
 fn toleranced(checker: &Checker, at: &At<OneOrTwo>, features: &[Feature]) -> Result<Vec<usize>, PlanError> {

@@ -1,6 +1,6 @@
 //! What is drawn over the part, always visible: defects, changes, touching points, outlines.
 
-use super::ViewRole;
+use super::object::ViewRole;
 use crate::scale::palette::Rgb;
 use trueness_geom::space::{Point, Vector};
 

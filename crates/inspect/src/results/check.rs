@@ -1,7 +1,7 @@
 //! `trueness/check/1`: size and defects of a mesh.
 
+use super::Bounds;
 use super::InputRecord;
-use super::compare::Bounds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

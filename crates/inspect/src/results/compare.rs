@@ -3,6 +3,7 @@
 use super::align::AlignedTo;
 use super::check::Defects;
 use super::research::Research;
+pub use super::{Bounds, BySide, Histogram, Percentiles, Statistics};
 use super::{InputRecord, Verdict};
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -61,15 +62,6 @@ pub struct Measured {
     pub count: u64,
     /// Their box.
     pub bounds: Option<Bounds>,
-}
-
-/// An axis-parallel box, millimetres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Bounds {
-    /// Least coordinates.
-    pub min: [f64; 3],
-    /// Greatest coordinates.
-    pub max: [f64; 3],
 }
 
 /// How the sign of the deviations was found.
@@ -152,100 +144,6 @@ pub enum WarningKind {
     HardlyOverlapping,
 }
 
-/// Statistics of all deviations and of each side.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct BySide {
-    /// All.
-    pub all: Statistics,
-    /// Above zero: outside, too much material.
-    pub positive: Statistics,
-    /// Below zero: inside, missing material.
-    pub negative: Statistics,
-}
-
-/// Declares the statistics document: each number beside the reason why it may be missing.
-macro_rules! statistics {
-    ($($(#[$doc:meta])* $name:ident $reason:ident,)*) => {
-        /// Statistics of a set of deviations, millimetres (skewness and kurtosis have no unit, the variance is in mm²).
-        /// A number that does not exist is `null`, and `<name>_reason` says why.
-        #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
-        pub struct Statistics {
-            /// Number of deviations.
-            pub count: u64,
-            $(
-                $(#[$doc])*
-                pub $name: Option<f64>,
-                /// Why the number above is missing.
-                #[serde(skip_serializing_if = "Option::is_none", default)]
-                pub $reason: Option<String>,
-            )*
-            /// Percentiles; all missing when `count` is 0.
-            pub percentiles: Percentiles,
-            /// Largest relative error of median, mad and percentiles; 0 when they are exact.
-            pub percentile_error: f64,
-        }
-    };
-}
-
-statistics! {
-    /// Least.
-    min min_reason,
-    /// Greatest.
-    max max_reason,
-    /// `max - min`.
-    range range_reason,
-    /// Arithmetic mean.
-    mean mean_reason,
-    /// Sample variance, divided by `count - 1`.
-    variance variance_reason,
-    /// Square root of the variance.
-    std_dev std_dev_reason,
-    /// Six standard deviations.
-    six_sigma six_sigma_reason,
-    /// Coefficient of variation: standard deviation over the mean's size.
-    cv cv_reason,
-    /// Root mean square.
-    rms rms_reason,
-    /// Mean of the absolute deviations.
-    mean_abs mean_abs_reason,
-    /// Middle value.
-    median median_reason,
-    /// Median of the distances from the median.
-    mad mad_reason,
-    /// Third standardised moment.
-    skewness skewness_reason,
-    /// Fourth standardised moment less 3.
-    kurtosis kurtosis_reason,
-}
-
-/// Percentiles, linearly interpolated between order statistics (Hyndman & Fan's type 7, as NumPy's default).
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct Percentiles {
-    #[serde(rename = "0.1")]
-    pub p0_1: Option<f64>,
-    #[serde(rename = "1")]
-    pub p1: Option<f64>,
-    #[serde(rename = "2.5")]
-    pub p2_5: Option<f64>,
-    #[serde(rename = "5")]
-    pub p5: Option<f64>,
-    #[serde(rename = "25")]
-    pub p25: Option<f64>,
-    #[serde(rename = "50")]
-    pub p50: Option<f64>,
-    #[serde(rename = "75")]
-    pub p75: Option<f64>,
-    #[serde(rename = "95")]
-    pub p95: Option<f64>,
-    #[serde(rename = "97.5")]
-    pub p97_5: Option<f64>,
-    #[serde(rename = "99")]
-    pub p99: Option<f64>,
-    #[serde(rename = "99.9")]
-    pub p99_9: Option<f64>,
-}
-
 /// Whether a reference is a sound mesh: the precondition of the statistics.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Soundness {
@@ -303,19 +201,6 @@ pub struct ToleranceShares {
     pub below_reason: Option<String>,
     /// The share inside that was asked for.
     pub required: f64,
-}
-
-/// Counts of deviations between edges; bin `i` holds `edges[i] <= d < edges[i + 1]`, the last one its upper edge too.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct Histogram {
-    /// `n + 1` limits, rising.
-    pub edges: Vec<f64>,
-    /// `n` counts.
-    pub counts: Vec<u64>,
-    /// Deviations below the first edge.
-    pub below: u64,
-    /// Deviations above the last edge.
-    pub above: u64,
 }
 
 /// One of the worst places.

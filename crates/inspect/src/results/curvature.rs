@@ -1,7 +1,7 @@
 //! `trueness/curvature/1`: curvatures of a mesh or cloud, place by place.
 
 use super::InputRecord;
-use super::compare::{Histogram, Statistics};
+use super::{Histogram, Statistics};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! `trueness/fit/1`: an element fitted to points.
 
-use super::compare::Histogram;
+use super::Histogram;
 use super::{InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -126,7 +126,7 @@ pub struct Touching {
 }
 
 /// Parameters by their names.
-pub(super) fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
+pub(crate) fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
     let number = |p| match p {
         Parameter::Number(x) => Number::One(x),
         Parameter::Vector(v) => Number::Three(v),
@@ -138,7 +138,7 @@ pub(super) fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<Stri
 const NONE_LEFT: &str = "there are no more points than unknowns";
 
 /// The standard uncertainties of the parameters, or why there are none.
-pub(super) fn uncertainty(fit: &Fit) -> (Option<BTreeMap<String, Number>>, Option<String>) {
+pub(crate) fn uncertainty(fit: &Fit) -> (Option<BTreeMap<String, Number>>, Option<String>) {
     let found = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
     let reason = match (&found, fit.touching.is_empty()) {
         (Some(_), _) => None,

@@ -1,9 +1,11 @@
 //! `trueness/section/1`: the lines, arcs and curves of sections, and where they join.
 
 mod dimension;
+mod found;
 mod nominal;
 
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
+pub use found::{FrameRecord, Section};
 pub use nominal::{Against, NominalRecord, WorstRecord};
 
 use super::{InputRecord, UNITS, VERSION};
@@ -86,19 +88,6 @@ pub struct ResidualsRecord {
     pub rms: f64,
     /// Greatest magnitude.
     pub max: f64,
-}
-
-/// The plane of a section: a place of it and the directions of its two axes.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct FrameRecord {
-    /// The place with the coordinates 0, 0.
-    pub origin: [f64; 3],
-    /// Direction of the first axis.
-    pub x: [f64; 3],
-    /// Direction of the second axis.
-    pub y: [f64; 3],
-    /// Greatest distance of a point from the plane.
-    pub flatness: f64,
 }
 
 /// A plane that a mesh or cloud was cut by: all places `p` with `normal · p = offset`.
@@ -268,31 +257,6 @@ pub struct JoinRecord {
     pub interval_open: [bool; 2],
     /// Angle of the corner, positive to the left; 0 of a tangent join.
     pub turn: f64,
-}
-
-impl FrameRecord {
-    /// A place of the plane, in space.
-    pub fn place(&self, p: [f64; 2]) -> [f64; 3] {
-        std::array::from_fn(|k| self.origin[k] + p[0] * self.x[k] + p[1] * self.y[k])
-    }
-}
-
-/// Contours of one plane, or of a row of points.
-#[derive(Clone, Debug)]
-pub struct Section {
-    /// Where its plane lies.
-    pub frame: FrameRecord,
-    /// The plane, unless it is that of a row of points: its normal of length 1 and its offset.
-    pub plane: Option<([f64; 3], f64)>,
-    /// Area inside closed chains of a mesh, or why there is none.
-    pub area: Result<f64, &'static str>,
-    /// Points of a cloud that belong to no contour.
-    pub loose: usize,
-    /// Over what gaps contours of a cloud go on; where they are suspiciously many, also over what gap most of their ends would
-    /// meet others.
-    pub gap: Option<(f64, Option<f64>)>,
-    /// The contours.
-    pub contours: Vec<Contour>,
 }
 
 impl SectionDocument {

@@ -1,6 +1,6 @@
 //! `trueness/segment/1`: elements found in a mesh or cloud.
 
-use super::compare::Bounds;
+use super::Bounds;
 use super::fit::{Number, named, uncertainty};
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;

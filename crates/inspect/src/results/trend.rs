@@ -1,8 +1,8 @@
 //! `trueness/trend/1`: one plan over many parts.
 
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
+use super::overall;
 use super::{UNITS, VERSION, Verdict};
-use crate::inspection::decision::overall;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::stats::process::{Course, Index, Rule};

@@ -6,6 +6,11 @@
 /// A colour as sRGB bytes.
 pub type Rgb = [u8; 3];
 
+/// Its six hexadecimal digits.
+pub fn hex([r, g, b]: Rgb) -> String {
+    format!("{r:02x}{g:02x}{b:02x}")
+}
+
 /// Low cap, nine bands from low to high, high cap.
 type Anchors = [u32; 11];
 

@@ -3,7 +3,7 @@
 //! ISO 2768-2 was withdrawn for ISO 22081:2021, which has no tables; drawings that name it keep their meaning. A class may be
 //! written as on drawings for both parts: `mK`.
 
-use super::ClassError;
+use super::error::ClassError;
 
 /// Ends of ranges, and for each class a value for each range.
 type Table<const RANGES: usize, const CLASSES: usize, T> =

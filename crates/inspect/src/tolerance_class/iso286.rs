@@ -6,7 +6,7 @@
 //!
 //! Letters that are not here (a to c, cd, ef, fg, j of holes, t to zc) and sizes above 500 mm are refused.
 
-use super::ClassError;
+use super::error::ClassError;
 
 /// Upper ends of the nominal sizes, millimetres; a range is above the one before it, up to and including its end.
 const ENDS: [f64; 13] = [3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0, 315.0, 400.0, 500.0];

@@ -1,5 +1,6 @@
 //! The methods of a paper for the join of one line and one curve.
 
+use super::found::Sections;
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
@@ -58,10 +59,10 @@ impl MethodArgs {
     /// The contour of the method asked for in place of that found, if one was.
     pub fn apply(
         &self,
-        (mut sections, rows): super::Sections,
+        (mut sections, rows): Sections,
         options: &Options,
         stage: &Stage,
-    ) -> Result<(super::Sections, Option<Table>), SectionError> {
+    ) -> Result<(Sections, Option<Table>), SectionError> {
         let (Some(chosen), Some(points)) = (self.chosen(), rows.first()) else {
             return Ok(((sections, rows), None));
         };

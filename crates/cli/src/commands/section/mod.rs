@@ -1,5 +1,6 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
+mod found;
 mod method;
 mod nominal;
 mod planes;
@@ -14,13 +15,14 @@ use crate::read::{self, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
+use found::{Found, described};
 use std::path::PathBuf;
 use trueness_files::Body;
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{Answer, ViewObject, flat};
 use trueness_inspect::results::Role;
-use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
+use trueness_inspect::results::section::{Section, SectionDocument};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -184,12 +186,6 @@ fn report(
     args.report.write(Answer::Section(document), &objects, &[], common.progress)
 }
 
-/// What was found: contours by section, and the points of each contour.
-type Sections = (Vec<Section>, Vec<Vec<[f64; 2]>>);
-
-/// The same, or why not.
-type Found = Result<Sections, SectionError>;
-
 /// A row in space in the plane nearest to it; a row of two columns as it is.
 fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Found {
     let through = if planar { None } else { PlaneFrame::through(points) };
@@ -199,8 +195,4 @@ fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Foun
     let area = Err("points in order have no facets");
     let frame = described(&frame, flatness);
     Ok((vec![Section { frame, plane: None, area, loose: 0, gap: None, contours }], vec![flat]))
-}
-
-fn described(frame: &PlaneFrame, flatness: f64) -> FrameRecord {
-    FrameRecord { origin: frame.origin, x: frame.x, y: frame.y, flatness }
 }

@@ -1,5 +1,6 @@
 //! The nominal that a section is compared with.
 
+use super::found::Sections;
 use super::planes::Cut;
 use crate::exit::Usage;
 use crate::options::{PointInputArgs, ReferenceArgs};
@@ -39,7 +40,7 @@ impl NominalArgs {
     pub fn compare(
         &self,
         measured: &PointInputArgs,
-        (sections, rows): &super::Sections,
+        (sections, rows): &Sections,
         planes: &[Cut],
         options: &Options,
         stage: &Stage,

@@ -1,6 +1,6 @@
 //! Planes that cut a mesh or a cloud.
 
-use super::{Found, described};
+use super::found::{Found, described};
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::Args;

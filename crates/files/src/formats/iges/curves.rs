@@ -4,8 +4,8 @@
 //! coordinates' first two axes. Arcs run counter-clockwise in IGES, so one of negative sweep is written from its end.
 
 use super::super::step::real;
-use super::{Entry, file};
-use crate::drawing::{Entity, Layer, bounds, whole};
+use super::entry::{Entry, file};
+use crate::drawing::entity::{Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 use trueness_geom::section::PlaneFrame;
 
@@ -66,7 +66,7 @@ fn numbers(entity: &Entity) -> (u32, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::tests::one_of_each;
+    use crate::drawing::entity::tests::one_of_each;
 
     /// The entries point to their parameters and to the matrix, and these back to the entries.
     #[test]

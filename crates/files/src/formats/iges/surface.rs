@@ -1,7 +1,7 @@
 //! One B-spline surface (entity 128). Control points run along `u` first.
 
 use super::super::step::real;
-use super::{Entry, file};
+use super::entry::{Entry, file};
 use crate::cad::SplineSurface;
 use std::io::{self, Write};
 

@@ -6,7 +6,10 @@ use crate::{
     AtomicFile,
     error::WriteFault,
     format::{Format, Head},
-    write::{Block, Layout, PointsSink, spool::Spool},
+    write::{
+        sink::{Block, Layout, PointsSink},
+        spool::Spool,
+    },
 };
 use zip::Archive;
 
@@ -16,6 +19,7 @@ pub(crate) const NPZ: Format = Format {
     extensions: &[],
     written_as: &["npz"],
     manual: include_str!("npz.md"),
+    columns: false,
     sniff: |_: &Head| false,
     read: None,
     points: Some(begin),

@@ -14,11 +14,10 @@ use crate::{
     assemble::{self, Faces},
     error::{Fault, Located, Result},
     feed::Feed,
-    format::{Format, Head, Parsed},
-    open::{ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld},
+    lines::without_mark,
     scalar::{Order, Scalar},
     source::Source,
-    unicode::without_mark,
 };
 use header::{Element, Encoding, Header, Kind};
 use loose::LoosePoints;
@@ -30,6 +29,7 @@ pub(crate) const PLY: Format = Format {
     extensions: &["ply"],
     written_as: &["ply"],
     manual: include_str!("ply.md"),
+    columns: false,
     sniff: |head: &Head| matches!(without_mark(head.bytes), [b'p', b'l', b'y', b'\n' | b'\r', ..]),
     read: Some(read),
     points: Some(write::begin),

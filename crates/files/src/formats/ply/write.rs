@@ -3,7 +3,11 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    write::{Block, Layout, Loss, PointsSink, corner_positions},
+    write::{
+        Loss,
+        corners::corner_positions,
+        sink::{Block, Layout, PointsSink},
+    },
 };
 use std::io::{Seek, SeekFrom, Write};
 use trueness_geom::mesh::Mesh;

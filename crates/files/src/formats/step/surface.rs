@@ -2,7 +2,7 @@
 //!
 //! The edges are the rows and columns of control points at the border, which are the boundary curves of a clamped surface.
 
-use super::{Instances, file, grouped, list, product};
+use super::instances::{Instances, file, grouped, list, product};
 use crate::cad::SplineSurface;
 use std::io::{self, Write};
 

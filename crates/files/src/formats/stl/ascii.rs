@@ -4,13 +4,12 @@
 //! same whoever finds it, and the first in the file is reported. Positions keep what the text says beyond single
 //! precision.
 
-use super::Facet;
+use super::facet::Facet;
 use crate::{
     Warning,
     error::{Fault, Result},
-    lines::{line_end, line_of},
+    lines::{line_end, line_of, without_mark},
     number::number,
-    unicode::without_mark,
 };
 use rayon::prelude::*;
 

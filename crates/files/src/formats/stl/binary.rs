@@ -1,6 +1,6 @@
 //! Binary STL: records of 50 bytes, read where they lie.
 
-use super::Facet;
+use super::facet::Facet;
 use crate::{
     Warning,
     error::{Fault, Result},

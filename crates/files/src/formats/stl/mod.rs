@@ -2,19 +2,19 @@
 
 mod ascii;
 mod binary;
+mod facet;
 mod write;
 
 use crate::{
-    Warning,
-    assemble::{self, Corner},
-    detect::is_text,
+    Warning, assemble,
     error::{Fault, Result},
-    format::{Format, Head, Parsed},
-    open::{ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld},
+    lines::{is_text, without_mark},
     source::{HEAD, Source},
-    unicode::{no_zeros, without_mark},
+    unicode::no_zeros,
 };
 use binary::{HEADER, RECORD};
+use facet::Facet;
 use rayon::prelude::*;
 
 /// STL, binary and ASCII.
@@ -23,6 +23,7 @@ pub(crate) const STL: Format = Format {
     extensions: &["stl", "stla", "stlb"],
     written_as: &["stl"],
     manual: include_str!("stl.md"),
+    columns: false,
     sniff,
     read: Some(read),
     points: None,
@@ -69,17 +70,6 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
     let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
     mesh("stl-binary", records.get(..facets).unwrap_or(records), options, warnings)
-}
-
-/// A facet of either kind of file.
-trait Facet: Copy + Send + Sync {
-    /// Position in the precision of the file.
-    type Position: Corner;
-    fn corner(&self, k: usize) -> Self::Position;
-    /// The stored normal, which may be anything.
-    fn normal(&self) -> [f32; 3];
-    /// Whether all corners are finite.
-    fn finite(&self) -> bool;
 }
 
 /// Facets of one task.

@@ -4,7 +4,7 @@ use super::binary::record;
 use crate::{
     AtomicFile,
     error::WriteFault,
-    write::{Loss, corner_positions},
+    write::{Loss, corners::corner_positions},
 };
 use std::io::Write;
 use trueness_geom::{

@@ -31,10 +31,9 @@ mod write;
 
 use crate::{
     Warning,
-    detect::is_text,
     error::{Fault, Result},
-    format::{Format, Head, Parsed},
-    open::ReadOptions,
+    format::{Format, Head, Parsed, ReadOptions},
+    lines::is_text,
     source::{HEAD, Source},
 };
 pub(crate) use cell::Separator;
@@ -47,6 +46,7 @@ pub(crate) const TABLE: Format = Format {
     extensions: &["csv", "xyz", "asc", "txt", "pts", "xyzn", "xyzrgb", "xy", "dat", "tsv"],
     written_as: &["csv", "tsv", "xyz", "asc", "txt"],
     manual: include_str!("table.md"),
+    columns: true,
     // Any text could be one: it is tried when everything else, the extension too, has said no.
     sniff: |_: &Head| false,
     read: Some(read),

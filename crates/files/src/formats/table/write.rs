@@ -3,7 +3,8 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    write::{Block, Layout, PointsSink, push_number},
+    number::push_number,
+    write::sink::{Block, Layout, PointsSink},
 };
 use rayon::prelude::*;
 use std::io::Write;

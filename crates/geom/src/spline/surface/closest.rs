@@ -190,7 +190,7 @@ impl Surface<Point> {
     /// The surface in parts of one span each.
     fn beziers(&self) -> Vec<Surface<Point>> {
         let inner = |k: usize| {
-            let all = self.knots[k].distinct();
+            let all = self.knots()[k].distinct();
             all[1..all.len() - 1].to_vec()
         };
         let cut = |whole: Surface<Point>, direction, at: &[f64]| {
@@ -222,7 +222,7 @@ impl Surface<Point> {
 
 impl Cell {
     fn new(surface: Surface<Point>, point: Point, depth: u32) -> Cell {
-        let hull = Aabb::of(&surface.points);
+        let hull = Aabb::of(surface.points());
         let away: Vector =
             std::array::from_fn(|k| (hull.min[k] - point[k]).max(point[k] - hull.max[k]).max(0.0));
         Cell { bound: norm(away), surface, depth }

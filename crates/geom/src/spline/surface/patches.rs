@@ -38,8 +38,8 @@ impl Patches {
     /// The polynomials of `surface`.
     pub fn new(surface: &Surface<Point>) -> Patches {
         Patches::of(
-            [Spans::new(&surface.knots[0]), Spans::new(&surface.knots[1])],
-            &surface.points,
+            [Spans::new(&surface.knots()[0]), Spans::new(&surface.knots()[1])],
+            surface.points(),
             surface.counts()[1],
         )
     }

@@ -62,11 +62,11 @@ impl Surface<Point> {
 
     /// Bounds of the second derivatives `uu`, `uv`, `vv` over each span: by `u` spans and by `v` spans.
     fn second_derivatives(&self) -> [Vec<[f64; 3]>; 2] {
-        let mut out = [0, 1].map(|k| vec![[0.0f64; 3]; self.knots[k].distinct().len() - 1]);
+        let mut out = [0, 1].map(|k| vec![[0.0f64; 3]; self.knots()[k].distinct().len() - 1]);
         for (which, orders) in [[2, 0], [1, 1], [0, 2]].into_iter().enumerate() {
             let Some((points, counts)) = self.derivative_points(orders) else { continue };
             for (k, rows) in out.iter_mut().enumerate() {
-                let knots = &self.knots[k];
+                let knots = &self.knots()[k];
                 let p = knots.degree();
                 for (span, w) in knots.distinct().windows(2).enumerate() {
                     // Functions of the lowered degree that act there.
@@ -85,11 +85,13 @@ impl Surface<Point> {
     /// Control points of a derivative and their number in both directions; `None` where it is 0 everywhere.
     fn derivative_points(&self, orders: [usize; 2]) -> Option<(Vec<Point>, [usize; 2])> {
         let mut counts = self.counts();
-        let mut points = self.points.clone();
+        let mut points = self.points().to_vec();
         for k in 0..2 {
             for order in 0..orders[k] {
-                let (p, u) =
-                    (self.knots[k].degree().checked_sub(order).filter(|p| *p > 0)?, self.knots[k].values());
+                let (p, u) = (
+                    self.knots()[k].degree().checked_sub(order).filter(|p| *p > 0)?,
+                    self.knots()[k].values(),
+                );
                 let mut fewer = counts;
                 fewer[k] = fewer[k].checked_sub(1).filter(|n| *n > 0)?;
                 let step = if k == 0 { counts[1] } else { 1 };
@@ -111,7 +113,7 @@ impl Surface<Point> {
 
     /// Parameters of the lines across a direction; `None` where there would be too many.
     fn lines(&self, k: usize, bounds: &[Vec<[f64; 3]>; 2], tolerance: f64) -> Option<Vec<f64>> {
-        let all = self.knots[k].distinct();
+        let all = self.knots()[k].distinct();
         let mut lines = vec![];
         let ratio = self.mixed_share(bounds);
         for (w, [uu, uv, vv]) in all.windows(2).zip(&bounds[k]) {

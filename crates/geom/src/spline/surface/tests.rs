@@ -1,5 +1,6 @@
 //! Surfaces against closed forms, and against themselves under changes that keep them.
 
+use super::super::basis::Knots;
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;

@@ -1,9 +1,8 @@
 //! Ideal elements associated with datum features.
 
-use super::{
-    AS_DRAWN, Datum, DatumError, Held, Rule, Source, center as center_of, direction as direction_of,
-};
-use super::{foot, mean, nearest};
+use super::attitude::{AS_DRAWN, Held, nearest};
+use super::element::{center as center_of, direction as direction_of, foot, mean};
+use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Method, Options};
 use crate::progress::Progress;
 use crate::rigid::Rigid;

@@ -6,8 +6,9 @@
 //! median plane; its normal is that of the first.
 
 use super::associate::{across_normal, associate, outside};
+use super::attitude::{AS_DRAWN, Held, nearest};
 use super::joint::{Form, Joint, MOST, Stand};
-use super::{AS_DRAWN, Datum, DatumError, Held, Rule, Source, direction, foot, mean, nearest};
+use super::{Datum, DatumError, Rule, Source, direction, foot, mean};
 use crate::fit::{self, Options};
 use crate::progress::Progress;
 use crate::shape::Kind;

@@ -1,6 +1,7 @@
 //! The frame that datums make, one after the other.
 
-use super::{AS_DRAWN, Datum, DatumError, Freedom, System, nearest};
+use super::attitude::{AS_DRAWN, Freedom, System, nearest};
+use super::{Datum, DatumError};
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, dot, least_axis, minus, norm, plus, times, unit};
 use std::f64::consts::FRAC_PI_2;

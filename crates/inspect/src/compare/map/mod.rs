@@ -7,96 +7,11 @@
 mod bisection;
 mod creases;
 mod fill;
+mod point_map;
 mod surface;
 
+pub use point_map::{Flagged, Foot, PointMap};
 pub use surface::MapSurface;
-
-use crate::tolerance::{Tolerance, badness};
-use bisection::Bisection;
-use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Point, cross, minus, norm};
-
-/// Cuts of the reference's facets, at most: beyond, more detail cannot be seen and costs room in the report.
-const MOST_CUTS: usize = 400_000;
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-const PIECE: f64 = 0.18;
-
-/// The worst point of each piece so far.
-pub struct PointMap {
-    pieces: Bisection,
-    worst: Vec<Kept>,
-    tolerance: Option<Tolerance>,
-}
-
-/// Where the nearest place of a point lies: the piece, and the weights of its facet's first two corners.
-#[derive(Clone, Copy, Debug)]
-pub struct Foot {
-    piece: u32,
-    weights: [f32; 2],
-}
-
-/// A point that a piece shows; NaN where there is none.
-#[derive(Clone, Copy, Debug)]
-struct Kept {
-    deviation: f64,
-    weights: [f32; 2],
-}
-
-/// A measured point that must be seen.
-#[derive(Clone, Copy, Debug)]
-pub struct Flagged {
-    /// The facet with its nearest place.
-    pub face: u32,
-    /// Weights of the facet's corners there.
-    pub weights: [f64; 3],
-    /// Its deviation.
-    pub deviation: f64,
-}
-
-impl PointMap {
-    /// An empty map on `mesh`. With a tolerance the worst point is the one farthest beyond it, else the one farthest away.
-    pub fn new(mesh: &Mesh, tolerance: Option<Tolerance>) -> PointMap {
-        let corners = mesh.faces.iter().map(|f| f.map(|v| mesh.positions[v as usize]));
-        let area: f64 = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).sum();
-        let edge = (area / (PIECE * MOST_CUTS as f64)).sqrt();
-        let edge = if edge > 0.0 { edge } else { f64::INFINITY };
-        let pieces = Bisection::of(mesh, edge, MOST_CUTS);
-        let none = Kept { deviation: f64::NAN, weights: [0.0; 2] };
-        PointMap { worst: vec![none; pieces.len()], pieces, tolerance }
-    }
-
-    /// The piece that a place on a facet lies in.
-    pub fn foot(&self, face: u32, weights: [f64; 3]) -> Foot {
-        Foot { piece: self.pieces.piece(face, weights), weights: [weights[0] as f32, weights[1] as f32] }
-    }
-
-    /// Adds a point; of equally bad ones the first stays.
-    pub fn add(&mut self, foot: Foot, deviation: f64) {
-        let kept = &mut self.worst[foot.piece as usize];
-        if worse(deviation, kept.deviation, self.tolerance) {
-            *kept = Kept { deviation, weights: foot.weights };
-        }
-    }
-}
-
-/// Whether deviation `a` is worse than `b`: farther beyond the tolerance, else of greater size. Anything is worse than NaN.
-fn worse(a: f64, b: f64, tolerance: Option<Tolerance>) -> bool {
-    let zone = tolerance.map(|t| [t.lower, t.upper]);
-    b.is_nan() || badness(a, zone) > badness(b, zone)
-}
-
-/// The place with these weights of a facet's corners.
-fn place(mesh: &Mesh, face: u32, weights: [f64; 3]) -> Point {
-    let corners = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-    [0, 1, 2].map(|k| (0..3).map(|j| weights[j] * corners[j][k]).sum())
-}
-
-impl Kept {
-    fn weights(&self) -> [f64; 3] {
-        let [a, b] = self.weights.map(f64::from);
-        [a, b, 1.0 - a - b]
-    }
-}
 
 #[cfg(test)]
 mod tests;

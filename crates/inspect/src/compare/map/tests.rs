@@ -1,9 +1,11 @@
 //! The map against brute force over every displayed place.
 
 use super::*;
+use crate::tolerance::Tolerance;
 use trueness_geom::closest::Tree;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
-use trueness_geom::space::dot;
+use trueness_geom::space::{Point, cross, dot, minus, norm};
 
 /// A cube from the origin, in 12 facets.
 pub fn cube(side: f64) -> Mesh {

@@ -4,6 +4,7 @@ use super::super::html::Html;
 use super::super::text::word;
 use crate::results::compare::Histogram;
 use crate::scale::Scale;
+use crate::scale::palette::hex;
 
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 34.0;
@@ -54,7 +55,7 @@ fn bars(h: &mut Html, histogram: Option<&Histogram>, scale: &Scale, at: &impl Fn
         let y = FOOT - height;
         let fill = hex(scale.color(0.5 * (from + to)));
         h.raw(&format!(
-            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{height:.2}\" fill=\"{fill}\"/>"
+            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{height:.2}\" fill=\"#{fill}\"/>"
         ));
     }
 }
@@ -63,7 +64,7 @@ fn strip(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
     let (limits, colors) = (scale.limits(), scale.colors());
     let mut piece = |x: f64, w: f64, fill: &str| {
         h.raw(&format!(
-            "<rect x=\"{x:.2}\" y=\"{FOOT}\" width=\"{w:.2}\" height=\"{STRIP}\" fill=\"{fill}\"/>"
+            "<rect x=\"{x:.2}\" y=\"{FOOT}\" width=\"{w:.2}\" height=\"{STRIP}\" fill=\"#{fill}\"/>"
         ));
     };
     piece(LEFT, CAP, &hex(colors[0]));
@@ -91,8 +92,4 @@ fn ticks(h: &mut Html, scale: &Scale, at: &impl Fn(f64) -> f64) {
             h.raw(&format!("<text class=\"{class}\" x=\"{x:.2}\" y=\"{}\">{text}</text>", foot + 13.0));
         }
     }
-}
-
-fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -2,9 +2,10 @@
 
 use super::super::marks::{Mark, Marks};
 use super::blob::Kind;
+use super::contents::Payload;
 use super::grid::Grid;
 use super::planes::pack;
-use super::{Payload, hex};
+use crate::scale::palette::hex;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use trueness_geom::space::Aabb;

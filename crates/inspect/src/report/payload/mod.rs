@@ -5,6 +5,7 @@
 //! `docs/decisions/` for why.
 
 mod blob;
+mod contents;
 mod field;
 mod gather;
 mod grid;
@@ -17,12 +18,13 @@ mod predict;
 mod simplify;
 
 pub use blob::{base64, zlib};
+pub use contents::Payload;
 pub use field::NoValue;
 
 use super::marks::Marks;
 use super::picture::first_view;
 use super::{Geometry, ReportError, ViewObject, ViewRole};
-use crate::scale::palette::Rgb;
+use crate::scale::palette::hex;
 use blob::Kind;
 use field::Codes;
 use grid::Grid;
@@ -39,33 +41,6 @@ const KEPT: usize = 200;
 const LEVEL_BYTES: usize = 2;
 /// Points drawn at most: more change nothing that can be seen, and the file is for looking.
 const MOST_POINTS: usize = 1_000_000;
-
-/// Objects of the manifest and the blobs they name.
-#[derive(Default)]
-pub struct Payload {
-    /// `objects` of the manifest.
-    pub objects: Vec<Value>,
-    /// Base64 of gzip; a blob's number is its place here.
-    pub blobs: Vec<String>,
-    /// Points drawn and points given, of measured clouds.
-    pub points: (usize, usize),
-    /// Farthest that what is drawn lies from what was given, millimetres.
-    pub display_error: f64,
-    /// Something was left out or coarsened beyond the grid's rounding.
-    pub simplified: bool,
-}
-
-impl Payload {
-    /// Bytes of all blobs in the page.
-    pub fn len(&self) -> usize {
-        self.blobs.iter().map(String::len).sum()
-    }
-
-    fn add(&mut self, bytes: &[u8], kind: Kind) -> usize {
-        self.blobs.push(base64(&blob::gzip(bytes, kind)));
-        self.blobs.len() - 1
-    }
-}
 
 /// How much may be kept.
 #[derive(Clone, Copy, Debug)]
@@ -249,10 +224,6 @@ fn pack_all_marks(objects: &[ViewObject], marks: &[Marks]) -> Payload {
 
 fn finite(p: &&Point) -> bool {
     p.iter().all(|x| x.is_finite())
-}
-
-fn hex([r, g, b]: Rgb) -> String {
-    format!("{r:02x}{g:02x}{b:02x}")
 }
 
 /// 14 bits do while their step is at most an eighth of the median edge.

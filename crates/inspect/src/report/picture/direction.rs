@@ -8,7 +8,7 @@ use super::super::documents::Pick;
 use super::super::marks::{Mark, Marks};
 use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
-use super::{mapped, shown_objects};
+use super::shown::{mapped, shown_objects};
 use crate::spacing::spacing;
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;

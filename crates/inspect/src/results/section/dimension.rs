@@ -1,6 +1,6 @@
 //! Dimensions between the segments of a section.
 
-use super::Section;
+use super::found::Section;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::section::{Dimension, DimensionKind, Taken, dimensions};

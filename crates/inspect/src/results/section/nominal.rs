@@ -1,12 +1,10 @@
 //! How a section differs from that of a nominal.
 
 use super::super::compare::{BySide, Histogram};
-use crate::compare::{histogram, statistics};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trueness_geom::section::OffNominal;
-use trueness_geom::stats::histogram::nice_edges;
 use trueness_geom::stats::statistics::Summary;
 
 /// Deviations of the points of a section from the section of a nominal.
@@ -83,22 +81,13 @@ impl NominalRecord {
             }
         }
         let summary = Summary::of(&values);
-        let counts = nice_edges(&summary.all).and_then(|edges| {
-            let mut all = trueness_geom::stats::histogram::Histogram::new(edges).ok()?;
-            all.push(&values);
-            Some(histogram(&all))
-        });
         NominalRecord {
             path: path.into(),
             outline: outline.into(),
             positive: if closed { "outside" } else { "left" }.into(),
-            deviation: BySide {
-                all: statistics(&summary.all, summary.quantile_error),
-                positive: statistics(&summary.positive, summary.quantile_error),
-                negative: statistics(&summary.negative, summary.quantile_error),
-            },
+            deviation: BySide::of(&summary),
             excluded,
-            histogram: counts,
+            histogram: Histogram::counted(&summary.all, &values),
             worst: worst.into_iter().flatten().collect(),
             deviations: contours
                 .iter()

@@ -4,7 +4,7 @@ use super::super::super::html::Html;
 use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
-use super::{headline, in_words, warning_key};
+use super::words::{headline, in_words, sign_key, warning_key};
 use crate::results::check::found;
 use crate::results::compare::{BySide, CompareDocument, Comparison, SignRecord, Statistics};
 
@@ -224,7 +224,7 @@ fn known(reason: &str) -> &str {
 }
 
 fn sign(h: &mut Html, s: &SignRecord) {
-    h.word(&super::sign_key(s)).raw("<br><small>").text(&s.reason).raw("</small>");
+    h.word(&sign_key(s)).raw("<br><small>").text(&s.reason).raw("</small>");
     if let Some(share) = s.disagreement {
         h.raw("<br><small>").word("disagreement").raw(": ").percent(share, 3).raw("</small>");
     }

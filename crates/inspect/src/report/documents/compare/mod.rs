@@ -1,17 +1,19 @@
 //! The page of a comparison: deviations, worst places, statistics.
 
 mod list;
+mod words;
 
 pub use list::{by_side, statistics, worst};
 
 use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, key_number};
+use super::super::page::blocks::{Headline, key_number};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::align::AlignedTo;
 use crate::results::check::found;
-use crate::results::compare::{CompareDocument, Comparison, SignRecord, WarningKind, Worst};
+use crate::results::compare::{CompareDocument, Comparison, Worst};
 use crate::scale::Scale;
 use serde_json::Value;
+use words::{headline, sign_key, warning_key};
 
 impl Subject for CompareDocument {
     fn head(&self) -> Head<'_> {
@@ -101,11 +103,6 @@ pub fn pick(w: &Worst, n: usize) -> Pick {
     Pick { position: w.point, surface, normal: w.normal, map: Some(n), value, ..Pick::default() }
 }
 
-/// A verdict, or that there was no tolerance.
-fn headline(verdict: Option<crate::results::Verdict>) -> Headline {
-    verdict.map_or(Headline { key: "not_judged", tone: Tone::Neutral }, Headline::from)
-}
-
 /// The line of key numbers for one comparison; the script shows the one chosen.
 fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned: Option<&AlignedTo>) {
     let all = &c.deviation.all;
@@ -170,29 +167,4 @@ fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned:
         });
     }
     h.raw("</dl>");
-}
-
-/// Key of how the sign was found, in a few words.
-fn sign_key(sign: &SignRecord) -> String {
-    format!("sign.by.{}", sign.method)
-}
-
-/// Key of a warning in a few words.
-fn warning_key(kind: WarningKind) -> &'static str {
-    match kind {
-        WarningKind::SizeRatio => "warning.size_ratio",
-        WarningKind::HardlyOverlapping => "warning.hardly_overlapping",
-    }
-}
-
-/// The map in one sentence, for those who cannot see it.
-fn in_words(h: &mut Html, c: &Comparison) {
-    let Some(t) = &c.tolerance else { return };
-    let (Some(inside), Some(above), Some(below)) = (t.inside, t.above, t.below) else { return };
-    h.raw("<p class=\"words\">");
-    for (n, (key, share)) in [("within", inside), ("above", above), ("below", below)].into_iter().enumerate()
-    {
-        h.raw(if n > 0 { " · " } else { "" }).word(key).raw(" ").percent(share, 2);
-    }
-    h.raw("</p>");
 }

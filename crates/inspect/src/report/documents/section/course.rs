@@ -4,7 +4,7 @@
 
 use super::super::super::html::Html;
 use super::super::super::text::word;
-use super::kind;
+use super::pieces::kind;
 use super::tables::small;
 use crate::results::section::{ContourRecord, JoinRecord};
 use std::fmt::Write;

@@ -2,6 +2,7 @@
 
 mod course;
 mod path;
+mod pieces;
 mod sheet;
 mod tables;
 #[cfg(test)]
@@ -11,7 +12,7 @@ use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, section};
 use super::{Drawn, Head, Pick, Subject};
 use crate::report::ViewObject;
-use crate::results::section::{ContourRecord, FrameRecord, GeometryRecord, SectionDocument, SegmentRecord};
+use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
 use serde_json::Value;
 use trueness_geom::space::Point;
 
@@ -171,26 +172,6 @@ impl SectionDocument {
         let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
         plane.map_or(&self.frame, |p| &p.frame)
     }
-}
-
-/// The word for a segment's kind.
-fn kind(segment: &SegmentRecord) -> &'static str {
-    match segment.geometry {
-        GeometryRecord::Line { .. } => "line",
-        GeometryRecord::Arc { .. } => "arc",
-        GeometryRecord::Spline { .. } => "spline",
-    }
-}
-
-/// The number of the first pick of each contour: its segments, then its joins.
-fn pick_numbers(document: &SectionDocument) -> Vec<usize> {
-    let counts = document.contours.iter().map(|c| c.segments.len() + c.joins.len());
-    counts
-        .scan(0, |sum, n| {
-            *sum += n;
-            Some(*sum - n)
-        })
-        .collect()
 }
 
 /// Points of a row, for a report: places in the plane of the section, the third coordinate 0.

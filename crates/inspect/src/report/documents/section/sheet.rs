@@ -7,7 +7,7 @@
 use super::super::super::html::Html;
 use super::super::super::text::word;
 use super::path::{Path, Tooth, teeth};
-use super::{kind, pick_numbers};
+use super::pieces::{kind, pick_numbers};
 use crate::report::ViewObject;
 use crate::results::section::{ContourRecord, SectionDocument};
 use std::fmt::Write;

@@ -3,7 +3,7 @@
 use super::super::super::html::Html;
 use super::super::super::page::blocks::{fact, file_name, not_printed, pick_row};
 use super::super::compare::by_side;
-use super::{kind, pick_numbers};
+use super::pieces::{kind, pick_numbers};
 use crate::results::section::{
     ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, NominalRecord, PlaneRecord,
     SectionDocument, SegmentRecord, UncertaintyRecord,

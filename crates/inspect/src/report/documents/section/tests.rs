@@ -1,9 +1,10 @@
 //! What is drawn against the exact values of the document.
 
 use super::super::super::number::Style;
+use super::pieces::kind;
 use super::*;
 use crate::report::Language;
-use crate::results::section::Section;
+use crate::results::section::{GeometryRecord, Section};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::section::{Options, contour};

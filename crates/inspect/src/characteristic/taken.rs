@@ -1,6 +1,6 @@
 //! A feature taken from the measured data: its points, and the element associated with them.
 
-use crate::characteristic::{Missing, Value};
+use super::value::{Missing, Value};
 use crate::plan::Class;
 use trueness_geom::feature::Nominal;
 use trueness_geom::fit::{Fit, Method, Options, fit};

@@ -1,0 +1,36 @@
+//! What a writer of a format is given.
+
+use super::loss::Loss;
+use crate::{AtomicFile, error::WriteFault};
+use trueness_geom::{mesh::Mesh, space::Point};
+
+/// Which values go with the points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// A deviation for each point, some of them without.
+    pub deviation: bool,
+    /// A colour for each point.
+    pub colour: bool,
+}
+
+/// Some of the points, in order.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Block<'a> {
+    /// Positions, millimetres.
+    pub points: &'a [Point],
+    /// As many deviations, millimetres, NaN for a point that has none; nothing where the layout has none.
+    pub deviation: &'a [f64],
+    /// As many colours (red, green, blue); nothing where the layout has none.
+    pub colour: &'a [[u8; 3]],
+}
+
+/// Begins the points of a format, under one of its extensions.
+pub(crate) type PointsWriter = fn(AtomicFile, Layout, &str) -> Result<Box<dyn PointsSink>, WriteFault>;
+/// Writes a whole mesh.
+pub(crate) type MeshWriter = fn(&mut AtomicFile, &Mesh) -> Result<Loss, WriteFault>;
+
+/// Takes points block by block; the lengths of a block agree with the layout.
+pub(crate) trait PointsSink: Send {
+    fn write(&mut self, block: &Block) -> Result<(), WriteFault>;
+    fn finish(self: Box<Self>) -> Result<AtomicFile, WriteFault>;
+}

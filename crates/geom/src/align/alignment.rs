@@ -1,0 +1,112 @@
+//! How a best fit is asked for, and what it gives.
+
+use super::freedom::Freedom;
+use crate::rigid::Rigid;
+use crate::space::Point;
+
+/// Where a best fit starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Start {
+    /// Anywhere: the start is looked for.
+    #[default]
+    Anywhere,
+    /// From this motion, which should be near: `reference_from_measured`.
+    Given(Rigid),
+}
+
+/// How a best fit is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BestFit {
+    /// Where it starts.
+    pub start: Start,
+    /// Points from six standard deviations of the distances on count less, from ten on not at all. Else all count in full.
+    pub robust: bool,
+    /// Seed of the random choices.
+    pub seed: u64,
+}
+
+impl Default for BestFit {
+    fn default() -> Self {
+        BestFit { start: Start::Anywhere, robust: true, seed: 0 }
+    }
+}
+
+/// Another pose that fits nearly as well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alternative {
+    /// The motion to it.
+    pub reference_from_measured: Rigid,
+    /// Angle of the rotation between the two poses, radians.
+    pub angle: f64,
+    /// Its root mean square distance, no distance counted for more than twenty standard deviations, over that of the result.
+    pub ratio: f64,
+}
+
+/// What is to be said about a best fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlignWarning {
+    /// Half of the points are farther from the reference than this share of the size of the smaller of both: it is hardly
+    /// the same part, or the start was not found.
+    Poor {
+        /// Median distance over the diagonal.
+        share: f64,
+    },
+    /// Other poses fit about as well.
+    Ambiguous {
+        /// How many were found.
+        count: usize,
+    },
+    /// The shape leaves this freedom.
+    Free(Freedom),
+    /// The normals of the measured and of the reference point to opposite sides.
+    NormalsTurned,
+    /// The measured fits when it is made this many times as large.
+    Scale {
+        /// 25.4, 10, 1000 or their inverses.
+        factor: f64,
+    },
+    /// So few points that a pose which fits them may be found by chance, or the right one missed.
+    Few {
+        /// Points given.
+        count: usize,
+    },
+    /// The iteration did not settle.
+    NotConverged,
+}
+
+/// The result of a best fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alignment {
+    /// Takes measured coordinates to those of the reference.
+    pub reference_from_measured: Rigid,
+    /// Root of the weighted mean square distance of the points that count, millimetres.
+    pub rms: f64,
+    /// Their weighted mean distance.
+    pub mean_abs: f64,
+    /// Weighted median distance of all points that have a place on the reference.
+    pub median: f64,
+    /// Steps of the last iteration.
+    pub iterations: usize,
+    /// Whether the last step was below a thousandth of its uncertainty, or below what arithmetic can tell.
+    pub converged: bool,
+    /// Points with a weight.
+    pub used: u64,
+    /// Points without: outliers, those beside a free edge, those whose normal looks away.
+    pub left_out: u64,
+    /// Share of the measured surface that counts, 0 to 1.
+    pub share: f64,
+    /// Covariance of the rotation vector about `center` (radians) and the translation (mm), in the frame of the
+    /// reference; zero along what the shape leaves free.
+    pub covariance: [[f64; 6]; 6],
+    /// Mean of the measured points in the frame of the reference.
+    pub center: Point,
+    /// Greatest over least eigenvalue of the normal equations, rotations counted as displacements at the points' root mean
+    /// square distance from `center`; `None` where a motion is free.
+    pub condition: Option<f64>,
+    /// Motions that the shape leaves free.
+    pub freedoms: Vec<Freedom>,
+    /// Other poses that fit nearly as well, best first.
+    pub alternatives: Vec<Alternative>,
+    /// What is to be said about it.
+    pub warnings: Vec<AlignWarning>,
+}

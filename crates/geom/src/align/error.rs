@@ -1,0 +1,69 @@
+//! Why there is no alignment.
+
+use crate::closest::{MeshError, QueryError};
+use crate::progress::Cancelled;
+
+/// Why there is no alignment.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AlignError {
+    /// Too little is measured.
+    #[error("{found} points do not determine a pose: at least {needed} are needed")]
+    TooFewPoints {
+        /// Points that would do.
+        needed: usize,
+        /// Points given.
+        found: usize,
+    },
+    /// The points lie on one line or at one place.
+    #[error("the points lie on one line or at one place: they do not determine a pose")]
+    Collinear,
+    /// Lists that go together differ in length.
+    #[error("{what}: {found} are given where {expected} are needed")]
+    Uneven {
+        /// Which.
+        what: &'static str,
+        /// Of the points.
+        expected: usize,
+        /// Of the others.
+        found: usize,
+    },
+    /// A weight is negative or no number, or all are zero.
+    #[error("row {row} has a weight that is not a number from 0 upwards")]
+    BadWeight {
+        /// From 0.
+        row: usize,
+    },
+    /// A direction has no length.
+    #[error("row {row} has a direction of no length")]
+    NoDirection {
+        /// From 0.
+        row: usize,
+    },
+    /// The rows leave a motion free.
+    #[error("the rows leave {free} of the six degrees of freedom open")]
+    Underdetermined {
+        /// How many.
+        free: usize,
+    },
+    /// No point of the measured has a place on the reference from the given start.
+    #[error("no point lies near the reference from this start")]
+    NoOverlap,
+    /// A mesh cannot be used.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A point cannot be used.
+    #[error(transparent)]
+    Point(QueryError),
+    /// Stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<QueryError> for AlignError {
+    fn from(e: QueryError) -> Self {
+        match e {
+            QueryError::Cancelled(e) => AlignError::Cancelled(e),
+            e => AlignError::Point(e),
+        }
+    }
+}

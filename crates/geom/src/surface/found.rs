@@ -1,0 +1,66 @@
+//! The surface found, and what it keeps to.
+
+use super::base::Base;
+use crate::space::Point;
+use crate::spline::surface::Surface;
+
+/// How well the data hold the control points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Control points whose basis functions, squared and summed over all points, come to less than 10⁻⁴: what they are is the
+    /// thin-plate term's doing.
+    pub unsupported: usize,
+    /// Control points in all.
+    pub control_points: usize,
+    /// Knot cells without a point.
+    pub empty_cells: usize,
+    /// Knot cells in all.
+    pub cells: usize,
+}
+
+/// Why no more knots were set for a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reached {
+    /// All points are within the tolerance.
+    Tolerance,
+    /// More knots followed the noise of the points only.
+    Noise,
+    /// There would be more control points than points, or spans without points to set knots by.
+    Points,
+    /// The matrix would take more memory than allowed.
+    Memory,
+}
+
+/// A surface through points, and what it keeps to.
+#[derive(Clone, Debug)]
+pub struct SurfaceFit {
+    /// The surface.
+    pub surface: Surface<Point>,
+    /// Where the parameters came from.
+    pub base: Base,
+    /// Signed distance of each point from the surface, at its nearest place; positive on the side of the normal.
+    pub deviations: Vec<f64>,
+    /// Parameters of those places.
+    pub feet: Vec<[f64; 2]>,
+    /// Points whose nearest place was not found to the last digit.
+    pub unsettled: usize,
+    /// Sum of the squared differences between the points and the surface at the parameters of the last fit, unweighted.
+    pub sum_of_squares: f64,
+    /// Greatest such difference.
+    pub max_residual: f64,
+    /// Weight of the thin-plate term, mm².
+    pub fairness: f64,
+    /// Degrees of freedom that the surface uses: the trace of the matrix from points to fitted points. `None` where the
+    /// fairness was given.
+    pub degrees_of_freedom: Option<f64>,
+    /// How well the data hold it.
+    pub support: Support,
+    /// Control points outside of twice the box of the points.
+    pub far_control_points: usize,
+    /// Parameter corrections made.
+    pub corrections: usize,
+    /// Points without weight; 0 but for robust fits.
+    pub outliers: usize,
+    /// Why no more knots were set; `None` without a tolerance.
+    pub reached: Option<Reached>,
+}

@@ -1,0 +1,85 @@
+//! What is asked of a fit.
+
+use crate::spline::basis::Knots;
+
+/// What the parameters are taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BaseKind {
+    /// The least-squares plane: lengths along the sides of the minimum bounding rectangle.
+    Plane,
+    /// x and y themselves.
+    Xy,
+    /// The least-squares cylinder: lengths around and along it.
+    Cylinder,
+    /// The least-squares sphere: lengths along its equator and its meridians, whose cross lies amid the points.
+    Sphere,
+}
+
+impl BaseKind {
+    /// The word for it: `plane`, `xy`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            BaseKind::Plane => "plane",
+            BaseKind::Xy => "xy",
+            BaseKind::Cylinder => "cylinder",
+            BaseKind::Sphere => "sphere",
+        }
+    }
+}
+
+/// Highest degree that is fitted.
+pub const HIGHEST_DEGREE: usize = 9;
+
+/// Where the knots come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layout {
+    /// So many equal spans along `u` and `v`.
+    Spans([usize; 2]),
+    /// These knots. Their degrees count.
+    Knots([Knots; 2]),
+    /// As many as keep all points within this distance, millimetres, or as the noise of the points allows.
+    Tolerance(f64),
+}
+
+/// The weight of the thin-plate term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fairness {
+    /// That of least generalized cross-validation.
+    Auto,
+    /// This one, mm²; 0 for none. What is made least is the sum of the squared distances plus the weight times the integral
+    /// of `|S_uu|² + 2 |S_uv|² + |S_vv|²` over the parameters.
+    Weight(f64),
+}
+
+/// How to fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Degrees along `u` and `v`, from 1 to [`HIGHEST_DEGREE`].
+    pub degree: [usize; 2],
+    /// Where the knots come from.
+    pub layout: Layout,
+    /// Where the parameters come from.
+    pub base: BaseKind,
+    /// The weight of the thin-plate term.
+    pub fairness: Fairness,
+    /// How often the parameters are replaced by those of the nearest places at most. With [`BaseKind::Xy`] they never are.
+    pub corrections: usize,
+    /// Whether points far off count less (Tukey's weights).
+    pub robust: bool,
+    /// Bytes that the matrix of the normal equations may take.
+    pub memory: usize,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            degree: [3, 3],
+            layout: Layout::Spans([8, 8]),
+            base: BaseKind::Plane,
+            fairness: Fairness::Auto,
+            corrections: 5,
+            robust: false,
+            memory: 2 << 30,
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What datums hold and what they leave free.
+
+use super::source::Datum;
+use crate::rigid::Rigid;
+use crate::space::{Vector, cross, dot, times};
+
+/// Motions that a datum system leaves free, along and about the axes of its frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Freedom {
+    /// Shifts along x, y, z.
+    pub shift: [bool; 3],
+    /// Turns about x, y, z.
+    pub turn: [bool; 3],
+}
+
+impl Freedom {
+    /// Everything is held.
+    pub const NONE: Freedom = Freedom { shift: [false; 3], turn: [false; 3] };
+    /// Nothing is held.
+    pub const ALL: Freedom = Freedom { shift: [true; 3], turn: [true; 3] };
+    /// Whether everything is held.
+    pub fn is_none(&self) -> bool {
+        *self == Freedom::NONE
+    }
+}
+
+/// The frame of up to three datums.
+///
+/// A first plane gives z, into the material, and the origin's height; a first axis gives z and the origin's place across it.
+/// A second plane gives x, into the material; of a second axis the origin's place, and of a third axis or center the
+/// direction of x, towards it. y makes the frame right-handed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System {
+    /// Takes measured coordinates to those of the frame.
+    pub frame: Rigid,
+    /// What the datums leave free.
+    pub free: Freedom,
+    /// The datums.
+    pub datums: Vec<Datum>,
+}
+
+impl System {
+    /// The attitude that the datums hold.
+    pub(super) fn held(&self) -> Held {
+        let [x, _, z] = self.frame.rotation();
+        if self.free.turn[2] { Held::Along(z) } else { Held::All([x, cross(z, x), z]) }
+    }
+}
+
+/// Angle in radians within which datums count as parallel or perpendicular as drawn: a measured part is off by its own
+/// deviations, which are far smaller, and a drawing's other angles are far larger.
+pub const AS_DRAWN: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// The attitude that earlier datums hold.
+#[derive(Clone, Copy)]
+pub(super) enum Held {
+    Nothing,
+    Along(Vector),
+    All([Vector; 3]),
+}
+
+/// The direction nearest to `direction` among those held, or the angle to the first of them.
+pub(super) fn nearest(held: &[Vector], direction: Vector) -> Result<Vector, f64> {
+    let angle = |v: &Vector| libm::acos(dot(*v, direction).abs().min(1.0));
+    match held.iter().find(|v| angle(v) <= AS_DRAWN) {
+        Some(v) => Ok(times(dot(*v, direction).signum(), *v)),
+        None => Err(held.last().map_or(0.0, angle)),
+    }
+}

@@ -1,0 +1,208 @@
+//! What a kind of characteristic is, and what a plan asks of one.
+//!
+//! A kind is asked about what the plan says, and what the plan says names the kind: both stand here.
+
+use super::taken::Taken;
+use super::value::{Missing, Value};
+use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
+use crate::plan::{Basic, Boundary, Class, DatumSpec, Feature, Limits};
+use crate::tolerance_class::Table;
+use std::fmt::Debug;
+use std::ops::Range;
+use trueness_geom::fit::Method;
+use trueness_geom::progress::Progress;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::zone::datum;
+
+/// One kind of characteristic.
+pub trait Characteristic: Sync + Debug {
+    /// Its word in plans: `flatness`.
+    fn word(&self) -> &'static str;
+    /// Its sign on drawings, where it has one.
+    fn symbol(&self) -> &'static str {
+        ""
+    }
+    /// The standard and clause that define it.
+    fn standard(&self) -> &'static str;
+    /// The keys it takes beyond `id`, `kind`, `feature` and `uncertainty`.
+    fn keys(&self) -> &'static [&'static str];
+    /// The table of tolerance classes that its limits may be taken from.
+    fn class_table(&self) -> Option<Table> {
+        None
+    }
+    /// Whether its datums may have a material requirement.
+    fn material_datums(&self) -> bool {
+        false
+    }
+    /// How its limits are given.
+    fn allowed(&self) -> Allowed {
+        Allowed::Greatest
+    }
+    /// The unit of its values: `mm`, `deg` or `1`. Limits that are lengths are in the plan's unit.
+    fn unit(&self, parameter: TextureWord) -> &'static str {
+        let _ = parameter;
+        "mm"
+    }
+    /// Refuses what could not be evaluated whatever the measured data are.
+    ///
+    /// # Errors
+    /// The key that is wrong, and why.
+    fn check(&self, question: &Question) -> Result<(), Refusal>;
+    /// The value.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn measure(&self, m: &Measuring) -> Result<Value, Missing>;
+}
+
+/// A characteristic that can be evaluated. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// Its name.
+    pub id: String,
+    /// Where the name stands.
+    pub span: Range<usize>,
+    /// What it is.
+    pub kind: &'static dyn Characteristic,
+    /// Numbers of the features: one, or two of a size.
+    pub features: Vec<usize>,
+    /// The datums, the first one first.
+    pub datums: Vec<DatumSpec>,
+    /// How datums are associated.
+    pub datum_rule: datum::Rule,
+    /// The datum system as given: frame from measured.
+    pub frame: Option<Rigid>,
+    /// Theoretically exact dimensions.
+    pub basic: Basic,
+    /// Whether the zone is a cylinder or sphere, where the plan says so.
+    pub diametral: Option<bool>,
+    /// How a form is evaluated.
+    pub form: Method,
+    /// Which size.
+    pub size: Option<SizeWord>,
+    /// What is allowed.
+    pub limits: Limits,
+    /// The tolerance class that it comes from.
+    pub class: Option<String>,
+    /// Whether a run-out is read along the datum axis.
+    pub axial: bool,
+    /// Which parameter of a texture.
+    pub parameter: TextureWord,
+    /// Its material requirement.
+    pub material: Option<MaterialWord>,
+    /// The boundary that the requirement sets.
+    pub boundary: Option<Boundary>,
+    /// Expanded uncertainty of the value, as the plan gives it for this characteristic or for all.
+    pub uncertainty: Option<f64>,
+}
+
+impl Spec {
+    /// The unit of its value.
+    pub fn unit(&self) -> &'static str {
+        self.kind.unit(self.parameter)
+    }
+}
+
+/// How limits are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Allowed {
+    /// `tolerance`: the greatest value.
+    Greatest,
+    /// `nominal`, `upper`, `lower`.
+    Between,
+}
+
+/// A characteristic of a plan under examination.
+#[derive(Clone, Copy)]
+pub struct Question<'a> {
+    /// The characteristic.
+    pub spec: &'a Spec,
+    /// All features of the plan.
+    pub features: &'a [Feature],
+}
+
+/// Why a plan cannot be evaluated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// The key that is wrong; `kind` for a missing one.
+    pub key: &'static str,
+    /// Why.
+    pub what: String,
+}
+
+pub(super) fn refuse<T>(key: &'static str, what: impl Into<String>) -> Result<T, Refusal> {
+    Err(Refusal { key, what: what.into() })
+}
+
+impl<'a> Question<'a> {
+    /// The toleranced feature; several features are refused.
+    pub(super) fn feature(&self) -> Result<&'a Feature, Refusal> {
+        match self.spec.features.as_slice() {
+            [one] => Ok(&self.features[*one]),
+            _ => refuse("feature", "it is of one feature"),
+        }
+    }
+
+    /// Class of the toleranced feature, one of these.
+    pub(super) fn class(&self, known: &[Class]) -> Result<Class, Refusal> {
+        let class = self.feature()?.class;
+        if known.contains(&class) {
+            return Ok(class);
+        }
+        let words: Vec<&str> = known.iter().map(|c| c.word()).collect();
+        let (id, is) = (&self.feature()?.id, class.word());
+        refuse("feature", format!("feature \"{id}\" is a {is}; it is defined for: {}", words.join(", ")))
+    }
+
+    /// Classes of the datums; of a common datum, that of its features.
+    pub(super) fn datums(&self) -> Vec<Class> {
+        self.spec.datums.iter().filter_map(|d| Some(self.features[*d.features.first()?].class)).collect()
+    }
+
+    /// The class of the first of one or several datums, which are all of these.
+    pub(super) fn system(&self, known: &[Class]) -> Result<Class, Refusal> {
+        let datums = self.datums();
+        let words = || known.iter().map(|c| c.word()).collect::<Vec<_>>().join(", ");
+        if let Some(other) = datums.iter().find(|d| !known.contains(d)) {
+            let what = format!("the datum is a {}; it must be one of: {}", other.word(), words());
+            return refuse("datums", what);
+        }
+        match datums.first() {
+            None => refuse("kind", "it needs a datum: give `datums`"),
+            Some(first) => Ok(*first),
+        }
+    }
+
+    /// The only datum, one of these.
+    pub(super) fn datum(&self, known: &[Class]) -> Result<Class, Refusal> {
+        if self.spec.datums.len() > 1 {
+            return refuse("datums", "it is evaluated for a single datum only");
+        }
+        self.system(known)
+    }
+}
+
+/// Shapes that have an axis.
+pub(super) const AXES: [Class; 3] = [Class::Line, Class::Cylinder, Class::Cone];
+
+pub(super) fn is_axis(class: Class) -> bool {
+    AXES.contains(&class)
+}
+
+/// A characteristic with the features that it needs, taken from the measured data.
+pub struct Measuring<'a> {
+    /// The characteristic.
+    pub spec: &'a Spec,
+    /// The toleranced features.
+    pub features: &'a [&'a Taken],
+    /// The features of each datum, in their order.
+    pub datums: &'a [Vec<&'a Taken>],
+    /// Hears nothing of progress, but asked whether to stop.
+    pub progress: &'a dyn Progress,
+}
+
+impl Measuring<'_> {
+    pub(super) fn feature(&self) -> &Taken {
+        self.features[0]
+    }
+}

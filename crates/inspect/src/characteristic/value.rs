@@ -1,0 +1,73 @@
+//! What was measured of a characteristic, or why nothing was.
+
+use trueness_geom::fit::FitError;
+use trueness_geom::space::Point;
+use trueness_geom::zone::ZoneError;
+use trueness_geom::zone::datum::DatumError;
+
+/// What was measured. Lengths in millimetres, angles in degrees.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Value {
+    /// The value.
+    pub value: f64,
+    /// What a material requirement adds to the greatest allowed value; below 0 where the size is beyond its limit.
+    pub bonus: f64,
+    /// Whether the zone is a cylinder or sphere.
+    pub diametral: bool,
+    /// Places where the value is reached.
+    pub witness: Vec<Point>,
+    /// Further numbers, by name.
+    pub parts: Vec<(&'static str, f64)>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+}
+
+/// Why there is no value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// The result is no longer wanted.
+    Cancelled,
+    /// The data do not allow it.
+    NotMeasured(String),
+    /// The plan asks for what cannot be, as the data show.
+    Impossible(String),
+}
+
+impl From<FitError> for Missing {
+    fn from(e: FitError) -> Missing {
+        match e {
+            FitError::Cancelled => Missing::Cancelled,
+            e => Missing::NotMeasured(e.to_string()),
+        }
+    }
+}
+
+impl From<ZoneError> for Missing {
+    fn from(e: ZoneError) -> Missing {
+        match e {
+            ZoneError::Cancelled => Missing::Cancelled,
+            e => Missing::NotMeasured(e.to_string()),
+        }
+    }
+}
+
+impl From<DatumError> for Missing {
+    fn from(e: DatumError) -> Missing {
+        match e {
+            DatumError::Fit { error: FitError::Cancelled, .. } => Missing::Cancelled,
+            DatumError::Zone { error: ZoneError::Cancelled, .. } => Missing::Cancelled,
+            DatumError::Fit { .. } | DatumError::Zone { .. } => Missing::NotMeasured(e.to_string()),
+            e => Missing::Impossible(e.to_string()),
+        }
+    }
+}
+
+/// The greatest of some numbers and the first place that has it.
+pub(super) fn greatest(numbers: impl Iterator<Item = f64>) -> Result<(usize, f64), Missing> {
+    let found = numbers.enumerate().fold(None, |most: Option<(usize, f64)>, (i, x)| match most {
+        Some((_, y)) if x <= y => most,
+        _ => Some((i, x)),
+    });
+    let found = found.filter(|(_, x)| x.is_finite());
+    found.ok_or_else(|| Missing::NotMeasured("it has no points with finite coordinates".into()))
+}

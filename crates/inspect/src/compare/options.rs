@@ -1,0 +1,61 @@
+//! What is asked of a comparison.
+
+use crate::tolerance::Tolerance;
+use trueness_geom::deviation::surface::SurfaceOptions;
+
+/// How distances are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// The true minimum over all facets.
+    #[default]
+    Exact,
+    /// The nearest-vertex method of the paper, see [`trueness_geom::deviation::paper`].
+    Paper,
+}
+
+impl Method {
+    /// The word of the result document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Exact => "exact",
+            Method::Paper => "paper",
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// How distances are computed.
+    pub method: Method,
+    /// Sign and exclusions.
+    pub surface: SurfaceOptions,
+    /// The zone that deviations must keep.
+    pub tolerance: Option<Tolerance>,
+    /// Share of the points that must lie within it (0 to 1).
+    pub required_share: f64,
+    /// Points that a report can show; 0 without a report.
+    pub shown: usize,
+    /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
+    /// a sketch with a stated error.
+    pub kept_values: usize,
+    /// Intervals, tests and models.
+    pub research: bool,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            method: Method::Exact,
+            surface: SurfaceOptions::default(),
+            tolerance: None,
+            required_share: 1.0,
+            shown: 0,
+            kept_values: 1 << 27,
+            research: false,
+            seed: 0,
+        }
+    }
+}

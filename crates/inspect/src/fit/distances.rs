@@ -1,0 +1,10 @@
+//! Distances of points from an element.
+
+use rayon::prelude::*;
+use trueness_geom::shape::Shape;
+use trueness_geom::space::Point;
+
+/// Signed distance of each point from the element.
+pub(super) fn distances(shape: &Shape, points: &[Point]) -> Vec<f64> {
+    points.par_iter().map(|p| shape.distance(*p)).collect()
+}

@@ -1,0 +1,264 @@
+//! From what was found by a plan to the result document.
+
+use super::decision::{utilisation, verdict};
+use super::{Element, Found, Inspection, Taken};
+use crate::characteristic::Value;
+use crate::compare;
+use crate::plan::{Limits, Plan, Source, Spec};
+use crate::results::align::AlignNote;
+use crate::results::compare::{Comparison, Warning, WarningKind};
+use crate::results::fit::{Number, named, uncertainty};
+use crate::results::inspect::*;
+use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, overall};
+use crate::scale::Scale;
+use std::collections::BTreeMap;
+use trueness_geom::fit::Method;
+use trueness_geom::zone::datum::{Datum, Rule as DatumRule};
+
+impl InspectDocument {
+    /// The document of what was found by a plan.
+    pub fn new(
+        plan: &Plan,
+        record: PlanRecord,
+        found: &Inspection,
+        inputs: Vec<InputRecord>,
+    ) -> InspectDocument {
+        let characteristics: Vec<CharacteristicRecord> =
+            plan.specs.iter().zip(&found.values).map(|(s, v)| characteristic(plan, found, s, v)).collect();
+        let (deviation, scale) = deviation(found, &inputs).unzip();
+        let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
+        InspectDocument {
+            schema: SCHEMA.into(),
+            version: VERSION.into(),
+            units: UNITS.into(),
+            title: plan.title.clone(),
+            plan: record,
+            inputs,
+            alignment: AlignmentRecord::new(plan, found),
+            features: plan.features.iter().zip(&found.features).map(|(p, t)| feature(p, t)).collect(),
+            deviation_reason: deviation.is_none().then(|| "the plan has no [deviation]".into()),
+            decision_rule: plan.decision.rule.word().into(),
+            counts: Counts {
+                pass: count(Verdict::Pass),
+                fail: count(Verdict::Fail),
+                undecided: count(Verdict::Undecided),
+                not_measured: count(Verdict::NotMeasured),
+            },
+            verdict: overall(
+                characteristics.iter().map(|c| c.verdict).chain(deviation.as_ref().and_then(|d| d.verdict)),
+            ),
+            characteristics,
+            deviation,
+            scale,
+        }
+    }
+}
+
+impl AlignmentRecord {
+    fn new(plan: &Plan, found: &Inspection) -> AlignmentRecord {
+        let bare = AlignmentRecord {
+            method: plan.align.word().into(),
+            transform: found.alignment.motion.matrix(),
+            rms: None,
+            mean_abs: None,
+            residuals: None,
+            iterations: None,
+            converged: None,
+            warnings: vec![],
+        };
+        let mut record = match &found.alignment.found {
+            Found::Nothing => bare,
+            Found::BestFit(fit) => AlignmentRecord {
+                rms: Some(fit.rms),
+                mean_abs: Some(fit.mean_abs),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                ..bare
+            },
+            Found::Rows(fit) => AlignmentRecord {
+                rms: Some(fit.rms),
+                mean_abs: Some(
+                    fit.residuals.iter().map(|r| r.abs()).sum::<f64>() / fit.residuals.len() as f64,
+                ),
+                residuals: Some(fit.residuals.clone()),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                ..bare
+            },
+        };
+        record.warnings.extend(found.doubts.iter().map(doubt));
+        record
+    }
+}
+
+/// What makes it unlikely that the data are of the part.
+fn doubt(warning: &Warning) -> AlignNote {
+    let kind = match warning.kind {
+        WarningKind::SizeRatio => "size_ratio",
+        WarningKind::HardlyOverlapping => "hardly_overlapping",
+    };
+    AlignNote { kind: kind.into(), text: warning.text.clone() }
+}
+
+/// The deviations as a comparison tells them, with the scale of their colors.
+fn deviation(found: &Inspection, inputs: &[InputRecord]) -> Option<(Comparison, Scale)> {
+    let deviations = found.deviations.as_ref()?;
+    let file = |role| inputs.iter().find(|i| i.role == role).cloned();
+    let files = [file(Role::Measured), file(Role::Reference)].into_iter().flatten().collect();
+    let inputs = compare::Inputs { files, kind: deviations.kind, scale: None, reverse: vec![] };
+    let mut document = compare::document(&deviations.found, inputs, &deviations.options);
+    Some((document.comparisons.pop()?, document.scale))
+}
+
+fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
+    let fit = match &taken.element {
+        Ok(Element::Fit(fit)) => Some(fit.as_ref()),
+        _ => None,
+    };
+    let (u, u_reason) = match fit {
+        Some(fit) => uncertainty(fit),
+        None => (None, Some("there is no fitted element".into())),
+    };
+    let ray = |point, key: &str, direction| {
+        Some(BTreeMap::from([("point".into(), Number::Three(point)), (key.into(), Number::Three(direction))]))
+    };
+    let parameters = match &taken.element {
+        Ok(Element::Fit(fit)) => Some(named(fit.shape.parameters())),
+        Ok(Element::Point(p) | Element::Derived(Datum::Point(p))) => {
+            Some(BTreeMap::from([("point".into(), Number::Three(*p))]))
+        }
+        Ok(Element::Derived(Datum::Plane { point, normal })) => ray(*point, "normal", *normal),
+        Ok(Element::Derived(Datum::Axis { point, direction })) => ray(*point, "direction", *direction),
+        Err(_) => None,
+    };
+    let (source, extract) = match plan.source {
+        Source::Points(_) => ("points", None),
+        Source::Derived { .. } => ("derived", None),
+        Source::Nominal => ("nominal", extract(plan, taken)),
+        Source::Seed(_) => ("seed", extract(plan, taken)),
+    };
+    FeatureRecord {
+        id: taken.id.clone(),
+        shape: taken.class.word().into(),
+        source: source.into(),
+        points: taken.points.len() as u64,
+        coverage: taken.coverage,
+        coverage_reason: taken
+            .coverage
+            .is_none()
+            .then(|| "there is no nominal area, or no measured one".into()),
+        method: plan.method.name().into(),
+        parameters,
+        uncertainty: u,
+        uncertainty_reason: u_reason,
+        form_error: fit.map(|f| f.residuals.form_error),
+        rms: fit.map(|f| f.residuals.rms),
+        reason: taken.element.as_ref().err().cloned(),
+        extract,
+    }
+}
+
+/// How near facets had to be to the nominal.
+fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> {
+    let near = plan.extract.near(taken.nominal.as_ref()?);
+    let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.extract.coverage);
+    Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
+}
+
+fn characteristic(
+    plan: &Plan,
+    found: &Inspection,
+    spec: &Spec,
+    value: &Result<Value, String>,
+) -> CharacteristicRecord {
+    let id = |n: &usize| plan.features[*n].id.clone();
+    let rule = plan.decision.rule;
+    let measured = value.as_ref().ok();
+    let (nominal, tolerance) = match spec.limits {
+        Limits::Greatest(t) => (None, Some(t)),
+        Limits::Between { nominal, .. } => (Some(nominal), None),
+    };
+    let limits = spec.limits.widened(measured.map_or(0.0, |v| v.bonus));
+    let (lower, upper) = limits.range();
+    let zone = match (nominal, measured) {
+        (Some(_), _) => "value",
+        _ if spec.kind.word() == "texture" => "value",
+        (None, Some(v)) if v.diametral => "diameter",
+        _ => "width",
+    };
+    let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
+    let anchor = measured.and_then(|v| v.witness.first().copied());
+    let left_out = left_out(found, spec);
+    CharacteristicRecord {
+        id: spec.id.clone(),
+        kind: spec.kind.word().into(),
+        symbol: spec.kind.symbol().into(),
+        feature: spec.features.iter().map(id).collect::<Vec<_>>().join(JOINED),
+        datums: spec.datums.iter().map(|d| d.name(&plan.features)).collect(),
+        modifiers: modifiers(spec),
+        zone: zone.into(),
+        nominal,
+        tolerance,
+        lower,
+        upper,
+        value: measured.map(|v| v.value),
+        unit: spec.unit().into(),
+        uncertainty: spec.uncertainty,
+        decision_rule: rule.word().into(),
+        verdict: measured.map_or(Verdict::NotMeasured, |v| {
+            let found = verdict(v.value, &limits, rule, spec.uncertainty);
+            if found == Verdict::Pass && !left_out.is_empty() { Verdict::Undecided } else { found }
+        }),
+        reason: value.as_ref().err().cloned(),
+        utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
+        witness: measured.map_or(vec![], |v| v.witness.clone()),
+        anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
+        parts: measured
+            .map_or(BTreeMap::new(), |v| v.parts.iter().map(|(k, x)| (k.to_string(), *x)).collect()),
+        notes: measured.map_or(vec![], |v| v.notes.iter().cloned().chain(left_out).collect()),
+        standard: spec.kind.standard().into(),
+    }
+}
+
+/// A note for each feature and datum of a characteristic that leaves out points which lie where the reference has it: nothing is
+/// proven by the others alone.
+fn left_out(found: &Inspection, spec: &Spec) -> Vec<String> {
+    let datums = spec.datums.iter().flat_map(|d| &d.features);
+    let mut numbers: Vec<usize> = spec.features.iter().chain(datums).copied().collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let note = |n: usize| {
+        let (taken, out) = (&found.features[n], found.features[n].left_out?);
+        Some(format!(
+            "feature \"{}\": {} measured points, up to {:.3} mm off, lie where the reference has it and are left out as farther \
+             than its extract distance of {:.3} mm; give a larger one to judge them",
+            taken.id, out.points, out.farthest, out.limit
+        ))
+    };
+    numbers.into_iter().filter_map(note).collect()
+}
+
+/// What modifies a characteristic, as words.
+fn modifiers(spec: &Spec) -> Vec<String> {
+    let mut all = Vec::new();
+    all.extend(spec.class.clone());
+    if let Some(size) = spec.size {
+        all.push(size.word().to_string());
+    }
+    all.extend(spec.material.map(|m| m.symbol().to_string()));
+    if spec.kind.word() == "texture" {
+        all.push(spec.parameter.word().to_string());
+    }
+    if spec.kind.keys().contains(&"method") {
+        all.push(if spec.form == Method::Gaussian { "gaussian" } else { "minimum-zone" }.to_string());
+    }
+    if !spec.datums.is_empty() {
+        let rule = if spec.datum_rule == DatumRule::Gaussian { "gaussian" } else { "minimum-zone" };
+        all.push(format!("datums {rule}"));
+    }
+    if spec.axial {
+        all.push("axial".into());
+    }
+    all
+}

@@ -1,0 +1,23 @@
+//! What was found by a plan.
+
+use super::align::Alignment;
+use super::deviation::Deviations;
+use crate::characteristic::{Taken, Value};
+use crate::results::compare::Warning;
+use trueness_geom::mesh::Mesh;
+
+/// All features and values of a plan.
+pub struct Inspection {
+    /// The features, in the plan's order.
+    pub features: Vec<Taken>,
+    /// The values of the characteristics, in the plan's order, or why there are none.
+    pub values: Vec<Result<Value, String>>,
+    /// The measured data where they were evaluated: aligned.
+    pub measured: Option<Mesh>,
+    /// What took them there.
+    pub alignment: Alignment,
+    /// What makes it unlikely that the aligned data are of the part that the plan describes.
+    pub doubts: Vec<Warning>,
+    /// Deviations from the reference, where the plan asks for them.
+    pub deviations: Option<Deviations>,
+}

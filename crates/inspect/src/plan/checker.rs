@@ -1,0 +1,38 @@
+//! Reading with care: what is wrong is told with its place.
+
+use super::at::At;
+use super::error::PlanError;
+use std::ops::Range;
+
+/// A text under examination: what is wrong is told with its place.
+pub(super) struct Checker<'a> {
+    pub(super) text: &'a str,
+    /// Millimetres in the plan's unit.
+    pub(super) unit: f64,
+}
+
+impl Checker<'_> {
+    pub(super) fn wrong<T>(&self, span: &Range<usize>, what: impl Into<String>) -> Result<T, PlanError> {
+        Err(PlanError::at(self.text, span, what))
+    }
+
+    /// A finite length in millimetres.
+    pub(super) fn length(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
+        match number.value.is_finite() {
+            true => Ok(number.value * self.unit),
+            false => self.wrong(&number.span, format!("{what} is {}; give a finite number", number.value)),
+        }
+    }
+
+    /// A finite length in millimetres that is not below zero.
+    pub(super) fn not_negative(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
+        match self.length(number, what)? {
+            x if x >= 0.0 => Ok(x),
+            _ => self.wrong(&number.span, format!("{what} is {}; it cannot be below 0", number.value)),
+        }
+    }
+
+    pub(super) fn place(&self, p: [f64; 3]) -> [f64; 3] {
+        p.map(|x| x * self.unit)
+    }
+}

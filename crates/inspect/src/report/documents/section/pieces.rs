@@ -1,0 +1,23 @@
+//! The pieces of contours: their kinds, and the picks that lead to them.
+
+use crate::results::section::{GeometryRecord, SectionDocument, SegmentRecord};
+
+/// The word for a segment's kind.
+pub(super) fn kind(segment: &SegmentRecord) -> &'static str {
+    match segment.geometry {
+        GeometryRecord::Line { .. } => "line",
+        GeometryRecord::Arc { .. } => "arc",
+        GeometryRecord::Spline { .. } => "spline",
+    }
+}
+
+/// The number of the first pick of each contour: its segments, then its joins.
+pub(super) fn pick_numbers(document: &SectionDocument) -> Vec<usize> {
+    let counts = document.contours.iter().map(|c| c.segments.len() + c.joins.len());
+    counts
+        .scan(0, |sum, n| {
+            *sum += n;
+            Some(*sum - n)
+        })
+        .collect()
+}

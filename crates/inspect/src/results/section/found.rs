@@ -1,0 +1,43 @@
+//! What was found in a plane, and where that lies.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::section::Contour;
+
+/// The plane of a section: a place of it and the directions of its two axes.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct FrameRecord {
+    /// The place with the coordinates 0, 0.
+    pub origin: [f64; 3],
+    /// Direction of the first axis.
+    pub x: [f64; 3],
+    /// Direction of the second axis.
+    pub y: [f64; 3],
+    /// Greatest distance of a point from the plane.
+    pub flatness: f64,
+}
+
+impl FrameRecord {
+    /// A place of the plane, in space.
+    pub fn place(&self, p: [f64; 2]) -> [f64; 3] {
+        std::array::from_fn(|k| self.origin[k] + p[0] * self.x[k] + p[1] * self.y[k])
+    }
+}
+
+/// Contours of one plane, or of a row of points.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Where its plane lies.
+    pub frame: FrameRecord,
+    /// The plane, unless it is that of a row of points: its normal of length 1 and its offset.
+    pub plane: Option<([f64; 3], f64)>,
+    /// Area inside closed chains of a mesh, or why there is none.
+    pub area: Result<f64, &'static str>,
+    /// Points of a cloud that belong to no contour.
+    pub loose: usize,
+    /// Over what gaps contours of a cloud go on; where they are suspiciously many, also over what gap most of their ends would
+    /// meet others.
+    pub gap: Option<(f64, Option<f64>)>,
+    /// The contours.
+    pub contours: Vec<Contour>,
+}

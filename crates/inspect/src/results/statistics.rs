@@ -1,0 +1,167 @@
+//! Statistics and counts of values, as all documents have them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::stats::histogram::nice_edges;
+
+mod geom {
+    pub use trueness_geom::stats::histogram::Histogram;
+    pub use trueness_geom::stats::statistics::{Statistics, Summary};
+}
+
+/// Statistics of all deviations and of each side.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct BySide {
+    /// All.
+    pub all: Statistics,
+    /// Above zero: outside, too much material.
+    pub positive: Statistics,
+    /// Below zero: inside, missing material.
+    pub negative: Statistics,
+}
+
+/// Declares the statistics document: each number beside the reason why it may be missing.
+macro_rules! statistics {
+    ($($(#[$doc:meta])* $name:ident $reason:ident,)*) => {
+        /// Statistics of a set of deviations, millimetres (skewness and kurtosis have no unit, the variance is in mm²).
+        /// A number that does not exist is `null`, and `<name>_reason` says why.
+        #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+        pub struct Statistics {
+            /// Number of deviations.
+            pub count: u64,
+            $(
+                $(#[$doc])*
+                pub $name: Option<f64>,
+                /// Why the number above is missing.
+                #[serde(skip_serializing_if = "Option::is_none", default)]
+                pub $reason: Option<String>,
+            )*
+            /// Percentiles; all missing when `count` is 0.
+            pub percentiles: Percentiles,
+            /// Largest relative error of median, mad and percentiles; 0 when they are exact.
+            pub percentile_error: f64,
+        }
+
+        impl Statistics {
+            /// The document's form of a set of statistics; `quantile_error` is the relative error of order statistics.
+            pub fn of(s: &geom::Statistics, quantile_error: f64) -> Statistics {
+                Statistics {
+                    count: s.count,
+                    $($name: s.$name.ok(), $reason: s.$name.err().map(|e| e.to_string()),)*
+                    percentiles: Percentiles::of(s),
+                    percentile_error: quantile_error,
+                }
+            }
+        }
+    };
+}
+
+statistics! {
+    /// Least.
+    min min_reason,
+    /// Greatest.
+    max max_reason,
+    /// `max - min`.
+    range range_reason,
+    /// Arithmetic mean.
+    mean mean_reason,
+    /// Sample variance, divided by `count - 1`.
+    variance variance_reason,
+    /// Square root of the variance.
+    std_dev std_dev_reason,
+    /// Six standard deviations.
+    six_sigma six_sigma_reason,
+    /// Coefficient of variation: standard deviation over the mean's size.
+    cv cv_reason,
+    /// Root mean square.
+    rms rms_reason,
+    /// Mean of the absolute deviations.
+    mean_abs mean_abs_reason,
+    /// Middle value.
+    median median_reason,
+    /// Median of the distances from the median.
+    mad mad_reason,
+    /// Third standardised moment.
+    skewness skewness_reason,
+    /// Fourth standardised moment less 3.
+    kurtosis kurtosis_reason,
+}
+
+/// Percentiles, linearly interpolated between order statistics (Hyndman & Fan's type 7, as NumPy's default).
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct Percentiles {
+    #[serde(rename = "0.1")]
+    pub p0_1: Option<f64>,
+    #[serde(rename = "1")]
+    pub p1: Option<f64>,
+    #[serde(rename = "2.5")]
+    pub p2_5: Option<f64>,
+    #[serde(rename = "5")]
+    pub p5: Option<f64>,
+    #[serde(rename = "25")]
+    pub p25: Option<f64>,
+    #[serde(rename = "50")]
+    pub p50: Option<f64>,
+    #[serde(rename = "75")]
+    pub p75: Option<f64>,
+    #[serde(rename = "95")]
+    pub p95: Option<f64>,
+    #[serde(rename = "97.5")]
+    pub p97_5: Option<f64>,
+    #[serde(rename = "99")]
+    pub p99: Option<f64>,
+    #[serde(rename = "99.9")]
+    pub p99_9: Option<f64>,
+}
+
+impl BySide {
+    /// The document's form of the statistics of all values and of each side.
+    pub fn of(summary: &geom::Summary) -> BySide {
+        let error = summary.quantile_error;
+        BySide {
+            all: Statistics::of(&summary.all, error),
+            positive: Statistics::of(&summary.positive, error),
+            negative: Statistics::of(&summary.negative, error),
+        }
+    }
+}
+
+impl Percentiles {
+    fn of(s: &geom::Statistics) -> Percentiles {
+        let [p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9] = s.percentiles.map(Result::ok);
+        Percentiles { p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9 }
+    }
+}
+
+/// Counts of deviations between edges; bin `i` holds `edges[i] <= d < edges[i + 1]`, the last one its upper edge too.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct Histogram {
+    /// `n + 1` limits, rising.
+    pub edges: Vec<f64>,
+    /// `n` counts.
+    pub counts: Vec<u64>,
+    /// Deviations below the first edge.
+    pub below: u64,
+    /// Deviations above the last edge.
+    pub above: u64,
+}
+
+impl Histogram {
+    /// The document's form of a histogram.
+    pub fn of(h: &geom::Histogram) -> Histogram {
+        Histogram {
+            edges: h.edges().to_vec(),
+            counts: h.counts().to_vec(),
+            below: h.below(),
+            above: h.above(),
+        }
+    }
+
+    /// Counts of values between round edges; `all` are their statistics. `None` where there is nothing to count.
+    pub fn counted(all: &geom::Statistics, values: &[f64]) -> Option<Histogram> {
+        let mut counted = geom::Histogram::new(nice_edges(all)?).ok()?;
+        counted.push(values);
+        Some(Histogram::of(&counted))
+    }
+}
