@@ -30,6 +30,7 @@ mod snap;
 mod tests;
 mod triangulate;
 
+pub(crate) use outer::boundary_of;
 pub use outer::{Boundary, Options, outer_boundary};
 
 use crate::check::intersect;
@@ -94,6 +95,12 @@ fn pairs(
     let most = most_pairs(mesh.faces.len());
     let found = intersect::few_self_intersections(mesh, topology, some, most, progress)?;
     found.ok_or(ArrangeError::Tangle { most })
+}
+
+/// These pairs of facets of a mesh, if they are not too many.
+fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32; 2]>, ArrangeError> {
+    let most = most_pairs(mesh.faces.len());
+    if pairs.len() <= most { Ok(pairs) } else { Err(ArrangeError::Tangle { most }) }
 }
 
 /// Cuts the facets of a mesh along all that they have in common with other facets.

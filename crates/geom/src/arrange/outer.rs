@@ -4,7 +4,9 @@ use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::points::Points;
 use super::snap::snap;
-use super::{ArrangeError, pairs};
+use super::{ArrangeError, not_too_many, pairs};
+use crate::check::around::Around;
+use crate::check::intersect;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
@@ -86,19 +88,35 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let mut current = as_it_is(mesh)?;
+    boundary_of(as_it_is(mesh)?, None, options, progress)
+}
+
+/// As [`outer_boundary`], of a welded mesh whose vertices facets use. `known`: all pairs of its facets that meet where they should
+/// not, sorted, if they have been looked for.
+pub(crate) fn boundary_of(
+    mut current: Mesh,
+    mut known: Option<Vec<[u32; 2]>>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Boundary, ArrangeError> {
     let vertices = current.positions.len();
     let step = step(&current, options.single);
     let given = current.faces.clone();
     let mut source: Vec<u32> = (0..current.faces.len() as u32).collect();
     let mut most = usize::MAX;
     for cut in 0..CUTS {
-        let topology = Topology::of(&current)?;
         let is_new = |(f, source): (&[u32; 3], &u32)| {
             cut == 0 || f.iter().any(|v| !given[*source as usize].contains(v))
         };
         let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
-        let pairs = pairs(&current, &topology, &some, progress)?;
+        if cut > 0 && is_clean(&current, &some, progress)? {
+            return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
+        }
+        let topology = Topology::of(&current)?;
+        let pairs = match known.take() {
+            Some(known) => not_too_many(known, &current)?,
+            None => pairs(&current, &topology, &some, progress)?,
+        };
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
         if cut > 0 && pairs.is_empty() && fine {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
@@ -125,6 +143,14 @@ pub fn outer_boundary(
     let place = |f: &u32| current.positions[current.faces[*f as usize][0] as usize];
     let first = pairs.iter().flatten().chain(&topology.collinear).next();
     Err(ArrangeError::Unresolved { position: first.map_or([0.0; 3], place) })
+}
+
+/// Whether it is plain at first sight that nothing new crosses, coincides or is flat: only what lies near the new facets is looked at.
+fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, ArrangeError> {
+    let Some(Around { mesh, asked, .. }) = Around::new(mesh, new) else { return Ok(false) };
+    let topology = Topology::of(&mesh)?;
+    let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
+    Ok(fine && intersect::few_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
 }
 
 /// The pieces of a mesh that lie between material and none.

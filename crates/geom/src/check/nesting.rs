@@ -9,6 +9,7 @@ use crate::num::big::{self, Big};
 use crate::num::predicates::{side_of_line, side_of_plane};
 use crate::space::{Point, cross, dot, minus};
 use crate::spatial::columns::Columns;
+use crate::spatial::seen::seen;
 
 /// A closed shell, ready to be asked about points by rays along an axis.
 pub(crate) struct Container<'a> {
@@ -22,6 +23,11 @@ impl<'a> Container<'a> {
     /// Of these facets, which must have finite corners, for rays along `axis`. n log n.
     pub(crate) fn new(mesh: &'a Mesh, facets: &[u32], axis: usize) -> Container<'a> {
         Container { mesh, axis, columns: Columns::new(mesh, facets, axis) }
+    }
+
+    /// As [`Container::new`], to be asked about these places only: linear, and n log n for the facets seen there.
+    pub(crate) fn at(mesh: &'a Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Container<'a> {
+        Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
     /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the

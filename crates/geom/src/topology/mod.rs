@@ -12,6 +12,7 @@ mod edge;
 mod fans;
 mod properties;
 pub(crate) mod same;
+pub(crate) mod sides;
 mod soundness;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -116,7 +117,7 @@ impl Topology {
         let counts = |f: &[u32; 3]| {
             f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && (finite || shape(f) != Shape::NotFinite)
         };
-        let fans = Fans::new(mesh, counts, progress);
+        let fans = Fans::new(mesh.positions.len(), &mesh.faces, counts, progress);
         let sets = Sets::new(mesh.faces.len());
         let found = connect::connect(mesh, &fans, &sets, level, progress);
         let (shells, shell_of) = sets.numbered(|i| counts(&mesh.faces[i as usize]));
