@@ -30,8 +30,8 @@ mod snap;
 mod tests;
 mod triangulate;
 
-pub(crate) use outer::boundary_of;
 pub use outer::{Boundary, Options, outer_boundary};
+pub(crate) use outer::{Given, boundary_of};
 
 use crate::check::intersect;
 use crate::mesh::Mesh;

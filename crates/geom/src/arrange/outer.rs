@@ -88,14 +88,21 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    boundary_of(as_it_is(mesh)?, None, options, progress)
+    boundary_of(Given { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
 }
 
-/// As [`outer_boundary`], of a welded mesh whose vertices facets use. `known`: all pairs of its facets that meet where they should
-/// not, sorted, if they have been looked for.
+/// A welded mesh whose vertices facets use, and what is known about it.
+pub(crate) struct Given<'a> {
+    pub mesh: Mesh,
+    /// What it says of facets is asked for alone: vertices may have other numbers in it.
+    pub topology: Option<&'a Topology>,
+    /// All pairs of facets that meet where they should not, sorted.
+    pub pairs: Option<Vec<[u32; 2]>>,
+}
+
+/// As [`outer_boundary`].
 pub(crate) fn boundary_of(
-    mut current: Mesh,
-    mut known: Option<Vec<[u32; 2]>>,
+    Given { mesh: mut current, topology: mut known, pairs: mut known_pairs }: Given,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
@@ -112,10 +119,17 @@ pub(crate) fn boundary_of(
         if cut > 0 && is_clean(&current, &some, progress)? {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
         }
-        let topology = Topology::of(&current)?;
-        let pairs = match known.take() {
+        let own: Topology;
+        let topology = match known.take() {
+            Some(known) => known,
+            None => {
+                own = Topology::of(&current)?;
+                &own
+            }
+        };
+        let pairs = match known_pairs.take() {
             Some(known) => not_too_many(known, &current)?,
-            None => pairs(&current, &topology, &some, progress)?,
+            None => pairs(&current, topology, &some, progress)?,
         };
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
         if cut > 0 && pairs.is_empty() && fine {
@@ -126,7 +140,7 @@ pub(crate) fn boundary_of(
         }
         most = most.min(MORE * pairs.len() + FEW);
         let turn = options.turn && cut == 0;
-        let kept = kept(&current, &topology, &pairs, turn, progress)?;
+        let kept = kept(&current, topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.
         let close = (cut > 0).then(|| {
             let found = pairs.iter().flatten().chain(&topology.collinear);

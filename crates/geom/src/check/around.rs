@@ -26,11 +26,12 @@ impl Around {
     /// large.
     pub(crate) fn new(mesh: &Mesh, asked: &[bool]) -> Option<Around> {
         let bounds = |f: &[u32; 3]| Aabb::of(&f.map(|v| mesh.positions[v as usize]));
-        let chosen: Vec<Aabb> =
-            mesh.faces.iter().zip(asked).filter(|(_, asked)| **asked).map(|(f, _)| bounds(f)).collect();
-        if chosen.is_empty() || FEW * chosen.len() > mesh.faces.len() {
+        let count = asked.iter().filter(|asked| **asked).count();
+        if count == 0 || FEW * count > mesh.faces.len() {
             return None;
         }
+        let chosen: Vec<Aabb> =
+            mesh.faces.iter().zip(asked).filter(|(_, asked)| **asked).map(|(f, _)| bounds(f)).collect();
         let half = chosen.iter().fold([0.0; 3], |half: Point, b| {
             let sides = b.sides();
             std::array::from_fn(|k| half[k].max(0.5 * sides[k]))

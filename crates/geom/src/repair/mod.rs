@@ -330,7 +330,7 @@ fn attempt(
         if !same {
             counts = Counts::of(start.mesh(), &joined);
         }
-        work.renumbered(compact(joined, 0), same);
+        work.compacted(compact(joined, 0), same);
     }
     let after = work.report(check_options)?;
     let (known, changes, not_united) = (work.known()?, std::mem::take(&mut work.changes), work.not_united);

@@ -6,7 +6,7 @@
 
 use super::work::Work;
 use super::{RepairError, Step};
-use crate::arrange::{ArrangeError, Boundary, Options, boundary_of};
+use crate::arrange::{ArrangeError, Boundary, Given, Options, boundary_of};
 use crate::check;
 use crate::check::finding::area;
 use crate::mesh::Mesh;
@@ -32,8 +32,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         return Ok(());
     }
     let faces = facets.iter().map(|f| work.mesh().faces[*f as usize]).collect();
-    let given = Mesh { positions: work.mesh().positions.clone(), faces };
-    let Welded { mesh, vertex_of } = weld::mesh(&given)?;
+    let Welded { mesh, vertex_of } = weld::mesh(&Mesh { positions: work.mesh().positions.clone(), faces })?;
     // The first vertex at each place.
     let mut first = vec![u32::MAX; mesh.positions.len()];
     for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {
@@ -42,7 +41,9 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     let options = Options { single: work.options.single, turn: true };
     let pairs = pairs(work, &facets, &vertex_of, mesh.positions.len())?;
-    match boundary_of(mesh.clone(), pairs, &options, work.progress) {
+    let all = pairs.is_some() && facets.len() == work.mesh().faces.len();
+    let given = Given { mesh: mesh.clone(), topology: all.then_some(&known.topology), pairs };
+    match boundary_of(given, &options, work.progress) {
         Ok(boundary) => {
             work.not_united = None;
             replace(work, (&facets, &first), &mesh, boundary);

@@ -101,13 +101,13 @@ impl<'a> Work<'a> {
         self.mesh
     }
 
-    /// Goes on with `mesh`: the same facets at the same places, whose corners may have other numbers. `same`: those that named
-    /// the same corner still do, and no others.
-    pub(super) fn renumbered(&mut self, mesh: Mesh, same: bool) {
-        if mesh != self.mesh {
-            self.known = None;
-            self.mesh = mesh;
-        }
+    /// Goes on with `mesh`: the same facets at the same places, without the vertices that no facet uses. `same`: apart from that,
+    /// facets name the same corners.
+    pub(super) fn compacted(&mut self, mesh: Mesh, same: bool) {
+        let known = self.known.take().filter(|_| same);
+        let topology = known.and_then(|known| known.topology.compacted());
+        self.known = topology.map(|topology| Arc::new(Known::of(&mesh, topology)));
+        self.mesh = mesh;
         if !same {
             self.pairs = Pairs::Unknown;
         }

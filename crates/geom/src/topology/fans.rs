@@ -54,6 +54,18 @@ impl Fans {
         self.head.len()
     }
 
+    /// Without the vertices that have no corner, and for each vertex its new number.
+    pub(super) fn compacted(&self) -> (Fans, Vec<u32>) {
+        let (mut head, mut number) = (vec![], vec![u32::MAX; self.len()]);
+        for (first, number) in self.head.iter().map(|h| h.load(Relaxed)).zip(&mut number) {
+            if first != 0 {
+                *number = head.len() as u32;
+                head.push(AtomicU32::new(first));
+            }
+        }
+        (Fans { head, next: self.next.clone() }, number)
+    }
+
     /// Number of vertices that have a corner.
     pub(super) fn used(&self) -> usize {
         self.head.par_iter().filter(|h| h.load(Relaxed) != 0).count()

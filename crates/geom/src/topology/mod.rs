@@ -150,6 +150,34 @@ impl Topology {
         if progress.cancelled() { Err(Cancelled.into()) } else { Ok(topology) }
     }
 
+    /// After vertices that no facet uses have gone from the mesh; `None` where facets do not count, which might use some.
+    pub(crate) fn compacted(&self) -> Option<Topology> {
+        if self.counting_facets < self.shell_of.len() {
+            return None;
+        }
+        let (fans, number) = self.fans.compacted();
+        let new = |v: &u32| number[*v as usize];
+        let edges = |of: &[EdgeAt]| -> Vec<EdgeAt> {
+            of.iter().map(|e| EdgeAt { vertices: e.vertices.map(|v| new(&v)), facet: e.facet }).collect()
+        };
+        Some(Topology {
+            edges: self.edges,
+            counting_facets: self.counting_facets,
+            boundary_edges: edges(&self.boundary_edges),
+            non_manifold_edges: edges(&self.non_manifold_edges),
+            inconsistent_edges: edges(&self.inconsistent_edges),
+            non_manifold_vertices: self.non_manifold_vertices.iter().map(new).collect(),
+            duplicate_facets: self.duplicate_facets.clone(),
+            repeated_vertex: vec![],
+            collinear: self.collinear.clone(),
+            not_finite: vec![],
+            shells: self.shells,
+            shell_of: self.shell_of.clone(),
+            hubs: self.hubs.iter().map(new).collect(),
+            fans,
+        })
+    }
+
     /// The facets at `vertex` that count, ascending; none where there is no such vertex.
     pub fn facets_at_vertex(&self, vertex: u32) -> Vec<u32> {
         self.fans.facets(vertex)
