@@ -6,6 +6,7 @@ use super::{Inspected, Options};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::topology::{Properties, Topology};
+use std::sync::OnceLock;
 
 /// What follows from a mesh.
 #[derive(Debug)]
@@ -13,6 +14,8 @@ pub(crate) struct Known {
     pub topology: Topology,
     pub properties: Properties,
     pub free_edges: FreeEdges,
+    /// As in [`Inspected`].
+    pub depths: OnceLock<Vec<i32>>,
 }
 
 impl Known {
@@ -20,7 +23,14 @@ impl Known {
     pub fn of(mesh: &Mesh, topology: Topology) -> Known {
         let properties = Properties::of(mesh, &topology);
         let free_edges = FreeEdges::of(&topology);
-        Known { topology, properties, free_edges }
+        Known { topology, properties, free_edges, depths: OnceLock::new() }
+    }
+
+    /// Of `mesh`, which has the same facets, without the vertices that no facet uses; `None` where facets do not count, which might use
+    /// some.
+    pub fn compacted(&self, mesh: &Mesh) -> Option<Known> {
+        let known = Known::of(mesh, self.topology.compacted()?);
+        Some(Known { depths: self.depths.clone(), ..known })
     }
 
     /// For the kinds of defect to look at; nothing is known of stored normals. `gap`, mm.
@@ -36,6 +46,7 @@ impl Known {
             topology: &self.topology,
             properties: &self.properties,
             free_edges: &self.free_edges,
+            depths: &self.depths,
             stored_normals: None,
             crossings,
             options,

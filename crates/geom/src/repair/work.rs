@@ -105,8 +105,7 @@ impl<'a> Work<'a> {
     /// facets name the same corners.
     pub(super) fn compacted(&mut self, mesh: Mesh, same: bool) {
         let known = self.known.take().filter(|_| same);
-        let topology = known.and_then(|known| known.topology.compacted());
-        self.known = topology.map(|topology| Arc::new(Known::of(&mesh, topology)));
+        self.known = known.and_then(|known| known.compacted(&mesh)).map(Arc::new);
         self.mesh = mesh;
         if !same {
             self.pairs = Pairs::Unknown;

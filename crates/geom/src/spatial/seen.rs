@@ -29,7 +29,7 @@ impl Squares {
         let scale = sides.map(|k| count as f64 / (bounds.max[k] - bounds.min[k]));
         let mut squares = Squares { sides, count, low, scale, sums: vec![0; (count + 1) * (count + 1)] };
         for p in places {
-            let [i, j] = squares.of(p);
+            let [i, j] = squares.of(sides.map(|k| p[k]));
             squares.sums[(i + 1) * (count + 1) + j + 1] += 1;
         }
         for i in 1..=count {
@@ -42,16 +42,18 @@ impl Squares {
         squares
     }
 
-    /// The square nearest to a place. Each operation keeps the order of its operands, rounded or not, so no square between those of
+    /// The square nearest to a place, given by its two coordinates. Each operation keeps the order of its operands, rounded or not, so no square between those of
     /// two places is missed; where the places have no extent all is in one square.
-    fn of(&self, p: &Point) -> [usize; 2] {
-        let square = |i: usize| (p[self.sides[i]] - self.low[i]) * self.scale[i];
+    fn of(&self, p: [f64; 2]) -> [usize; 2] {
+        let square = |i: usize| (p[i] - self.low[i]) * self.scale[i];
         [0, 1].map(|i| (square(i) as usize).min(self.count - 1))
     }
 
-    /// Whether a place lies in one of the squares that the box covers.
-    fn holds(&self, b: &Aabb) -> bool {
-        let ([i, j], [k, l]) = (self.of(&b.min), self.of(&b.max));
+    /// Whether a place lies in one of the squares that the box of a triangle covers.
+    fn holds(&self, corners: [Point; 3]) -> bool {
+        let [a, b, c] = corners.map(|p| self.sides.map(|k| p[k]));
+        let [i, j] = self.of([0, 1].map(|k| a[k].min(b[k]).min(c[k])));
+        let [k, l] = self.of([0, 1].map(|k| a[k].max(b[k]).max(c[k])));
         let sum = |i: usize, j: usize| self.sums[i * (self.count + 1) + j];
         sum(k + 1, l + 1) + sum(i, j) != sum(i, l + 1) + sum(k + 1, j)
     }
@@ -61,8 +63,7 @@ impl Squares {
 /// too. Linear.
 pub(crate) fn seen(mesh: &Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Vec<u32> {
     let squares = Squares::new(axis, places);
-    let near =
-        |f: &&u32| squares.holds(&Aabb::of(&mesh.faces[**f as usize].map(|v| mesh.positions[v as usize])));
+    let near = |f: &&u32| squares.holds(mesh.faces[**f as usize].map(|v| mesh.positions[v as usize]));
     facets.par_iter().filter(near).copied().collect()
 }
 
