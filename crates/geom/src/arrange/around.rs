@@ -57,6 +57,9 @@ pub(super) fn sort(mesh: &Mesh, points: &Points, sides: &mut [Side]) -> Option<(
 
 /// Sign of coordinate `axis` of the vector product of two normals.
 fn turn(mesh: &Mesh, axis: usize, s: &Side, t: &Side) -> i32 {
+    if s.facet == t.facet {
+        return 0;
+    }
     let sign = if s.up == t.up { 1 } else { -1 };
     let (m, n) = (normal(mesh, s.facet), normal(mesh, t.facet));
     if let Some(known) = cross(m, n)[axis].sign() {
@@ -69,6 +72,9 @@ fn turn(mesh: &Mesh, axis: usize, s: &Side, t: &Side) -> i32 {
 
 /// Whether two normals that are parallel look the same way.
 fn same_direction(mesh: &Mesh, s: &Side, t: &Side) -> bool {
+    if s.facet == t.facet {
+        return s.up == t.up;
+    }
     let (m, n) = (plane_of(mesh, s.facet).normal, plane_of(mesh, t.facet).normal);
     let agree = (0..3).find(|k| m[*k].sign() != 0).is_none_or(|k| m[k].sign() == n[k].sign());
     agree == (s.up == t.up)

@@ -6,15 +6,21 @@
 
 use super::around::{self, Side};
 use super::cut::Piece;
-use super::meetings::edge;
 use super::points::Points;
 use super::ray::{Around, Rays};
 use crate::mesh::Mesh;
+use crate::topology::sides::{self, each_edge};
 use crate::topology::union::Sets;
 use rayon::prelude::*;
 
 /// The number of a part, what is added to the winding numbers relative to its first cell, and the shells around it.
 type Anchored = (usize, i32, Around);
+
+/// A step from one cell to another: both cells, what it adds to the winding number, and a piece that makes it.
+type Step = ([u32; 2], i32, u32);
+
+/// Pieces of one task.
+const PART: usize = 1 << 13;
 
 /// Winding numbers on the two sides of each piece.
 pub(super) struct Windings {
@@ -37,9 +43,14 @@ pub(super) fn windings(
     let sets = joined(mesh, points, pieces)?;
     let (cells, cell_of) = sets.numbered(|_| true);
     let cell = |piece: usize| [cell_of[2 * piece], cell_of[2 * piece + 1]];
-    // Steps between cells, each with a piece that makes it.
-    let mut steps: Vec<([u32; 2], i32, u32)> =
-        (0..pieces.len()).into_par_iter().map(|p| (cell(p), pieces[p].jump, p as u32)).collect();
+    // Steps between cells, each with the first piece that makes it. Neighbours in the list mostly make the same.
+    let step = |p: usize| (cell(p), pieces[p].jump, p as u32);
+    let some = |part: usize| {
+        let mut some: Vec<Step> = (part * PART..pieces.len().min((part + 1) * PART)).map(step).collect();
+        some.dedup_by_key(|s| (s.0, s.1));
+        some
+    };
+    let mut steps: Vec<Step> = (0..pieces.len().div_ceil(PART)).into_par_iter().flat_map_iter(some).collect();
     steps.par_sort_unstable();
     steps.dedup_by_key(|s| (s.0, s.1));
     let relative = relative(cells, &steps)?;
@@ -50,16 +61,12 @@ pub(super) fn windings(
     let rays = Rays::new(mesh, shell_of, points);
     let mut of_part: Vec<Vec<u32>> = vec![vec![]; count];
     (0..pieces.len()).for_each(|p| of_part[part(p)].push(p as u32));
-    let absolute: Vec<Anchored> = of_part
-        .par_iter()
-        .enumerate()
-        .map(|(number, of_part)| {
-            let (piece, side, around) = rays.count(pieces, of_part).ok_or(Open(of_part[0] as usize))?;
-            let winding: i32 = around.iter().map(|a| a.1).sum();
-            let at = relative[cell(piece)[side] as usize];
-            Ok((number, winding - at, around))
-        })
-        .collect::<Result<_, Open>>()?;
+    let counted = rays.count(pieces, &of_part).map_err(|part| Open(of_part[part][0] as usize))?;
+    let anchored = |(number, (piece, side, around)): (usize, (usize, usize, Around))| {
+        let winding: i32 = around.iter().map(|a| a.1).sum();
+        (number, winding - relative[cell(piece)[side] as usize], around)
+    };
+    let absolute: Vec<Anchored> = counted.into_iter().enumerate().map(anchored).collect();
     let sign = match turn {
         true => signs(pieces, shell_of, &of_part, &absolute, |p| cell(p).map(|c| relative[c as usize])),
         false => vec![1; count],
@@ -74,26 +81,34 @@ pub(super) fn windings(
 /// Joins the sides of pieces that face each other around an edge: side `2 p` is where piece `p` looks to.
 fn joined(mesh: &Mesh, points: &Points, pieces: &[Piece]) -> Result<Sets, Open> {
     let sets = Sets::new(2 * pieces.len());
-    let of_piece = |(p, piece): (usize, &Piece)| {
-        let [a, b, c] = piece.corners;
-        let (piece, facet) = (p as u32, piece.facet);
-        [(a, b), (b, c), (c, a)].map(|(a, b)| Side { ends: edge(a, b), piece, facet, up: a < b })
-    };
-    let mut sides: Vec<Side> = pieces.par_iter().enumerate().flat_map_iter(of_piece).collect();
-    sides.par_sort_unstable();
-    for around in sides.chunk_by_mut(|s, t| s.ends == t.ends) {
-        let open = Open(around[0].piece as usize);
-        around::sort(mesh, points, around).ok_or(open)?;
+    let faces: Vec<[u32; 3]> = pieces.par_iter().map(|p| p.corners).collect();
+    each_edge(points.len(), &faces, |edge| {
+        let mut around: Vec<Side>;
+        let side = |s: &sides::Side| Side {
+            ends: s.ends,
+            piece: s.facet,
+            facet: pieces[s.facet as usize].facet,
+            up: s.up,
+        };
+        let around = match edge {
+            [s, t] => &[side(s), side(t)][..],
+            _ => {
+                around = edge.iter().map(side).collect();
+                around::sort(mesh, points, &mut around).ok_or(Open(edge[0].facet as usize))?;
+                &around[..]
+            }
+        };
         for (i, s) in around.iter().enumerate() {
             let t = &around[(i + 1) % around.len()];
             sets.join(2 * s.piece + u32::from(!s.up), 2 * t.piece + u32::from(t.up));
         }
-    }
+        Ok(())
+    })?;
     Ok(sets)
 }
 
 /// Winding numbers of all cells, that of one cell of each part being 0.
-fn relative(cells: usize, steps: &[([u32; 2], i32, u32)]) -> Result<Vec<i32>, Open> {
+fn relative(cells: usize, steps: &[Step]) -> Result<Vec<i32>, Open> {
     let mut across: Vec<(u32, u32, i32)> = steps
         .iter()
         .flat_map(|([front, back], jump, _)| [(*front, *back, *jump), (*back, *front, -jump)])
@@ -118,7 +133,7 @@ fn relative(cells: usize, steps: &[([u32; 2], i32, u32)]) -> Result<Vec<i32>, Op
         }
     }
     let number: Vec<i32> = number.into_iter().map(|n| n.unwrap_or(0)).collect();
-    let wrong = |([f, b], jump, _): &&([u32; 2], i32, u32)| number[*b as usize] != number[*f as usize] + jump;
+    let wrong = |([f, b], jump, _): &&Step| number[*b as usize] != number[*f as usize] + jump;
     match steps.iter().find(wrong) {
         Some((.., piece)) => Err(Open(*piece as usize)),
         None => Ok(number),

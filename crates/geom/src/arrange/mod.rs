@@ -38,6 +38,7 @@ mod triangulate;
 
 pub use error::ArrangeError;
 pub use outer::{Boundary, Options, outer_boundary};
+pub(crate) use outer::{Given, boundary_of};
 
 use crate::mesh::Mesh;
 use crate::progress::Progress;

@@ -4,10 +4,12 @@ use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::error::ArrangeError;
 use super::imprint::imprints;
-use super::pairs::pairs;
+use super::pairs::{not_too_many, pairs};
 use super::points::Points;
 use super::retile::retiled;
 use super::snap::snap;
+use crate::check::around::Around;
+use crate::check::intersect;
 use crate::mesh::Mesh;
 use crate::num::predicates::height;
 use crate::progress::Progress;
@@ -95,19 +97,53 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let given = as_it_is(mesh)?;
+    boundary_of(Given { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
+}
+
+/// A welded mesh whose vertices facets use, and what is known about it.
+pub(crate) struct Given<'a> {
+    pub mesh: Mesh,
+    /// What it says of facets is asked for alone: vertices may have other numbers in it.
+    pub topology: Option<&'a Topology>,
+    /// All pairs of facets that meet where they should not, sorted.
+    pub pairs: Option<Vec<[u32; 2]>>,
+}
+
+/// As [`outer_boundary`].
+pub(crate) fn boundary_of(
+    Given { mesh: given, topology, pairs: known }: Given,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Boundary, ArrangeError> {
     let step = step(&given, options.single);
     let round = |x: f64| rounded_to(x, options.single);
-    let topology = Topology::of(&given)?;
-    let crossing = pairs(&given, &topology, &vec![true; given.faces.len()], progress)?;
+    let own: Topology;
+    let topology = match topology {
+        Some(topology) => topology,
+        None => {
+            own = Topology::of(&given)?;
+            &own
+        }
+    };
+    let crossing = match known {
+        Some(known) => not_too_many(known, &given)?,
+        None => pairs(&given, topology, &vec![true; given.faces.len()], progress)?,
+    };
     let mut result = Err(ArrangeError::Unresolved { position: [0.0; 3] });
     for reach in reaches(&given, &crossing, step) {
-        let start = match reach {
-            None => Some((given.clone(), (0..given.faces.len() as u32).collect())),
-            Some(reach) => imprints(&given, &crossing, reach, &round, progress)?
-                .and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach)),
-        };
-        if let Some(start) = start {
+        if let Some(reach) = reach {
+            let imprints = imprints(&given, &crossing, reach, &round, progress)?;
+            let retiled =
+                imprints.and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach));
+            if let Some((mesh, source)) = retiled {
+                let topology = Topology::of(&mesh)?;
+                let crossing = pairs(&mesh, &topology, &vec![true; mesh.faces.len()], progress)?;
+                result =
+                    settled(&given, Start { mesh, source, topology: &topology, crossing }, options, progress);
+            }
+        } else {
+            let (mesh, source) = (given.clone(), (0..given.faces.len() as u32).collect());
+            let start = Start { mesh, source, topology, crossing: crossing.clone() };
             result = settled(&given, start, options, progress);
         }
         if !matches!(result, Err(ArrangeError::Unresolved { .. })) {
@@ -139,23 +175,44 @@ fn reaches(mesh: &Mesh, pairs: &[[u32; 2]], step: f64) -> Vec<Option<f64>> {
     all
 }
 
-/// Cuts a mesh, whose faces are pieces of those of `given`, until what is left does not cross.
+/// A mesh to be cut, and what is known about it.
+struct Start<'a> {
+    mesh: Mesh,
+    /// For each face the facet of the mesh given that it is a piece of.
+    source: Vec<u32>,
+    /// Of its facets; vertices may have other numbers in it.
+    topology: &'a Topology,
+    /// Its facets that meet where they should not.
+    crossing: Vec<[u32; 2]>,
+}
+
+/// Cuts a mesh until what is left does not cross.
 fn settled(
     given: &Mesh,
-    (mut current, mut source): (Mesh, Vec<u32>),
+    Start { mesh: mut current, mut source, topology, crossing }: Start,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
+    let mut known = Some((topology, crossing));
     let vertices = given.positions.len();
     let step = step(given, options.single);
     let mut most = usize::MAX;
     for cut in 0..CUTS {
-        let topology = Topology::of(&current)?;
         let is_new = |(f, source): (&[u32; 3], &u32)| {
             cut == 0 || f.iter().any(|v| !given.faces[*source as usize].contains(v))
         };
         let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
-        let pairs = pairs(&current, &topology, &some, progress)?;
+        if cut > 0 && is_clean(&current, &some, progress)? {
+            return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
+        }
+        let own: Topology;
+        let (topology, pairs) = match known.take() {
+            Some(known) => known,
+            None => {
+                own = Topology::of(&current)?;
+                (&own, pairs(&current, &own, &some, progress)?)
+            }
+        };
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
         if cut > 0 && pairs.is_empty() && fine {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
@@ -165,7 +222,7 @@ fn settled(
         }
         most = (pairs.len() / 2).max(FEW);
         let turn = options.turn && cut == 0;
-        let kept = kept(&current, &topology, &pairs, turn, progress)?;
+        let kept = kept(&current, topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.
         let close = (cut > 0).then(|| {
             let found = pairs.iter().flatten().chain(&topology.collinear);
@@ -182,6 +239,14 @@ fn settled(
     let place = |f: &u32| current.positions[current.faces[*f as usize][0] as usize];
     let first = pairs.iter().flatten().chain(&topology.collinear).next();
     Err(ArrangeError::Unresolved { position: first.map_or([0.0; 3], place) })
+}
+
+/// Whether it is plain at first sight that nothing new crosses, coincides or is flat: only what lies near the new facets is looked at.
+fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, ArrangeError> {
+    let Some(Around { mesh, asked, .. }) = Around::new(mesh, new) else { return Ok(false) };
+    let topology = Topology::of(&mesh)?;
+    let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
+    Ok(fine && intersect::few_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
 }
 
 /// The pieces of a mesh that lie between material and none.

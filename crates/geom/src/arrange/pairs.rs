@@ -22,3 +22,9 @@ pub(super) fn pairs(
     let found = intersect::few_self_intersections(mesh, topology, some, most, progress)?;
     found.ok_or(ArrangeError::Tangle { most })
 }
+
+/// These pairs of facets of a mesh, if they are not too many.
+pub(super) fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32; 2]>, ArrangeError> {
+    let most = most_pairs(mesh.faces.len());
+    if pairs.len() <= most { Ok(pairs) } else { Err(ArrangeError::Tangle { most }) }
+}

@@ -8,37 +8,61 @@ use super::points::{Place, Points, orient};
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
 use crate::space::{Point, times};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The facets of closed shells, ready for rays.
+/// The facets of closed shells, to be asked about by rays.
 pub(super) struct Rays<'a> {
+    mesh: &'a Mesh,
     shell_of: &'a [u32],
     points: &'a Points<'a>,
-    all: Container<'a>,
 }
 
 /// Shells with their winding numbers beside a place, those of 0 left out.
 pub type Around = Vec<(u32, i32)>;
 
+/// A place beside a piece: the piece, whether it is where the piece looks to (0) or where it comes from (1), and y and z.
+struct Target {
+    piece: u32,
+    side: usize,
+    at: Point,
+}
+
 impl<'a> Rays<'a> {
     pub fn new(mesh: &'a Mesh, shell_of: &'a [u32], points: &'a Points<'a>) -> Rays<'a> {
-        let facets = (0..).zip(shell_of).filter(|(_, s)| **s != u32::MAX).map(|(f, _)| f);
-        Rays { shell_of, points, all: Container::new(mesh, &facets.collect::<Vec<u32>>(), 0) }
+        Rays { mesh, shell_of, points }
     }
 
-    /// Winding numbers of all shells, as far as they are not 0, beside one of these pieces: which one, whether where it looks
-    /// to (0) or where it comes from (1), shells and numbers. `None` if no piece holds a point that numbers can name.
-    pub fn count(&self, pieces: &[Piece], of_part: &[u32]) -> Option<(usize, usize, Around)> {
+    /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces: which one,
+    /// whether where it looks to (0) or where it comes from (1), shells and numbers. The number of a part where no piece holds
+    /// a point that numbers can name.
+    pub fn count(&self, pieces: &[Piece], parts: &[Vec<u32>]) -> Result<Vec<(usize, usize, Around)>, usize> {
+        let targets = parts.par_iter().enumerate().map(|(n, part)| self.target_of(pieces, part).ok_or(n));
+        let found: Vec<Result<Target, usize>> = targets.collect();
+        let targets: Vec<Target> = found.into_iter().collect::<Result<_, usize>>()?;
+        let facets: Vec<u32> =
+            (0..).zip(self.shell_of).filter(|(_, s)| **s != u32::MAX).map(|(f, _)| f).collect();
+        let places: Vec<Point> = targets.iter().map(|t| t.at).collect();
+        let all = Container::at(self.mesh, &facets, 0, &places);
+        let counted = targets.into_par_iter().map(|Target { piece, side, at }| {
+            let around = self.behind(&all, pieces[piece as usize].facet, &at);
+            (piece as usize, side, around)
+        });
+        Ok(counted.collect())
+    }
+
+    /// A place beside one of these pieces, the largest as seen along x if that will do.
+    fn target_of(&self, pieces: &[Piece], part: &[u32]) -> Option<Target> {
         let size = |p: &u32| {
             let [a, b, c] = pieces[*p as usize].corners.map(|q| self.points.rough(q));
             ((b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1])).abs()
         };
-        let best = of_part.iter().copied().max_by(|p, q| size(p).total_cmp(&size(q)).then(q.cmp(p)))?;
+        let sized = part.par_iter().map(|p| (size(p), *p));
+        let (_, best) = sized.max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)))?;
         let first = self.target(&pieces[best as usize]).map(|t| (best, t));
-        let all = || of_part.iter().find_map(|p| Some((*p, self.target(&pieces[*p as usize])?)));
-        let (piece, (target, turn)) = first.or_else(all)?;
-        let around = self.behind(pieces[piece as usize].facet, &target);
-        Some((piece as usize, usize::from(turn < 0), around))
+        let any = || part.iter().find_map(|p| Some((*p, self.target(&pieces[*p as usize])?)));
+        let (piece, (at, turn)) = first.or_else(any)?;
+        Some(Target { piece, side: usize::from(turn < 0), at })
     }
 
     /// A place whose y and z lie strictly inside of the piece, and whether the piece looks to growing x (1) or back (−1).
@@ -62,10 +86,9 @@ impl<'a> Rays<'a> {
     }
 
     /// The facets that a ray from facet `from` at `target` passes, by shell.
-    fn behind(&self, from: u32, target: &Point) -> Vec<(u32, i32)> {
+    fn behind(&self, all: &Container, from: u32, target: &Point) -> Around {
         let mut sums: BTreeMap<u32, i32> = BTreeMap::new();
-        self.all
-            .behind(from, target, |f, around| *sums.entry(self.shell_of[f as usize]).or_default() += around);
+        all.behind(from, target, |f, around| *sums.entry(self.shell_of[f as usize]).or_default() += around);
         sums.into_iter().filter(|s| s.1 != 0).collect()
     }
 }

@@ -5,6 +5,7 @@ use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
 use crate::topology::{Properties, Topology};
+use std::sync::OnceLock;
 
 /// How much a defect matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,6 +75,8 @@ pub struct Inspected<'a> {
     pub properties: &'a Properties,
     /// Its boundary, taken apart.
     pub(crate) free_edges: &'a FreeEdges,
+    /// For each shell how often the other closed shells wind around it, made when first asked for.
+    pub(crate) depths: &'a OnceLock<Vec<i32>>,
     /// The normals that a file stores with its facets.
     pub stored_normals: Option<&'a [[f32; 3]]>,
     /// Pairs of facets that meet where they should not, if looked for.

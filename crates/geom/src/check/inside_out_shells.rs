@@ -21,7 +21,7 @@ pub(super) const KIND: Kind = Kind {
         let closed = closed_shells(m);
         let bounds = shell_bounds(m);
         let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
-        let depth = depths(m, &closed, &bounds, &facets);
+        let depth = m.depths.get_or_init(|| depths(m, &closed, &bounds, &facets));
         let wrong = |s: &usize| {
             let (outside, looks) = (depth[*s], if closed[*s] { looks(m, *s, &facets) } else { 0 });
             looks != 0 && (outside > 0) == (outside + looks > 0)
@@ -42,7 +42,7 @@ pub(super) const KIND: Kind = Kind {
 pub(super) fn orientations(m: &Inspected) -> Vec<(i32, i32)> {
     let closed = closed_shells(m);
     let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
-    let depth = depths(m, &closed, &shell_bounds(m), &facets);
+    let depth = m.depths.get_or_init(|| depths(m, &closed, &shell_bounds(m), &facets));
     (0..closed.len()).into_par_iter().map(|s| (looks(m, s, &facets), depth[s])).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Inspected, Kind, Severity};
 use crate::space::Aabb;
+use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "islands",
@@ -35,12 +36,31 @@ pub(super) fn shell_bounds(m: &Inspected) -> Vec<(u32, Aabb)> {
         *only = m.properties.bounds;
         return bounds;
     }
-    for (f, &shell) in (0..).zip(&m.topology.shell_of) {
-        if shell != u32::MAX {
-            let (first, all) = &mut bounds[shell as usize];
-            *first = (*first).min(f);
-            *all = all.union(&Aabb::of(&m.corners(f)));
-        }
+    let parts: Vec<Vec<Run>> =
+        m.topology.shell_of.par_chunks(CHUNK).enumerate().map(|(i, part)| runs(m, i * CHUNK, part)).collect();
+    for (shell, facet, run) in parts.into_iter().flatten() {
+        let (first, all) = &mut bounds[shell as usize];
+        *first = (*first).min(facet);
+        *all = all.union(&run);
     }
     bounds
+}
+
+/// Facets of one task.
+const CHUNK: usize = 1 << 13;
+
+/// Consecutive facets of one shell: its number, the first of them, their box.
+type Run = (u32, u32, Aabb);
+
+/// The runs among the facets from `first` on, which have these shells.
+fn runs(m: &Inspected, first: usize, shells: &[u32]) -> Vec<Run> {
+    let mut runs: Vec<Run> = vec![];
+    for (f, &shell) in (first as u32..).zip(shells).filter(|(_, shell)| **shell != u32::MAX) {
+        let own = Aabb::of(&m.corners(f));
+        match runs.last_mut() {
+            Some((of, _, bounds)) if *of == shell => *bounds = bounds.union(&own),
+            _ => runs.push((shell, f, own)),
+        }
+    }
+    runs
 }

@@ -5,6 +5,7 @@
 //! is decided exactly. What only a tolerance can decide has one in [`Options`], with a default that follows from the
 //! precision of the coordinates.
 
+pub(crate) mod around;
 mod boundary_edges;
 mod cracks;
 mod dangling_facets;
@@ -18,6 +19,7 @@ mod inside_out_shells;
 pub mod intersect;
 mod islands;
 mod kinds;
+mod known;
 pub(crate) mod near;
 pub(crate) mod nesting;
 mod non_manifold_edges;
@@ -37,6 +39,7 @@ mod unshared_vertices;
 
 pub use finding::{Finding, Found, Inspected, Kind, Severity};
 pub use kinds::KINDS;
+pub(crate) use known::Known;
 pub use options::Options;
 pub use precision::spacing;
 pub use precondition::Precondition;
@@ -45,7 +48,6 @@ use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::weld::WeldError;
 use crate::topology::{Properties, Soundness, Topology, TopologyError};
-use free_edges::FreeEdges;
 
 /// What [`check`] found.
 #[derive(Clone, Debug)]
@@ -124,50 +126,55 @@ pub fn check(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Report, CheckError> {
+    let known = known(mesh, progress)?;
+    let crossings = match options.self_intersections {
+        true => Some(intersect::first_self_intersections(mesh, &known.topology, options.limit, progress)?),
+        false => None,
+    };
+    let gap = options.gap.unwrap_or(8.0 * spacing(&known.properties.bounds));
+    let inspected = known.inspected(mesh, crossings.as_ref(), (options, gap), progress);
+    Ok(report(&Inspected { stored_normals, ..inspected })?)
+}
+
+/// What [`check`] asks of a mesh before anything is looked for.
+///
+/// # Errors
+/// [`CheckError`].
+pub(crate) fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, CheckError> {
     let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
     if open > MOST_BOUNDARY_EDGES {
         return Err(CheckError::TooManyBoundaryEdges { edges: open });
     }
-    let properties = Properties::of(mesh, &topology);
-    let crossings = match options.self_intersections {
-        true => Some(intersect::first_self_intersections(mesh, &topology, options.limit, progress)?),
-        false => None,
-    };
-    let soundness = Soundness::from_parts(&topology, &properties);
-    let gap = options.gap.unwrap_or(8.0 * spacing(&properties.bounds));
-    let free_edges = FreeEdges::of(&topology);
-    let inspected = Inspected {
-        mesh,
-        topology: &topology,
-        properties: &properties,
-        free_edges: &free_edges,
-        stored_normals,
-        crossings: crossings.as_ref(),
-        options,
-        gap,
-        progress,
-    };
+    Ok(Known::of(mesh, topology))
+}
+
+/// As [`check`], where what the kinds look at is at hand.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn report(inspected: &Inspected) -> Result<Report, Cancelled> {
+    let &Inspected { topology, properties, gap, progress, .. } = inspected;
     let mut defects = vec![];
     for kind in KINDS {
-        defects.push((kind, (kind.find)(&inspected)));
+        defects.push((kind, (kind.find)(inspected)));
         if progress.cancelled() {
-            return Err(Cancelled.into());
+            return Err(Cancelled);
         }
     }
     let broken = |(kind, found): &(&Kind, Option<Found>)| {
         kind.severity == Severity::Error && found.as_ref().is_some_and(|f| f.count > 0)
     };
-    let euler_characteristic = topology.euler_characteristic();
+    let soundness = Soundness::from_parts(topology, properties);
     Ok(Report {
         sound: topology.counting_facets > 0 && !defects.iter().any(broken),
-        genus: genus(&topology, &soundness),
+        genus: genus(topology, &soundness),
         soundness,
         vertices: topology.used_vertices(),
         edges: topology.edges,
-        euler_characteristic,
+        euler_characteristic: topology.euler_characteristic(),
         gap,
-        properties,
+        properties: properties.clone(),
         defects,
     })
 }

@@ -7,8 +7,9 @@
 use crate::mesh::Mesh;
 use crate::num::big::{self, Big};
 use crate::num::predicates::{side_of_line, side_of_plane};
-use crate::space::{Point, cross, dot, minus};
+use crate::space::{Aabb, Point, cross, dot, minus};
 use crate::spatial::columns::Columns;
+use crate::spatial::seen::seen;
 
 /// A closed shell, ready to be asked about points by rays along an axis.
 pub(crate) struct Container<'a> {
@@ -24,45 +25,69 @@ impl<'a> Container<'a> {
         Container { mesh, axis, columns: Columns::new(mesh, facets, axis) }
     }
 
-    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the
-    /// box of one of its facets.
-    pub(super) fn winding(&self, p: &Point) -> Option<i32> {
-        let touches = |f: u32| {
-            let [a, b, c] = self.corners(f);
-            let in_box = |k: usize| a[k].min(b[k]).min(c[k]) <= p[k] && p[k] <= a[k].max(b[k]).max(c[k]);
-            (0..3).all(in_box) && side_of_plane(&a, &b, &c, p) == 0
-        };
-        let mut on_it = false;
-        self.visit(p, p[self.axis], |f| on_it = on_it || touches(f));
-        (!on_it).then(|| self.beyond(p, |_| true))
+    /// As [`Container::new`], to be asked about these places only: linear, and n log n for the facets seen there.
+    pub(crate) fn at(mesh: &'a Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Container<'a> {
+        Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
-    /// How often the facets that count wind around `p`: those that the ray passes from their inner side less those that it
-    /// passes from their outer side. Facets that hold `p` are not passed.
-    pub(crate) fn beyond(&self, p: &Point, counts: impl Fn(u32) -> bool) -> i32 {
-        let passed = |f: u32| {
-            let ([a, b, c], around) = (self.corners(f), self.around(f, p));
-            if around != 0 && counts(f) && side_of_plane(&a, &b, &c, p) == around { around } else { 0 }
+    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the
+    /// box of one of its facets.
+    pub(crate) fn winding(&self, p: &Point) -> Option<i32> {
+        let touches = |f: u32, own: &Aabb| {
+            let [a, b, c] = self.corners(f);
+            (0..3).all(|k| own.min[k] <= p[k] && p[k] <= own.max[k]) && side_of_plane(&a, &b, &c, p) == 0
         };
-        let mut sum = 0;
-        self.visit(p, p[self.axis], |f| sum += passed(f));
-        sum
+        let (mut on_it, mut sum) = (false, 0);
+        self.columns.visit(p, self.beyond(p[self.axis]), |f, own| {
+            on_it = on_it || touches(f, own);
+            let ([a, b, c], around) = (self.corners(f), self.around(f, p));
+            sum += if around != 0 && side_of_plane(&a, &b, &c, p) == around { around } else { 0 };
+        });
+        (!on_it).then_some(sum)
     }
 
     /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
     /// the plane of `from` where that is seen at `target`; `from` and what meets it just there are not behind it.
     pub(crate) fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
-        let span = |f: u32| {
-            let [a, b, c] = self.corners(f).map(|p| p[self.axis]);
-            [a.min(b).min(c), a.max(b).max(c)]
-        };
-        let [start, end] = span(from);
-        self.visit(target, start, |f| {
-            let ([low, high], around) = (span(f), self.around(f, target));
-            if f != from && around != 0 && high >= start && (low > end || self.is_behind([from, f], target)) {
+        let [start, end] = self.span(from);
+        self.columns.visit(target, self.beyond(start), |f, own| {
+            let around = if f == from { 0 } else { self.around(f, target) };
+            if around != 0 && (own.min[self.axis] > end || self.is_behind([from, f], target)) {
                 take(f, around);
             }
         });
+    }
+
+    /// The same of all others that the line through `target` passes, `from` among them. Around the whole line a closed surface
+    /// winds 0 times.
+    pub(crate) fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+        let [start, end] = self.span(from);
+        let before = |b: &Aabb| b.min[self.axis] <= end;
+        self.columns.visit(target, before, |f, own| {
+            let around = self.around(f, target);
+            let is_first = || f == from || own.max[self.axis] < start || !self.is_behind([from, f], target);
+            if around != 0 && is_first() {
+                take(f, around);
+            }
+        });
+    }
+
+    /// Whether more than half of the extent along the axis lies behind `p`.
+    pub(crate) fn is_early(&self, p: &Point) -> bool {
+        let Aabb { min, max } = self.columns.bounds();
+        p[self.axis] < 0.5 * min[self.axis] + 0.5 * max[self.axis]
+    }
+
+    /// Whether a box reaches to `from` along the axis, or beyond.
+    fn beyond(&self, from: f64) -> impl Fn(&Aabb) -> bool {
+        let axis = self.axis;
+        move |b| from <= b.max[axis]
+    }
+
+    /// From where to where a facet reaches along the axis.
+    fn span(&self, f: u32) -> [f64; 2] {
+        let [a, b, c] = self.corners(f).map(|p| p[self.axis]);
+        [a.min(b).min(c), a.max(b).max(c)]
     }
 
     /// Whether the ray passes the plane of the second facet behind that of the first. It runs along neither.
@@ -101,11 +126,6 @@ impl<'a> Container<'a> {
     pub(crate) fn around(&self, f: u32, p: &Point) -> i32 {
         let [a, b, c] = self.corners(f);
         [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum()
-    }
-
-    /// Hands to `take` the facets whose boxes a ray through `p` meets at `from` or beyond.
-    pub(crate) fn visit(&self, p: &Point, from: f64, take: impl FnMut(u32)) {
-        self.columns.visit(p, from, take);
     }
 }
 

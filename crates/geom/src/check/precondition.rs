@@ -7,6 +7,7 @@ use super::{Found, Inspected, Kind, Options, spacing};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::{Properties, Soundness, Topology, TopologyError};
+use std::sync::OnceLock;
 
 /// The verdict on a mesh that is measured against, and what speaks against it.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +50,7 @@ impl Precondition {
             topology: &topology,
             properties: &properties,
             free_edges: &FreeEdges::of(&topology),
+            depths: &OnceLock::new(),
             stored_normals: None,
             crossings: None,
             options: &Options { limit, self_intersections: false, ..Options::default() },

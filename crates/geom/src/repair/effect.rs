@@ -1,16 +1,18 @@
 //! What a repair did to the places that the mesh encloses.
 
-use super::enclosed::{Enclosed, NotEnclosed, enclosed};
-use super::measure::{Key, places, triangle_key};
+use super::enclosed::{self, Enclosed, NotEnclosed};
+use super::measure::places;
+use super::same::Same;
 use super::work::Work;
 use super::{Options, RepairError, islands, orient};
-use crate::check::Report;
 use crate::check::nesting::Container;
+use crate::check::{Known, Report};
 use crate::closest::{Query, Tree};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, cross, minus, plus, times, unit};
 use crate::topology::{Properties, Topology};
+use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Bodies, and what they enclose.
@@ -26,38 +28,33 @@ pub struct Effect {
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
-    /// Facets that did not bound what was enclosed, or in part only: sorted.
-    pub(super) inside: Vec<Key>,
+    /// Facets that did not bound what was enclosed, or in part only.
+    pub(super) inside: Same,
 }
 
 impl Effect {
-    /// From `before`, welded, to `after`. Where vertices of `before` were rounded first, `rounded` is the mesh that this made, and
+    /// From `before`, as its report tells, to `after`. Where vertices of `before` were rounded first, `rounded` is what this made, and
     /// how far they went at most: the surface is compared with that, because gaps thinner than the rounding vanish by it.
     pub(super) fn of(
-        (before, report): (&Mesh, &Report),
-        rounded: Option<(&Mesh, f64)>,
-        after: &Mesh,
+        (before, report): (&Work, &Report),
+        rounded: Option<(&Work, f64)>,
+        (after, known_after): (&Mesh, &Known),
         options: &Options,
-        progress: &dyn Progress,
     ) -> Result<Effect, RepairError> {
+        let progress = before.progress;
         let turn = report.soundness.inconsistent_edges > 0;
-        let mut base = turned(before, turn, options, progress)?;
+        let mut base = turned(before, turn, options)?;
         let known = base.known()?;
         let enclosed = match report.sound && base.changes.is_empty() {
             true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
-            false => enclosed(base.mesh(), &known.topology, progress),
+            false => enclosed_by(&mut base)?,
         };
-        if enclosed == Err(NotEnclosed::Cancelled(Cancelled)) {
-            return Err(Cancelled.into());
-        }
         let gone = match (&enclosed, rounded) {
             (Err(_), _) => Gone::default(),
             (Ok(enclosed), None) => gone(base.mesh(), enclosed, after, progress)?,
             (Ok(_), Some((mesh, farthest))) => {
-                let mut base = turned(mesh, turn, options, progress)?;
-                let known = base.known()?;
-                match super::enclosed::enclosed(base.mesh(), &known.topology, progress) {
-                    Err(NotEnclosed::Cancelled(e)) => return Err(e.into()),
+                let mut base = turned(mesh, turn, options)?;
+                match enclosed_by(&mut base)? {
                     Err(_) => Gone::default(),
                     Ok(enclosed) => {
                         let gone = gone(base.mesh(), &enclosed, after, progress)?;
@@ -68,35 +65,36 @@ impl Effect {
                 }
             }
         };
-        let topology = Topology::of(after)?;
-        let bodies = [
-            bodies(&known.topology, &known.properties),
-            bodies(&topology, &Properties::of(after, &topology)),
-        ];
-        let inside = enclosed.as_ref().map_or(vec![], |enclosed| {
-            let all = (0..).zip(&base.mesh().faces).zip(&enclosed.bounds);
-            let inner = all.filter(|((f, _), bounds)| !**bounds || gone.gaps.binary_search(f).is_ok());
-            let mut keys: Vec<Key> = inner.map(|((_, face), _)| triangle_key(base.mesh(), face)).collect();
-            keys.sort_unstable();
-            keys
-        });
+        let bodies = [&*known, known_after].map(|known| bodies(&known.topology, &known.properties));
+        let is_inner = |enclosed: &Enclosed, f: usize| {
+            !enclosed.bounds[f] || gone.gaps.binary_search(&(f as u32)).is_ok()
+        };
+        let inside = enclosed
+            .as_ref()
+            .map_or(Same::default(), |enclosed| Same::of(base.mesh(), |f| is_inner(enclosed, f)));
         Ok(Effect { enclosed, surface: gone.farthest, bodies, inside })
     }
 }
 
 /// The mesh without the shells that are removed on request; with `turn`, after neighbours were turned to look the same way.
-fn turned<'a>(
-    mesh: &Mesh,
-    turn: bool,
-    options: &'a Options,
-    progress: &'a dyn Progress,
-) -> Result<Work<'a>, RepairError> {
-    let mut work = Work::new(mesh.clone(), options, progress)?;
+fn turned<'a>(before: &Work<'a>, turn: bool, options: &'a Options) -> Result<Work<'a>, RepairError> {
+    let mut work = before.again(options);
     if turn {
         (orient::STEP.run)(&mut work)?;
     }
     (islands::STEP.run)(&mut work)?;
     Ok(work)
+}
+
+/// What the mesh encloses; an error only where the work was stopped.
+fn enclosed_by(work: &mut Work) -> Result<Result<Enclosed, NotEnclosed>, RepairError> {
+    let known = work.known()?;
+    let may_enclose = enclosed::is_closed(&known.topology);
+    let pairs = if may_enclose { work.all_crossings()?.map(<[_]>::to_vec) } else { None };
+    match enclosed::enclosed(work.mesh(), &known, pairs, work.progress) {
+        Err(NotEnclosed::Cancelled(e)) => Err(e.into()),
+        result => Ok(result),
+    }
 }
 
 /// Shells without a boundary edge whose volume is positive.
@@ -129,14 +127,13 @@ fn gone(
     after: &Mesh,
     progress: &dyn Progress,
 ) -> Result<Gone, Cancelled> {
-    let mut kept: Vec<_> = after.faces.iter().map(|f| triangle_key(after, f)).collect();
-    kept.sort_unstable();
-    let bounding = (0u32..).zip(&before.faces).zip(&enclosed.bounds).filter(|(_, bounds)| **bounds);
-    let is_gone = |f: &[u32; 3]| kept.binary_search(&triangle_key(before, f)).is_err();
-    let mut asked: Vec<(u32, Point)> = vec![];
-    for ((f, face), _) in bounding.filter(|((_, face), _)| is_gone(face)) {
-        asked.extend(places(face.map(|v| before.positions[v as usize])).map(|p| (f, p)));
-    }
+    let kept = Same::of(after, |_| true);
+    let bounding = before.faces.par_iter().enumerate().zip(&enclosed.bounds);
+    let is_gone = bounding.filter(|((_, face), bounds)| **bounds && !kept.holds(before, face));
+    let asked_of = |((f, face), _): ((usize, &[u32; 3]), &bool)| {
+        places(face.map(|v| before.positions[v as usize])).map(|p| (f as u32, p))
+    };
+    let mut asked: Vec<(u32, Point)> = is_gone.flat_map_iter(asked_of).collect();
     let whole = asked.len();
     asked.extend(&enclosed.middles);
     if asked.is_empty() {
@@ -188,7 +185,7 @@ impl Gaps<'_> {
         let Some((normal, _)) = unit(cross(minus(b, a), minus(c, a))) else { return false };
         let all = || (0..self.mesh.faces.len() as u32).collect::<Vec<_>>();
         let rays = self.rays.get_or_init(|| Container::new(self.mesh, &all(), 0));
-        let is_inside = |away: f64| rays.beyond(&plus(p, times(away, normal)), |_| true) >= 1;
+        let is_inside = |away: f64| rays.winding(&plus(p, times(away, normal))).is_some_and(|w| w >= 1);
         is_inside(self.reach) && is_inside(-self.reach)
     }
 }

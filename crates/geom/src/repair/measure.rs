@@ -1,10 +1,12 @@
 //! What a repair changed: how many vertices and facets, and how far the surface went.
 
+use super::same::Same;
 use crate::check::finding::area;
 use crate::closest::{MeshError, Query, QueryError, Tree};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Point, plus, times};
+use rayon::prelude::*;
 
 /// Vertices and facets that stayed, came and went.
 ///
@@ -56,8 +58,8 @@ fn sorted(mesh: &Mesh) -> Vec<[u32; 3]> {
         f.sort_unstable();
         f
     };
-    let mut all: Vec<[u32; 3]> = mesh.faces.iter().map(triple).collect();
-    all.sort_unstable();
+    let mut all: Vec<[u32; 3]> = mesh.faces.par_iter().map(triple).collect();
+    all.par_sort_unstable();
     all
 }
 
@@ -110,33 +112,20 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
 const WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
 
-/// The three places of a facet, sorted.
-pub(super) type Key = [[u64; 3]; 3];
-
-/// The same for a facet in whichever order it runs.
-pub(super) fn triangle_key(mesh: &Mesh, f: &[u32; 3]) -> Key {
-    let mut corners = f.map(|v| mesh.positions[v as usize].map(|x| (x + 0.0).to_bits()));
-    corners.sort_unstable();
-    corners
-}
-
-/// Distances from one surface to another. Facets of `without`, sorted, do not count.
+/// Distances from one surface to another. Facets of `without` do not count.
 pub(super) fn way(
-    (from, without): (&Mesh, &[Key]),
+    (from, without): (&Mesh, &Same),
     to: &Mesh,
     progress: &dyn Progress,
 ) -> Result<Way, DeviationError> {
-    let mut there: Vec<_> = to.faces.iter().map(|f| triangle_key(to, f)).collect();
-    there.sort_unstable();
+    let there = Same::of(to, |_| true);
     let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
-    let finite = |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite());
-    let is_among =
-        |all: &[Key], f: &[u32; 3]| !all.is_empty() && all.binary_search(&triangle_key(from, f)).is_ok();
-    let counting: Vec<&[u32; 3]> =
-        from.faces.iter().filter(finite).filter(|f| !is_among(without, f)).collect();
-    let total: f64 = counting.iter().map(|f| area(corners(f))).sum();
-    let changed: Vec<[Point; 3]> =
-        counting.into_iter().filter(|f| !is_among(&there, f)).map(corners).collect();
+    let counts =
+        |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite()) && !without.holds(from, f);
+    let asked = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));
+    let counting: Vec<(f64, Option<[Point; 3]>)> = from.faces.par_iter().filter(counts).map(asked).collect();
+    let total: f64 = counting.iter().map(|(area, _)| area).sum();
+    let changed: Vec<[Point; 3]> = counting.into_iter().filter_map(|(_, changed)| changed).collect();
     if changed.is_empty() {
         return Ok(Way::default());
     }

@@ -4,7 +4,6 @@
 //! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
 //! listed. The result of a step is decided exactly where [`check`] decides exactly.
 
-mod around;
 mod degenerate;
 mod duplicates;
 mod edges;
@@ -17,6 +16,8 @@ mod measure;
 mod not_finite;
 mod orient;
 mod outward;
+mod pairs;
+mod same;
 mod scraps;
 mod self_intersections;
 mod split;
@@ -32,13 +33,15 @@ pub use enclosed::{Enclosed, NotEnclosed};
 pub use measure::{Counts, Deviation, DeviationError, Way};
 
 use crate::arrange::ArrangeError;
-use crate::check::{self, CheckError, Report};
+use crate::check::{self, CheckError, Known, Report};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::topology::TopologyError;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
+use same::Same;
+use std::sync::Arc;
 use work::Work;
 
 /// A step of the repair: an entry of [`STEPS`].
@@ -168,7 +171,7 @@ impl Repaired {
     pub fn deviation(&self, before: &Mesh, progress: &dyn Progress) -> Result<Deviation, DeviationError> {
         let mut there = way((before, &self.effect.inside), &self.mesh, progress)?;
         there.max = there.max.max(self.effect.surface.unwrap_or(0.0));
-        Ok(Deviation { there, back: way((&self.mesh, &[]), before, progress)? })
+        Ok(Deviation { there, back: way((&self.mesh, &Same::default()), before, progress)? })
     }
 }
 
@@ -229,13 +232,19 @@ const ROUNDS: usize = 8;
 /// [`RepairError`].
 pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
-    let welded = as_it_is(mesh)?;
-    let before = check::check(&welded, None, &check_options, progress)?;
-    let (start, mut rounded) =
-        if options.single { in_single(&welded)? } else { (welded.clone(), Rounded::default()) };
+    let mut base = Work::new(as_it_is(mesh)?, options, progress)?;
+    let before = base.report(&check_options)?;
+    let (start, mut rounded) = match options.single {
+        true => in_single(base.mesh())?,
+        false => (None, Rounded::default()),
+    };
+    let start = match start {
+        Some(mesh) => Work::new(mesh, options, progress)?,
+        None => base.again(options),
+    };
     let attempt = |without: Option<&str>| {
         let steps = options.steps.iter().copied().filter(|s| without != Some(s)).collect();
-        attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options), progress)
+        attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
     };
     let mut done = attempt(None)?;
     let mut taken_back = vec![];
@@ -257,13 +266,13 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
             Some(next) => next,
             None => {
                 rounded = Rounded::default();
-                Attempt::none(&welded, &before)
+                Attempt::none(&mut base, &before)?
             }
         };
     }
-    let Attempt { mesh, changes, rounds, after, counts, not_united } = done;
+    let Attempt { mesh, known, changes, rounds, after, counts, not_united } = done;
     let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
-    let effect = Effect::of((&welded, &before), of_start, &mesh, options, progress)?;
+    let effect = Effect::of((&base, &before), of_start, (&mesh, &known), options)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
 }
 
@@ -277,6 +286,7 @@ fn worse(before: &Report, after: &Report) -> bool {
 /// What some steps came to.
 struct Attempt {
     mesh: Mesh,
+    known: Arc<Known>,
     changes: Vec<Change>,
     rounds: usize,
     after: Report,
@@ -286,48 +296,49 @@ struct Attempt {
 
 impl Attempt {
     /// Nothing done.
-    fn none(mesh: &Mesh, before: &Report) -> Attempt {
-        let counts = Counts::of(mesh, mesh);
-        Attempt {
-            mesh: mesh.clone(),
+    fn none(base: &mut Work, before: &Report) -> Result<Attempt, RepairError> {
+        Ok(Attempt {
+            mesh: base.mesh().clone(),
+            known: base.known()?,
             changes: vec![],
             rounds: 0,
             after: before.clone(),
-            counts,
+            counts: Counts::of(base.mesh(), base.mesh()),
             not_united: None,
-        }
+        })
     }
 }
 
 /// Goes through the steps of `options`.
 fn attempt(
-    welded: &Mesh,
+    start: &Work,
     options: &Options,
     (before, check_options): (&Report, &check::Options),
-    progress: &dyn Progress,
 ) -> Result<Attempt, RepairError> {
-    let mut work = Work::new(welded.clone(), options, progress)?;
+    let mut work = start.again(options);
     work.may_widen = WIDEN * before.properties.area;
     let mut rounds = go_through(&mut work)?;
     if work.widened && work.has_torn_hole()? {
         // All for nothing: what was torn out in vain shall stay.
-        work = Work::new(welded.clone(), options, progress)?;
+        work = start.again(options);
         rounds = go_through(&mut work)?;
     }
-    let changes = std::mem::take(&mut work.changes);
-    let not_united = work.not_united;
-    let repaired = match changes.is_empty() {
-        true => work.into_mesh(),
-        false => rejoined(work.into_mesh())?,
-    };
-    let counts = Counts::of(welded, &repaired);
-    let mesh = if changes.is_empty() { repaired } else { compact(repaired, 0) };
-    let after = check::check(&mesh, None, check_options, progress)?;
-    Ok(Attempt { mesh, changes, rounds, after, counts, not_united })
+    let mut counts = Counts::of(start.mesh(), work.mesh());
+    if !work.changes.is_empty() {
+        let joined = rejoined(work.mesh().clone())?;
+        let same = joined.faces == work.mesh().faces;
+        if !same {
+            counts = Counts::of(start.mesh(), &joined);
+        }
+        work.compacted(compact(joined, 0), same);
+    }
+    let after = work.report(check_options)?;
+    let (known, changes, not_united) = (work.known()?, std::mem::take(&mut work.changes), work.not_united);
+    Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united })
 }
 
-/// The mesh in single precision; of vertices that fall upon each other facets name the first.
-fn in_single(mesh: &Mesh) -> Result<(Mesh, Rounded), WeldError> {
+/// The mesh in single precision, if that is another; of vertices that fall upon each other facets name the first.
+fn in_single(mesh: &Mesh) -> Result<(Option<Mesh>, Rounded), WeldError> {
     let mut single = mesh.clone();
     let mut rounded = Rounded::default();
     for p in single.positions.iter_mut() {
@@ -341,7 +352,7 @@ fn in_single(mesh: &Mesh) -> Result<(Mesh, Rounded), WeldError> {
             *p = std::array::from_fn(|k| if near[k].is_finite() { near[k] } else { p[k] });
         }
     }
-    let single = if rounded.vertices > 0 { rejoined(single)? } else { single };
+    let single = if rounded.vertices > 0 { Some(rejoined(single)?) } else { None };
     Ok((single, rounded))
 }
 

@@ -1,12 +1,12 @@
 //! Closed shells that cross, touch in faces or contain each other: replaced by the boundary of what they enclose together.
 //!
 //! Shells at whose edges as many facets run the one way as the other enclose material. Where they meet, or where one lies in
-//! the material of another, [`outer_boundary`] tells exactly what of them bounds it. Sheets and shells with holes take no
+//! the material of another, [`outer_boundary`](crate::arrange::outer_boundary) tells exactly what of them bounds it. Sheets and shells with holes take no
 //! part; once their holes are filled they do.
 
 use super::work::Work;
 use super::{RepairError, Step};
-use crate::arrange::{ArrangeError, Boundary, Options, outer_boundary};
+use crate::arrange::{ArrangeError, Boundary, Given, Options, boundary_of};
 use crate::check;
 use crate::check::finding::area;
 use crate::mesh::Mesh;
@@ -14,7 +14,7 @@ use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::union::Sets;
 use crate::topology::weld::{self, Welded};
-use std::collections::BTreeMap;
+use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "union",
@@ -40,7 +40,10 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         *first = v.min(*first);
     }
     let options = Options { single: work.options.single, turn: true };
-    match outer_boundary(&mesh, &options, work.progress) {
+    let pairs = pairs(work, &facets, &vertex_of, mesh.positions.len())?;
+    let all = pairs.is_some() && facets.len() == work.mesh().faces.len();
+    let given = Given { mesh: mesh.clone(), topology: all.then_some(&known.topology), pairs };
+    match boundary_of(given, &options, work.progress) {
         Ok(boundary) => {
             work.not_united = None;
             replace(work, (&facets, &first), &mesh, boundary);
@@ -50,6 +53,22 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         Err(e) => work.not_united = Some(e),
     }
     Ok(())
+}
+
+/// The pairs among `facets` that meet where they should not, by their places in that list; `None` where they must be looked for,
+/// because the weld that gave vertices the numbers `vertex_of`, below `numbers`, has joined some of them.
+fn pairs(
+    work: &mut Work,
+    facets: &[u32],
+    vertex_of: &[u32],
+    numbers: usize,
+) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+    if vertex_of.iter().filter(|number| **number != u32::MAX).count() != numbers {
+        return Ok(None);
+    }
+    let place = |f: u32| facets.binary_search(&f).ok().map(|i| i as u32);
+    let pair = |[a, b]: &[u32; 2]| Some([place(*a)?, place(*b)?]);
+    Ok(work.all_crossings()?.map(|all| all.iter().filter_map(pair).collect()))
 }
 
 /// Shells with as many facets one way as the other at every edge.
@@ -96,21 +115,25 @@ fn has_work(
 fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boundary: Boundary) {
     let old = work.mesh().positions.len() as u32;
     let name = |v: u32| first.get(v as usize).copied().unwrap_or_else(|| old + v - first.len() as u32);
-    let mut pieces: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-    let (mut kept, mut turned) = (vec![false; facets.len()], vec![]);
+    let mut pieces: Vec<(u32, [u32; 3])> = vec![];
+    let (mut is_kept, mut is_cut) = (vec![false; facets.len()], vec![false; facets.len()]);
+    let mut turned = vec![];
     for (face, source) in boundary.mesh.faces.iter().zip(&boundary.source) {
         let [a, b, c] = mesh.faces[*source as usize];
         if *face == [a, b, c] {
-            kept[*source as usize] = true;
+            is_kept[*source as usize] = true;
         } else if *face == [a, c, b] {
-            kept[*source as usize] = true;
+            is_kept[*source as usize] = true;
             turned.push(facets[*source as usize]);
         } else {
-            pieces.entry(*source).or_default().push(face.map(name));
+            is_cut[*source as usize] = true;
+            pieces.push((*source, face.map(name)));
         }
     }
-    let gone: Vec<u32> = (0..).zip(&kept).filter(|(_, kept)| !**kept).map(|(f, _)| f).collect();
-    log(work, mesh, &gone, &pieces);
+    // In the order of the facets that they are pieces of, and of one in their own.
+    pieces.sort_by_key(|piece| piece.0);
+    let gone: Vec<u32> = (0..).zip(&is_kept).filter(|(_, kept)| !**kept).map(|(f, _)| f).collect();
+    log(work, mesh, &gone, &is_cut);
     if !turned.is_empty() {
         let place = work.middle(turned[0]);
         let size = turned.iter().map(|f| area(work.corners(*f))).sum();
@@ -122,27 +145,30 @@ fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boun
     }
     work.append(&boundary.mesh.positions[first.len()..]);
     let removed: Vec<u32> = gone.iter().map(|f| facets[*f as usize]).collect();
-    work.replace(&removed, &pieces.into_values().flatten().collect::<Vec<_>>());
+    work.replace(&removed, &pieces.into_iter().map(|piece| piece.1).collect::<Vec<_>>());
 }
 
 /// Tells each place where facets were cut, and each where whole facets lay inside. Facets that share a vertex are one place.
-fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], pieces: &BTreeMap<u32, Vec<[u32; 3]>>) {
+fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], is_cut: &[bool]) {
     let places = Sets::new(gone.len());
-    let mut first: BTreeMap<(bool, u32), u32> = BTreeMap::new();
+    // For each vertex the first of the facets there that are gone, of those that were cut and of the others.
+    let mut first = vec![[u32::MAX; 2]; mesh.positions.len()];
     for (i, f) in (0..).zip(gone) {
         for v in mesh.faces[*f as usize] {
-            places.join(i, *first.entry((pieces.contains_key(f), v)).or_insert(i));
+            let first = &mut first[v as usize][usize::from(is_cut[*f as usize])];
+            *first = i.min(*first);
+            places.join(i, *first);
         }
     }
     let mut members: Vec<(u32, u32)> = (0..).zip(gone).map(|(i, f)| (places.root(i), *f)).collect();
-    members.sort_unstable();
+    members.par_sort_unstable();
     let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
     let mut changes: Vec<(&'static str, Point, usize, f64)> = vec![];
     for place in members.chunk_by(|a, b| a.0 == b.0) {
         let facet = place[0].1;
         let [a, b, c] = corners(facet);
         let middle = std::array::from_fn(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0);
-        let what = match pieces.contains_key(&facet) {
+        let what = match is_cut[facet as usize] {
             true => "facets cut where shells meet, and united",
             false => "facets inside the material removed",
         };

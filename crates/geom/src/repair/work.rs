@@ -3,16 +3,16 @@
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
 
-use super::around::Around;
+use super::pairs::Pairs;
 use super::{Change, Options, RepairError};
 use crate::arrange::ArrangeError;
-use crate::check::free_edges::FreeEdges;
-use crate::check::intersect;
-use crate::check::{self, Finding, Inspected, Kind};
+use crate::check::around::Around;
+use crate::check::intersect::{self, Crossings};
+use crate::check::{self, Finding, Kind, Known, Report};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, plus, times};
-use crate::topology::{Properties, Topology};
+use crate::topology::Topology;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -42,13 +42,8 @@ pub(super) struct Work<'a> {
     /// Why shells that meet were not united.
     pub not_united: Option<ArrangeError>,
     known: Option<Arc<Known>>,
-}
-
-/// What follows from the mesh as it is.
-pub(super) struct Known {
-    pub topology: Topology,
-    pub properties: Properties,
-    pub free_edges: FreeEdges,
+    /// Pairs of its facets that meet where they should not, as far as they are known.
+    pairs: Pairs,
 }
 
 impl<'a> Work<'a> {
@@ -74,10 +69,28 @@ impl<'a> Work<'a> {
             may_tear: false,
             not_united: None,
             known: None,
+            pairs: Pairs::Unknown,
         };
         let spacing = check::spacing(&work.known()?.properties.bounds);
         work.gap = options.gap.unwrap_or(8.0 * spacing);
         Ok(work)
+    }
+
+    /// The same mesh under other options, nothing done yet. What is known about it is kept.
+    pub(super) fn again<'b>(&self, options: &'b Options) -> Work<'b>
+    where
+        'a: 'b,
+    {
+        Work {
+            mesh: self.mesh.clone(),
+            options,
+            changes: vec![],
+            torn: BTreeSet::new(),
+            parted: BTreeSet::new(),
+            known: self.known.clone(),
+            pairs: self.pairs.clone(),
+            ..*self
+        }
     }
 
     pub(super) fn mesh(&self) -> &Mesh {
@@ -86,6 +99,17 @@ impl<'a> Work<'a> {
 
     pub(super) fn into_mesh(self) -> Mesh {
         self.mesh
+    }
+
+    /// Goes on with `mesh`: the same facets at the same places, without the vertices that no facet uses. `same`: apart from that,
+    /// facets name the same corners.
+    pub(super) fn compacted(&mut self, mesh: Mesh, same: bool) {
+        let known = self.known.take().filter(|_| same);
+        self.known = known.and_then(|known| known.compacted(&mesh)).map(Arc::new);
+        self.mesh = mesh;
+        if !same {
+            self.pairs = Pairs::Unknown;
+        }
     }
 
     pub(super) fn at(&self, vertex: u32) -> Point {
@@ -118,12 +142,27 @@ impl<'a> Work<'a> {
         if let Some(known) = &self.known {
             return Ok(known.clone());
         }
-        let topology = Topology::watched(&self.mesh, self.progress)?;
-        let properties = Properties::of(&self.mesh, &topology);
-        let free_edges = FreeEdges::of(&topology);
-        let known = Arc::new(Known { topology, properties, free_edges });
+        let known = Arc::new(check::known(&self.mesh, self.progress)?);
         self.known = Some(known.clone());
         Ok(known)
+    }
+
+    /// What the check says of the mesh as it is.
+    pub(super) fn report(&mut self, options: &check::Options) -> Result<Report, RepairError> {
+        let known = self.known()?;
+        let all = self.all_crossings()?.and_then(|pairs| Crossings::of_all(pairs, options.limit));
+        let crossings = match all {
+            Some(crossings) => crossings,
+            None => intersect::first_self_intersections(
+                &self.mesh,
+                &known.topology,
+                options.limit,
+                self.progress,
+            )?,
+        };
+        let gap = options.gap.unwrap_or(8.0 * check::spacing(&known.properties.bounds));
+        let inspected = known.inspected(&self.mesh, Some(&crossings), (options, gap), self.progress);
+        Ok(check::report(&inspected)?)
     }
 
     /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners): of facets that
@@ -136,13 +175,44 @@ impl<'a> Work<'a> {
         if !some.contains(&true) {
             return Ok(Some(vec![]));
         }
-        if let Some(around) = Around::new(&self.mesh, &some) {
+        if matches!(self.pairs, Pairs::Unknown)
+            && let Some(around) = Around::new(&self.mesh, &some)
+        {
             let topology = Topology::watched(&around.mesh, self.progress)?;
             return self.crossings_around(&around, &topology);
         }
-        let known = self.known()?;
+        if let Some(all) = self.all_crossings()? {
+            let asked = |pair: &&[u32; 2]| pair.iter().any(|f| some[*f as usize]);
+            return Ok(Some(all.iter().filter(asked).copied().collect()));
+        }
+        if !some.contains(&false) { Ok(None) } else { self.search(&some) }
+    }
+
+    /// All pairs of facets that meet where they should not; `None` for a tangle. Only what has changed since they were known is
+    /// looked at.
+    pub(super) fn all_crossings(&mut self) -> Result<Option<&[[u32; 2]]>, RepairError> {
+        let facets = self.mesh.faces.len();
+        let mut pairs = std::mem::take(&mut self.pairs);
+        if let Some(new) = pairs.new_facets(facets) {
+            let some: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
+            let found = match Around::new(&self.mesh, &some) {
+                Some(around) => {
+                    let topology = Topology::watched(&around.mesh, self.progress)?;
+                    self.crossings_around(&around, &topology)?
+                }
+                None => self.search(&some)?,
+            };
+            pairs.take_in(found, facets);
+        }
+        self.pairs = pairs;
         let most = self.most_crossings();
-        Ok(intersect::few_self_intersections(&self.mesh, &known.topology, &some, most, self.progress)?)
+        Ok(self.pairs.all().filter(|all| all.len() <= most))
+    }
+
+    /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
+    fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+        let (known, most) = (self.known()?, self.most_crossings());
+        Ok(intersect::few_self_intersections(&self.mesh, &known.topology, some, most, self.progress)?)
     }
 
     /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
@@ -170,17 +240,7 @@ impl<'a> Work<'a> {
         let default = check::Options::default();
         let island_share = self.options.islands.unwrap_or(default.island_share);
         let options = check::Options { limit: usize::MAX, island_share, ..default };
-        let inspected = Inspected {
-            mesh: &self.mesh,
-            topology: &known.topology,
-            properties: &known.properties,
-            free_edges: &known.free_edges,
-            stored_normals: None,
-            crossings: None,
-            options: &options,
-            gap: self.gap,
-            progress: self.progress,
-        };
+        let inspected = known.inspected(&self.mesh, None, (&options, self.gap), self.progress);
         let found = (kind.find)(&inspected).map_or(vec![], |found| found.items);
         self.go_on()?;
         Ok(found)
@@ -191,6 +251,7 @@ impl<'a> Work<'a> {
         if !removed.is_empty() {
             let mut keep = vec![true; self.mesh.faces.len()];
             removed.iter().for_each(|&f| keep[f as usize] = false);
+            self.pairs.keep(&keep);
             let mut keep = keep.into_iter();
             self.mesh.faces.retain(|_| keep.next().unwrap_or(true));
         }
@@ -202,6 +263,7 @@ impl<'a> Work<'a> {
     pub(super) fn turn(&mut self, facets: impl IntoIterator<Item = u32>) {
         facets.into_iter().for_each(|f| self.mesh.faces[f as usize].swap(1, 2));
         self.known = None;
+        self.pairs = Pairs::Unknown;
     }
 
     /// Lets every corner `v` name `other(facet, v)` instead.
@@ -210,6 +272,7 @@ impl<'a> Work<'a> {
             *face = face.map(|v| other(f, v));
         }
         self.known = None;
+        self.pairs = Pairs::Unknown;
     }
 
     /// A new vertex at `place`, rounded to single precision where all others are.
@@ -233,6 +296,8 @@ impl<'a> Work<'a> {
 
     /// Forgets facets and vertices that were added behind these and turned out not to be wanted.
     pub(super) fn truncate(&mut self, facets: u32, vertices: usize) {
+        let keep: Vec<bool> = (0..self.mesh.faces.len()).map(|f| f < facets as usize).collect();
+        self.pairs.keep(&keep);
         self.mesh.faces.truncate(facets as usize);
         self.mesh.positions.truncate(vertices);
         self.known = None;
@@ -249,6 +314,7 @@ impl<'a> Work<'a> {
     pub(super) fn restore(&mut self, earlier: Mesh) {
         self.mesh = earlier;
         self.known = None;
+        self.pairs = Pairs::Unknown;
     }
 
     /// Whether the ring is the rim of a hole that a step has torn.

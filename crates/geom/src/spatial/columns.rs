@@ -38,12 +38,16 @@ impl Columns {
         Columns { axis, facets: items.into_iter().map(|i| i.facet).collect(), own, boxes }
     }
 
-    /// Hands to `take` every facet whose box the ray through `p` meets at `from` or beyond, along the axis.
-    pub(crate) fn visit(&self, p: &Point, from: f64, mut take: impl FnMut(u32)) {
+    /// The box of all facets.
+    pub(crate) fn bounds(&self) -> &Aabb {
+        &self.boxes[0]
+    }
+
+    /// Hands to `take` every facet whose box the line through `p` along the axis meets, with that box, as far as the box and all
+    /// that hold it `reach`.
+    pub(crate) fn visit(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut take: impl FnMut(u32, &Aabb)) {
         let sides = [(self.axis + 1) % 3, (self.axis + 2) % 3];
-        let meets = |b: &Aabb| {
-            from <= b.max[self.axis] && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k])
-        };
+        let meets = |b: &Aabb| reach(b) && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k]);
         // Each step down leaves one node behind.
         let mut stack = Vec::with_capacity(u32::BITS as usize);
         stack.push((0, self.boxes.len(), 0..self.facets.len()));
@@ -53,7 +57,7 @@ impl Columns {
             }
             if nodes == 1 {
                 let facets = self.facets[range.clone()].iter().zip(&self.own[range]);
-                facets.filter(|(_, own)| meets(own)).for_each(|(f, _)| take(*f));
+                facets.filter(|(_, own)| meets(own)).for_each(|(f, own)| take(*f, own));
                 continue;
             }
             let (middle, half) = (range.start + range.len() / 2, nodes / 2);
@@ -126,7 +130,7 @@ mod tests {
                     _ => std::array::from_fn(|_| 11.0 * random.unit()),
                 };
                 let mut found = vec![];
-                columns.visit(&p, p[axis], |f| found.push(f));
+                columns.visit(&p, |b| p[axis] <= b.max[axis], |f, _| found.push(f));
                 found.sort_unstable();
                 let meets = |f: &&u32| {
                     let b = Aabb::of(&mesh.faces[**f as usize].map(|v| mesh.positions[v as usize]));

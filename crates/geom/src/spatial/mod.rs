@@ -3,3 +3,4 @@
 pub(crate) mod columns;
 pub(crate) mod lists;
 pub mod neighbours;
+pub(crate) mod seen;

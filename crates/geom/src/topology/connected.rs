@@ -43,7 +43,7 @@ pub struct Topology {
     pub shell_of: Vec<u32>,
     /// Vertices with more facets than [`connect::MANY`].
     pub(crate) hubs: Vec<u32>,
-    fans: Fans,
+    pub(super) fans: Fans,
 }
 
 /// Why there is no topology.
@@ -96,7 +96,7 @@ impl Topology {
         let counts = |f: &[u32; 3]| {
             f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && (finite || shape(f) != Shape::NotFinite)
         };
-        let fans = Fans::new(mesh, counts, progress);
+        let fans = Fans::new(mesh.positions.len(), &mesh.faces, counts, progress);
         let sets = Sets::new(mesh.faces.len());
         let found = connect::connect(mesh, &fans, &sets, level, progress);
         let (shells, shell_of) = sets.numbered(|i| counts(&mesh.faces[i as usize]));
@@ -127,6 +127,34 @@ impl Topology {
     pub fn watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Topology, TopologyError> {
         let topology = Topology::with(mesh, Level::detect(), progress)?;
         if progress.cancelled() { Err(Cancelled.into()) } else { Ok(topology) }
+    }
+
+    /// After vertices that no facet uses have gone from the mesh; `None` where facets do not count, which might use some.
+    pub(crate) fn compacted(&self) -> Option<Topology> {
+        if self.counting_facets < self.shell_of.len() {
+            return None;
+        }
+        let (fans, number) = self.fans.compacted();
+        let new = |v: &u32| number[*v as usize];
+        let edges = |of: &[EdgeAt]| -> Vec<EdgeAt> {
+            of.iter().map(|e| EdgeAt { vertices: e.vertices.map(|v| new(&v)), facet: e.facet }).collect()
+        };
+        Some(Topology {
+            edges: self.edges,
+            counting_facets: self.counting_facets,
+            boundary_edges: edges(&self.boundary_edges),
+            non_manifold_edges: edges(&self.non_manifold_edges),
+            inconsistent_edges: edges(&self.inconsistent_edges),
+            non_manifold_vertices: self.non_manifold_vertices.iter().map(new).collect(),
+            duplicate_facets: self.duplicate_facets.clone(),
+            repeated_vertex: vec![],
+            collinear: self.collinear.clone(),
+            not_finite: vec![],
+            shells: self.shells,
+            shell_of: self.shell_of.clone(),
+            hubs: self.hubs.iter().map(new).collect(),
+            fans,
+        })
     }
 
     /// The facets at `vertex` that count, ascending; none where there is no such vertex.

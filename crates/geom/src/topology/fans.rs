@@ -4,7 +4,6 @@
 //! corner the number of the next one at the same vertex. Building it takes one atomic exchange a corner.
 
 use crate::memory::{atomics, large_pages};
-use crate::mesh::Mesh;
 use crate::progress::Progress;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -25,15 +24,16 @@ pub(super) struct Fans {
 }
 
 impl Fans {
-    /// Chains the corners of the faces for which `counts` says yes. All their vertices must exist.
+    /// Chains the corners of those faces of so many vertices for which `counts` says yes. All their vertices must exist.
     pub(super) fn new(
-        mesh: &Mesh,
+        vertices: usize,
+        faces: &[[u32; 3]],
         counts: impl Fn(&[u32; 3]) -> bool + Sync,
         progress: &dyn Progress,
     ) -> Fans {
-        let head = atomics(mesh.positions.len());
-        let mut next = large_pages(vec![0u32; 3 * mesh.faces.len()]);
-        next.par_chunks_mut(3 * CHUNK).zip(mesh.faces.par_chunks(CHUNK)).enumerate().for_each(
+        let head = atomics(vertices);
+        let mut next = large_pages(vec![0u32; 3 * faces.len()]);
+        next.par_chunks_mut(3 * CHUNK).zip(faces.par_chunks(CHUNK)).enumerate().for_each(
             |(i, (next, faces))| {
                 if progress.cancelled() {
                     return;
@@ -52,6 +52,18 @@ impl Fans {
     /// Number of vertices.
     pub(super) fn len(&self) -> usize {
         self.head.len()
+    }
+
+    /// Without the vertices that have no corner, and for each vertex its new number.
+    pub(super) fn compacted(&self) -> (Fans, Vec<u32>) {
+        let (mut head, mut number) = (vec![], vec![u32::MAX; self.len()]);
+        for (first, number) in self.head.iter().map(|h| h.load(Relaxed)).zip(&mut number) {
+            if first != 0 {
+                *number = head.len() as u32;
+                head.push(AtomicU32::new(first));
+            }
+        }
+        (Fans { head, next: self.next.clone() }, number)
     }
 
     /// Number of vertices that have a corner.

@@ -13,6 +13,7 @@ mod edge;
 mod fans;
 mod properties;
 pub(crate) mod same;
+pub(crate) mod sides;
 mod soundness;
 #[cfg(test)]
 pub(crate) mod tests;

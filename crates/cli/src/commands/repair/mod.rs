@@ -146,10 +146,14 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     drop(stage);
     let stage = Stage::new(common.progress, "measuring", "points", None);
-    let deviation = repaired.deviation(&source.mesh, &stage);
+    // One after the other the bytes of a file leave all threads but one idle.
+    let write = || -> anyhow::Result<MeshFile> {
+        read::hash(&mut record, &args.mesh)?;
+        Ok(MeshFile::write(args.target(), &repaired.mesh)?)
+    };
+    let (deviation, file) = rayon::join(|| repaired.deviation(&source.mesh, &stage), write);
+    let mut file = file?;
     drop(stage);
-    read::hash(&mut record, &args.mesh)?;
-    let mut file = MeshFile::write(args.target(), &repaired.mesh)?;
     let stage = Stage::new(common.progress, "checking the file", "facets", None);
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);

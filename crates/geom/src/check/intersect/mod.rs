@@ -70,6 +70,15 @@ pub struct Crossings {
     pub first: Vec<[u32; 2]>,
 }
 
+impl Crossings {
+    /// What [`first_self_intersections`] tells where these, sorted, are all pairs; `None` where it would have given up.
+    pub(crate) fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
+        let first = pairs[..limit.min(pairs.len())].to_vec();
+        let known = pairs.len() <= MOST.max(limit);
+        known.then_some(Crossings { count: pairs.len(), at_least: false, first })
+    }
+}
+
 /// Beyond so many pairs the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
 const MOST: usize = 1_000_000;
 

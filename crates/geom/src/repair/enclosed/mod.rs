@@ -12,19 +12,19 @@ mod meeting;
 #[cfg(test)]
 mod tests;
 
-use crate::check::intersect;
+use crate::check::Known;
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
 use crate::num::sum::Sums;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm, plus, times};
 use crate::topology::union::Sets;
-use crate::topology::{Properties, Topology};
+use crate::topology::{EdgeAt, Properties, Topology};
 use cells::{Cell, cells};
 use meeting::{Facet, Meeting, meeting};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::convert::Infallible;
 
 /// Volumes, mm³.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,51 +70,65 @@ pub enum NotEnclosed {
 
 /// What rounding adds at most, as a share of the sum of all terms.
 const ROUNDING: f64 = 1e-14;
-/// Facets at one place, and pairs of facets that meet beyond eight for each facet, at most.
+/// Facets at one place, at most.
 const HEAP: usize = 64;
-const FEW: usize = 10_000;
 
-/// Volume enclosed by a welded mesh. Facets with a coordinate that is not finite must not be there.
+/// Whether every facet that counts has a neighbour at each edge.
+pub(super) fn is_closed(topology: &Topology) -> bool {
+    topology.boundary_edges.is_empty() && topology.not_finite.is_empty() && topology.counting_facets > 0
+}
+
+/// Volume enclosed by a welded mesh. Facets with a coordinate that is not finite must not be there. `pairs`: all its facets
+/// that meet where they should not, `None` if they are too many.
 ///
-/// Cost: a search for crossings, and for each part of a facet that meets others a ray past those in its column.
+/// Cost: linear, and for each part of a facet that meets others a ray past those in its column.
 ///
 /// # Errors
 /// [`NotEnclosed`].
 pub(super) fn enclosed(
     mesh: &Mesh,
-    topology: &Topology,
+    Known { topology, properties, .. }: &Known,
+    pairs: Option<Vec<[u32; 2]>>,
     progress: &dyn Progress,
 ) -> Result<Enclosed, NotEnclosed> {
-    let open = !topology.boundary_edges.is_empty() || !topology.not_finite.is_empty();
-    if open || topology.counting_facets == 0 {
+    if !is_closed(topology) {
         return Err(NotEnclosed::Open);
     }
-    let edges = balanced(mesh).ok_or(NotEnclosed::Inconsistent)?;
-    let meets = meets(mesh, topology, progress)?;
-    let bounds = Properties::of(mesh, topology).bounds;
+    if !is_balanced(mesh, topology) {
+        return Err(NotEnclosed::Inconsistent);
+    }
+    let meets = meets(topology, &pairs.ok_or(NotEnclosed::Tangle)?)?;
+    let bounds = properties.bounds;
     let (sides, mut shortest) = (bounds.sides(), [0, 1, 2]);
     shortest.sort_by(|i: &usize, j| sides[*i].total_cmp(&sides[*j]));
-    let solid = Solid {
-        mesh,
-        shortest,
-        centre: times(0.5, plus(bounds.min, bounds.max)),
-        rays: Default::default(),
-        meets: &meets,
-        progress,
-    };
-    let whole = solid.whole(&edges)?;
+    let mut is_whole = vec![true; mesh.faces.len()];
+    meets.keys().for_each(|f| is_whole[*f as usize] = false);
+    let centre = times(0.5, plus(bounds.min, bounds.max));
+    let solid = Solid { mesh, shortest, centre, meets: &meets, is_whole: &is_whole, progress };
+    let sheets = solid.sheets(topology);
     let cut: Vec<u32> = meets.keys().copied().collect();
-    let parts: Vec<Part> = cut.par_iter().map(|&f| solid.cut(f)).collect::<Result<_, _>>()?;
-    let mut result = Enclosed { bounds: whole.iter().map(|w| w.bounds()).collect(), ..Enclosed::default() };
-    let mut sums = Sums::<9>::ZERO;
-    for (f, winding) in (0..).zip(&whole) {
-        if winding.bounds() && !meets.contains_key(&f) {
-            sums.add(solid.facet(f).terms(winding, 0.5, 1.0));
+    let parts: Vec<Vec<Part>> = cut.par_iter().map(|&f| solid.cut(f)).collect::<Result<_, _>>()?;
+    let rays = Rays::new(&solid, sheets.asked.iter().flatten().chain(parts.iter().flatten()));
+    let whole = sheets.windings(&rays)?;
+    let windings = |of: &Vec<Part>| of.iter().map(|part| rays.winding(part)).collect();
+    let sum_of_whole = || {
+        let mut sums = Sums::<9>::ZERO;
+        for (f, winding) in (0..).zip(&whole) {
+            if winding.bounds() && is_whole[f as usize] {
+                sums.add(solid.facet(f).terms(winding, 0.5, 1.0));
+            }
         }
+        sums
+    };
+    // The sum goes on in the order of the facets, beside the rays.
+    let all_windings = || parts.par_iter().map(windings).collect::<Vec<Vec<Winding>>>();
+    let (mut sums, windings) = rayon::join(sum_of_whole, all_windings);
+    if progress.cancelled() {
+        return Err(Cancelled.into());
     }
-    for part in parts {
-        sums.add(part.terms);
-        result.middles.extend(part.middles);
+    let mut result = Enclosed { bounds: whole.iter().map(|w| w.bounds()).collect(), ..Enclosed::default() };
+    for (parts, windings) in parts.iter().zip(&windings) {
+        sums.add(solid.sum(parts, windings, &mut result.middles));
     }
     let [v, i, x, y, z, ix, iy, iz, size] = sums.each().map(|s| s.value());
     let missed = norm([x, y, z]).max(norm([ix, iy, iz]));
@@ -123,32 +137,23 @@ pub(super) fn enclosed(
     Ok(result)
 }
 
-/// The edges of all facets as lower vertex, higher vertex, facet, direction; sorted. `None` where the directions at an edge do
-/// not cancel.
-fn balanced(mesh: &Mesh) -> Option<Vec<(u32, u32, u32, i8)>> {
-    let sides = |(f, face): (usize, &[u32; 3])| {
-        let face = *face;
-        (0..3).map(move |k| {
-            let (a, b) = (face[k], face[(k + 1) % 3]);
-            (a.min(b), a.max(b), f as u32, if a < b { 1 } else { -1 })
-        })
+/// Whether the directions at each edge cancel.
+fn is_balanced(mesh: &Mesh, topology: &Topology) -> bool {
+    let even = |e: &EdgeAt| {
+        let [a, b] = e.vertices;
+        let facets = topology.facets_at_edge(mesh, e.vertices);
+        let runs = |f: &&u32| {
+            let face = mesh.faces[**f as usize];
+            (0..3).any(|k| face[k] == a && face[(k + 1) % 3] == b)
+        };
+        2 * facets.iter().filter(runs).count() == facets.len()
     };
-    let mut edges: Vec<_> = mesh.faces.iter().enumerate().flat_map(sides).filter(|e| e.0 != e.1).collect();
-    edges.par_sort_unstable();
-    let even = |e: &[(u32, u32, u32, i8)]| e.iter().map(|e| i32::from(e.3)).sum::<i32>() == 0;
-    edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(even).then_some(edges)
+    topology.inconsistent_edges.is_empty() && topology.non_manifold_edges.par_iter().all(even)
 }
 
-/// For each facet that meets others anywhere but in common vertices and edges: those others, ascending.
-fn meets(
-    mesh: &Mesh,
-    topology: &Topology,
-    progress: &dyn Progress,
-) -> Result<BTreeMap<u32, Vec<u32>>, NotEnclosed> {
-    let most = FEW + 8 * mesh.faces.len();
-    let all = vec![true; mesh.faces.len()];
-    let pairs = intersect::few_self_intersections(mesh, topology, &all, most, progress)?
-        .ok_or(NotEnclosed::Tangle)?;
+/// For each facet that meets others anywhere but in common vertices and edges: those others, ascending. `pairs`: those that
+/// do not coincide.
+fn meets(topology: &Topology, pairs: &[[u32; 2]]) -> Result<BTreeMap<u32, Vec<u32>>, NotEnclosed> {
     let mut meets = BTreeMap::<u32, Vec<u32>>::new();
     let mut add = |a: u32, b: u32| {
         meets.entry(a).or_default().push(b);
@@ -205,11 +210,15 @@ impl Facet {
     }
 }
 
-/// What the parts of one facet add.
-#[derive(Default)]
+/// A part of a facet.
 struct Part {
-    terms: [f64; 9],
-    middles: Vec<(u32, Point)>,
+    facet: u32,
+    /// Its middle.
+    at: Point,
+    /// As seen along the axis along which the facet is seen largest.
+    area: f64,
+    /// Other facets that lie upon it, and +1 if they look the same way, −1 if not.
+    upon: Vec<(u32, i32)>,
 }
 
 struct Solid<'a> {
@@ -217,9 +226,9 @@ struct Solid<'a> {
     centre: Point,
     /// The axes, by the extent of the mesh along them.
     shortest: [usize; 3],
-    /// For rays along each axis, made when first needed.
-    rays: [OnceLock<Container<'a>>; 3],
     meets: &'a BTreeMap<u32, Vec<u32>>,
+    /// Which facets meet no other.
+    is_whole: &'a [bool],
     progress: &'a dyn Progress,
 }
 
@@ -239,64 +248,39 @@ impl Solid<'_> {
         self.shortest.into_iter().find(|&k| vector[k].abs() >= STEEP * most).unwrap_or(0)
     }
 
-    fn rays(&self, axis: usize) -> &Container<'_> {
-        let all = || (0..self.mesh.faces.len() as u32).collect::<Vec<_>>();
-        self.rays[axis].get_or_init(|| Container::new(self.mesh, &all(), axis))
-    }
-
-    /// Winding numbers before and behind the facet where it is seen at `p` along its axis. `upon`: other facets that lie upon it there, and
-    /// +1 if they look the same way, −1 if not.
-    fn winding(&self, f: u32, vector: Vector, p: &Point, upon: &[(u32, i32)]) -> Winding {
-        let axis = self.axis(vector);
-        let mut beyond = 0;
-        self.rays(axis).behind(f, p, |g, around| {
-            if upon.iter().all(|u| u.0 != g) {
-                beyond += around;
+    /// The facets that meet no other, as far as they hang together.
+    fn sheets(&self, topology: &Topology) -> Sheets {
+        let sets = Sets::new(self.mesh.faces.len());
+        let joined = topology.each_edge(self.mesh, |edge| {
+            if let [a, b] = edge
+                && self.is_whole[a.facet as usize]
+                && self.is_whole[b.facet as usize]
+            {
+                sets.join(a.facet, b.facet);
             }
+            Ok::<(), Infallible>(())
         });
-        let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
-        match vector[axis] > 0.0 {
-            true => Winding { outside: beyond, inside: beyond + layers },
-            false => Winding { outside: beyond - layers, inside: beyond },
+        let Ok(()) = joined;
+        let (count, sheet_of) = sets.numbered(|_| true);
+        let sizes: Vec<f64> =
+            (0..self.mesh.faces.len() as u32).into_par_iter().map(|f| norm(self.facet(f).vector())).collect();
+        let mut largest: Vec<Option<u32>> = vec![None; count];
+        for (f, sheet) in (0u32..).zip(&sheet_of).filter(|(f, _)| self.is_whole[*f as usize]) {
+            let largest = &mut largest[*sheet as usize];
+            if largest.is_none_or(|l| sizes[f as usize] > sizes[l as usize]) {
+                *largest = Some(f);
+            }
         }
+        let asked = |facet: u32| {
+            let [a, b, c] = self.facet(facet).local;
+            let at = plus(self.centre, times(1.0 / 3.0, plus(a, plus(b, c))));
+            Part { facet, at, area: 0.0, upon: vec![] }
+        };
+        Sheets { sheet_of, asked: largest.into_iter().map(|f| f.map(asked)).collect() }
     }
 
-    /// Winding numbers at the facets that meet no other: the same for all that hang together.
-    fn whole(&self, edges: &[(u32, u32, u32, i8)]) -> Result<Vec<Winding>, NotEnclosed> {
-        let faces = self.mesh.faces.len();
-        let sets = Sets::new(faces);
-        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            if let [a, b] = edge {
-                let free = |f: u32| !self.meets.contains_key(&f);
-                if free(a.2) && free(b.2) {
-                    sets.join(a.2, b.2);
-                }
-            }
-        }
-        let mut largest = BTreeMap::<u32, (f64, u32)>::new();
-        for f in (0..faces as u32).filter(|f| !self.meets.contains_key(f)) {
-            let size = norm(self.facet(f).vector());
-            let entry = largest.entry(sets.root(f)).or_insert((size, f));
-            if size > entry.0 {
-                *entry = (size, f);
-            }
-        }
-        let asked: Vec<(u32, u32)> = largest.into_iter().map(|(root, (_, f))| (root, f)).collect();
-        let found = asked.par_iter().map(|&(root, f)| {
-            if self.progress.cancelled() {
-                return Err(Cancelled.into());
-            }
-            let facet = self.facet(f);
-            let [a, b, c] = facet.local;
-            let middle = plus(self.centre, times(1.0 / 3.0, plus(a, plus(b, c))));
-            Ok((root, self.winding(f, facet.vector(), &middle, &[])))
-        });
-        let found: BTreeMap<u32, Winding> = found.collect::<Result<_, NotEnclosed>>()?;
-        Ok((0..faces as u32).map(|f| found.get(&sets.root(f)).copied().unwrap_or_default()).collect())
-    }
-
-    /// What a facet adds that meets others.
-    fn cut(&self, f: u32) -> Result<Part, NotEnclosed> {
+    /// The parts of a facet that meets others.
+    fn cut(&self, f: u32) -> Result<Vec<Part>, NotEnclosed> {
         if self.progress.cancelled() {
             return Err(Cancelled.into());
         }
@@ -304,7 +288,7 @@ impl Solid<'_> {
         let vector = facet.vector();
         let axis = steepest(vector);
         if vector[axis] == 0.0 {
-            return Ok(Part::default());
+            return Ok(vec![]);
         }
         let flat = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
         let (mut segments, mut upon) = (vec![], vec![]);
@@ -321,21 +305,91 @@ impl Solid<'_> {
             }
         }
         let found = cells(&facet.local.map(|p| flat(&p)), &segments).ok_or(NotEnclosed::Tangle)?;
-        let (mut sums, mut middles) = (Sums::<9>::ZERO, vec![]);
-        for Cell { centre, area } in found {
-            let there = upon.iter().filter(|u| holds(&u.2, &centre)).map(|u| (u.0, u.1));
-            let there: Vec<(u32, i32)> = there.collect();
-            let p = plus(self.centre, lifted(&facet, vector, axis, centre));
-            let winding = self.winding(f, vector, &p, &there);
-            if winding.bounds() {
-                let weight = 1.0 / (1 + there.len()) as f64;
-                sums.add(facet.terms(&winding, area / vector[axis].abs(), weight));
-                if area > HAIR * vector[axis].abs() {
-                    middles.push((f, p));
-                }
+        let part = |Cell { centre, area }: Cell| Part {
+            facet: f,
+            at: plus(self.centre, lifted(&facet, vector, axis, centre)),
+            area,
+            upon: upon.iter().filter(|u| holds(&u.2, &centre)).map(|u| (u.0, u.1)).collect(),
+        };
+        Ok(found.into_iter().map(part).collect())
+    }
+
+    /// What the parts of a facet add; the middles of those that bound something go to `middles`.
+    fn sum(&self, parts: &[Part], windings: &[Winding], middles: &mut Vec<(u32, Point)>) -> [f64; 9] {
+        let mut sums = Sums::<9>::ZERO;
+        for (part, winding) in parts.iter().zip(windings).filter(|(_, winding)| winding.bounds()) {
+            let facet = self.facet(part.facet);
+            let vector = facet.vector();
+            let whole = vector[steepest(vector)].abs();
+            let weight = 1.0 / (1 + part.upon.len()) as f64;
+            sums.add(facet.terms(winding, part.area / whole, weight));
+            if part.area > HAIR * whole {
+                middles.push((part.facet, part.at));
             }
         }
-        Ok(Part { terms: sums.each().map(|s| s.value()), middles })
+        sums.each().map(|s| s.value())
+    }
+}
+
+/// For rays along each axis, as far as they are asked for.
+struct Rays<'a> {
+    solid: &'a Solid<'a>,
+    along: [Container<'a>; 3],
+}
+
+impl<'a> Rays<'a> {
+    /// For rays from the middles of these parts.
+    fn new<'p>(solid: &'a Solid<'a>, parts: impl Iterator<Item = &'p Part>) -> Rays<'a> {
+        let mut places: [Vec<Point>; 3] = Default::default();
+        for part in parts {
+            places[solid.axis(solid.facet(part.facet).vector())].push(part.at);
+        }
+        let all: Vec<u32> = (0..solid.mesh.faces.len() as u32).collect();
+        let along = [0, 1, 2].map(|axis| Container::at(solid.mesh, &all, axis, &places[axis]));
+        Rays { solid, along }
+    }
+
+    /// Winding numbers before and behind a part.
+    fn winding(&self, Part { facet: f, at, upon, .. }: &Part) -> Winding {
+        if self.solid.progress.cancelled() {
+            return Winding::default();
+        }
+        let vector = self.solid.facet(*f).vector();
+        let axis = self.solid.axis(vector);
+        let (rays, mut beyond) = (&self.along[axis], 0);
+        let is_upon = |g: u32| upon.iter().any(|u| u.0 == g);
+        if rays.is_early(at) {
+            // All that the line passes winds around it 0 times: the shorter way is to count what lies before.
+            rays.not_behind(*f, at, |g, around| beyond -= if is_upon(g) { 0 } else { around });
+            beyond -= upon.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
+        } else {
+            rays.behind(*f, at, |g, around| beyond += if is_upon(g) { 0 } else { around });
+        }
+        let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
+        match vector[axis] > 0.0 {
+            true => Winding { outside: beyond, inside: beyond + layers },
+            false => Winding { outside: beyond - layers, inside: beyond },
+        }
+    }
+}
+
+/// The facets that meet no other.
+struct Sheets {
+    /// For each facet the number of those that it hangs together with; facets that meet others have one of their own.
+    sheet_of: Vec<u32>,
+    /// For each sheet its largest facet; none for facets that meet others.
+    asked: Vec<Option<Part>>,
+}
+
+impl Sheets {
+    /// Winding numbers at each facet: the same for all that hang together, 0 where facets meet others.
+    fn windings(&self, rays: &Rays) -> Result<Vec<Winding>, Cancelled> {
+        let winding = |part: &Option<Part>| part.as_ref().map_or(Winding::default(), |p| rays.winding(p));
+        let of_sheet: Vec<Winding> = self.asked.par_iter().map(winding).collect();
+        if rays.solid.progress.cancelled() {
+            return Err(Cancelled);
+        }
+        Ok(self.sheet_of.par_iter().map(|s| of_sheet[*s as usize]).collect())
     }
 }
 

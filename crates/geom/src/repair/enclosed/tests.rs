@@ -1,4 +1,5 @@
 use super::*;
+use crate::check::intersect::self_intersections;
 use crate::check::tests::{add, inverted};
 use crate::num::random::Random;
 use crate::progress::Silent;
@@ -8,7 +9,8 @@ use crate::topology::weld;
 fn of(mesh: &Mesh) -> Result<Enclosed, NotEnclosed> {
     let mesh = weld::mesh(mesh).unwrap().mesh;
     let topology = Topology::of(&mesh).unwrap();
-    enclosed(&mesh, &topology, &Silent)
+    let pairs = self_intersections(&mesh, &topology, &Silent).unwrap();
+    enclosed(&mesh, &Known::of(&mesh, topology), Some(pairs), &Silent)
 }
 
 /// A box between two corners.

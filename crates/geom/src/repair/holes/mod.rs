@@ -10,9 +10,10 @@ mod minimal;
 mod refine;
 mod ring;
 
-use super::around::Around;
-use super::work::{Known, Work};
+use super::work::Work;
 use super::{Holes, RepairError, Step};
+use crate::check::Known;
+use crate::check::around::Around;
 use crate::check::finding;
 use crate::mesh::Mesh;
 use crate::space::{Point, minus, norm, plus, times};

@@ -1,6 +1,7 @@
 //! The rim of a hole.
 
-use super::super::work::{Known, Work};
+use super::super::work::Work;
+use crate::check::Known;
 use crate::space::{Point, plus, times};
 
 /// A closed ring of boundary edges.

@@ -27,7 +27,8 @@ pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
 pub(super) fn unguarded(mesh: &Mesh, options: &Options) -> Attempt {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let before = check::check(mesh, None, &check_options, &Silent).unwrap();
-    attempt(mesh, options, (&before, &check_options), &Silent).unwrap()
+    let start = Work::new(mesh.clone(), options, &Silent).unwrap();
+    attempt(&start, options, (&before, &check_options)).unwrap()
 }
 
 /// Vertices said to be kept are places of the mesh as it was, and the counts add up.

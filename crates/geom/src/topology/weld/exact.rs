@@ -249,8 +249,24 @@ fn number<P: Position>(item: &(impl Fn(usize) -> P + Sync), first: Vec<AtomicU32
     Mesh { positions, faces: triples(id) }
 }
 
+/// Whether no two vertices are at one place.
+fn are_distinct(mesh: &Mesh) -> Result<bool, WeldError> {
+    check_corners(mesh)?;
+    // More can be named by no face.
+    let named = mesh.positions.len().min(u32::MAX as usize - 1);
+    let first = first_of_its_kind(named, named, &|v: usize| mesh.positions[v].normal());
+    Ok(first.par_iter().enumerate().all(|(v, first)| first.load(Relaxed) as usize == v))
+}
+
 /// The mesh itself if its vertices are distinct places that facets use; else welded.
 pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
+    let mut used = vec![false; this.positions.len()];
+    if are_distinct(this)? {
+        this.faces.iter().flatten().for_each(|v| used[*v as usize] = true);
+        if !used.contains(&false) {
+            return Ok(this.clone());
+        }
+    }
     let welded = mesh(this)?.mesh;
     Ok(if welded.positions.len() == this.positions.len() { this.clone() } else { welded })
 }
@@ -258,6 +274,9 @@ pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
 /// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
 /// may have come to lie upon it.
 pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
+    if are_distinct(&of)? {
+        return Ok(of);
+    }
     let vertex_of = mesh(&of)?.vertex_of;
     let mut first = vec![u32::MAX; of.positions.len()];
     for (v, number) in (0..).zip(&vertex_of).filter(|(_, number)| **number != u32::MAX) {

@@ -1,6 +1,6 @@
 //! The facets near some that changed: what these may cross lies there, and the rest of the mesh need not be looked at again.
 
-use crate::check::near::{Look, Near};
+use super::near::{Look, Near};
 use crate::mesh::Mesh;
 use crate::space::{Aabb, Point};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use std::cell::Cell;
 const FEW: usize = 16;
 
 /// Facets of a mesh, over the same vertices.
-pub(super) struct Around {
+pub(crate) struct Around {
     /// Those asked about, and all whose boxes overlap theirs, as a mesh; others too.
     pub mesh: Mesh,
     /// Their numbers in the whole mesh, ascending.
@@ -24,13 +24,14 @@ impl Around {
     ///
     /// n log k for k of n facets, where the k are about equally large; a single large one brings in whatever is as near as it is
     /// large.
-    pub(super) fn new(mesh: &Mesh, asked: &[bool]) -> Option<Around> {
+    pub(crate) fn new(mesh: &Mesh, asked: &[bool]) -> Option<Around> {
         let bounds = |f: &[u32; 3]| Aabb::of(&f.map(|v| mesh.positions[v as usize]));
-        let chosen: Vec<Aabb> =
-            mesh.faces.iter().zip(asked).filter(|(_, asked)| **asked).map(|(f, _)| bounds(f)).collect();
-        if chosen.is_empty() || FEW * chosen.len() > mesh.faces.len() {
+        let count = asked.iter().filter(|asked| **asked).count();
+        if count == 0 || FEW * count > mesh.faces.len() {
             return None;
         }
+        let chosen: Vec<Aabb> =
+            mesh.faces.iter().zip(asked).filter(|(_, asked)| **asked).map(|(f, _)| bounds(f)).collect();
         let half = chosen.iter().fold([0.0; 3], |half: Point, b| {
             let sides = b.sides();
             std::array::from_fn(|k| half[k].max(0.5 * sides[k]))

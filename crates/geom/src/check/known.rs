@@ -1,0 +1,57 @@
+//! What follows from the corners of a mesh: asked for by the check, and by a repair again and again.
+
+use super::free_edges::FreeEdges;
+use super::intersect::Crossings;
+use super::{Inspected, Options};
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::topology::{Properties, Topology};
+use std::sync::OnceLock;
+
+/// What follows from a mesh.
+#[derive(Debug)]
+pub(crate) struct Known {
+    pub topology: Topology,
+    pub properties: Properties,
+    pub free_edges: FreeEdges,
+    /// As in [`Inspected`].
+    pub depths: OnceLock<Vec<i32>>,
+}
+
+impl Known {
+    /// Of `mesh`, the one that `topology` was made of.
+    pub fn of(mesh: &Mesh, topology: Topology) -> Known {
+        let properties = Properties::of(mesh, &topology);
+        let free_edges = FreeEdges::of(&topology);
+        Known { topology, properties, free_edges, depths: OnceLock::new() }
+    }
+
+    /// Of `mesh`, which has the same facets, without the vertices that no facet uses; `None` where facets do not count, which might use
+    /// some.
+    pub fn compacted(&self, mesh: &Mesh) -> Option<Known> {
+        let known = Known::of(mesh, self.topology.compacted()?);
+        Some(Known { depths: self.depths.clone(), ..known })
+    }
+
+    /// For the kinds of defect to look at; nothing is known of stored normals. `gap`, mm.
+    pub fn inspected<'a>(
+        &'a self,
+        mesh: &'a Mesh,
+        crossings: Option<&'a Crossings>,
+        (options, gap): (&'a Options, f64),
+        progress: &'a dyn Progress,
+    ) -> Inspected<'a> {
+        Inspected {
+            mesh,
+            topology: &self.topology,
+            properties: &self.properties,
+            free_edges: &self.free_edges,
+            depths: &self.depths,
+            stored_normals: None,
+            crossings,
+            options,
+            gap,
+            progress,
+        }
+    }
+}

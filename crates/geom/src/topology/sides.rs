@@ -1,0 +1,66 @@
+//! The facets at each edge, gone through by the lower end of the edge, many at once: no list of all edges is made.
+
+use super::connected::Topology;
+use super::fans::{CHUNK, Fans, Spoke};
+use crate::mesh::Mesh;
+use crate::progress::Silent;
+use rayon::prelude::*;
+
+/// A facet at an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Side {
+    /// The ends, the lower vertex first.
+    pub ends: [u32; 2],
+    pub facet: u32,
+    /// Whether the facet runs from the lower to the higher vertex.
+    pub up: bool,
+}
+
+/// Hands to `take` the sides at each edge of these faces of so many vertices, ascending. Of what `take` refuses, the answer for the least edge.
+///
+/// Linear, but for vertices with very many facets. Faces must not name a vertex twice.
+pub(crate) fn each_edge<E: Send>(
+    vertices: usize,
+    faces: &[[u32; 3]],
+    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    through(&Fans::new(vertices, faces, |_| true, &Silent), faces, take)
+}
+
+impl Topology {
+    /// As [`each_edge`], of the facets of `mesh` that count. `mesh` is the one this was made of.
+    pub(crate) fn each_edge<E: Send>(
+        &self,
+        mesh: &Mesh,
+        take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+    ) -> Result<(), E> {
+        through(&self.fans, &mesh.faces, take)
+    }
+}
+
+fn through<E: Send>(
+    fans: &Fans,
+    faces: &[[u32; 3]],
+    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    let refused = |part: usize| -> Option<E> {
+        let (mut spokes, mut sides): (Vec<Spoke>, Vec<Side>) = (vec![], vec![]);
+        for v in part * CHUNK..fans.len().min((part + 1) * CHUNK) {
+            let v = v as u32;
+            fans.spokes(faces, v, &mut spokes);
+            sides.clear();
+            for &[next, before, facet] in &spokes {
+                let both = [(next, true), (before, false)].into_iter().filter(|(end, _)| *end > v);
+                sides.extend(both.map(|(end, up)| Side { ends: [v, end], facet, up }));
+            }
+            sides.sort_unstable();
+            let refused = sides.chunk_by(|a, b| a.ends == b.ends).find_map(|edge| take(edge).err());
+            if refused.is_some() {
+                return refused;
+            }
+        }
+        None
+    };
+    let parts = (0..fans.len().div_ceil(CHUNK)).into_par_iter();
+    parts.find_map_first(refused).map_or(Ok(()), Err)
+}
