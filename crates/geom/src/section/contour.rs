@@ -3,33 +3,23 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
-use super::exact::{missed, rounded};
-use super::polygon::{self, polygon, turn};
+use super::exact::missed;
+use super::levels::{MARGIN, SAME, Start, hidden};
+use super::polygon::{self, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
-use super::row::{Clean, size, spacing};
+use super::row::Clean;
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
-use super::start::{Part, Penalty, noise, partition, scatter, shares};
+use super::start::{Part, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 use std::collections::VecDeque;
 use std::ops::Range;
 
-/// Places at which a part may start in the first partition.
-const PLACES: usize = 1200;
-/// Fewest points of a part.
-const FEWEST: usize = 4;
 /// A turn between two parts is a corner from here on, radians, and from so many standard deviations of the headings.
 const CORNER: (f64, f64) = (polygon::CORNER, 8.0);
 /// A turn of more than this is a corner without further test, radians.
 const SHARP: f64 = 0.6;
-/// The partition and the noise that it shows follow each other so many times.
-const PASSES: usize = 6;
-/// Noise of a first partition below this share of that of local fits: these are not fits of noise.
-const POLLUTED: f64 = 0.3;
-/// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
-const SHORT: usize = 24;
-const FORM: f64 = 0.05;
 /// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
 const RESOLUTION: f64 = 1e-4;
 /// A crossing is followed this far from the chains' ends, in distances between points.
@@ -61,86 +51,59 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    let mut clean = Clean::new(points, options)?;
-    let n = clean.points.len();
-    let (mut own, step) = noise(&clean.points, clean.closed);
-    if n < SHORT {
-        own = own.min(FORM * clean.spacing);
-    }
-    let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
-    let mut sigma = options.noise.unwrap_or(own).max(least);
-    let log = libm::log(n as f64);
-    let penalty = |noise: f64| Penalty {
-        line: 3.0 * log,
-        arc: 4.0 * log,
-        noise,
-        fewest: FEWEST * step,
-        places: PLACES,
-    };
+    let clean = Clean::new(points, options)?;
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let (mut turned, mut parts, mut outliers, mut known) = (0, vec![], vec![], false);
-    let mut weights = vec![1.0; n];
-    let free = options.noise.is_none() && options.continuity.is_none();
-    let exact = if free { rounded(&clean, least) } else { None };
-    known |= exact.is_some();
-    if options.noise.is_none()
-        && let Some((by, found)) = exact.or_else(|| polygon(&clean, &penalty(least)))
-    {
-        (turned, parts) = (by, found);
-        clean.points.rotate_left(by);
-        sigma = scatter(&clean.points, &weights, &parts).max(least);
-        own = sigma;
-    } else {
-        outliers = clean.outliers(sigma, step);
-        outliers.iter().for_each(|i| weights[*i] = 0.0);
-    }
-    // Of a polygon nothing more is to be known.
-    let passes = if parts.is_empty() { PASSES } else { 0 };
-    for _ in 0..passes {
-        parts = partition(&clean.points, &weights, &penalty(sigma));
-        if clean.closed && parts.len() > 1 {
-            // The row is turned so that it starts where a part does.
-            let by = parts[parts.len() / 2].from;
-            turned = (turned + by) % n;
-            clean.points.rotate_left(by);
-            weights.rotate_left(by);
-            parts = partition(&clean.points, &weights, &penalty(sigma));
+    let mut start = Start::new(clean, options);
+    let mut chains = start.plan(options).all(&start.parts, progress)?;
+    let fine = start.fine(options);
+    let mut finer = start.finer(options, fine, &chains.0);
+    while let Some(other) = finer.pop_front() {
+        let found = match other.plan(options).all(&other.parts, progress) {
+            Err(SectionError::Cancelled(e)) => return Err(e.into()),
+            Err(_) => continue,
+            Ok(found) => found,
+        };
+        if found.0.len() > 1
+            && let Some(tangent) = other.tangent()
+        {
+            finer.push_front(tangent);
         }
-        // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
-        let found = scatter(&clean.points, &weights, &parts).max(least);
-        if options.noise.is_some() || found > POLLUTED * sigma {
+        let gain = start.cost(&chains.0) - other.cost(&found.0);
+        if gain.abs() < SAME {
+            // The search leads back to where it was.
             break;
         }
-        (own, sigma) = (own.min(found), found);
+        let margin = if other.is_tangent() { 0.0 } else { MARGIN };
+        if gain > margin {
+            (start, chains) = (other, found);
+        }
     }
-    let spacing = spacing(&clean, step);
-    let given = options.noise;
-    let mut plan =
-        Plan { clean: &clean, weights: &weights, options, spacing, step, sigma, given, own, known };
-    let (founds, corners) = plan.all(&parts, progress)?;
-    let mut found = plan.join(founds, corners)?;
-    if given.is_none() && options.resolution.is_none() {
-        found.astray(missed(&clean.points, &found.contour));
+    let mut found = start.plan(options).join(chains.0, chains.1)?;
+    if options.noise.is_none() && options.resolution.is_none() {
+        found.astray(missed(&start.clean.points, &found.contour));
+        found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
     }
-    found.finish(&clean, turned, points.len(), outliers);
+    found.finish(&start.clean, start.turned, points.len(), start.outliers);
     Ok(found.contour)
 }
 
 /// What all spans of a row have in common.
-struct Plan<'a> {
-    clean: &'a Clean,
-    weights: &'a [f64],
-    options: &'a Options,
-    spacing: f64,
+pub(super) struct Plan<'a> {
+    pub clean: &'a Clean,
+    pub weights: &'a [f64],
+    pub options: &'a Options,
+    pub spacing: f64,
     /// Points are followed at this step: nearer ones scatter more than they are apart.
-    step: usize,
-    sigma: f64,
-    given: Option<f64>,
-    own: f64,
+    pub step: usize,
+    pub sigma: f64,
+    pub given: Option<f64>,
+    pub own: f64,
+    /// The continuity that all joins have, where it is not left to the data.
+    pub forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
-    known: bool,
+    pub known: bool,
 }
 
 /// Where a corner is: the first point after it.
@@ -149,13 +112,13 @@ type Corner = usize;
 impl Plan<'_> {
     /// The chains between corners.
     fn all(
-        &mut self,
+        &self,
         parts: &[Part],
         progress: &dyn Progress,
     ) -> Result<(Vec<Found>, Vec<Corner>), SectionError> {
         let closed = self.clean.closed;
         let n = self.clean.points.len();
-        let forced = self.options.continuity;
+        let forced = self.forced;
         let corner = |k: usize| match forced {
             Some(Continuity::G0) => true,
             Some(_) => false,
@@ -233,7 +196,7 @@ impl Plan<'_> {
             let span = Span::new(&self.clean.points, self.weights, numbers);
             let found = span.find(&local, &task, progress)?;
             if found.astray && own.len() > 1 {
-                if matches!(self.options.continuity, Some(Continuity::G1 | Continuity::G2)) {
+                if matches!(self.forced, Some(Continuity::G1 | Continuity::G2)) {
                     return Err(SectionError::Astray);
                 }
                 // No curve without corners runs along these points.
@@ -353,7 +316,7 @@ impl Plan<'_> {
             }
         }
         let sum: f64 = all.contour.residuals.iter().zip(self.weights).map(|(r, w)| w * r * r).sum();
-        let unknowns: f64 = founds.iter().map(unknowns).sum();
+        let unknowns: f64 = founds.iter().map(Found::unknowns).sum();
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
@@ -361,11 +324,6 @@ impl Plan<'_> {
         all.contour.end_lengths();
         Ok(all)
     }
-}
-
-fn unknowns(found: &Found) -> f64 {
-    2.0 + found.state.chain.joins() as f64
-        + found.pieces().iter().map(|p| p.coefficients.len() as f64).sum::<f64>()
 }
 
 /// Direction of a part's line or arc at a point.

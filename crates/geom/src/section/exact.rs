@@ -271,7 +271,7 @@ fn off_circle([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> f64 {
 }
 
 /// Whether all coordinates are multiples of the least step, as of the outlines of pixels.
-fn quantized(points: &[[f64; 2]]) -> bool {
+pub(super) fn quantized(points: &[[f64; 2]]) -> bool {
     let steps = || points.windows(2).flat_map(|w| [w[1][0] - w[0][0], w[1][1] - w[0][1]]).map(f64::abs);
     let greatest = steps().fold(0.0, f64::max);
     let least = steps().filter(|s| *s > 1e-9 * greatest).fold(f64::INFINITY, f64::min);

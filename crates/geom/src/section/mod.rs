@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `row` | rows as they come: what is wrong with them |
+//! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
@@ -32,6 +33,7 @@ mod follow;
 mod foot;
 mod free;
 mod least;
+mod levels;
 mod link;
 mod nominal;
 mod paper;

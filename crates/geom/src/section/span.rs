@@ -274,6 +274,11 @@ impl Found {
     pub fn pieces(&self) -> &[Piece] {
         &self.state.chain.pieces
     }
+    /// Number of its unknowns.
+    pub fn unknowns(&self) -> f64 {
+        let each = self.pieces().iter().map(|p| p.coefficients.len() as f64);
+        2.0 + self.state.chain.joins() as f64 + each.sum::<f64>()
+    }
     /// Where the foot of the first point lies from the chain's start, along it.
     pub fn first_foot(&self) -> f64 {
         self.stations[self.state.breaks[0] % self.stations.len()]

@@ -147,7 +147,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
     if !planes.is_empty() && rows.is_empty() {
-        anyhow::bail!("{shown}: {}", planes::nothing_met(&planes, &record));
+        anyhow::bail!("{shown}: {}", planes::nothing_met(&planes, &sections, &record));
     }
     let mut inputs = vec![record];
     let found = (sections, rows);
@@ -159,6 +159,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
     document.nominal = nominal;
+    args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);
     }

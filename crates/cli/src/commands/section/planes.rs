@@ -9,7 +9,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::section::{self, Chain, Contour, Options, Order, Plane, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::results::InputRecord;
-use trueness_inspect::results::section::Section;
+use trueness_inspect::results::section::{PlaneRecord, Section};
 
 /// Where a mesh or cloud is cut.
 #[derive(Args, Debug)]
@@ -106,6 +106,16 @@ impl PlaneArgs {
         let gap = self.gap.map(|g| positive("gap", g)).transpose()?;
         Ok(Slab { thickness: positive("thickness", thickness)?, gap })
     }
+
+    /// Tells of a `--gap` that is too small for points so far apart: contours go on over a larger one.
+    pub fn tell_raised_gap(&self, planes: &mut [PlaneRecord]) {
+        let Some(given) = self.gap else { return };
+        for plane in planes {
+            let Some(gap) = plane.gap.filter(|gap| *gap > given * (1.0 + 1e-9)) else { continue };
+            let own = format!("points lie too far apart for --gap {given}: contours go on over {gap:.4}");
+            plane.hint = Some(plane.hint.take().map_or(own.clone(), |hint| format!("{own}; {hint}")));
+        }
+    }
 }
 
 fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, Usage> {
@@ -182,7 +192,14 @@ impl Cut {
 }
 
 /// Why there is no contour: where the planes are, and where the part is.
-pub fn nothing_met(planes: &[Cut], record: &InputRecord) -> String {
+pub fn nothing_met(planes: &[Cut], sections: &[Section], record: &InputRecord) -> String {
+    let loose: usize = sections.iter().map(|s| s.loose).sum();
+    if loose > 0 {
+        let slab = if planes.len() == 1 { "the slab holds" } else { "the slabs hold" };
+        return format!(
+            "{slab} {loose} points, too few in a row for a contour; a larger --thickness may help"
+        );
+    }
     let range = |normal: Point| {
         let bounds = record.bounds.as_ref()?;
         let mut range = [0.0; 2];

@@ -80,12 +80,21 @@ fn astray(contour: &ContourRecord) -> String {
     };
     let help = match (contour.plane, contour.taken.as_str()) {
         (None, _) => "more points around corners and bends, or --noise if it is known, may help",
-        (_, "row") => {
+        (_, "row") if covers_area(contour) => {
             "points that cover an area follow no curve: a thinner slab, or a plane that cuts less obliquely, may help"
+        }
+        (_, "row") => {
+            "the points are few for its corners and bends: a thicker slab, or --noise if it is known, may help"
         }
         _ => "a plane a little beside, or a finer mesh, may help",
     };
     format!("! {which} {run} and {tell} nothing of the part; {help}\n")
+}
+
+/// Whether the points of a cloud scatter about their contour about as far as they lie apart along it, or farther.
+fn covers_area(contour: &ContourRecord) -> bool {
+    const SHARE: f64 = 0.5;
+    contour.noise * contour.points as f64 > SHARE * contour.length
 }
 
 /// Numbers of segments from 0 as the table counts them: the first few.

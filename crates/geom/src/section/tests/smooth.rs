@@ -43,3 +43,22 @@ fn smooth_curves_are_found_in_few_rounds() {
         }
     }
 }
+
+/// A wave that no free piece of most coefficients follows is a few of them, not lines and arcs by the dozen.
+#[test]
+fn long_waves_are_few_free_curves() {
+    let random = &mut Random::new(3);
+    for (count, noise) in [(1500, 0.002), (1200, 0.002)] {
+        let at = |i: usize| 60.0 * i as f64 / (count - 1) as f64;
+        let points: Vec<[f64; 2]> = (0..count)
+            .map(at)
+            .map(|x| [x, 3.0 * libm::sin(x / 5.0) + libm::cos(x / 1.7)])
+            .map(|p| [p[0] + noise * normal(random), p[1] + noise * normal(random)])
+            .collect();
+        let rounds = Rounds::default();
+        let contour = contour(&points, &Options::default(), &rounds).unwrap();
+        assert!(kinds(&contour).iter().all(|k| *k == Kind::Spline), "{count}: {:?}", kinds(&contour));
+        assert!(contour.segments.len() <= 4 && contour.noise < 1.2 * noise, "{count}: {}", contour.noise);
+        assert!(rounds.0.into_inner() <= 12, "{count}");
+    }
+}

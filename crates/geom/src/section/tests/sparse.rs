@@ -3,7 +3,7 @@
 use super::*;
 
 /// `count` points at even lengths around a rectangle with rounded corners, turned and moved, rounded to so many decimals.
-fn rounded_rectangle(
+pub(super) fn rounded_rectangle(
     count: usize,
     shift: f64,
     [w, h, r]: [f64; 3],
@@ -42,7 +42,7 @@ fn rounded_rectangle(
         .collect()
 }
 
-fn is_right(contour: &Contour, [w, h, r]: [f64; 3], off: f64) -> bool {
+pub(super) fn is_right(contour: &Contour, [w, h, r]: [f64; 3], off: f64) -> bool {
     let length = 2.0 * (w + h - 4.0 * r) + 2.0 * std::f64::consts::PI * r;
     let radii = contour.segments.iter().filter_map(|s| match s.geometry {
         Geometry::Arc { radius, .. } => Some(radius),
