@@ -26,7 +26,7 @@ pub enum ArrangeError {
         position: Point,
     },
     /// Facets cross again wherever the cut is rounded to.
-    #[error("facets near ({:.6}, {:.6}, {:.6}) lie so close that the cut cannot be written with the numbers there are", position[0], position[1], position[2])]
+    #[error("facets near ({:.6}, {:.6}, {:.6}) lie so close that the cut cannot be written with the numbers there are; double precision, or a place nearer to the origin, leaves more of them", position[0], position[1], position[2])]
     Unresolved {
         /// The first such place, mm.
         position: Point,
