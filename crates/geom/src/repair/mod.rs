@@ -238,15 +238,19 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         true => in_single(base.mesh())?,
         false => (None, Rounded::default()),
     };
-    let start = match start {
+    let mut start = match start {
         Some(mesh) => Work::new(mesh, options, progress)?,
         None => base.again(options),
     };
+    let soup = start.soup()?;
     let attempt = |without: Option<&str>| {
         let steps = options.steps.iter().copied().filter(|s| without != Some(s)).collect();
         attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
     };
-    let mut done = attempt(None)?;
+    let mut done = match soup {
+        Some(_) => Attempt { not_united: soup, ..Attempt::none(&mut base, &before)? },
+        None => attempt(None)?,
+    };
     let mut taken_back = vec![];
     if worse(&before, &done.after) {
         // Tearing opens what is closed: it is the first to be done without.

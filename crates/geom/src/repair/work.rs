@@ -209,6 +209,18 @@ impl<'a> Work<'a> {
         Ok(self.pairs.all().filter(|all| all.len() <= most))
     }
 
+    /// Why nothing comes of it: most edges have one facet only, and facets cross without number. No step makes a surface of that. A
+    /// small one is gone through all the same, for what lies beside it.
+    pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
+        /// The steps take a second for so many facets.
+        const SMALL: usize = 5_000;
+        let topology = &self.known()?.topology;
+        let free = topology.boundary_edges.len();
+        let is_loose = free > topology.counting_facets.max(SMALL);
+        let is_soup = is_loose && self.all_crossings()?.is_none();
+        Ok(is_soup.then(|| ArrangeError::Tangle { most: self.most_crossings() }))
+    }
+
     /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
     fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (known, most) = (self.known()?, self.most_crossings());

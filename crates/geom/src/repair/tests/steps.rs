@@ -377,3 +377,16 @@ fn flat_facets_back_to_back_just_go() {
     let repaired = mend_with(&mesh, &Options { steps: vec!["degenerate"], ..Options::default() });
     assert_eq!((repaired.mesh.faces, repaired.changes.len()), (sound.faces, 2));
 }
+
+/// Facets anywhere, each by itself: given up at once, and left as it is.
+#[test]
+fn a_soup_of_facets_is_given_up() {
+    let random = &mut Random::new(8);
+    let positions: Vec<Point> = (0..18_000).map(|_| std::array::from_fn(|_| random.unit() * 10.0)).collect();
+    let faces = (0..6_000).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
+    let mesh = Mesh { positions, faces };
+    let repaired = mend(&mesh);
+    assert!(matches!(repaired.not_united, Some(ArrangeError::Tangle { .. })));
+    assert!(repaired.changes.is_empty() && repaired.rounds == 0 && !repaired.after.sound);
+    assert_eq!(repaired.mesh, mesh);
+}
