@@ -8,25 +8,13 @@ use std::path::{Path, PathBuf};
 /// From a file to those it takes names from, with the names.
 type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// Files that name each other's items, and the arrows between them.
-pub struct Circle {
-    /// The crate's sources, then each file, on one line: as the list of known circles has it.
-    pub line: String,
-    /// The same with the arrows that make it.
-    pub told: String,
-}
-
-/// The circles among the files of a crate; `name` stands for its sources.
+/// The circles among the files of a crate, each with the arrows that make it; `name` stands for the crate's sources.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<Circle>> {
+pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
     let arrows = arrows(source)?;
-    let circle = |ring: &Vec<PathBuf>| {
-        let files: Vec<String> = ring.iter().map(|file| file.display().to_string()).collect();
-        Circle { line: format!("{name}: {}", files.join(" ")), told: told(name, ring, &arrows) }
-    };
-    Ok(rings(&arrows).iter().map(circle).collect())
+    Ok(rings(&arrows).iter().map(|ring| told(name, ring, &arrows)).collect())
 }
 
 fn arrows(source: &Path) -> io::Result<Arrows> {
@@ -99,7 +87,7 @@ mod tests {
         }
         let found = of_crate(&folder, "crate").unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        found.into_iter().map(|circle| circle.told).collect()
+        found
     }
 
     #[test]

@@ -23,13 +23,9 @@ const FLOORS: [(&str, &[&str]); 5] = [
     ("cli", &["geom", "files", "inspect"]),
 ];
 
-/// The known circles.
-const KNOWN: &str = "tidy/circles.txt";
-
 fn main() -> ExitCode {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let keep = std::env::args().nth(1).is_some_and(|word| word == "--keep");
-    match findings(here.parent().unwrap_or(here), keep) {
+    match findings(here.parent().unwrap_or(here)) {
         Ok(found) => {
             found.iter().for_each(|f| println!("{f}"));
             if found.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -41,27 +37,17 @@ fn main() -> ExitCode {
     }
 }
 
-/// All places under `root` that break a rule. With `keep` the list of known circles is written anew.
+/// All places under `root` that break a rule.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-fn findings(root: &Path, keep: bool) -> io::Result<Vec<String>> {
-    let (mut found, mut circles) = (vec![], vec![]);
+fn findings(root: &Path) -> io::Result<Vec<String>> {
+    let mut found = vec![];
     for (name, below) in FLOORS {
         let folder = root.join("crates").join(name);
         found.extend(upward(&folder, name, below)?);
-        circles.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
+        found.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
     }
-    if keep {
-        let lines: Vec<String> = circles.iter().map(|c| c.line.clone() + "\n").collect();
-        fs::write(root.join(KNOWN), lines.concat())?;
-    }
-    let text = fs::read_to_string(root.join(KNOWN))?;
-    let known: Vec<&str> = text.lines().collect();
-    let new = circles.iter().filter(|c| !known.contains(&c.line.as_str()));
-    found.extend(new.map(|c| c.told.clone()));
-    let gone = known.iter().filter(|line| circles.iter().all(|c| c.line != **line));
-    found.extend(gone.map(|line| format!("{KNOWN}: no longer a circle, or of other files: {line}")));
     for folder in ["crates", "xtask", "bench", "fuzz", "tidy"] {
         for file in sources(&root.join(folder))? {
             let text = fs::read_to_string(&file)?;

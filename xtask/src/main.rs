@@ -8,7 +8,7 @@ use std::time::Instant;
 
 const HELP: &str = "\
 cargo xtask test      every check: format, lints, tests, documentation, viewer (needs Node; a browser if there is one)
-cargo xtask tidy      lists new circles between modules, long files and long functions (`tidy/circles.txt` has the known circles)
+cargo xtask tidy      lists circles between modules, long files and long functions
 cargo xtask readback  what the program writes, read by other programs (needs Python 3)
 cargo xtask schema    writes the JSON schemas of the result documents to docs/schema/";
 

@@ -3,8 +3,9 @@
 //! A facet with a repeated vertex holds nothing together and goes. One with three different vertices on a line does: its
 //! middle vertex sits on the long edge of its neighbour. The neighbour is cut in two there, then the facet can go.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::space::{Point, dot, minus};
 use crate::topology::Topology;
 

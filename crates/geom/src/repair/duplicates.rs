@@ -4,8 +4,9 @@
 //! edges the other facets are counted by direction; where they lack one, they vote for it.
 
 use super::edges::Edges;
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check::finding;
 use std::collections::BTreeMap;
 

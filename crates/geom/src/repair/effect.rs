@@ -1,10 +1,12 @@
 //! What a repair did to the places that the mesh encloses.
 
 use super::enclosed::{self, Enclosed, NotEnclosed};
+use super::error::RepairError;
 use super::measure::places;
+use super::options::Options;
 use super::same::Same;
 use super::work::Work;
-use super::{Options, RepairError, islands, orient};
+use super::{islands, orient};
 use crate::check::nesting::Container;
 use crate::check::{Known, Report};
 use crate::closest::{Query, Tree};

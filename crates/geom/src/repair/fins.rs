@@ -5,9 +5,11 @@
 //! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay.
 
 use super::edges::Edges;
+use super::error::RepairError;
 use super::holes;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, SHEET, Step};
+use crate::deviation::sign_choice::SHEET;
 use crate::space::{Vector, cross, minus, norm, plus};
 
 pub(super) const STEP: Step = Step {

@@ -1,7 +1,8 @@
 //! Shells so small that they are likely dust: removed on request.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check;
 
 pub(super) const STEP: Step = Step {

@@ -4,16 +4,19 @@
 //! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
 //! listed. The result of a step is decided exactly where [`check`] decides exactly.
 
+mod change;
 mod degenerate;
 mod duplicates;
 mod edges;
 mod effect;
 mod enclosed;
+mod error;
 mod fins;
 mod holes;
 mod islands;
 mod measure;
 mod not_finite;
+mod options;
 mod orient;
 mod outward;
 mod pairs;
@@ -21,6 +24,7 @@ mod same;
 mod scraps;
 mod self_intersections;
 mod split;
+mod step;
 mod stitch;
 mod t_junctions;
 #[cfg(test)]
@@ -28,31 +32,23 @@ mod tests;
 mod union;
 mod work;
 
+pub use change::Change;
 pub use effect::Effect;
 pub use enclosed::{Enclosed, NotEnclosed};
+pub use error::RepairError;
 pub use measure::{Counts, Deviation, DeviationError, Way};
+pub use options::{Holes, Options};
+pub use step::Step;
 
 use crate::arrange::ArrangeError;
-use crate::check::{self, CheckError, Known, Report};
+use crate::check::{self, Known, Report};
 use crate::mesh::Mesh;
-use crate::progress::{Cancelled, Progress};
-use crate::space::Point;
-use crate::topology::TopologyError;
+use crate::progress::Progress;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
 use same::Same;
 use std::sync::Arc;
 use work::Work;
-
-/// A step of the repair: an entry of [`STEPS`].
-#[derive(Debug)]
-pub struct Step {
-    /// Its name on the command line and in result documents.
-    pub name: &'static str,
-    /// What it does, for the manual.
-    pub about: &'static str,
-    run: fn(&mut Work) -> Result<(), RepairError>,
-}
 
 /// All steps, in the order in which they are done.
 pub const STEPS: [&Step; 15] = [
@@ -73,37 +69,8 @@ pub const STEPS: [&Step; 15] = [
     &islands::STEP,
 ];
 
-/// Vector area over area above which an open surface is a sheet and encloses nothing, as in the choice of signs.
-const SHEET: f64 = crate::deviation::sign_choice::SHEET;
-
-/// Which holes are filled.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holes {
-    /// Those whose patch has at most this share of the area of their shell.
-    UpTo(f64),
-    /// All, even the rim of a sheet.
-    All,
-}
-
-/// What shall be done.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Names of the steps to do, in any order.
-    pub steps: Vec<&'static str>,
-    /// Distance, mm, up to which two places may have been meant as one; `None`: as in [`check::Options::gap`].
-    pub gap: Option<f64>,
-    /// Distance, mm, up to which edges are stitched; `None`: a ten-thousandth of the diagonal.
-    pub stitch: Option<f64>,
-    /// Which holes are filled.
-    pub holes: Holes,
-    /// Shells with a smaller share of the diagonal of the whole are removed; `None`: none.
-    pub islands: Option<f64>,
-    /// The result shall be exact in single precision, as a file may hold no more: vertices are rounded before anything is
-    /// decided.
-    pub single: bool,
-}
-
 impl Default for Options {
+    /// All steps; holes up to a quarter of their shell.
     fn default() -> Options {
         Options {
             steps: STEPS.iter().map(|s| s.name).collect(),
@@ -114,21 +81,6 @@ impl Default for Options {
             single: false,
         }
     }
-}
-
-/// Something that was changed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Change {
-    /// The step that did it.
-    pub step: &'static str,
-    /// What was done.
-    pub what: &'static str,
-    /// Where.
-    pub position: Point,
-    /// Facets concerned.
-    pub facets: usize,
-    /// How big: mm for vertices and edges, mm² for facets, mm³ for shells.
-    pub size: f64,
 }
 
 /// What came of it.
@@ -182,36 +134,6 @@ pub struct Rounded {
     pub vertices: u64,
     /// Greatest change of a coordinate, mm.
     pub farthest: f64,
-}
-
-/// Why a mesh was not repaired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RepairError {
-    /// The faces cannot be connected.
-    #[error(transparent)]
-    Weld(#[from] WeldError),
-    /// The mesh cannot be checked.
-    #[error(transparent)]
-    Check(CheckError),
-    /// The repair was stopped.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-impl From<TopologyError> for RepairError {
-    fn from(e: TopologyError) -> RepairError {
-        CheckError::from(e).into()
-    }
-}
-
-impl From<CheckError> for RepairError {
-    fn from(e: CheckError) -> RepairError {
-        match e {
-            CheckError::Weld(e) => e.into(),
-            CheckError::Cancelled(e) => e.into(),
-            e => RepairError::Check(e),
-        }
-    }
 }
 
 /// Torn holes are widened by no more than this share of the whole area, all together.

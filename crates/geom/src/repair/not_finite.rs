@@ -1,7 +1,8 @@
 //! Facets at no place.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 
 pub(super) const STEP: Step =
     Step { name: "not_finite", about: "Removes facets with a coordinate that is NaN or infinite.", run };

@@ -4,8 +4,9 @@
 //! part of its area runs already. A surface with one side only, such as Möbius's, keeps its seam.
 
 use super::edges::{Edges, Side};
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check::finding;
 
 pub(super) const STEP: Step = Step {

@@ -1,7 +1,8 @@
 //! Closed shells that look the wrong way.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check;
 
 pub(super) const STEP: Step = Step {

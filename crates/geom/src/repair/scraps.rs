@@ -1,7 +1,9 @@
 //! Open sheets that lie about beside a closed shell.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, SHEET, Step};
+use crate::deviation::sign_choice::SHEET;
 use crate::space::{Vector, cross, minus, norm, plus};
 use crate::topology::Topology;
 

@@ -3,9 +3,10 @@
 //! The facets of all crossing pairs are torn out, and what is left of a shell beside its largest piece goes too if it is
 //! small. The holes are filled by the step that fills holes, whatever their size; where nothing fits it widens them.
 
+use super::error::RepairError;
 use super::scraps::sheets;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check::finding::area;
 
 pub(super) const STEP: Step = Step {

@@ -7,8 +7,9 @@
 
 use super::degenerate::cut;
 use super::edges::{Edges, Side};
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check::finding::area;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::topology::union::Sets;

@@ -4,8 +4,9 @@
 //! ends lie near their own, at distances that grow fourfold up to the limit, but never beyond a quarter of the edges
 //! themselves: so neighbouring vertices cannot collapse, and the nearest partner wins.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check::Known;
 use crate::check::{self, near::Near};
 use crate::space::{minus, norm, plus, times};

@@ -1,8 +1,9 @@
 //! Vertices that lie on somebody else's edge: the facet there is cut, so that both sides share the vertex.
 
 use super::degenerate::cut;
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::check;
 use crate::space::{dot, minus, norm};
 use std::collections::BTreeSet;

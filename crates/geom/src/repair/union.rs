@@ -4,8 +4,9 @@
 //! the material of another, [`outer_boundary`](crate::arrange::outer_boundary) tells exactly what of them bounds it. Sheets and shells with holes take no
 //! part; once their holes are filled they do.
 
+use super::error::RepairError;
+use super::step::Step;
 use super::work::Work;
-use super::{RepairError, Step};
 use crate::arrange::{ArrangeError, Boundary, Given, Options, boundary_of};
 use crate::check;
 use crate::check::finding::area;

@@ -3,8 +3,10 @@
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
 
+use super::change::Change;
+use super::error::RepairError;
+use super::options::Options;
 use super::pairs::Pairs;
-use super::{Change, Options, RepairError};
 use crate::arrange::ArrangeError;
 use crate::check::around::Around;
 use crate::check::intersect::{self, Crossings};

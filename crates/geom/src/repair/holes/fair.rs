@@ -6,8 +6,9 @@
 //! Interactive multi-resolution modeling on arbitrary meshes, 1998). A sparse linear least-squares problem, solved by
 //! conjugate gradients in a fixed order.
 
-use super::refine::neighbours;
-use super::{NEW, Patch, Ring, Site};
+use super::patch::{NEW, Patch};
+use super::ring::Ring;
+use super::site::Site;
 use crate::space::{Point, minus, plus, times};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -31,7 +32,7 @@ pub(super) fn fair(site: &Site, ring: &Ring, patch: &mut Patch) {
         }
     }
     for &v in &ring.vertices {
-        around.entry(v).or_default().extend(neighbours(site, v));
+        around.entry(v).or_default().extend(site.neighbours(v));
     }
     let umbrellas: Vec<Umbrella> = around.iter().map(|(v, near)| umbrella(site, *v, near)).collect();
     solve(&umbrellas, &mut patch.places);

@@ -4,7 +4,9 @@
 //! takes the cube of the number of vertices; longer rings first lose ears, the shortest chord first, until few enough
 //! are left.
 
-use super::{Patch, Ring, Site};
+use super::patch::Patch;
+use super::ring::Ring;
+use super::site::Site;
 use crate::num::predicates;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, unit};
 use std::cmp::Ordering;

@@ -7,19 +7,25 @@
 
 mod fair;
 mod minimal;
+mod patch;
 mod refine;
 mod ring;
+mod site;
 
+use super::error::RepairError;
+use super::options::Holes;
+use super::step::Step;
 use super::work::Work;
-use super::{Holes, RepairError, Step};
 use crate::check::Known;
 use crate::check::around::Around;
 use crate::check::finding;
 use crate::mesh::Mesh;
-use crate::space::{Point, minus, norm, plus, times};
+use crate::space::{minus, norm, plus, times};
 use crate::topology::Topology;
 use minimal::Aim;
+use patch::{NEW, Patch};
 use ring::Ring;
+use site::Site;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -33,45 +39,6 @@ pub(super) const STEP: Step = Step {
 /// The ways to fill a hole, in the order in which they are tried.
 const WAYS: [fn(&Site, &Ring) -> Option<Patch>; 4] =
     [refine::patch, |s, r| minimal::patch(s, r, Aim::Area), |s, r| minimal::patch(s, r, Aim::Bend), fan];
-
-/// The mesh around the holes.
-pub(super) struct Site<'a, 'w> {
-    pub work: &'a Work<'w>,
-    pub known: &'a Known,
-}
-
-impl Site<'_, '_> {
-    /// Whether a facet has this edge.
-    pub(super) fn has_edge(&self, a: u32, b: u32) -> bool {
-        self.known.topology.has_edge(self.work.mesh(), [a, b])
-    }
-}
-
-/// Facets that fill a hole. Vertices from `base` on are new.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Patch {
-    /// New places.
-    pub places: Vec<Point>,
-    /// Numbers below [`NEW`] are vertices of the mesh, others are `NEW` plus the index of a new place.
-    pub facets: Vec<[u32; 3]>,
-}
-
-/// Where the numbers of new places start: no mesh has so many vertices.
-pub(super) const NEW: u32 = 1 << 31;
-
-impl Patch {
-    /// Where a vertex is.
-    pub(super) fn at(&self, work: &Work, vertex: u32) -> Point {
-        match vertex.checked_sub(NEW) {
-            Some(new) => self.places[new as usize],
-            None => work.at(vertex),
-        }
-    }
-
-    fn area(&self, work: &Work) -> f64 {
-        self.facets.iter().map(|f| finding::area(f.map(|v| self.at(work, v)))).sum()
-    }
-}
 
 /// A hole on trial.
 struct Trial {

@@ -4,8 +4,11 @@
 //! edges are flipped where that makes the triangles more compact. Then the patch is faired. A hole in a plane, or with a
 //! sharp rim (the open end of a pipe), is better filled as it is.
 
+use super::fair;
 use super::minimal::{self, Aim};
-use super::{NEW, Patch, Ring, Site, fair};
+use super::patch::{NEW, Patch};
+use super::ring::Ring;
+use super::site::Site;
 use crate::num::predicates;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::collections::{BTreeMap, BTreeSet};
@@ -72,18 +75,11 @@ fn is_smooth(site: &Site, ring: &Ring, patch: &Patch) -> bool {
 /// Mean length of the edges at a vertex of the mesh.
 fn mean_edge(site: &Site, v: u32) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for w in neighbours(site, v) {
+    for w in site.neighbours(v) {
         sum += norm(minus(site.work.at(w), site.work.at(v)));
         count += 1.0;
     }
     sum / count
-}
-
-/// The vertices of the mesh that share an edge with `v`, ascending.
-pub(super) fn neighbours(site: &Site, v: u32) -> BTreeSet<u32> {
-    let facets = site.known.topology.facets_at_vertex(v);
-    let all = facets.into_iter().flat_map(|f| site.work.mesh().faces[f as usize]);
-    all.filter(|w| *w != v).collect()
 }
 
 /// Divides the facets that are coarse. True if there were any.

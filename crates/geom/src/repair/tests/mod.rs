@@ -10,6 +10,7 @@ use crate::check::tests::{add, counts, planted, sound};
 use crate::closest::{MIN_COORDINATE, MeshError};
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::space::Point;
 use crate::topology::tests::{block, on_threads};
 use std::collections::BTreeSet;
 

@@ -1,7 +1,7 @@
 //! The place of a curve nearest to a point.
 
 use super::super::value::Value;
-use super::Curve;
+use super::b_spline::Curve;
 
 /// The place of a curve nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::super::basis::Knots;
 use super::super::value::Value;
-use super::Curve;
+use super::b_spline::Curve;
 use super::fair::bending;
 use crate::num::cholesky::Cholesky;
 

@@ -6,7 +6,7 @@
 use super::super::basis::{KnotError, Knots};
 use super::super::pyramid::blossom;
 use super::super::value::Value;
-use super::Curve;
+use super::b_spline::Curve;
 
 impl<V: Value> Curve<V> {
     /// The same curve with the knot `t` once more.

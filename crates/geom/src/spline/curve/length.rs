@@ -1,7 +1,7 @@
 //! Length and curvature.
 
 use super::super::value::Value;
-use super::Curve;
+use super::b_spline::Curve;
 
 /// Places and weights of Gauss and Legendre's rule with five places, on −1 … 1; the mirrored ones are left out.
 const GAUSS: [(f64, f64); 3] = [

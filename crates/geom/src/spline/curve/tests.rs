@@ -1,5 +1,7 @@
 //! Identities of curves, and numbers of SciPy on the same knots.
 
+use super::super::basis::Knots;
+use super::super::value::Value;
 use super::*;
 use crate::num::random::Random;
 use crate::spline::rational::Rational;

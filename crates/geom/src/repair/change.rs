@@ -1,0 +1,18 @@
+//! What a step says of something that it changed.
+
+use crate::space::Point;
+
+/// Something that was changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// The step that did it.
+    pub step: &'static str,
+    /// What was done.
+    pub what: &'static str,
+    /// Where.
+    pub position: Point,
+    /// Facets concerned.
+    pub facets: usize,
+    /// How big: mm for vertices and edges, mm² for facets, mm³ for shells.
+    pub size: f64,
+}
