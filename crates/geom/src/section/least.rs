@@ -5,11 +5,15 @@
 //! and of the piece's own unknowns serves for any number of unknowns.
 
 mod normal;
+mod work;
+
+pub(super) use work::{Held, Work};
 
 use super::chain::{Chain, Kind, Layout, Pose, arc_end, arc_to};
 use super::result::Uncertainty;
 use crate::num::cholesky::Cholesky;
 use normal::end_coefficient;
+use work::{Block, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least.
 pub(super) const STIFF: f64 = 1e8;
@@ -33,15 +37,6 @@ pub(super) struct State {
     pub feet: Vec<f64>,
     /// Weighted sum of squared distances.
     pub sum: f64,
-}
-
-/// A join held where its place along a direction has a given value.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Held {
-    /// Number of the piece that starts there; of an open chain from 1.
-    pub join: usize,
-    pub along: [f64; 2],
-    pub value: f64,
 }
 
 /// How well the data determine a chain.
@@ -75,71 +70,6 @@ pub(super) struct Stop {
     /// Sum of squares that is asked for: where a step gains less than a tenth of what is missing, it will not be reached.
     /// Infinite where none is.
     pub target: f64,
-}
-
-/// An unknown of the chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Variable {
-    /// Shift of the start to the left, or forward.
-    Left,
-    Forward,
-    /// Turn of the start.
-    Turn,
-    /// A join moves forward: the piece before becomes longer, the one after, if any, shorter.
-    Join {
-        before: usize,
-        after: Option<usize>,
-    },
-    Coefficient {
-        piece: usize,
-        index: usize,
-    },
-}
-
-/// Sums of products over the points of a piece: the lower triangle, and with the distances.
-#[derive(Clone, Debug, Default)]
-struct Block {
-    size: usize,
-    products: Vec<f64>,
-    right: Vec<f64>,
-}
-
-impl Block {
-    fn reset(&mut self, size: usize) {
-        self.size = size;
-        self.products.clear();
-        self.products.resize(size * size, 0.0);
-        self.right.clear();
-        self.right.resize(size, 0.0);
-    }
-    #[inline]
-    fn add(&mut self, row: &[f64], weight: f64, distance: f64) {
-        let n = row.len();
-        for i in 0..n {
-            let x = weight * row[i];
-            self.right[i] += x * distance;
-            for (p, y) in self.products[i * n..=i * n + i].iter_mut().zip(row) {
-                *p += x * y;
-            }
-        }
-    }
-}
-
-/// Memory of a fit, kept from one to the next.
-#[derive(Debug, Default)]
-pub(super) struct Work {
-    pub layout: Layout,
-    blocks: Vec<Block>,
-    motions: Vec<Vec<[f64; 3]>>,
-    variables: Vec<Variable>,
-    matrix: Vec<f64>,
-    right: Vec<f64>,
-    /// The diagonal of what the points say: steps are damped by it. What must vanish weighs far more, and would hold back all
-    /// that moves it.
-    scale: Vec<f64>,
-    /// Signed distances of the points last measured.
-    distances: Vec<f64>,
-    stiff: f64,
 }
 
 fn place(pose: &Pose, point: [f64; 2]) -> f64 {

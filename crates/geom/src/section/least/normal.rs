@@ -2,7 +2,7 @@
 
 use super::super::chain::{Chain, Kind};
 use super::super::result::Uncertainty;
-use super::{Held, Variable, Work};
+use super::work::{Held, Variable, Work};
 
 impl Work {
     /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.

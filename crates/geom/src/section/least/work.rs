@@ -1,0 +1,78 @@
+//! What a fit computes with: the unknowns of a chain, sums over the points of its pieces, and the memory kept from one fit to the
+//! next.
+
+use super::super::chain::Layout;
+
+/// A join held where its place along a direction has a given value.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::section) struct Held {
+    /// Number of the piece that starts there; of an open chain from 1.
+    pub join: usize,
+    pub along: [f64; 2],
+    pub value: f64,
+}
+
+/// An unknown of the chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Variable {
+    /// Shift of the start to the left, or forward.
+    Left,
+    Forward,
+    /// Turn of the start.
+    Turn,
+    /// A join moves forward: the piece before becomes longer, the one after, if any, shorter.
+    Join {
+        before: usize,
+        after: Option<usize>,
+    },
+    Coefficient {
+        piece: usize,
+        index: usize,
+    },
+}
+
+/// Sums of products over the points of a piece: the lower triangle, and with the distances.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Block {
+    pub(super) size: usize,
+    pub(super) products: Vec<f64>,
+    pub(super) right: Vec<f64>,
+}
+
+impl Block {
+    pub(super) fn reset(&mut self, size: usize) {
+        self.size = size;
+        self.products.clear();
+        self.products.resize(size * size, 0.0);
+        self.right.clear();
+        self.right.resize(size, 0.0);
+    }
+    #[inline]
+    pub(super) fn add(&mut self, row: &[f64], weight: f64, distance: f64) {
+        let n = row.len();
+        for i in 0..n {
+            let x = weight * row[i];
+            self.right[i] += x * distance;
+            for (p, y) in self.products[i * n..=i * n + i].iter_mut().zip(row) {
+                *p += x * y;
+            }
+        }
+    }
+}
+
+/// Memory of a fit, kept from one to the next.
+#[derive(Debug, Default)]
+pub(in crate::section) struct Work {
+    pub layout: Layout,
+    pub(super) blocks: Vec<Block>,
+    pub(super) motions: Vec<Vec<[f64; 3]>>,
+    pub(super) variables: Vec<Variable>,
+    pub(super) matrix: Vec<f64>,
+    pub(super) right: Vec<f64>,
+    /// The diagonal of what the points say: steps are damped by it. What must vanish weighs far more, and would hold back all
+    /// that moves it.
+    pub(super) scale: Vec<f64>,
+    /// Signed distances of the points last measured.
+    pub(super) distances: Vec<f64>,
+    pub(super) stiff: f64,
+}
