@@ -7,7 +7,7 @@ use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
-use super::row::Clean;
+use super::row::{Clean, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
 use super::start::{Part, shares};
@@ -90,24 +90,42 @@ pub fn contour(
 }
 
 /// What all spans of a row have in common.
-pub(super) struct Plan<'a> {
-    pub clean: &'a Clean,
-    pub weights: &'a [f64],
-    pub options: &'a Options,
-    pub spacing: f64,
+struct Plan<'a> {
+    clean: &'a Clean,
+    weights: &'a [f64],
+    options: &'a Options,
+    spacing: f64,
     /// Points are followed at this step: nearer ones scatter more than they are apart.
-    pub step: usize,
-    pub sigma: f64,
-    pub given: Option<f64>,
-    pub own: f64,
+    step: usize,
+    sigma: f64,
+    given: Option<f64>,
+    own: f64,
     /// The continuity that all joins have, where it is not left to the data.
-    pub forced: Option<Continuity>,
+    forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
-    pub known: bool,
+    known: bool,
 }
 
 /// Where a corner is: the first point after it.
 type Corner = usize;
+
+impl Start {
+    /// How chains of its parts are looked for.
+    fn plan<'a>(&'a self, options: &'a Options) -> Plan<'a> {
+        Plan {
+            clean: &self.clean,
+            weights: &self.weights,
+            options,
+            spacing: spacing(&self.clean, self.step),
+            step: self.step,
+            sigma: self.sigma,
+            given: options.noise,
+            own: self.own,
+            forced: self.forced,
+            known: self.known,
+        }
+    }
+}
 
 impl Plan<'_> {
     /// The chains between corners.

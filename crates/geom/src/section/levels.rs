@@ -9,11 +9,10 @@
 //! form, and is named so.
 
 use super::chain::Kind;
-use super::contour::Plan;
 use super::exact::{quantized, rounded};
 use super::polygon::polygon;
 use super::result::{Continuity, Contour, Options};
-use super::row::{Clean, size, spacing};
+use super::row::{Clean, size};
 use super::span::Found;
 use super::start::{Part, Penalty, noise, partition, scatter};
 use std::collections::VecDeque;
@@ -60,13 +59,13 @@ pub(super) struct Start {
     /// The parts are exact lines and arcs.
     pub exact: bool,
     /// Arcs are tangent to the lines beside them.
-    known: bool,
-    step: usize,
+    pub known: bool,
+    pub step: usize,
     /// The continuity that all joins have, where it is not left to the data.
-    forced: Option<Continuity>,
+    pub forced: Option<Continuity>,
     /// Standard deviation of the noise that the partition was made with, and of local fits.
-    sigma: f64,
-    own: f64,
+    pub sigma: f64,
+    pub own: f64,
     /// Noise below this is rounding.
     least: f64,
 }
@@ -209,22 +208,6 @@ impl Start {
         let mut all: Vec<_> = self.parts.iter().map(|p| ((p.from + self.turned) % n, p.kind)).collect();
         all.sort_unstable();
         all
-    }
-
-    /// How chains of the parts are looked for.
-    pub fn plan<'a>(&'a self, options: &'a Options) -> Plan<'a> {
-        Plan {
-            clean: &self.clean,
-            weights: &self.weights,
-            options,
-            spacing: spacing(&self.clean, self.step),
-            step: self.step,
-            sigma: self.sigma,
-            given: options.noise,
-            own: self.own,
-            forced: self.forced,
-            known: self.known,
-        }
     }
 
     /// Standard deviation of the points about chains.
