@@ -102,6 +102,11 @@ fn wrong_input_is_refused_with_a_remedy() {
         ),
         (vec![good, "--plane", "0,0,1,0"], 2, "its points have two coordinates; leave --plane"),
         (vec![cloud, "--plane", "0,0,1,0"], 2, "say with --thickness how far from the plane they count"),
+        (
+            vec![cloud, "--plane", "0,0,1,0", "--thickness", "1"],
+            3,
+            "the slab holds 3 points, too few in a row for a contour; a larger --thickness may help",
+        ),
         (vec![good, "--dxf", &twice, "--svg", &twice], 2, "are the same file; give each its own"),
     ] {
         let answer = trueness([&["section"][..], &words].concat());
@@ -205,6 +210,76 @@ fn a_scattered_cloud_is_one_contour_and_a_torn_one_has_a_hint() {
     let mended = document([&words[..], &["--gap", wider]].concat());
     let count = |answer: &serde_json::Value| answer["planes"][0]["contours"].as_u64().unwrap();
     assert!(2 * count(&mended) < count(&document(&torn)), "{wider}");
+}
+
+/// Points of an area need a thinner slab; two points to a side of an octagon a thicker one.
+#[test]
+fn clouds_that_tell_nothing_come_with_the_advice_that_fits() {
+    let folder = Folder::new();
+    // Roberts' sequence: neither a grid nor by chance.
+    let even = |i: u32, step: f64| 10.0 * (f64::from(i) * step).fract();
+    let area: String = (1..400)
+        .map(|i| format!("{} {} {}\n", even(i, 0.754_877_67), even(i, 0.569_840_3), 0.01 * f64::from(i % 3)))
+        .collect();
+    let corner = |k: u32| (f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.3).sin_cos();
+    let octagon: String = (0..16)
+        .map(|i| {
+            // A corner, the middle of the side after it, and so on.
+            let ((s, c), (t, d)) = (corner(i / 2), corner(i.div_ceil(2)));
+            format!("{} {} {}\n", 5.0 * (c + d), 5.0 * (s + t), 0.01 * f64::from(i % 3))
+        })
+        .collect();
+    for (name, cloud, want) in
+        [("area.xyz", area, "a thinner slab"), ("octagon.xyz", octagon, "a thicker slab")]
+    {
+        let file = folder.write(name, cloud);
+        let words = ["section", file.to_str().unwrap(), "--plane", "0,0,1,0.01", "--thickness", "0.1"];
+        let answer = trueness(words);
+        let text = stdout(&answer);
+        assert_eq!(status(&answer), 1, "{text}");
+        let advice: Vec<&str> = text.lines().filter(|l| l.starts_with("! ")).collect();
+        assert!(!advice.is_empty() && advice.iter().all(|a| a.contains(want)), "{advice:?}");
+    }
+}
+
+/// A gap smaller than what lies between the points is raised, and both the table and the document tell to what.
+#[test]
+fn a_gap_that_is_raised_is_told() {
+    let folder = Folder::new();
+    let at = |i: u32| (f64::from(i) * std::f64::consts::TAU / 200.0).sin_cos();
+    let ring: String = (0..200).map(|i| format!("{} {} 0\n", 12.5 * at(i).0, 12.5 * at(i).1)).collect();
+    let file = folder.write("ring.xyz", ring);
+    let words = ["section", file.to_str().unwrap(), "--plane", "0,0,1,0", "--thickness", "1", "--gap"];
+    let small = [&words[..], &["0.01"]].concat();
+    let plane = document(&small)["planes"][0].clone();
+    let gap = plane["gap"].as_f64().unwrap();
+    // The points are 0.39 apart.
+    assert!((0.39..4.0).contains(&gap), "{plane}");
+    let want = format!("points lie too far apart for --gap 0.01: contours go on over {gap:.4}");
+    assert_eq!(plane["hint"], serde_json::json!(want));
+    assert!(stdout(&trueness(&small)).contains(&format!("\n! {want}\n")));
+    let enough = document([&words[..], &["4"]].concat());
+    assert!(
+        enough["planes"][0]["gap"] == 4.0 && enough["planes"][0]["hint"].is_null(),
+        "{}",
+        enough["planes"]
+    );
+}
+
+/// A plane across the cone of a plate: its curve is one free curve, with corners at its ends alone.
+#[test]
+fn a_curve_across_facets_has_no_false_corner() {
+    let plate = common::corpus("examples/plate/nominal.stl");
+    let answer = document(["section", plate.to_str().unwrap(), "--plane", "0,1,0,23.65"]);
+    let kinds = |contour: &serde_json::Value| -> Vec<String> {
+        let segments = contour["segments"].as_array().unwrap().iter();
+        segments.map(|s| s["kind"].as_str().unwrap().to_string()).collect()
+    };
+    let of = |n: usize| kinds(&answer["contours"][n]);
+    let (free, lines): (Vec<String>, Vec<String>) = of(0).into_iter().partition(|k| k == "spline");
+    assert_eq!((free.len(), lines), (1, vec!["line".to_string(); 9]), "{:?}", of(0));
+    assert_eq!(of(1), ["line"; 4]);
+    assert!(answer["contours"][0]["astray"].as_array().is_some_and(Vec::is_empty), "{}", answer["contours"]);
 }
 
 /// The three methods side by side on a line at 45° and a curve, and a clear word where there is no line.

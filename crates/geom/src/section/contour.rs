@@ -22,6 +22,8 @@ const CORNER: (f64, f64) = (polygon::CORNER, 8.0);
 const SHARP: f64 = 0.6;
 /// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
 const RESOLUTION: f64 = 1e-4;
+/// Parts are searched whose chains cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
+const FAR: f64 = 20.0;
 /// A crossing is followed this far from the chains' ends, in distances between points.
 const FARTHEST: f64 = 20.0;
 
@@ -60,6 +62,10 @@ pub fn contour(
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.0);
     while let Some(other) = finer.pop_front() {
+        let bar = start.cost(&chains.0);
+        if !promises(&other, options, bar, progress)? {
+            continue;
+        }
         let found = match other.plan(options).all(&other.parts, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             Err(_) => continue,
@@ -70,7 +76,7 @@ pub fn contour(
         {
             finer.push_front(tangent);
         }
-        let gain = start.cost(&chains.0) - other.cost(&found.0);
+        let gain = bar - other.cost(&found.0);
         if gain.abs() < SAME {
             // The search leads back to where it was.
             break;
@@ -104,6 +110,27 @@ struct Plan<'a> {
     forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
     known: bool,
+    /// The chains of the parts as they are, without any search.
+    draft: bool,
+}
+
+/// Whether a search from these parts may lead to chains that cost less than `bar`: those of the parts as they are cost little more.
+/// That takes a hundredth of the search.
+fn promises(
+    start: &Start,
+    options: &Options,
+    bar: f64,
+    progress: &dyn Progress,
+) -> Result<bool, SectionError> {
+    if bar.is_infinite() {
+        return Ok(true);
+    }
+    let plan = Plan { draft: true, ..start.plan(options) };
+    match plan.all(&start.parts, progress) {
+        Err(SectionError::Cancelled(e)) => Err(e.into()),
+        Err(_) => Ok(false),
+        Ok(found) => Ok(start.cost(&found.0) < bar + FAR),
+    }
 }
 
 /// Where a corner is: the first point after it.
@@ -123,6 +150,7 @@ impl Start {
             own: self.own,
             forced: self.forced,
             known: self.known,
+            draft: false,
         }
     }
 }
@@ -254,6 +282,7 @@ impl Plan<'_> {
             even,
             level: self.options.level,
             known: self.known,
+            draft: self.draft,
         }
     }
 

@@ -30,6 +30,8 @@ pub(super) struct Basis {
     values: Vec<f64>,
     /// `Kⱼ` at the places of the rule.
     inner: Vec<f64>,
+    /// The same in columns: for each coefficient all of `inner`, `integrals` and `values`.
+    columns: Vec<f64>,
 }
 
 /// Degree of the curvature of a piece with so many coefficients.
@@ -79,8 +81,14 @@ impl Basis {
             sum
         };
         let plus = |a: &[f64], b: Vec<f64>| -> Vec<f64> { a.iter().zip(b).map(|(x, y)| x + y).collect() };
-        let mut basis =
-            Basis { count, panels, integrals: vec![0.0; count], values: dense(0.0), inner: vec![] };
+        let mut basis = Basis {
+            count,
+            panels,
+            integrals: vec![0.0; count],
+            values: dense(0.0),
+            inner: vec![],
+            columns: vec![],
+        };
         let mut now = vec![0.0; count];
         for k in 0..panels {
             let (from, to) = (k as f64 / panels as f64, (k + 1) as f64 / panels as f64);
@@ -90,6 +98,11 @@ impl Basis {
             now = plus(&now, integral(from, to));
             basis.integrals.extend_from_slice(&now);
             basis.values.extend(dense(to));
+        }
+        for j in 0..count {
+            for rows in [&basis.inner, &basis.integrals, &basis.values] {
+                basis.columns.extend(rows[j..].iter().step_by(count));
+            }
         }
         basis
     }
@@ -113,6 +126,8 @@ pub(super) struct Table {
     panels: usize,
     length: f64,
     places: Vec<Place>,
+    /// Sums over the coefficients, one for each entry of a column of the basis.
+    sums: Vec<f64>,
     /// Heading at the end.
     pub turn: f64,
     /// Quintics over the panels, x and y.
@@ -127,7 +142,15 @@ impl Table {
         let basis = Basis::of(coefficients.len());
         let n = basis.count;
         (self.count, self.panels, self.length) = (n, basis.panels, length);
-        let dot = |k: &[f64]| k.iter().zip(coefficients).map(|(k, c)| k * c).sum::<f64>();
+        // Column by column: many sums at a time, each in the order of the coefficients.
+        let rows = basis.columns.len() / n;
+        self.sums.clear();
+        self.sums.resize(rows, 0.0);
+        for (c, column) in coefficients.iter().zip(basis.columns.chunks_exact(rows)) {
+            self.sums.iter_mut().zip(column).for_each(|(s, k)| *s += k * c);
+        }
+        let (angles, ends) = self.sums.split_at(4 * basis.panels);
+        let (integrals, values) = ends.split_at(basis.panels + 1);
         self.places.clear();
         self.motions.clear();
         self.quintics.clear();
@@ -137,9 +160,9 @@ impl Table {
         let first = self.motions.len();
         self.motions.resize(first + n + 1, [0.0; 2]);
         let place = |k: usize, at: [f64; 2]| {
-            let theta = length * dot(&basis.integrals[k * n..(k + 1) * n]);
+            let theta = length * integrals[k];
             let (sin, cos) = libm::sincos(theta);
-            Place { at, along: [cos, sin], curvature: dot(&basis.values[k * n..(k + 1) * n]) }
+            Place { at, along: [cos, sin], curvature: values[k] }
         };
         self.places.push(place(0, at));
         for k in 0..basis.panels {
@@ -148,7 +171,7 @@ impl Table {
             let now = last + n + 1;
             for (g, (_, weight)) in RULE.iter().enumerate() {
                 let inner = &basis.inner[(4 * k + g) * n..(4 * k + g + 1) * n];
-                let angle = dot(inner);
+                let angle = angles[4 * k + g];
                 let (sin, cos) = libm::sincos(length * angle);
                 let w = weight * step;
                 at = [at[0] + w * length * cos, at[1] + w * length * sin];
@@ -165,7 +188,7 @@ impl Table {
             self.places.push(place(k + 1, at));
             self.quintics.push(quintic(&self.places[k], &self.places[k + 1], length * step));
         }
-        self.turn = length * dot(&basis.integrals[basis.panels * n..]);
+        self.turn = length * integrals[basis.panels];
     }
 
     /// The knots of the curvature, each once.
@@ -228,6 +251,7 @@ impl Table {
     }
 
     /// The place at `t`, its derivative by the share of the panel, the curvature.
+    #[inline]
     fn on_panel(&self, t: f64) -> ([f64; 2], [f64; 2], f64) {
         let (k, f) = self.panel(t);
         let q = &self.quintics[k];
@@ -240,6 +264,7 @@ impl Table {
     }
 
     /// Motions at `t` with the length and with each coefficient, along `normal`.
+    #[inline]
     pub(super) fn motions_along(&self, t: f64, normal: [f64; 2], out: &mut [f64]) {
         let (k, f) = self.panel(t);
         let f = f.clamp(-0.5, 1.5);

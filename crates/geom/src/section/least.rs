@@ -117,6 +117,9 @@ fn assign(row: &Row, layout: &Layout, closed: bool, breaks: &mut [usize], feet: 
 fn distance(pose: &Pose, curvature: f64, point: [f64; 2]) -> (f64, [f64; 2]) {
     let p = [point[0] - pose.at[0], point[1] - pose.at[1]];
     let normal = pose.normal();
+    if curvature == 0.0 {
+        return (normal[0] * p[0] + normal[1] * p[1], normal);
+    }
     let q = 2.0 * (normal[0] * p[0] + normal[1] * p[1]) - curvature * (p[0] * p[0] + p[1] * p[1]);
     let root = (1.0 - curvature * q).max(0.0).sqrt();
     let inverse = 1.0 / root.max(f64::MIN_POSITIVE);
@@ -143,8 +146,10 @@ impl Work {
             let table = &self.layout.tables[g];
             let mut products = [0.0; 64];
             let size = block.size;
-            for i in from..to {
-                let i = i % count;
+            let mut next = from % count;
+            for _ in from..to {
+                let i = next;
+                next = if i + 1 == count { 0 } else { i + 1 };
                 let (point, weight) = (row.points[i], row.weights[i]);
                 let (d, n) = if piece.kind == Kind::Spline {
                     let local = pose.into_frame([point[0] - pose.at[0], point[1] - pose.at[1]]);

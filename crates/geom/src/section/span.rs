@@ -52,6 +52,8 @@ pub(super) struct Task {
     pub level: f64,
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
+    /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
+    pub draft: bool,
 }
 
 /// A chain found.
@@ -102,6 +104,12 @@ impl Span {
 
     /// Finds the pieces and the intervals of the joins.
     pub fn find(self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Found, Cancelled> {
+        if task.draft {
+            let mut search = self.search(task);
+            let state = search.first(parts, task.closed).state;
+            let (astray, work) = (self.is_astray(&state, task), std::mem::take(&mut search.work));
+            return Ok(Found { astray, ..self.found((state, vec![], task.scatter, work)) });
+        }
         let mut best = self.search_from(parts, task, progress)?;
         let mut astray = self.is_astray(&best.state, task);
         for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {

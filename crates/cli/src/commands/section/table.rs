@@ -91,10 +91,12 @@ fn astray(contour: &ContourRecord) -> String {
     format!("! {which} {run} and {tell} nothing of the part; {help}\n")
 }
 
-/// Whether the points of a cloud scatter about their contour about as far as they lie apart along it, or farther.
+/// Whether the points of a cloud scatter about their contour by more than a share of what neighbors are apart. Two points to a side
+/// of an octagon scatter by an eighth about a circle, points of an area by a quarter and more. The length of a contour astray tells
+/// nothing: it may run far off.
 fn covers_area(contour: &ContourRecord) -> bool {
-    const SHARE: f64 = 0.5;
-    contour.noise * contour.points as f64 > SHARE * contour.length
+    const SHARE: f64 = 0.2;
+    contour.noise > SHARE * contour.spacing
 }
 
 /// Numbers of segments from 0 as the table counts them: the first few.

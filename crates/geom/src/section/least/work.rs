@@ -49,6 +49,28 @@ impl Block {
     }
     #[inline]
     pub(super) fn add(&mut self, row: &[f64], weight: f64, distance: f64) {
+        // Lines and arcs have few unknowns, and their numbers are known beforehand: no loops are left.
+        match *row {
+            [a, b, c] => self.add_few([a, b, c], weight, distance),
+            [a, b, c, d] => self.add_few([a, b, c, d], weight, distance),
+            _ => self.add_many(row, weight, distance),
+        }
+    }
+
+    #[inline]
+    fn add_few<const N: usize>(&mut self, row: [f64; N], weight: f64, distance: f64) {
+        let (products, right) = (&mut self.products[..N * N], &mut self.right[..N]);
+        for i in 0..N {
+            let x = weight * row[i];
+            right[i] += x * distance;
+            for j in 0..=i {
+                products[i * N + j] += x * row[j];
+            }
+        }
+    }
+
+    #[inline]
+    fn add_many(&mut self, row: &[f64], weight: f64, distance: f64) {
         let n = row.len();
         for i in 0..n {
             let x = weight * row[i];
