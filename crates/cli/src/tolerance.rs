@@ -65,7 +65,14 @@ fn both_readings(text: &str, (lower, upper): (f64, f64)) -> String {
             t.abs()
         ),
         _ => {
-            format!("‘{text}’ is a zone without signs: write {zone} for the zone from {lower} to {upper} mm")
+            let around = if lower > 0.0 {
+                format!(", or {:+},{upper:+} for that from −{lower} to {upper} mm", -lower)
+            } else {
+                String::new()
+            };
+            format!(
+                "‘{text}’ is a zone without signs: write {zone} for the zone from {lower} to {upper} mm{around}"
+            )
         }
     }
 }
@@ -100,6 +107,7 @@ mod tests {
             let said = text.parse::<ToleranceArg>().unwrap_err();
             assert!(said.contains(number) && said.contains(zone), "{text}: {said}");
             assert!(zone.parse::<ToleranceArg>().is_ok(), "{zone}");
+            assert_eq!(text == "0.1,0.2", said.contains("-0.1,+0.2"), "{text}: {said}");
         }
     }
 

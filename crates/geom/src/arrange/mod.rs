@@ -35,10 +35,12 @@ mod snap;
 #[cfg(test)]
 pub(crate) mod tests;
 mod triangulate;
+mod upon;
 
 pub use error::ArrangeError;
 pub use outer::{Boundary, Options, outer_boundary};
 pub(crate) use outer::{Given, boundary_of};
+pub(crate) use upon::any_at_edges;
 
 use crate::mesh::Mesh;
 use crate::progress::Progress;

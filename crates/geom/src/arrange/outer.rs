@@ -8,12 +8,12 @@ use super::pairs::{not_too_many, pairs};
 use super::points::Points;
 use super::retile::retiled;
 use super::snap::snap;
+use super::upon::{Closeness, at_edges, step, widest};
 use crate::check::around::Around;
 use crate::check::intersect;
 use crate::mesh::Mesh;
-use crate::num::predicates::height;
 use crate::progress::Progress;
-use crate::space::{Aabb, Point};
+use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::weld::{as_it_is, compact, rejoined};
 use rayon::prelude::*;
@@ -56,8 +56,6 @@ const FEW: usize = 16;
 /// Where cutting comes to no end, surfaces no farther apart than so many times the spacing of numbers are taken to lie upon each
 /// other, one after another: corners that were turned and rounded; planes that such corners span; sums of several roundings.
 const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
-/// Facets that cross at so many times the spacing of numbers, or less, lie upon each other.
-const UPON: f64 = 64.0;
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
@@ -115,7 +113,7 @@ pub(crate) fn boundary_of(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let step = step(&given, options.single);
+    let close = Closeness::of(&given, options.single);
     let round = |x: f64| rounded_to(x, options.single);
     let own: Topology;
     let topology = match topology {
@@ -129,10 +127,11 @@ pub(crate) fn boundary_of(
         Some(known) => not_too_many(known, &given)?,
         None => pairs(&given, topology, &vec![true; given.faces.len()], progress)?,
     };
+    let (near, widest) = upon(&given, topology, &crossing, close)?;
     let mut result = Err(ArrangeError::Unresolved { position: [0.0; 3] });
-    for reach in reaches(&given, &crossing, step) {
+    for reach in reaches(widest, close.step) {
         if let Some(reach) = reach {
-            let imprints = imprints(&given, &crossing, reach, &round, progress)?;
+            let imprints = imprints(&given, &near, reach, &round, progress)?;
             let retiled =
                 imprints.and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach));
             if let Some((mesh, source)) = retiled {
@@ -153,19 +152,26 @@ pub(crate) fn boundary_of(
     result
 }
 
-/// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets that
-/// cross lie upon each other but for rounding, the reach that bridges it comes first: cut as they are, they may leave walls with
-/// nothing between.
-fn reaches(mesh: &Mesh, pairs: &[[u32; 2]], step: f64) -> Vec<Option<f64>> {
-    let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
-    // Of the corners of one facet above the plane of the other.
-    let above = |[f, g]: [u32; 2]| {
-        let [a, b, c] = corners(g);
-        corners(f).iter().map(|p| height([&a, &b, &c], p).abs()).fold(0.0, f64::max)
-    };
-    let apart = |[f, g]: &[u32; 2]| above([*f, *g]).min(above([*g, *f]));
-    let is_upon = |h: &f64| *h > 0.0 && *h <= UPON * step;
-    let widest = pairs.par_iter().map(apart).filter(is_upon).reduce(|| 0.0, f64::max);
+/// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
+fn upon(
+    mesh: &Mesh,
+    topology: &Topology,
+    crossing: &[[u32; 2]],
+    close: Closeness,
+) -> Result<(Vec<[u32; 2]>, f64), ArrangeError> {
+    let mut all = crossing.to_vec();
+    if !topology.non_manifold_edges.is_empty() {
+        // With the numbers of these vertices.
+        all.extend(at_edges(mesh, &Topology::of(mesh)?, close));
+    }
+    let widest = widest(mesh, &all, close);
+    Ok((all, widest))
+}
+
+/// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets
+/// lie upon each other but for rounding, so far apart at most, the reach that bridges it comes first: cut as they are, they may leave
+/// walls with nothing between.
+fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
     let mut all: Vec<Option<f64>> = std::iter::once(None).chain(REACHES.map(|r| Some(r * step))).collect();
     if widest > 0.0
         && let Some(fits) = all.iter().position(|r| r.is_some_and(|r| widest <= r))
@@ -286,14 +292,6 @@ fn shell_of(topology: &Topology) -> Vec<u32> {
     let mut shell_of = topology.shell_of.clone();
     topology.collinear.iter().for_each(|f| shell_of[*f as usize] = u32::MAX);
     shell_of
-}
-
-/// The spacing of numbers at the largest coordinate.
-fn step(mesh: &Mesh, single: bool) -> f64 {
-    let Aabb { min, max } = mesh.finite_bounds();
-    let largest = min.iter().chain(&max).fold(0.0f64, |m, x| m.max(x.abs())).min(f64::MAX);
-    let digits = if single { 29 } else { 0 };
-    (largest.next_up() - largest) * f64::from(1u32 << digits)
 }
 
 /// To the numbers of the file.

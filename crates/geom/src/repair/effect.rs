@@ -2,7 +2,7 @@
 
 use super::enclosed::{self, Enclosed, NotEnclosed};
 use super::error::RepairError;
-use super::measure::places;
+use super::measure::{once, places};
 use super::options::Options;
 use super::same::Same;
 use super::work::Work;
@@ -143,7 +143,7 @@ fn gone(
     }
     let Ok(tree) = Tree::build(after) else { return Ok(Gone::default()) };
     let all: Vec<Point> = asked.iter().map(|a| a.1).collect();
-    let distances = tree.distances(&all, &Query::default(), progress);
+    let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
     if progress.cancelled() {
         return Err(Cancelled);
     }
@@ -181,13 +181,22 @@ impl Gaps<'_> {
         Gaps { mesh, reach, rays: OnceLock::new() }
     }
 
-    /// Whether there is material on both sides of a facet at a place of it, as near as the reach.
+    /// Whether there is material on both sides of a facet at a place of it, as near as the reach. Where gaps meet, one side may lie in
+    /// the other gap: places beside are asked about too.
     fn hold(&self, facet: u32, p: Point) -> bool {
         let [a, b, c] = self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize]);
-        let Some((normal, _)) = unit(cross(minus(b, a), minus(c, a))) else { return false };
+        let (along, across) = (minus(b, a), minus(c, a));
+        let Some(((normal, _), (u, _))) = unit(cross(along, across)).zip(unit(along)) else { return false };
+        let v = cross(normal, u);
         let all = || (0..self.mesh.faces.len() as u32).collect::<Vec<_>>();
         let rays = self.rays.get_or_init(|| Container::new(self.mesh, &all(), 0));
-        let is_inside = |away: f64| rays.winding(&plus(p, times(away, normal))).is_some_and(|w| w >= 1);
-        is_inside(self.reach) && is_inside(-self.reach)
+        let is_inside = |q: &Point, away: f64| {
+            rays.winding(&plus(*q, times(away * self.reach, normal))).is_some_and(|w| w >= 1)
+        };
+        let beside = [[0.0, 0.0], [0.9, 0.4], [-0.4, 0.9], [-0.9, -0.4], [0.4, -0.9]];
+        beside.iter().any(|[s, t]| {
+            let q = plus(p, times(self.reach, plus(times(*s, u), times(*t, v))));
+            is_inside(&q, 1.0) && is_inside(&q, -1.0)
+        })
     }
 }

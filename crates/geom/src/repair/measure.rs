@@ -7,6 +7,7 @@ use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Point, plus, times};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Vertices and facets that stayed, came and went.
 ///
@@ -108,6 +109,25 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
 }
 
+/// What `ask` answers for each of these places, those that are there several times asked about once: at a corner of very many facets
+/// each answer takes as long as there are facets.
+pub(super) fn once<E>(
+    places: &[Point],
+    ask: impl FnOnce(&[Point]) -> Result<Vec<f64>, E>,
+) -> Result<Vec<f64>, E> {
+    let mut number: HashMap<[u64; 3], u32> = HashMap::with_capacity(places.len());
+    let mut different: Vec<Point> = vec![];
+    let mut numbered = |p: &Point| {
+        *number.entry(p.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
+            different.push(*p);
+            different.len() as u32 - 1
+        })
+    };
+    let of: Vec<u32> = places.iter().map(&mut numbered).collect();
+    let answers = ask(&different)?;
+    Ok(of.into_iter().map(|i| answers[i as usize]).collect())
+}
+
 /// Exact for cubic functions on a facet: corners, middles of edges, middle.
 const WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
@@ -130,7 +150,8 @@ pub(super) fn way(
         return Ok(Way::default());
     }
     let points: Vec<Point> = changed.iter().flat_map(|t| places(*t)).collect();
-    let distances = Tree::build(to)?.distances(&points, &Query::default(), progress)?;
+    let tree = Tree::build(to)?;
+    let distances = once(&points, |places| tree.distances(places, &Query::default(), progress))?;
     let mut way = Way::default();
     for (t, d) in changed.iter().zip(distances.chunks_exact(WEIGHTS.len())) {
         way.max = d.iter().copied().fold(way.max, f64::max);

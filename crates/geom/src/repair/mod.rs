@@ -166,7 +166,10 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     };
     let soup = start.soup()?;
     let attempt = |without: Option<&str>| {
-        let steps = options.steps.iter().copied().filter(|s| without != Some(s)).collect();
+        // Bodies that are not united stay whole: what crosses is not torn out in their place.
+        let torn = (without == Some(union::STEP.name)).then_some(self_intersections::STEP.name);
+        let is_wanted = |s: &&str| without != Some(*s) && torn != Some(*s);
+        let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
     };
     let mut done = match soup {

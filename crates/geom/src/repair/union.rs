@@ -7,7 +7,7 @@
 use super::error::RepairError;
 use super::step::Step;
 use super::work::Work;
-use crate::arrange::{ArrangeError, Boundary, Given, Options, boundary_of};
+use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, boundary_of};
 use crate::check;
 use crate::check::finding::area;
 use crate::mesh::Mesh;
@@ -99,6 +99,9 @@ fn has_work(
     is_solid: &impl Fn(u32) -> bool,
 ) -> Result<bool, RepairError> {
     if topology.duplicate_facets.iter().any(|[a, b]| is_solid(*a) && is_solid(*b)) {
+        return Ok(true);
+    }
+    if any_at_edges(work.mesh(), topology, work.options.single) {
         return Ok(true);
     }
     let kind = check::KINDS.iter().find(|k| k.name == "inside_out_shells");

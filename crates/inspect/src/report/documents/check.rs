@@ -43,11 +43,11 @@ impl Subject for CheckDocument {
                 h.count(kinds);
                 if total > 0 {
                     h.raw(" <small>")
-                        .word("kinds")
+                        .word(if kinds == 1 { "kinds.one" } else { "kinds" })
                         .raw(" · ")
                         .count(total)
                         .raw(" ")
-                        .word("places")
+                        .word(if total == 1 { "places.one" } else { "places" })
                         .raw("</small>");
                 }
             });
