@@ -101,6 +101,20 @@ pub(crate) fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
             prism(m, &rectangle([x, y], [x + 1.0, y + 1.0]), z, z + 1.0);
         }
     });
+    // They have corners in common, and nothing crosses but for rounding.
+    add("a slab of four cubes", 4.0, &|m| {
+        for (x, z) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            // The diagonals of faces that touch run across each other.
+            let mut square = rectangle([x, 0.0], [x + 1.0, 1.0]);
+            square.rotate_left(z as usize);
+            prism(m, &square, z, z + 1.0);
+        }
+    });
+    add("two boxes upon a cube", 2.0, &|m| {
+        prism(m, &rectangle([0.0, 0.0], [1.0, 1.0]), 0.0, 1.0);
+        prism(m, &rectangle([0.0, 0.0], [0.5, 1.0]), 1.0, 2.0);
+        prism(m, &rectangle([0.5, 0.0], [1.0, 1.0]), 1.0, 2.0);
+    });
     add("a pyramid on its tip", 361.0 + area, &|m| {
         prism(m, &block, 0.0, 1.0);
         let first = m.positions.len() as u32;

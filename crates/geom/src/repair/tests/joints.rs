@@ -264,7 +264,7 @@ fn facets_that_crossed_before_do_not_drive_parts_away() {
 fn bodies_that_touch_are_united_however_they_are_turned() {
     use crate::arrange::tests::touching::{anyhow, touching};
     let random = &mut Random::new(17);
-    for _ in 0..3 {
+    for _ in 0..12 {
         let turn = anyhow(random);
         for (name, mut mesh, _) in touching(random) {
             mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
@@ -276,6 +276,11 @@ fn bodies_that_touch_are_united_however_they_are_turned() {
             assert!(surface < near, "{name}: {surface}");
             let volume = repaired.after.properties.signed_volume;
             assert!((volume - enclosed.volume).abs() <= near * enclosed.volume, "{name}: {volume}");
+            // No wall is left where they touched.
+            let areas = [("a slab of four cubes", 16.0), ("two boxes upon a cube", 10.0)];
+            if let Some((_, area)) = areas.iter().find(|(of, _)| *of == name) {
+                assert!((repaired.after.properties.area - area).abs() < 1e-12 * area, "{name}");
+            }
         }
     }
 }
