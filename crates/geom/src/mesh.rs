@@ -21,6 +21,17 @@ impl Mesh {
         Aabb::of(&self.positions)
     }
 
+    /// Where the corners of a face are.
+    pub(crate) fn corners(&self, face: u32) -> [Point; 3] {
+        self.faces[face as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// Whether single precision holds all coordinates; those that are not finite do not count.
+    pub(crate) fn is_single(&self) -> bool {
+        let holds = |x: &f64| f64::from(*x as f32) == *x || !x.is_finite();
+        self.positions.par_iter().all(|p| p.iter().all(holds))
+    }
+
     /// Box of the positions that are finite. Runs on the current rayon pool.
     pub fn finite_bounds(&self) -> Aabb {
         const CHUNK: usize = 1 << 14;

@@ -1,18 +1,18 @@
 //! Surfaces that lie upon each other but for rounding, given the same vertices and edges.
 //!
 //! Faces of two bodies that touch have no common plane once their corners were turned and rounded: facets of the one cross those
-//! of the other anyhow, and what lies between them is as thin as the spacing of numbers. Here vertices, edges and facets that
+//! of the other at random, and what lies between them is as thin as the spacing of numbers. Here vertices, edges and facets that
 //! are no farther apart than a reach of some such spacings share what they have in common: vertices become one; where edges
 //! pass each other there is a new vertex; vertices that lie upon edges and facets become points of these. Then the facets
 //! are cut along all that lies upon them (`retile`). Facets of two faces are the same triangles where the faces overlap,
-//! and an arrangement cancels or merges them. No place of the surface moves farther than about the reach.
+//! and an arrangement cancels or merges them. No place of the surface moves farther than three times the reach.
 //!
 //! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space, with the vertices that are
 //! there in place of the pixels of a grid.
 
 use super::error::ArrangeError;
 use super::meetings::{Edge, edge};
-use super::snap::snap;
+use super::snap::{snap, used};
 use crate::check::intersect::reaching;
 use crate::mesh::Mesh;
 use crate::num::predicates::{axis, height, side_of_line};
@@ -118,12 +118,8 @@ fn upon(
     Ok(Some((positions, Imprints { on_edge, inside, facets })))
 }
 
-fn corners(mesh: &Mesh, facet: u32) -> [Point; 3] {
-    mesh.faces[facet as usize].map(|v| mesh.positions[v as usize])
-}
-
 fn boxes(mesh: &Mesh, facets: &[u32], reach: f64) -> Vec<Aabb> {
-    facets.iter().map(|f| grown(&corners(mesh, *f), reach)).collect()
+    facets.iter().map(|f| grown(&mesh.corners(*f), reach)).collect()
 }
 
 /// The box of some points, and `reach` more on all sides.
@@ -137,7 +133,7 @@ fn grown<'a>(points: impl IntoIterator<Item = &'a Point>, reach: f64) -> Aabb {
 fn joined(mesh: &Mesh, near: &BTreeSet<u32>, reach: f64) -> (Mesh, Vec<u32>) {
     let movable: BTreeSet<u32> = near.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     let movable: Vec<u32> = movable.into_iter().collect();
-    let to = snap(&mesh.positions, &mesh.faces, &movable, reach);
+    let to = snap(&mesh.positions, &used(mesh.positions.len(), &mesh.faces), &movable, reach);
     let is_whole = |f: &[u32; 3]| f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
     let faces = mesh.faces.iter().map(|f| f.map(|v| to.get(&v).copied().unwrap_or(v)));
     let (faces, source) = faces.zip(0..).filter(|(f, _)| is_whole(f)).unzip();
@@ -177,7 +173,7 @@ fn passing(
 
 /// Whether one of two facets lies wholly on one side of the plane of the other, and farther off than `reach`.
 fn are_apart(mesh: &Mesh, f: u32, g: u32, reach: f64) -> bool {
-    let (t, u) = (corners(mesh, f), corners(mesh, g));
+    let (t, u) = (mesh.corners(f), mesh.corners(g));
     let beyond = |[a, b, c]: [Point; 3], of: [Point; 3]| {
         let high = of.map(|p| height([&a, &b, &c], &p));
         high.iter().all(|h| *h > reach) || high.iter().all(|h| *h < -reach)
@@ -215,9 +211,8 @@ fn met(
     let mut positions = mesh.positions.clone();
     positions.extend(passing.iter().map(|p| p.1.map(&round)));
     let new: Vec<u32> = (mesh.positions.len() as u32..positions.len() as u32).collect();
-    // As corners of facets that are no facets.
-    let mut used = mesh.faces.clone();
-    used.extend(new.iter().map(|v| [*v; 3]));
+    let mut used = used(mesh.positions.len(), &mesh.faces);
+    used.resize(positions.len(), true);
     let to = snap(&positions, &used, &new, reach);
     let put = |v: u32| to.get(&v).copied().unwrap_or(v);
     let on = passing.iter().zip(new).flat_map(|((edges, _), v)| edges.map(|e| (e, put(v))));
@@ -242,7 +237,7 @@ fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> Lies {
     if !on.is_empty() {
         return Lies::On(on);
     }
-    let [a, b, c] = corners(mesh, facet);
+    let [a, b, c] = mesh.corners(facet);
     // Flat facets have edges only.
     let Some(axis) = axis(&[a, b, c]) else { return Lies::Apart };
     let turn = side_of_line(axis, &a, &b, &c);

@@ -7,8 +7,8 @@ use super::imprint::imprints;
 use super::pairs::{not_too_many, pairs};
 use super::points::Points;
 use super::retile::retiled;
-use super::snap::snap;
-use super::upon::{Closeness, at_edges, step, widest};
+use super::snap::{snap, used};
+use super::upon::{Closeness, step, upon};
 use crate::check::around::Around;
 use crate::check::intersect;
 use crate::mesh::Mesh;
@@ -53,8 +53,8 @@ const CUTS: usize = 16;
 const HIGHEST: usize = 11;
 /// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
 const FEW: usize = 16;
-/// Where cutting comes to no end, surfaces no farther apart than so many times the spacing of numbers are taken to lie upon each
-/// other, one after another: corners that were turned and rounded; planes that such corners span; sums of several roundings.
+/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or where cutting comes
+/// to no end otherwise: corners that were turned and rounded; planes that such corners span; sums of several roundings.
 const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
@@ -67,9 +67,9 @@ const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
 /// they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
-/// cut. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding, so that
-/// cutting them comes to no end, are taken to coincide: places of them that are less than 4, or else 64 or 1024, times the spacing of
-/// numbers at the largest coordinate apart become one. The result is free of crossings, flat and doubled
+/// cut. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding are
+/// taken to coincide: faces with at most 64 times the spacing of numbers at the largest coordinate between them, or 4 times that of
+/// single precision where the vertices have it and the result need not, and where cutting comes to no end up to 1024 times. The result is free of crossings, flat and doubled
 /// facets in `f64`, or in single precision with [`Options::single`], where the vertices of the mesh must have it too: that is
 /// checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the cells.
 ///
@@ -150,22 +150,6 @@ pub(crate) fn boundary_of(
         }
     }
     result
-}
-
-/// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
-fn upon(
-    mesh: &Mesh,
-    topology: &Topology,
-    crossing: &[[u32; 2]],
-    close: Closeness,
-) -> Result<(Vec<[u32; 2]>, f64), ArrangeError> {
-    let mut all = crossing.to_vec();
-    if !topology.non_manifold_edges.is_empty() {
-        // With the numbers of these vertices.
-        all.extend(at_edges(mesh, &Topology::of(mesh)?, close));
-    }
-    let widest = widest(mesh, &all, close);
-    Ok((all, widest))
 }
 
 /// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets
@@ -315,7 +299,7 @@ fn rounded(
     let as_they_are = count == old && close.is_none();
     if let Some((movable, reach)) = close {
         let movable: Vec<u32> = movable.into_iter().chain(old as u32..count as u32).collect();
-        let to = snap(&positions, &kept.faces, &movable, reach);
+        let to = snap(&positions, &used(positions.len(), &kept.faces), &movable, reach);
         kept.faces.iter_mut().flatten().for_each(|v| *v = to.get(v).copied().unwrap_or(*v));
     }
     let mut out = Mesh { positions, faces: kept.faces };

@@ -8,16 +8,9 @@ use std::collections::{HashMap, HashSet};
 
 type Cell = [i64; 3];
 
-/// For each point of `may_move` (ascending) the nearest corner of `faces` that is no farther than `reach` along any axis, of those
-/// that may not move or are not moved; the lowest of equally near ones. Points without one are not listed. Cost: linear.
-pub(super) fn snap(
-    positions: &[Point],
-    faces: &[[u32; 3]],
-    may_move: &[u32],
-    reach: f64,
-) -> HashMap<u32, u32> {
-    let mut used = vec![false; positions.len()];
-    faces.iter().flatten().for_each(|v| used[*v as usize] = true);
+/// For each point of `may_move` (ascending) the nearest of the points `used` that is no farther than `reach` along any axis, of those that
+/// may not move or are not moved; the lowest of equally near ones. Points without one, or not used, are not listed. Cost: linear.
+pub(super) fn snap(positions: &[Point], used: &[bool], may_move: &[u32], reach: f64) -> HashMap<u32, u32> {
     let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
     let around = |c: Cell| {
         let by = |i: i64| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
@@ -45,4 +38,11 @@ pub(super) fn snap(
         }
     }
     to
+}
+
+/// Which of so many points are corners of these faces.
+pub(super) fn used(points: usize, faces: &[[u32; 3]]) -> Vec<bool> {
+    let mut used = vec![false; points];
+    faces.iter().flatten().for_each(|v| used[*v as usize] = true);
+    used
 }

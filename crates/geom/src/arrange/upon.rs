@@ -2,8 +2,9 @@
 
 use crate::mesh::Mesh;
 use crate::num::predicates::height;
-use crate::space::{Aabb, Point, dot, minus, times};
+use crate::space::{Aabb, dot, minus, times};
 use crate::topology::Topology;
+use crate::topology::weld::WeldError;
 use rayon::prelude::*;
 
 /// What lies upon each other: facets with so little between them, mm, in numbers of this spacing.
@@ -19,10 +20,9 @@ const UPON: f64 = 64.0;
 const ROUNDED: f64 = 4.0;
 
 impl Closeness {
-    /// In numbers of the mesh, or of single precision if these are what the result is rounded to.
+    /// In numbers of single precision if the result is rounded to it or the mesh has it, else of double.
     pub fn of(mesh: &Mesh, single: bool) -> Closeness {
-        let is_single = |p: &Point| p.iter().all(|x| f64::from(*x as f32) == *x || !x.is_finite());
-        let rounded = !single && mesh.positions.par_iter().all(is_single);
+        let rounded = !single && mesh.is_single();
         let step = step(mesh, single || rounded);
         Closeness { step, most: step * if rounded { ROUNDED } else { UPON } }
     }
@@ -40,26 +40,22 @@ pub(super) fn step(mesh: &Mesh, single: bool) -> f64 {
     (largest.next_up() - largest) * f64::from(1u32 << digits)
 }
 
-fn corners(mesh: &Mesh, facet: u32) -> [Point; 3] {
-    mesh.faces[facet as usize].map(|v| mesh.positions[v as usize])
-}
-
 /// How far two facets are apart: of the corners of one from the plane of the other, whichever is less.
 fn apart(mesh: &Mesh, [f, g]: [u32; 2]) -> f64 {
     let above = |f: u32, g: u32| {
-        let [a, b, c] = corners(mesh, g);
-        corners(mesh, f).iter().map(|p| height([&a, &b, &c], p).abs()).fold(0.0, f64::max)
+        let [a, b, c] = mesh.corners(g);
+        mesh.corners(f).iter().map(|p| height([&a, &b, &c], p).abs()).fold(0.0, f64::max)
     };
     above(f, g).min(above(g, f))
 }
 
 /// How far those of these pairs of facets are apart at most that lie upon each other; 0 where none do, or all do exactly.
-pub(super) fn widest(mesh: &Mesh, pairs: &[[u32; 2]], close: Closeness) -> f64 {
+fn widest(mesh: &Mesh, pairs: &[[u32; 2]], close: Closeness) -> f64 {
     pairs.par_iter().map(|pair| apart(mesh, *pair)).filter(|h| close.holds(*h)).reduce(|| 0.0, f64::max)
 }
 
 /// The pairs of facets at an edge of more than two that lie upon each other, but not exactly. Edges of very many facets are left out.
-pub(super) fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]> {
+fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]> {
     /// Of one edge.
     const MANY: usize = 64;
     let of_edge = |[a, b]: [u32; 2]| {
@@ -83,6 +79,22 @@ pub(super) fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Ve
         found
     };
     topology.non_manifold_edges.par_iter().flat_map_iter(|e| of_edge(e.vertices)).collect()
+}
+
+/// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
+pub(super) fn upon(
+    mesh: &Mesh,
+    topology: &Topology,
+    crossing: &[[u32; 2]],
+    close: Closeness,
+) -> Result<(Vec<[u32; 2]>, f64), WeldError> {
+    let mut all = crossing.to_vec();
+    if !topology.non_manifold_edges.is_empty() {
+        // With the numbers of these vertices.
+        all.extend(at_edges(mesh, &Topology::of(mesh)?, close));
+    }
+    let widest = widest(mesh, &all, close);
+    Ok((all, widest))
 }
 
 /// Whether facets lie upon each other, but not exactly, at an edge of more than two; numbers in single precision or double.

@@ -118,7 +118,7 @@ impl<'a> Container<'a> {
     }
 
     fn corners(&self, f: u32) -> [Point; 3] {
-        self.mesh.faces[f as usize].map(|v| self.mesh.positions[v as usize])
+        self.mesh.corners(f)
     }
 
     /// How often a facet winds around `p`, both seen along the axis: +1 where it looks along it, −1 where it looks back, 0

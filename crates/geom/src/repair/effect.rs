@@ -51,6 +51,7 @@ impl Effect {
             true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
             false => enclosed_by(&mut base)?,
         };
+        let enclosed_faces = base.mesh().faces.len();
         let gone = match (&enclosed, rounded) {
             (Err(_), _) => Gone::default(),
             (Ok(enclosed), None) => gone(base.mesh(), enclosed, after, progress)?,
@@ -62,7 +63,10 @@ impl Effect {
                         let gone = gone(base.mesh(), &enclosed, after, progress)?;
                         // Of one coordinate.
                         let off = 3f64.sqrt() * farthest;
-                        Gone { farthest: gone.farthest.map(|x| x + off), ..gone }
+                        // Rounding may join shells, and others are removed on request: then facets have other numbers.
+                        let same = base.mesh().faces.len() == enclosed_faces;
+                        let gaps = if same { gone.gaps } else { vec![] };
+                        Gone { farthest: gone.farthest.map(|x| x + off), gaps }
                     }
                 }
             }

@@ -55,7 +55,7 @@ impl<'a> Work<'a> {
         options: &'a Options,
         progress: &'a dyn Progress,
     ) -> Result<Work<'a>, RepairError> {
-        let single = mesh.positions.iter().flatten().all(|x| f64::from(*x as f32) == *x || !x.is_finite());
+        let single = mesh.is_single();
         let mut work = Work {
             most_facets: 100 + 4 * mesh.faces.len(),
             mesh,
@@ -119,7 +119,7 @@ impl<'a> Work<'a> {
     }
 
     pub(super) fn corners(&self, facet: u32) -> [Point; 3] {
-        self.mesh.faces[facet as usize].map(|v| self.at(v))
+        self.mesh.corners(facet)
     }
 
     /// How many facets cutting may still add.
@@ -214,7 +214,7 @@ impl<'a> Work<'a> {
     /// Why nothing comes of it: most edges have one facet only, and facets cross without number. No step makes a surface of that. A
     /// small one is gone through all the same, for what lies beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
-        /// The steps take a second for so many facets.
+        /// With so many free edges the steps take about a second.
         const SMALL: usize = 5_000;
         let topology = &self.known()?.topology;
         let free = topology.boundary_edges.len();

@@ -1,4 +1,4 @@
-//! Bodies that touch in faces, edges and vertices, turned anyhow: their corners are rounded, so nothing lies in one plane.
+//! Bodies that touch in faces, edges and vertices, turned at random: their corners are rounded, so nothing lies in one plane.
 
 use super::*;
 use crate::rigid::Rigid;
@@ -127,7 +127,7 @@ pub(crate) fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
 }
 
 /// A rotation about any place.
-pub(crate) fn anyhow(random: &mut Random) -> Rigid {
+pub(crate) fn rotation(random: &mut Random) -> Rigid {
     let mut any = || 6.0 * random.unit() - 3.0;
     Rigid::rotation_about([any(), any(), any()], [any(), any(), any()])
 }
@@ -137,9 +137,7 @@ pub(crate) fn anyhow(random: &mut Random) -> Rigid {
 fn bodies_that_touch_become_their_union_however_they_are_turned() {
     let random = &mut Random::new(41);
     for _ in 0..6 {
-        let mut any = || 2.0 * random.unit() - 1.0;
-        let turn =
-            Rigid::rotation_about([3.0 * any(), any(), any()], [3.0 * any(), 3.0 * any(), 3.0 * any()]);
+        let turn = rotation(random);
         for (name, mut mesh, volume_of_all) in touching(random) {
             mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
             let got = volume(&union(&mesh, &Options::default()).mesh);

@@ -12,7 +12,7 @@
 use super::book::Book;
 use super::seen;
 use crate::mesh::Mesh;
-use crate::space::{Aabb, Point};
+use crate::space::Aabb;
 use crate::topology::Topology;
 use std::ops::Range;
 
@@ -75,11 +75,6 @@ pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> b
     hubs
 }
 
-/// The corners of a facet.
-fn corners(mesh: &Mesh, facet: u32) -> [Point; 3] {
-    mesh.faces[facet as usize].map(|v| mesh.positions[v as usize])
-}
-
 /// Halves the arcs, which begin at number `start`, again and again where they spread most.
 fn node(arcs: &mut [Arc], start: usize) -> Node {
     let seen = arcs.iter().fold(Aabb::EMPTY, |all, a| all.union(&a.seen));
@@ -102,7 +97,7 @@ impl Hub {
         let arc = |&facet: &u32| Arc {
             facet,
             seen: seen_from(mesh, center, facet),
-            bounds: Aabb::of(&corners(mesh, facet)),
+            bounds: Aabb::of(&mesh.corners(facet)),
         };
         let mut arcs: Vec<Arc> = facets.iter().map(arc).collect();
         let root = node(&mut arcs, 0);
@@ -130,16 +125,16 @@ impl Hub {
 
     /// Calls `decide` with those of its facets that may meet another one, until that says no.
     pub fn against(&self, mesh: &Mesh, facet: u32, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        let bounds = Aabb::of(&corners(mesh, facet));
+        let bounds = Aabb::of(&mesh.corners(facet));
         if !overlap(&bounds, &self.root.bounds) {
             return true;
         }
         if let Some(mut pages) = self.book.as_ref().and_then(|book| book.near(mesh, facet)) {
             return pages
-                .all(|page| !overlap(&bounds, &Aabb::of(&corners(mesh, page))) || decide(facet, page));
+                .all(|page| !overlap(&bounds, &Aabb::of(&mesh.corners(page))) || decide(facet, page));
         }
         let other = Arc { facet, seen: seen_from(mesh, self.center, facet), bounds };
-        let sides = seen::Sides::of(mesh.positions[self.center as usize], corners(mesh, facet));
+        let sides = seen::Sides::of(mesh.positions[self.center as usize], mesh.corners(facet));
         self.one_below((&other, &sides), &self.root, decide)
     }
 

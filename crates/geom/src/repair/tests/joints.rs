@@ -258,14 +258,14 @@ fn facets_that_crossed_before_do_not_drive_parts_away() {
     assert!(new.iter().all(|p| p[..2].iter().all(|x| (x - 4.0).abs() < 1e-4)), "{new:?}");
 }
 
-/// Bodies that touch in faces, turned anyhow, become one: what rounding left between them is no surface that was lost. In edges and
+/// Bodies that touch in faces, turned at random, become one: what rounding left between them is no surface that was lost. In edges and
 /// points they are parted.
 #[test]
 fn bodies_that_touch_are_united_however_they_are_turned() {
-    use crate::arrange::tests::touching::{anyhow, touching};
+    use crate::arrange::tests::touching::{rotation, touching};
     let random = &mut Random::new(17);
     for _ in 0..12 {
-        let turn = anyhow(random);
+        let turn = rotation(random);
         for (name, mut mesh, _) in touching(random) {
             mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
             let repaired = mend(&mesh);
