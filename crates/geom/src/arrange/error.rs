@@ -1,5 +1,6 @@
 //! Why a mesh cannot be cut where its facets meet.
 
+use crate::closest::{MAX_COORDINATE, MIN_COORDINATE};
 use crate::progress::Cancelled;
 use crate::space::Point;
 use crate::topology::weld::WeldError;
@@ -18,6 +19,12 @@ pub enum ArrangeError {
     Tangle {
         /// Pairs that would have been dealt with.
         most: usize,
+    },
+    /// A coordinate is too large or too small for places on cuts to be computed.
+    #[error("a corner at ({:e}, {:e}, {:e}) has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_COORDINATE:e} mm: scale the mesh first", position[0], position[1], position[2])]
+    Range {
+        /// The first such corner, mm.
+        position: Point,
     },
     /// The facets do not enclose anything.
     #[error("the surface is not closed near ({:.6}, {:.6}, {:.6}), or runs both ways round there", position[0], position[1], position[2])]

@@ -47,7 +47,7 @@ use crate::progress::Progress;
 use crate::topology::Topology;
 use crate::topology::weld::as_it_is;
 use cutting::cutting;
-use pairs::pairs;
+use pairs::{in_range, pairs};
 
 /// A mesh cut where its facets meet.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +61,7 @@ pub struct Arranged {
 
 /// Cuts the facets of a mesh along all that they have in common with other facets.
 ///
-/// Any mesh will do: open, in any orientation, coincident. Facets without area and those with a coordinate that is not finite
+/// Any mesh whose coordinates are 0 or from 1e-50 to 1e60 mm will do: open, in any orientation, coincident. Facets without area and those with a coordinate that is not finite
 /// have no pieces. Facets that nothing cuts keep their vertices and come first, in their order. Which pieces there
 /// are, and which vertices they share, is decided exactly; their places are rounded afterwards, each once, so pieces of
 /// different facets share the vertices of a cut bit for bit, but thin pieces may cross or become flat by rounding.
@@ -86,6 +86,7 @@ pub struct Arranged {
 pub fn arrange(mesh: &Mesh, progress: &dyn Progress) -> Result<Arranged, ArrangeError> {
     let mesh = &as_it_is(mesh)?;
     let topology = Topology::of(mesh)?;
+    in_range(mesh, &topology)?;
     let pairs = pairs(mesh, &topology, &vec![true; mesh.faces.len()], progress)?;
     let cutting = cutting(mesh, &topology, &pairs, progress)?;
     let positions = (0..cutting.points.len() as u32).map(|p| cutting.points.at(p).nearest()).collect();

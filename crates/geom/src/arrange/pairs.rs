@@ -1,7 +1,8 @@
-//! The pairs of facets that meet, as long as they are not too many.
+//! The pairs of facets that meet, as long as they are not too many; and which numbers can be dealt with.
 
 use super::error::ArrangeError;
 use crate::check::intersect;
+use crate::closest::sane;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::topology::Topology;
@@ -27,4 +28,12 @@ pub(super) fn pairs(
 pub(super) fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32; 2]>, ArrangeError> {
     let most = most_pairs(mesh.faces.len());
     if pairs.len() <= most { Ok(pairs) } else { Err(ArrangeError::Tangle { most }) }
+}
+
+/// An error where a corner of a facet is so large or so small that products of coordinates leave the range of numbers. Facets that belong
+/// to no shell have no say.
+pub(super) fn in_range(mesh: &Mesh, topology: &Topology) -> Result<(), ArrangeError> {
+    let facets = mesh.faces.iter().zip(&topology.shell_of).filter(|(_, shell)| **shell != u32::MAX);
+    let mut corners = facets.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize]));
+    corners.find(|p| !sane(p)).map_or(Ok(()), |position| Err(ArrangeError::Range { position }))
 }

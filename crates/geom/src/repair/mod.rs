@@ -100,7 +100,8 @@ pub struct Repaired {
     pub counts: Counts,
     /// What became of the places that the mesh encloses.
     pub effect: Effect,
-    /// Steps that were not done, because with them some defect would have become more frequent.
+    /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
+    /// and the mesh still not been sound.
     pub taken_back: Vec<&'static str>,
     /// Vertices that were rounded to single precision before anything was decided.
     pub rounded: Rounded,
@@ -139,6 +140,9 @@ pub struct Rounded {
 /// Torn holes are widened by no more than this share of the whole area, all together.
 const WIDEN: f64 = 0.25;
 
+/// Steps that remove surface so that what is left can be closed. Where it is not sound even so, they are not done.
+const LOSING: [&str; 2] = [self_intersections::STEP.name, scraps::STEP.name];
+
 /// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
 const ROUNDS: usize = 8;
 
@@ -146,9 +150,10 @@ const ROUNDS: usize = 8;
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken; what cannot be mended stays, and
 /// [`Repaired::after`] lists it. No defect that makes a mesh unsound is there more often than before, and what was closed
-/// stays closed: where the steps together would end worse, it is done without one of them, or not at all. The result is the
+/// stays closed: where the steps together would end worse, it is done without one of them, without the last of them, or not at all. Crossing facets and loose
+/// sheets are removed only where the rest then is sound. The result is the
 /// same for any number of threads. Cost: for each step that changes something about as much as a check; filling holes up to
-/// the cube of 100 for each ring; what ends worse once more for each step that changed something.
+/// the cube of 100 for each ring; what ends worse twice more for each step that changed something.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -165,44 +170,77 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         None => base.again(options),
     };
     let soup = start.soup()?;
-    let attempt = |without: Option<&str>| {
+    let attempt = |without: &[&'static str]| {
         // Bodies that are not united stay whole: what crosses is not torn out in their place.
-        let torn = (without == Some(union::STEP.name)).then_some(self_intersections::STEP.name);
-        let is_wanted = |s: &&str| without != Some(*s) && torn != Some(*s);
+        let torn = without.contains(&union::STEP.name).then_some(self_intersections::STEP.name);
+        let is_wanted = |s: &&str| !without.contains(s) && torn != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
     };
-    let mut done = match soup {
-        Some(_) => Attempt { not_united: soup, ..Attempt::none(&mut base, &before)? },
-        None => attempt(None)?,
+    // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
+    let finite = match before.found("not_finite_facets").map_or(0, |found| found.count) {
+        0 => None,
+        _ => Some(attempt(&names_but(not_finite::STEP.name))?),
     };
+    let least = finite.as_ref().map_or(&before, |finite| &finite.after).clone();
+    let mut done = match (soup, finite.is_some()) {
+        (Some(_), true) => attempt(&names_but(not_finite::STEP.name))?,
+        (Some(_), false) => Attempt::none(&mut base, &before)?,
+        (None, _) => attempt(&[])?,
+    };
+    done.not_united = soup.or(done.not_united);
     let mut taken_back = vec![];
-    if worse(&before, &done.after) {
-        // Tearing opens what is closed: it is the first to be done without.
-        let others = STEPS.iter().map(|s| s.name).filter(|name| *name != self_intersections::STEP.name);
-        let mut suspects: Vec<&str> = [self_intersections::STEP.name].into_iter().chain(others).collect();
-        suspects.retain(|name| done.changes.iter().any(|c| c.step == *name));
-        taken_back = options.steps.clone();
-        let mut found = None;
-        for name in suspects {
-            let next = attempt(Some(name))?;
-            if !worse(&before, &next.after) {
-                (found, taken_back) = (Some(next), vec![name]);
-                break;
-            }
-        }
-        done = match found {
-            Some(next) => next,
-            None => {
-                rounded = Rounded::default();
-                Attempt::none(&mut base, &before)?
-            }
+    let mut lost = done.did(&LOSING);
+    if !done.after.sound && !lost.is_empty() {
+        // Surface was removed in vain: it shall stay.
+        done = attempt(&lost)?;
+        taken_back.append(&mut lost);
+    }
+    if worse(&least, &done.after) {
+        (done, taken_back) = match without_some(&attempt, &done, &taken_back, &least)? {
+            Some(found) => found,
+            None => match finite {
+                Some(finite) => (finite, names_but(not_finite::STEP.name)),
+                None => {
+                    rounded = Rounded::default();
+                    (Attempt::none(&mut base, &before)?, names_but(""))
+                }
+            },
         };
+        taken_back.retain(|name| options.steps.contains(name));
     }
     let Attempt { mesh, known, changes, rounds, after, counts, not_united } = done;
     let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
     let effect = Effect::of((&base, &before), of_start, (&mesh, &known), options)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
+}
+
+/// The names of all steps but this one.
+fn names_but(name: &str) -> Vec<&'static str> {
+    STEPS.iter().map(|s| s.name).filter(|n| *n != name).collect()
+}
+
+/// The steps without one of those that changed something in `done`, or without the last ones of these, so that nothing is worse than
+/// `least`; and all that were left out, with those left out before.
+fn without_some(
+    attempt: &impl Fn(&[&'static str]) -> Result<Attempt, RepairError>,
+    done: &Attempt,
+    left_out: &[&'static str],
+    least: &Report,
+) -> Result<Option<(Attempt, Vec<&'static str>)>, RepairError> {
+    // Tearing opens what is closed: it is the first to be done without.
+    let tearing = self_intersections::STEP.name;
+    let singly = done.did(&[&[tearing][..], &names_but(tearing)].concat());
+    let in_turn = done.did(&names_but(""));
+    let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
+    for tried in singly.into_iter().map(|name| vec![name]).chain(last) {
+        let without = [left_out, &tried].concat();
+        let next = attempt(&without)?;
+        if !worse(least, &next.after) {
+            return Ok(Some((next, without)));
+        }
+    }
+    Ok(None)
 }
 
 /// Whether a defect that makes a mesh unsound is there more often.
@@ -224,6 +262,11 @@ struct Attempt {
 }
 
 impl Attempt {
+    /// Which of these steps changed something, in the order given.
+    fn did(&self, steps: &[&'static str]) -> Vec<&'static str> {
+        steps.iter().copied().filter(|name| self.changes.iter().any(|c| c.step == *name)).collect()
+    }
+
     /// Nothing done.
     fn none(base: &mut Work, before: &Report) -> Result<Attempt, RepairError> {
         Ok(Attempt {

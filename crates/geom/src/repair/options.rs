@@ -5,7 +5,7 @@
 pub enum Holes {
     /// Those whose patch has at most this share of the area of their shell.
     UpTo(f64),
-    /// All, even the rim of a sheet.
+    /// All, even the rim of a sheet; of a flat one, which would enclose nothing, none.
     All,
 }
 

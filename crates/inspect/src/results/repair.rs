@@ -40,7 +40,8 @@ pub struct RepairDocument {
     pub deviation_reason: Option<String>,
     /// Names of the steps that were allowed, in their order.
     pub steps: Vec<String>,
-    /// Steps that were not done, because with them some defect would have become more frequent.
+    /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
+    /// and the mesh still not been sound.
     pub taken_back: Vec<String>,
     /// Why closed shells that meet were not united, where they were not.
     #[serde(skip_serializing_if = "Option::is_none", default)]

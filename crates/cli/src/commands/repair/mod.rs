@@ -49,7 +49,7 @@ pub struct RepairArgs {
     /// Fill holes up to this share of the area of their shell, percent; of a shell with a larger one, up to 1 % only
     #[arg(long, value_name = "PERCENT", default_value = "25", conflicts_with = "all_holes")]
     holes: f64,
-    /// Fill all holes, however large, even the rim of a sheet
+    /// Fill all holes, however large, even the rim of a sheet that is not flat
     #[arg(long)]
     all_holes: bool,
     /// Stitch edges up to this distance, mm [default: a ten-thousandth of the diagonal]

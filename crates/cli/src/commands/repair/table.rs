@@ -149,7 +149,10 @@ fn verdict(d: &RepairDocument) -> String {
     let again = match &d.taken_back[..] {
         [] => String::new(),
         steps => {
-            format!(" Done without {}: with that, some defect would be there more often.", steps.join(", "))
+            format!(
+                " Done without {}: with that, some defect would be there more often, or surface be removed in vain.",
+                steps.join(", ")
+            )
         }
     };
     let again = match &d.not_united {
@@ -172,7 +175,7 @@ fn verdict(d: &RepairDocument) -> String {
                 (false, Some(_)) => {
                     " Holes larger than the limit stay open, and with them others of their shell, unless --all-holes is given."
                 }
-                (false, None) => " Holes that no patch fits stay open.",
+                (false, None) => " Holes that no patch fits stay open, and the border of a flat sheet.",
             };
             format!("\nNOT SOUND: {written}.{open}{again}\n")
         }

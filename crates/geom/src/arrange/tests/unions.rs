@@ -291,3 +291,19 @@ fn a_tangle_is_given_up() {
     let empty = Mesh::default();
     assert_eq!(outer_boundary(&empty, &Options::default(), &Silent).unwrap().mesh, empty);
 }
+
+#[test]
+fn coordinates_out_of_range_are_told() {
+    let mut mesh = Mesh::default();
+    add_box(&mut mesh, [0.0; 3], [2.0; 3]);
+    add_box(&mut mesh, [1.0; 3], [3.0; 3]);
+    for (scale, fits) in [(1e59, true), (1e61, false), (1e-49, true), (1e-51, false), (1e150, false)] {
+        let positions = mesh.positions.iter().map(|p| p.map(|x| x * scale)).collect();
+        let scaled = Mesh { positions, faces: mesh.faces.clone() };
+        match outer_boundary(&scaled, &Options::default(), &Silent) {
+            Ok(b) => assert!(fits && b.mesh.faces.len() > 24, "{scale:e}"),
+            Err(e) => assert!(!fits && matches!(e, ArrangeError::Range { .. }), "{scale:e}: {e}"),
+        }
+        assert_eq!(arrange(&scaled, &Silent).is_ok(), fits, "{scale:e}");
+    }
+}

@@ -6,6 +6,7 @@
 //! decided exactly, and makes no edge of three facets. Where none fits, the hole stays open.
 
 mod fair;
+mod flat;
 mod minimal;
 mod patch;
 mod refine;
@@ -104,10 +105,12 @@ const OF_SHEET: f64 = 0.01;
 /// All holes, with the first patch for each that may be filled.
 ///
 /// A rim beyond the limit is the border of a sheet, which was meant to be open: then others like it, though smaller, may be
-/// borders too, and only what is small is a hole.
+/// borders too, and only what is small is a hole. The border of a flat sheet is none, whatever the limit.
 fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
+    let rings = Ring::all(known);
+    let sheets = flat::sheets(work, known, &rings);
     let mut trials = vec![];
-    for ring in Ring::all(known) {
+    for ring in rings {
         work.go_on()?;
         let is_torn = work.is_torn(&ring.vertices);
         let limit = if is_torn { f64::INFINITY } else { limit(work, &ring) };
@@ -122,7 +125,7 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
         if !trial.is_torn && open.contains(&trial.ring.shell) {
             trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
         }
-        if trial.is_too_large(work) {
+        if trial.is_too_large(work) || flat::is_border(work, &trial.ring, &sheets) {
             trial.patch = None;
         }
     }

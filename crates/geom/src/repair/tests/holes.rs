@@ -3,6 +3,7 @@
 use super::*;
 use crate::check::tests::add;
 use crate::closest::tests::sphere;
+use crate::rigid::Rigid;
 use crate::space::{minus, norm};
 use crate::topology::tests::block;
 use crate::topology::weld;
@@ -55,6 +56,23 @@ fn large_holes_wait_to_be_asked() {
     // A sheet has nothing behind its rim.
     let sheet = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], faces: vec![[0, 1, 2]] };
     assert_eq!(mend(&sheet).changes, []);
+}
+
+#[test]
+fn the_border_of_a_flat_sheet_stays_even_if_all_holes_are_asked_for() {
+    let all = Options { holes: Holes::All, ..Options::default() };
+    let random = &mut Random::new(7);
+    for _ in 0..20 {
+        // A square of 5 x 5 with a hole in its middle, turned anyhow.
+        let turn = Rigid::rotation_about([0.0; 3], std::array::from_fn(|_| 6.0 * random.unit() - 3.0));
+        let turned = |p: Point| turn.point(p);
+        let positions = (0..36).map(|i| turned([f64::from(i % 6), f64::from(i / 6), 0.0])).collect();
+        let squares = (0..25u32).filter(|s| *s != 12).map(|s| s / 5 * 6 + s % 5);
+        let faces = squares.flat_map(|v| [[v, v + 1, v + 7], [v, v + 7, v + 6]]).collect();
+        let repaired = mend_with(&Mesh { positions, faces }, &all);
+        assert_eq!((repaired.counts.facets_added, repaired.counts.vertices_added), (2, 0));
+        assert!((repaired.after.properties.area - 25.0).abs() < 1e-12 && !repaired.after.soundness.closed);
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::*;
 use crate::check::tests::{add, inverted};
 use crate::space::{norm, plus};
 use crate::topology::tests::block;
+use crate::topology::weld;
 
 /// Two blocks, the second with its lowest corner at `offset`.
 fn two(offset: Point) -> Mesh {
@@ -100,6 +101,38 @@ fn a_scrap_is_a_sheet_and_an_open_cup_is_none() {
         piece.faces.truncate(facets);
         add(&mut mesh, &piece, [9.0; 3]);
         assert_eq!(did(&mend_with(&mesh, &only), "scraps"), gone, "{facets}");
+    }
+}
+
+/// What is removed so that the rest can be closed stays where the rest stays open all the same.
+#[test]
+fn no_sheet_is_removed_in_vain() {
+    let mut mesh = block(4, 4.0);
+    let mut sheet = block(1, 1.0);
+    sheet.faces.truncate(2);
+    add(&mut mesh, &sheet, [9.0; 3]);
+    assert_eq!(did(&mend(&mesh), "scraps"), 1);
+    // Three sides of a block: a sheet that was meant to be open.
+    let mut open = block(1, 8.0);
+    open.faces.retain(|f| (0..3).any(|k| f.iter().all(|v| open.positions[*v as usize][k] == 0.0)));
+    add(&mut mesh, &open, [20.0; 3]);
+    let repaired = mend(&mesh);
+    assert_eq!((did(&repaired, "scraps"), &repaired.taken_back[..]), (0, &["scraps"][..]));
+}
+
+/// A facet that is not finite is no surface: it goes even where without it a hole is left that nothing fits.
+#[test]
+fn facets_that_are_not_finite_always_go() {
+    let mut mesh = block(3, 6.0);
+    mesh.faces.retain(|f| (0..3).any(|k| f.iter().all(|v| mesh.positions[*v as usize][k] == 0.0)));
+    let mut mesh = weld::mesh(&mesh).unwrap().mesh;
+    // A vertex in the middle of a side.
+    let middle = mesh.positions.iter().position(|p| *p == [2.0, 2.0, 0.0]).unwrap();
+    mesh.positions[middle][2] = f64::NAN;
+    for holes in [Holes::UpTo(0.0), Holes::UpTo(0.25)] {
+        let repaired = mend_with(&mesh, &Options { holes, ..Options::default() });
+        assert!(repaired.mesh.positions.iter().flatten().all(|x| x.is_finite()), "{holes:?}");
+        assert_eq!(did(&repaired, "not_finite"), 1, "{holes:?}");
     }
 }
 
