@@ -1,6 +1,6 @@
 //! Why a mesh cannot be cut where its facets meet.
 
-use crate::closest::{MAX_COORDINATE, MIN_COORDINATE};
+use crate::closest::{MAX_VERTEX, MIN_COORDINATE};
 use crate::progress::Cancelled;
 use crate::space::Point;
 use crate::topology::weld::WeldError;
@@ -21,7 +21,7 @@ pub enum ArrangeError {
         most: usize,
     },
     /// A coordinate is too large or too small for places on cuts to be computed.
-    #[error("a corner at ({:e}, {:e}, {:e}) has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_COORDINATE:e} mm: scale the mesh first", position[0], position[1], position[2])]
+    #[error("a corner at ({:e}, {:e}, {:e}) has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_VERTEX:e} mm: scale the mesh first", position[0], position[1], position[2])]
     Range {
         /// The first such corner, mm.
         position: Point,

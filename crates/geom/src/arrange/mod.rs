@@ -61,7 +61,7 @@ pub struct Arranged {
 
 /// Cuts the facets of a mesh along all that they have in common with other facets.
 ///
-/// Any mesh whose coordinates are 0 or from 1e-50 to 1e60 mm will do: open, in any orientation, coincident. Facets without area and those with a coordinate that is not finite
+/// Any mesh whose coordinates are 0 or from 1e-50 to 1e45 mm will do: open, in any orientation, coincident. Facets without area and those with a coordinate that is not finite
 /// have no pieces. Facets that nothing cuts keep their vertices and come first, in their order. Which pieces there
 /// are, and which vertices they share, is decided exactly; their places are rounded afterwards, each once, so pieces of
 /// different facets share the vertices of a cut bit for bit, but thin pieces may cross or become flat by rounding.

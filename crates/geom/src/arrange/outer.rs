@@ -67,7 +67,7 @@ const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
 /// they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
-/// cut; coordinates are 0 or from 1e-50 to 1e60 mm. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding are
+/// cut; coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding are
 /// taken to coincide: faces with at most 64 times the spacing of numbers at the largest coordinate between them, or 4 times that of
 /// single precision where the vertices have it and the result need not, and where cutting comes to no end up to 1024 times. The result is free of crossings, flat and doubled
 /// facets in `f64`, or in single precision with [`Options::single`], where the vertices of the mesh must have it too: that is

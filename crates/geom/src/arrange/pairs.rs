@@ -2,7 +2,7 @@
 
 use super::error::ArrangeError;
 use crate::check::intersect;
-use crate::closest::sane;
+use crate::closest::sane_vertex;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::topology::Topology;
@@ -35,5 +35,5 @@ pub(super) fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32
 pub(super) fn in_range(mesh: &Mesh, topology: &Topology) -> Result<(), ArrangeError> {
     let facets = mesh.faces.iter().zip(&topology.shell_of).filter(|(_, shell)| **shell != u32::MAX);
     let mut corners = facets.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize]));
-    corners.find(|p| !sane(p)).map_or(Ok(()), |position| Err(ArrangeError::Range { position }))
+    corners.find(|p| !sane_vertex(p)).map_or(Ok(()), |position| Err(ArrangeError::Range { position }))
 }

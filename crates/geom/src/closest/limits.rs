@@ -85,6 +85,11 @@ pub fn sane(p: &Point) -> bool {
     })
 }
 
+/// True if every coordinate is 0 or from [`MIN_COORDINATE`] to [`MAX_VERTEX`] in magnitude.
+pub(crate) fn sane_vertex(p: &Point) -> bool {
+    sane(p) && p.iter().all(|x| x.abs() <= MAX_VERTEX)
+}
+
 /// The number of the first point that is not [`sane`], as an error.
 pub fn check_points(points: &[Point]) -> Result<(), QueryError> {
     match points.par_iter().position_first(|p| !sane(p)) {
@@ -105,9 +110,7 @@ pub fn check_mesh(mesh: &Mesh) -> Result<(), MeshError> {
     let fault = |face: usize, f: &[u32; 3]| {
         f.iter().find_map(|&vertex| match mesh.positions.get(vertex as usize) {
             None => Some(MeshError::BadIndex { face, vertex, vertices: mesh.positions.len() }),
-            Some(v) if !(sane(v) && v.iter().all(|x| x.abs() <= MAX_VERTEX)) => {
-                Some(MeshError::BadVertex(vertex as usize))
-            }
+            Some(v) if !sane_vertex(v) => Some(MeshError::BadVertex(vertex as usize)),
             Some(_) => None,
         })
     };

@@ -1,6 +1,7 @@
 //! Why a mesh is not repaired.
 
 use crate::check::CheckError;
+use crate::closest::{MAX_VERTEX, MIN_COORDINATE};
 use crate::progress::Cancelled;
 use crate::topology::TopologyError;
 use crate::topology::weld::WeldError;
@@ -11,6 +12,12 @@ pub enum RepairError {
     /// The faces cannot be connected.
     #[error(transparent)]
     Weld(#[from] WeldError),
+    /// A finite coordinate of this vertex is beyond [`MAX_VERTEX`], or below [`MIN_COORDINATE`] but not zero: products of such
+    /// numbers say nothing.
+    #[error(
+        "vertex {0} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {MAX_VERTEX:e} mm: scale the mesh first"
+    )]
+    Range(u32),
     /// The mesh cannot be checked.
     #[error(transparent)]
     Check(CheckError),

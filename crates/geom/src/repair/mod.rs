@@ -42,10 +42,13 @@ pub use step::Step;
 
 use crate::arrange::ArrangeError;
 use crate::check::{self, Known, Report};
+use crate::closest::sane_vertex;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
+use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
+use rayon::prelude::*;
 use same::Same;
 use std::sync::Arc;
 use work::Work;
@@ -148,7 +151,7 @@ const ROUNDS: usize = 8;
 
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
-/// A mesh that is sound comes back as it is. Any mesh will do, however broken; what cannot be mended stays, and
+/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50 to 1e45 mm; what cannot be mended stays, and
 /// [`Repaired::after`] lists it. No defect that makes a mesh unsound is there more often than before, and what was closed
 /// stays closed: where the steps together would end worse, it is done without one of them, without the last of them, or not at all. Crossing facets and loose
 /// sheets are removed only where the rest then is sound. The result is the
@@ -159,6 +162,7 @@ const ROUNDS: usize = 8;
 /// [`RepairError`].
 pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
+    in_range(mesh)?;
     let mut base = Work::new(as_it_is(mesh)?, options, progress)?;
     let before = base.report(&check_options)?;
     let (start, mut rounded) = match options.single {
@@ -213,6 +217,15 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
     let effect = Effect::of((&base, &before), of_start, (&mesh, &known), options)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
+}
+
+/// An error where a product of finite coordinates could leave the range of numbers.
+fn in_range(mesh: &Mesh) -> Result<(), RepairError> {
+    let finite = |p: &Point| sane_vertex(&p.map(|x| if x.is_finite() { x } else { 0.0 }));
+    match mesh.positions.par_iter().position_first(|p| !finite(p)) {
+        Some(vertex) => Err(RepairError::Range(vertex as u32)),
+        None => Ok(()),
+    }
 }
 
 /// The names of all steps but this one.

@@ -1,6 +1,7 @@
 //! Unions whose volume is known, and what they leave alone.
 
 use super::*;
+use crate::rigid::Rigid;
 use crate::topology::tests::block;
 use std::f64::consts::PI;
 
@@ -292,18 +293,28 @@ fn a_tangle_is_given_up() {
     assert_eq!(outer_boundary(&empty, &Options::default(), &Silent).unwrap().mesh, empty);
 }
 
+/// What is decided and computed does not depend on the scale, to the ends of the range.
 #[test]
-fn coordinates_out_of_range_are_told() {
+fn unions_at_the_ends_of_the_range_are_the_same_and_beyond_are_refused() {
+    let random = &mut Random::new(5);
     let mut mesh = Mesh::default();
-    add_box(&mut mesh, [0.0; 3], [2.0; 3]);
-    add_box(&mut mesh, [1.0; 3], [3.0; 3]);
-    for (scale, fits) in [(1e59, true), (1e61, false), (1e-49, true), (1e-51, false), (1e150, false)] {
-        let positions = mesh.positions.iter().map(|p| p.map(|x| x * scale)).collect();
-        let scaled = Mesh { positions, faces: mesh.faces.clone() };
-        match outer_boundary(&scaled, &Options::default(), &Silent) {
-            Ok(b) => assert!(fits && b.mesh.faces.len() > 24, "{scale:e}"),
-            Err(e) => assert!(!fits && matches!(e, ArrangeError::Range { .. }), "{scale:e}: {e}"),
+    for _ in 0..6 {
+        let low: Point = std::array::from_fn(|_| 2.0 * random.unit());
+        add_box(&mut mesh, low, low.map(|x| x + 1.0 + random.unit()));
+    }
+    let turn = Rigid::rotation_about([0.0; 3], [0.3, 0.5, 0.7]);
+    mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
+    let plain = union(&mesh, &Options::default());
+    for (power, fits) in [(147, true), (150, false), (-160, true), (-171, false), (500, false)] {
+        let scale = 2f64.powi(power);
+        let scaled = |mesh: &Mesh| {
+            let positions = mesh.positions.iter().map(|p| p.map(|x| x * scale)).collect();
+            Mesh { positions, faces: mesh.faces.clone() }
+        };
+        match outer_boundary(&scaled(&mesh), &Options::default(), &Silent) {
+            Ok(b) => assert!(fits && b.mesh == scaled(&plain.mesh), "2^{power}"),
+            Err(e) => assert!(!fits && matches!(e, ArrangeError::Range { .. }), "2^{power}: {e}"),
         }
-        assert_eq!(arrange(&scaled, &Silent).is_ok(), fits, "{scale:e}");
+        assert_eq!(arrange(&scaled(&mesh), &Silent).is_ok(), fits, "2^{power}");
     }
 }
