@@ -2,6 +2,7 @@
 
 use crate::closest::layout::Node;
 use crate::closest::tree::Tree;
+use crate::closest::triangle;
 use crate::space::Point;
 
 /// Points in a block: the width of an AVX-512 register.
@@ -142,6 +143,30 @@ impl Block {
     #[inline(always)]
     pub fn relative(&self, tree: &Tree, origin: Point) -> [f32; 3] {
         std::array::from_fn(|k| ((self.centre[k] - origin[k]) * tree.scale) as f32)
+    }
+}
+
+/// A place near the block, and how far off the surface it may be: the numbers of its coordinates are spaced, and where a mesh
+/// is small, or long, for its distance from the origin, they are spaced wider than points are apart.
+pub struct Near {
+    pub point: Point,
+    /// Scaled.
+    pub off: f32,
+}
+
+impl Near {
+    /// The place closest to the block's centre on the triangle in this slot.
+    #[inline(always)]
+    pub fn new(tree: &Tree, b: &Block, slot: u32) -> Near {
+        /// Greatest that is worth telling: its square is in the range of single precision.
+        const MOST: f64 = 1e15;
+        let t = tree.triangle(slot);
+        let point = triangle::closest_point(&b.centre, &t).point;
+        // Of lengths up to the size of the mesh, which is about 1.
+        let rounding = 16.0 * f64::EPSILON;
+        let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;
+        // A NaN is not below either.
+        Near { point, off: if off < MOST { off as f32 * 1.000001 } else { MOST as f32 } }
     }
 }
 

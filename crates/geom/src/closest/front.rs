@@ -3,22 +3,21 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{Block, FRONT, ROUNDING, Scratch, Seed, norm};
+use crate::closest::block::{Block, FRONT, Near, ROUNDING, Scratch, Seed, norm};
 use crate::closest::kernel::{self, Rival};
 use crate::closest::layout::{Leaf, Node};
 use crate::closest::tree::Tree;
 use crate::memory::prefetch;
 use crate::simd::lanes::Lanes;
-use crate::space::Point;
 
-/// Finds the leaves that the surface point `x` does not dominate for the whole block, breadth first, as long as they are
+/// Finds the leaves that the surface point `near` does not dominate for the whole block, breadth first, as long as they are
 /// few: in `s.leaves` those found, in `s.open` the nodes whose children would have made them more than [`FRONT`]. What is
 /// farther than `limit` from every point of the block is left out.
 #[inline(always)]
-pub unsafe fn gather<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s: &mut Scratch) {
-    let x: [f32; 3] = std::array::from_fn(|k| ((x[k] - tree.centre[k]) * tree.scale) as f32);
+pub unsafe fn gather<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32, s: &mut Scratch) {
+    let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - tree.centre[k]) * tree.scale) as f32);
     // Of x, of the block's place, of the boxes.
-    let error = ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
+    let error = near.off + ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
     let far = norm(std::array::from_fn(|k| b.at[k] - x[k])) + error + b.reach;
     let limit = limit + b.reach + 4.0 * (error + ROUNDING * (b.reach + limit));
     s.leaves.clear();

@@ -3,7 +3,7 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, Block, DENSE, Scratch};
+use crate::closest::block::{BLOCK, Block, DENSE, Near, Scratch};
 use crate::closest::hit::Hit;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
@@ -66,14 +66,14 @@ unsafe fn block<V: Lanes<8>, W: Lanes<16>, D: Real>(
     let limit = (max_distance * tree.scale * 1.000001) as f32;
     unsafe {
         // Any point of the surface will do; one near the block leaves little to look at.
-        let x = triangle::closest_point(&b.centre, &tree.triangle(s.warm)).point;
-        front::gather::<V>(tree, &b, x, limit, s);
+        let x = Near::new(tree, &b, s.warm);
+        front::gather::<V>(tree, &b, &x, limit, s);
         s.pairs.clear();
         if s.open.is_empty() && s.leaves.len() <= DENSE {
             dense::<V, W>(tree, &b, s);
         } else {
             front::plant(tree, s);
-            wave::<V>(tree, &b, x, limit, s);
+            wave::<V>(tree, &b, &x, limit, s);
         }
         settle::<D>(tree, &b, s, hits);
     }

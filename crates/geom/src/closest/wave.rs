@@ -12,13 +12,12 @@
     reason = "loads of vector types need their instructions; growing lists without a branch"
 )]
 
-use crate::closest::block::{BLOCK, Block, FRONT, ROUNDING, Row, Scratch};
+use crate::closest::block::{BLOCK, Block, FRONT, Near, ROUNDING, Row, Scratch};
 use crate::closest::kernel;
 use crate::closest::layout::Node;
 use crate::closest::tree::Tree;
 use crate::memory::prefetch;
 use crate::simd::lanes::Lanes;
-use crate::space::Point;
 
 /// What is known of a point's distance.
 #[derive(Clone, Copy, Default)]
@@ -29,10 +28,10 @@ struct Known {
     error: f32,
 }
 
-/// Lists in `s.pairs` the triangles worth settling for each point. `x` is a point of the surface; `limit` the greatest
+/// Lists in `s.pairs` the triangles worth settling for each point. `near` is a point of the surface; `limit` the greatest
 /// (scaled) distance that matters.
 #[inline(always)]
-pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s: &mut Scratch) {
+pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32, s: &mut Scratch) {
     unsafe {
         let mut place = [[0f32; 3]; BLOCK];
         for (i, q) in place.iter_mut().enumerate() {
@@ -54,12 +53,13 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, x: Point, limit: f32, s:
             }
         }
         descend::<V>(tree, &place[..b.len], &mut here);
-        let x: [f32; 3] = std::array::from_fn(|k| ((x[k] - b.centre[k]) * tree.scale) as f32);
+        let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.centre[k]) * tree.scale) as f32);
         s.rows.clear();
         let (mut known, mut bound) = ([Known::default(); BLOCK], [0f32; BLOCK]);
         for i in 0..b.len {
             let to_x: [f32; 3] = std::array::from_fn(|k| b.offset[k][i] - x[k]);
             known[i].best2 = to_x.iter().map(|e| e * e).sum::<f32>() * 1.00001;
+            known[i].error = near.off;
             probe::<V>(tree, b, i, !here[i] as u32, s, &mut known[i]);
             bound[i] = b.bound(i, known[i].best2.sqrt().min(limit), known[i].error);
         }

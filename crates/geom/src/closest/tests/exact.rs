@@ -168,6 +168,15 @@ fn any_size_and_place_equals_brute_force() {
     check("tiny", sphere(30, 1e-12, [0.0; 3]), d, 1000);
     check("minute", sphere(30, 1e-30, [0.0; 3]), d, 1000);
     check("huge", sphere(30, 1e30, [0.0; 3]), d, 1000);
+    check("of few numbers", sphere(12, 1.0, [1e14, 0.0, 0.0]), d, 1000);
+    // Points are nearer to the sphere than a place on it can be told, for the length of the whole.
+    let mut long = sphere(12, 5.0, [0.0, 0.0, 2e12 - 8e8]);
+    let first = long.positions.len() as u32;
+    long.positions.extend([[0.0, 0.0, 2e12], [6.0, 0.0, 2e12], [0.0, 6.0, 2e12]]);
+    long.faces.push([first, first + 1, first + 2]);
+    for _ in 0..20 {
+        check("long and far", long.clone(), d, 500);
+    }
 }
 
 #[test]
