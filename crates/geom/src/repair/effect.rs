@@ -26,7 +26,8 @@ pub struct Effect {
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
     /// others the middle of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation);
     /// gaps in the material narrower than 1e-5 of the size do not count.
-    /// With what rounding the vertices has added at most. `None` where nothing was enclosed or nothing is left.
+    /// With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be
+    /// closed count too, where no material is now. `None` where nothing was enclosed, or nothing is left, and no such facet was removed.
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
@@ -35,12 +36,12 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// From `before`, as its report tells, to `after`. Where vertices of `before` were rounded first, `rounded` is what this made, and
+    /// From `before`, as its report tells, to `after`, for which facets with these corners were removed. Where vertices of `before` were rounded first, `rounded` is what this made, and
     /// how far they went at most: the surface is compared with that, because gaps thinner than the rounding vanish by it.
     pub(super) fn of(
         (before, report): (&Work, &Report),
         rounded: Option<(&Work, f64)>,
-        (after, known_after): (&Mesh, &Known),
+        (after, known_after, lost): (&Mesh, &Known, &[[Point; 3]]),
         options: &Options,
     ) -> Result<Effect, RepairError> {
         let progress = before.progress;
@@ -78,7 +79,8 @@ impl Effect {
         let inside = enclosed
             .as_ref()
             .map_or(Same::default(), |enclosed| Same::of(base.mesh(), |f| is_inner(enclosed, f)));
-        Ok(Effect { enclosed, surface: gone.farthest, bodies, inside })
+        let surface = [gone.farthest, beyond(lost, after, progress)?].into_iter().flatten().reduce(f64::max);
+        Ok(Effect { enclosed, surface, bodies, inside })
     }
 }
 
@@ -170,6 +172,23 @@ fn gone(
     found.gaps.sort_unstable();
     found.gaps.dedup();
     Ok(found)
+}
+
+/// Largest distance from facets that were removed to the surface, where they do not lie in the material; `None` if there are none.
+fn beyond(lost: &[[Point; 3]], after: &Mesh, progress: &dyn Progress) -> Result<Option<f64>, Cancelled> {
+    let Ok(tree) = Tree::build(after) else { return Ok(None) };
+    let all: Vec<Point> = lost.iter().flat_map(|corners| places(*corners)).collect();
+    let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    let Ok(distances) = distances else { return Ok(None) };
+    let facets: Vec<u32> = (0..after.faces.len() as u32).collect();
+    let rays = Container::new(after, &facets, 0);
+    let least = NOTHING * GAP * after.finite_bounds().diagonal();
+    let counts = |p: &Point, distance: f64| distance > least && rays.winding(p).is_some_and(|w| w < 1);
+    let farthest = all.par_iter().zip(distances).map(|(p, d)| if counts(p, d) { d } else { 0.0 });
+    Ok(farthest.reduce_with(f64::max))
 }
 
 /// Gaps of a mesh that are narrower than some reach.

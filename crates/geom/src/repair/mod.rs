@@ -213,9 +213,9 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         };
         taken_back.retain(|name| options.steps.contains(name));
     }
-    let Attempt { mesh, known, changes, rounds, after, counts, not_united } = done;
+    let Attempt { mesh, known, changes, rounds, after, counts, not_united, lost } = done;
     let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
-    let effect = Effect::of((&base, &before), of_start, (&mesh, &known), options)?;
+    let effect = Effect::of((&base, &before), of_start, (&mesh, &known, &lost), options)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
 }
 
@@ -272,6 +272,7 @@ struct Attempt {
     after: Report,
     counts: Counts,
     not_united: Option<ArrangeError>,
+    lost: Vec<[Point; 3]>,
 }
 
 impl Attempt {
@@ -290,6 +291,7 @@ impl Attempt {
             after: before.clone(),
             counts: Counts::of(base.mesh(), base.mesh()),
             not_united: None,
+            lost: vec![],
         })
     }
 }
@@ -318,8 +320,9 @@ fn attempt(
         work.compacted(compact(joined, 0), same);
     }
     let after = work.report(check_options)?;
-    let (known, changes, not_united) = (work.known()?, std::mem::take(&mut work.changes), work.not_united);
-    Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united })
+    let (known, not_united) = (work.known()?, work.not_united);
+    let (changes, lost) = (std::mem::take(&mut work.changes), std::mem::take(&mut work.lost));
+    Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united, lost })
 }
 
 /// The mesh in single precision, if that is another; of vertices that fall upon each other facets name the first.

@@ -38,7 +38,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         removed.extend(facets);
     }
     if !removed.is_empty() {
-        work.replace(&removed, &[]);
+        work.lose(&removed);
     }
     Ok(())
 }

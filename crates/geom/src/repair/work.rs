@@ -43,6 +43,8 @@ pub(super) struct Work<'a> {
     pub may_tear: bool,
     /// Why shells that meet were not united.
     pub not_united: Option<ArrangeError>,
+    /// Corners of the facets that were removed so that the rest can be closed.
+    pub lost: Vec<[Point; 3]>,
     known: Option<Arc<Known>>,
     /// Pairs of its facets that meet where they should not, as far as they are known.
     pairs: Pairs,
@@ -70,6 +72,7 @@ impl<'a> Work<'a> {
             may_widen: 0.0,
             may_tear: false,
             not_united: None,
+            lost: vec![],
             known: None,
             pairs: Pairs::Unknown,
         };
@@ -89,6 +92,7 @@ impl<'a> Work<'a> {
             changes: vec![],
             torn: BTreeSet::new(),
             parted: BTreeSet::new(),
+            lost: vec![],
             known: self.known.clone(),
             pairs: self.pairs.clone(),
             ..*self
@@ -321,6 +325,12 @@ impl<'a> Work<'a> {
     pub(super) fn tear(&mut self, removed: &[u32]) {
         let faces = &self.mesh.faces;
         self.torn.extend(removed.iter().flat_map(|f| faces[*f as usize]));
+        self.lose(removed);
+    }
+
+    /// Removes facets and remembers where they were.
+    pub(super) fn lose(&mut self, removed: &[u32]) {
+        self.lost.extend(removed.iter().map(|f| self.mesh.corners(*f)));
         self.replace(removed, &[]);
     }
 

@@ -163,9 +163,15 @@ fn verdict(d: &RepairDocument) -> String {
         (true, Some(false)) => format!(
             "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
         ),
-        (true, _) if d.effect.changed => format!(
-            "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{again}\n"
-        ),
+        (true, _) if d.effect.changed => {
+            let sheets = match d.changes.iter().any(|change| change.step == "scraps") {
+                true => " Loose sheets were removed: --all-holes closes them, --skip scraps keeps them.",
+                false => "",
+            };
+            format!(
+                "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{sheets}{again}\n"
+            )
+        }
         (true, None) => format!("\nsound; {written}, not read again\n"),
         (true, Some(true)) => format!("\nsound; {written}\n"),
         (false, _) => {

@@ -104,6 +104,21 @@ fn a_scrap_is_a_sheet_and_an_open_cup_is_none() {
     }
 }
 
+/// A sheet beside a block is surface of the part, one inside it is none.
+#[test]
+fn what_is_lost_is_told_where_no_material_is() {
+    for (at, off) in [([9.0; 3], 5.0 * 3f64.sqrt()), ([1.5; 3], 0.0)] {
+        let mut mesh = block(4, 4.0);
+        let mut sheet = block(1, 1.0);
+        sheet.faces.truncate(2);
+        add(&mut mesh, &sheet, at);
+        let repaired = mend(&mesh);
+        assert!(repaired.after.sound && did(&repaired, "scraps") == 1);
+        let told = repaired.effect.surface.unwrap();
+        assert!(if off > 0.0 { told >= off && told < off + 2.0 } else { told == 0.0 }, "{told} {off}");
+    }
+}
+
 /// What is removed so that the rest can be closed stays where the rest stays open all the same.
 #[test]
 fn no_sheet_is_removed_in_vain() {
