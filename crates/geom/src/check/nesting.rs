@@ -30,8 +30,8 @@ impl<'a> Container<'a> {
         Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
-    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the
-    /// box of one of its facets.
+    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, and for some places in the
+    /// plane and the box of one of its facets.
     pub(crate) fn winding(&self, p: &Point) -> Option<i32> {
         let touches = |f: u32, own: &Aabb| {
             let [a, b, c] = self.corners(f);
