@@ -48,7 +48,13 @@ pub(super) fn passing(
         if progress.cancelled() || found.load(Relaxed) > MOST {
             return all;
         }
-        bundles.iter().for_each(|bundle| bundle.pass(mesh, &sides, number, reach, &mut all));
+        let mut take = |other: usize| {
+            let pair = [&sides[number.min(other)], &sides[number.max(other)]];
+            let edges = pair.map(|side| side.edge);
+            let place = pass(mesh, edges, reach).filter(|_| is_looked_at(mesh, pair, reach));
+            all.extend(place.map(|place| (edges, place)));
+        };
+        bundles.iter().for_each(|bundle| bundle.near(mesh, &sides, number, reach, &mut take));
         found.fetch_add(all.len(), Relaxed);
         all
     };
@@ -191,18 +197,16 @@ fn node(items: &mut [Item], start: usize) -> Node {
 }
 
 impl Bundle {
-    /// Adds where an edge passes those of the bundle. Of two edges asked about one looks for the other: one without a hub for one
-    /// with a hub, else the one with the lower hub or number.
-    fn pass(&self, mesh: &Mesh, sides: &[Sides], number: usize, reach: f64, out: &mut Vec<Passing>) {
+    /// Hands to `take` the edges of the bundle that an edge may pass. Of two edges asked about one looks for the other: one without
+    /// a hub for one with a hub, else the one with the higher hub, or the lower number.
+    fn near(&self, mesh: &Mesh, sides: &[Sides], number: usize, reach: f64, take: &mut impl FnMut(usize)) {
         let side = &sides[number];
         let is_asked = !side.own.is_empty();
-        if side.edge.contains(&self.hub) || is_asked && side.hub != NONE && self.hub <= side.hub {
+        // No hub is the highest.
+        if side.edge.contains(&self.hub) || is_asked && self.hub > side.hub {
             return;
         }
-        let is_other = !is_asked || side.hub != self.hub;
-        if is_asked && side.hub != NONE && self.hub == NONE {
-            return;
-        }
+        let is_same = is_asked && self.hub == side.hub;
         let (seen, bounds) = views(mesh, self.hub, side.edge, reach);
         let is_near = |s: &Aabb, b: &Aabb| overlap(&bounds, b) && overlap(&seen, s);
         let mut stack = vec![&self.root];
@@ -215,14 +219,8 @@ impl Bundle {
                 continue;
             }
             let items = self.items[node.range.clone()].iter();
-            for item in items.filter(|i| (is_other || number < i.number) && is_near(&i.seen, &i.bounds)) {
-                let (e, d) = if item.number < number { (item.number, number) } else { (number, item.number) };
-                let pair = [&sides[e], &sides[d]];
-                let place = pass(mesh, pair.map(|s| s.edge), reach);
-                out.extend(
-                    place.filter(|_| is_looked_at(mesh, pair, reach)).map(|p| (pair.map(|s| s.edge), p)),
-                );
-            }
+            let near = items.filter(|i| is_near(&i.seen, &i.bounds) && !(is_same && i.number <= number));
+            near.for_each(|i| take(i.number));
         }
     }
 }
@@ -267,4 +265,100 @@ fn pass(mesh: &Mesh, [e, d]: [Edge; 2], reach: f64) -> Option<Point> {
     let place = plus(a, times(s, u));
     let away = minus(place, plus(p, times(t, v)));
     (is_within(s) && is_within(t) && norm(away) <= reach).then_some(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+    use std::f64::consts::TAU;
+
+    /// Adds a fan around vertex `hub` near the plane z = 0.
+    fn add_fan(mesh: &mut Mesh, random: &mut Random, hub: u32, n: u32, radius: f64, rough: f64) {
+        let ([x, y, _], first, turn) =
+            (mesh.positions[hub as usize], mesh.positions.len() as u32, random.unit());
+        for i in 0..n {
+            let angle = TAU * (f64::from(i) + turn) / f64::from(n);
+            let z = rough * (random.unit() - 0.5);
+            mesh.positions.push([x + radius * libm::cos(angle), y + radius * libm::sin(angle), z]);
+        }
+        mesh.faces.extend((0..n).map(|i| [hub, first + i, first + (i + 1) % n]));
+    }
+
+    /// All pairs of facets, as it is meant.
+    fn by_pairs(mesh: &Mesh, facets: &[u32], near: &[u32], reach: f64) -> Vec<Passing> {
+        let mut all = vec![];
+        for f in facets {
+            for g in near.iter().filter(|g| *g > f && !are_apart(mesh, *f, **g, reach)) {
+                for e in edges(mesh.faces[*f as usize]) {
+                    for d in edges(mesh.faces[*g as usize]) {
+                        let pair = [e.min(d), e.max(d)];
+                        all.extend(pass(mesh, pair, reach).map(|place| (pair, place)));
+                    }
+                }
+            }
+        }
+        all.sort_by_key(|p| p.0);
+        all.dedup_by_key(|p| p.0);
+        all
+    }
+
+    #[test]
+    fn edges_pass_where_all_pairs_of_facets_say_so() {
+        let (random, mut some) = (&mut Random::new(8), 0);
+        for case in 0..60 {
+            let reach = [1e-9, 1e-4, 0.02][case % 3];
+            let mut mesh =
+                Mesh { positions: vec![[0.0; 3], [0.3, 0.2, 0.0], [4.0, 0.0, 0.0]], faces: vec![] };
+            for hub in [0, 0, 1, 2] {
+                let n = 3 + random.below(60) as u32;
+                let radius = 0.5 + random.unit();
+                add_fan(&mut mesh, random, hub, n, radius, 2.0 * reach);
+            }
+            for _ in 0..40 {
+                let first = mesh.positions.len() as u32;
+                let at = || -> Point {
+                    [2.0 * random.unit() - 1.0, 2.0 * random.unit() - 1.0, 2.0 * reach * random.unit()]
+                };
+                mesh.positions.extend(std::iter::repeat_with(at).take(3));
+                mesh.faces.push([first, first + 1, first + 2]);
+            }
+            let near: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+            let facets: Vec<u32> = near.iter().copied().filter(|f| case % 2 == 0 || f % 3 > 0).collect();
+            let found = passing(&mesh, &facets, &near, reach, &Silent).unwrap().unwrap();
+            assert_eq!(found, by_pairs(&mesh, &facets, &near, reach), "{case}");
+            some += found.len();
+        }
+        assert!(some > 10_000, "{some}");
+    }
+
+    /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan: as many pairs looked at as edges pass, and
+    /// some for each edge.
+    #[test]
+    fn fans_take_what_they_find() {
+        for n in [500, 4000] {
+            let (random, reach) = (&mut Random::new(2), 1e-9);
+            let mut mesh = Mesh { positions: vec![[0.0; 3], [2.1, 0.0, 0.0]], faces: vec![] };
+            for (hub, radius) in [(0, 1.0), (0, 0.8), (1, 1.0)] {
+                add_fan(&mut mesh, random, hub, n, radius, 0.0);
+            }
+            for i in 0..n {
+                let first = mesh.positions.len() as u32;
+                let angle = TAU * f64::from(i) / f64::from(n);
+                let corner =
+                    |far: f64, by: f64| [far * libm::cos(angle + by), far * libm::sin(angle + by), 0.0];
+                mesh.positions.extend([corner(0.9, 0.0), corner(0.91, 0.0), corner(0.9, 0.5 / f64::from(n))]);
+                mesh.faces.push([first, first + 1, first + 2]);
+            }
+            let all: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+            let sides = sides(&mesh, &all, &all);
+            let (bundles, mut looked_at) = (bundles(&mesh, &sides, reach), 0);
+            for number in 0..sides.len() {
+                bundles.iter().for_each(|b| b.near(&mesh, &sides, number, reach, &mut |_| looked_at += 1));
+            }
+            let found = passing(&mesh, &all, &all, reach, &Silent).unwrap().unwrap().len();
+            assert!(looked_at < 2 * found + 8 * sides.len(), "{n}: {looked_at} for {found}, {}", sides.len());
+        }
+    }
 }

@@ -237,3 +237,55 @@ fn within(triangles: &Triangles, outline: &BTreeSet<[u32; 2]>, left: bool) -> Op
     all.sort_unstable();
     Some(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    /// Facets with few vertices in common, or with many, and hubs: as all pairs tell.
+    #[test]
+    fn facets_that_overlap_are_grouped_as_all_pairs_tell() {
+        let random = &mut Random::new(12);
+        for case in 0..200 {
+            let count = 20 + random.below(200);
+            let place = |_| -> Point { std::array::from_fn(|_| random.below(4) as f64) };
+            let mesh = Mesh { positions: (0..count).map(place).collect(), faces: vec![] };
+            let mut vertices = || {
+                // The first few are hubs.
+                let any = |_| if random.below(3) == 0 { random.below(3) } else { random.below(count) };
+                let all: BTreeSet<u32> = (0..3 + case % 6).map(any).map(|v| v as u32).collect();
+                all.into_iter().collect::<Vec<u32>>()
+            };
+            let marked: BTreeMap<u32, Vec<u32>> = (0..60).map(|f| (3 * f, vertices())).collect();
+            let sets = Sets::new(marked.len());
+            for (i, of_i) in (0..).zip(marked.values()) {
+                for (j, of_j) in (0..i).zip(marked.values()) {
+                    if is_wide(&mesh, &common(of_i, of_j), 1e-9) {
+                        sets.join(i, j);
+                    }
+                }
+            }
+            let mut want: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+            (0..).zip(marked.keys()).for_each(|(i, f)| want.entry(sets.root(i)).or_default().push(*f));
+            let want: Vec<Vec<u32>> = want.into_values().collect();
+            assert_eq!(groups(&mesh, &marked, 1e-9).unwrap(), want, "{case}");
+        }
+    }
+
+    /// Facets around a hub meet in no more places than around a ring.
+    #[test]
+    fn a_hub_of_many_facets_is_no_heap() {
+        let n = 20_000u32;
+        let positions = (0..n + 1).map(|i| [f64::from(i), f64::from(i % 7), 0.0]).collect();
+        let mesh = Mesh { positions, faces: vec![] };
+        let marked: BTreeMap<u32, Vec<u32>> = (0..n)
+            .map(|i| {
+                let mut all = vec![0, 1 + i, 1 + (i + 1) % n];
+                all.sort_unstable();
+                (i, all)
+            })
+            .collect();
+        assert_eq!(groups(&mesh, &marked, 1e-9).unwrap().len(), n as usize);
+    }
+}
