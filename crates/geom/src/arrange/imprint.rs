@@ -11,8 +11,8 @@
 //! there in place of the pixels of a grid.
 
 use super::error::ArrangeError;
-use super::meetings::{Edge, edge};
-use super::passing::{Passing, passing};
+use super::meetings::{Edge, edges};
+use super::passing::{MOST, Passing, passing};
 use super::snap::{snap, used};
 use crate::check::intersect::{reaching, reaching_any};
 use crate::mesh::Mesh;
@@ -21,9 +21,6 @@ use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, dot, minus, norm, times};
 use crate::topology::Topology;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each other.
-pub(super) const MOST: usize = 1 << 24;
 
 /// What lies upon the edges and facets of a mesh.
 pub(super) struct Imprints {
@@ -43,11 +40,6 @@ impl Imprints {
         };
         (0..).zip(&mesh.faces).filter(|(f, face)| is_marked(*f, **face)).map(|(f, _)| f).collect()
     }
-}
-
-/// The edges of a face.
-pub(super) fn edges([a, b, c]: [u32; 3]) -> [Edge; 3] {
-    [edge(a, b), edge(b, c), edge(c, a)]
 }
 
 /// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet

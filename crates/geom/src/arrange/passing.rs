@@ -5,8 +5,7 @@
 //! reach is seen in its direction, but for the angle of the reach. So directions are compared beside boxes. Two fans take
 //! n log n and what they find, whether they have the hub in common or not.
 
-use super::imprint::{MOST, edges};
-use super::meetings::Edge;
+use super::meetings::{Edge, edges};
 use crate::check::intersect::seen;
 use crate::mesh::Mesh;
 use crate::num::predicates::height;
@@ -17,6 +16,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
+
+/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each other.
+pub(super) const MOST: usize = 1 << 24;
 
 /// Two edges that pass each other, and the place on the first where they do.
 pub(super) type Passing = ([Edge; 2], Point);

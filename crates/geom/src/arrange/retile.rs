@@ -4,8 +4,9 @@
 //! that each triangle of the part they have in common is the same for all of them.
 
 use super::cluster::axis_of;
-use super::imprint::{Imprints, MOST};
+use super::imprint::Imprints;
 use super::meetings::{Edge, edge};
+use super::passing::MOST;
 use super::triangulate::{self, Triangles, next, triangulate};
 use crate::check::finding::area;
 use crate::mesh::Mesh;
