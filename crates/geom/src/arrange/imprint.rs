@@ -11,19 +11,16 @@
 //! there in place of the pixels of a grid.
 
 use super::error::ArrangeError;
-use super::meetings::{Edge, edge};
+use super::meetings::{Edge, edges};
+use super::passing::{MOST, Passing, passing};
 use super::snap::{snap, used};
-use crate::check::intersect::reaching;
+use crate::check::intersect::{reaching, reaching_any};
 use crate::mesh::Mesh;
 use crate::num::predicates::{axis, height, side_of_line};
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
+use crate::space::{Aabb, Point, dot, minus, norm, times};
 use crate::topology::Topology;
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Beyond so many neighbours (64 MiB of them) surfaces are not taken to lie upon each other.
-pub(super) const MOST: usize = 1 << 24;
 
 /// What lies upon the edges and facets of a mesh.
 pub(super) struct Imprints {
@@ -45,15 +42,10 @@ impl Imprints {
     }
 }
 
-/// The edges of a face.
-fn edges([a, b, c]: [u32; 3]) -> [Edge; 3] {
-    [edge(a, b), edge(b, c), edge(c, a)]
-}
-
 /// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet
 /// that it was; and what lies upon its edges and facets. New vertices come last, their coordinates made with `round`; those given stay
-/// where they are. `None` if more than [`MOST`] pairs of facets have boxes that meet there. Cost: n log n, and about a
-/// microsecond for each such pair.
+/// where they are. `None` if more than [`MOST`] pairs of edges pass each other there, or of vertices and the boxes of facets meet. Cost: n log n,
+/// and about a microsecond for each such pair.
 pub(super) fn imprints(
     mesh: &Mesh,
     pairs: &[[u32; 2]],
@@ -64,11 +56,8 @@ pub(super) fn imprints(
     let mut crossing: Vec<u32> = pairs.iter().flatten().copied().collect();
     crossing.sort_unstable();
     crossing.dedup();
-    let Some(near) = reaching(mesh, &Topology::of(mesh)?, &boxes(mesh, &crossing, reach), MOST, progress)?
-    else {
-        return Ok(None);
-    };
-    let near: BTreeSet<u32> = near.into_iter().flatten().collect();
+    let near = reaching_any(mesh, &Topology::of(mesh)?, &boxes(mesh, &crossing, reach), progress)?;
+    let near: BTreeSet<u32> = near.into_iter().collect();
     let (mesh, source) = joined(mesh, &near, reach);
     let topology = Topology::of(&mesh)?;
     let of_near = (0..).zip(&source).filter(|(_, s)| near.contains(s));
@@ -96,14 +85,13 @@ fn upon(
     round: &impl Fn(f64) -> f64,
     progress: &dyn Progress,
 ) -> Result<Option<(Vec<Point>, Imprints)>, Cancelled> {
-    let around = |boxes: &[Aabb]| reaching(mesh, topology, boxes, MOST, progress);
-    let Some(others) = around(&boxes(mesh, &facets, reach))? else { return Ok(None) };
-    let passing = passing(mesh, &facets, &others, reach, progress)?;
+    let near = reaching_any(mesh, topology, &boxes(mesh, &facets, reach), progress)?;
+    let Some(passing) = passing(mesh, &facets, &near, reach, progress)? else { return Ok(None) };
     let (positions, mut on_edge) = met(mesh, passing, reach, round);
     let mut vertices: BTreeSet<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     vertices.extend(on_edge.iter().map(|(_, v)| *v));
     let places: Vec<Aabb> = vertices.iter().map(|v| grown([&positions[*v as usize]], reach)).collect();
-    let Some(below) = around(&places)? else { return Ok(None) };
+    let Some(below) = reaching(mesh, topology, &places, MOST, progress)? else { return Ok(None) };
     let mut inside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (v, below) in vertices.into_iter().zip(below) {
         for f in below {
@@ -138,66 +126,6 @@ fn joined(mesh: &Mesh, near: &BTreeSet<u32>, reach: f64) -> (Mesh, Vec<u32>) {
     let faces = mesh.faces.iter().map(|f| f.map(|v| to.get(&v).copied().unwrap_or(v)));
     let (faces, source) = faces.zip(0..).filter(|(f, _)| is_whole(f)).unzip();
     (Mesh { positions: mesh.positions.clone(), faces }, source)
-}
-
-/// Two edges that pass each other, and the place on the first where they do.
-type Passing = ([Edge; 2], Point);
-
-/// The edges of these facets that pass edges of `others`, listed for each, no farther off than `reach`.
-fn passing(
-    mesh: &Mesh,
-    facets: &[u32],
-    others: &[Vec<u32>],
-    reach: f64,
-    progress: &dyn Progress,
-) -> Result<Vec<Passing>, Cancelled> {
-    let edges = |f: u32| edges(mesh.faces[f as usize]);
-    let of_facet = |(f, others): (&u32, &Vec<u32>)| {
-        let mut found = vec![];
-        for g in others.iter().filter(|g| *g > f && !progress.cancelled() && !are_apart(mesh, *f, **g, reach))
-        {
-            for (e, d) in edges(*f).into_iter().flat_map(|e| edges(*g).map(|d| (e.min(d), e.max(d)))) {
-                found.extend(pass(mesh, [e, d], reach).map(|place| ([e, d], place)));
-            }
-        }
-        found
-    };
-    let mut all: Vec<Passing> = facets.par_iter().zip(others).flat_map_iter(of_facet).collect();
-    if progress.cancelled() {
-        return Err(Cancelled);
-    }
-    all.par_sort_unstable_by_key(|p| p.0);
-    all.dedup_by_key(|p| p.0);
-    Ok(all)
-}
-
-/// Whether one of two facets lies wholly on one side of the plane of the other, and farther off than `reach`.
-fn are_apart(mesh: &Mesh, f: u32, g: u32, reach: f64) -> bool {
-    let (t, u) = (mesh.corners(f), mesh.corners(g));
-    let beyond = |[a, b, c]: [Point; 3], of: [Point; 3]| {
-        let high = of.map(|p| height([&a, &b, &c], &p));
-        high.iter().all(|h| *h > reach) || high.iter().all(|h| *h < -reach)
-    };
-    beyond(t, u) || beyond(u, t)
-}
-
-/// Where the first of two edges passes the second no farther off than `reach`. Not where they share an end, or run side by
-/// side: then the ends of one lie upon the other.
-fn pass(mesh: &Mesh, [e, d]: [Edge; 2], reach: f64) -> Option<Point> {
-    if e.iter().any(|v| d.contains(v)) {
-        return None;
-    }
-    let ([a, b], [p, q]) = (e.map(|v| mesh.positions[v as usize]), d.map(|v| mesh.positions[v as usize]));
-    let (u, v, w) = (minus(b, a), minus(q, p), minus(p, a));
-    let n = cross(u, v);
-    if norm(n) <= reach * norm(u).max(norm(v)) {
-        return None;
-    }
-    let [s, t] = [v, u].map(|other| dot(cross(w, other), n) / dot(n, n));
-    let is_within = |x: f64| (0.0..=1.0).contains(&x);
-    let place = plus(a, times(s, u));
-    let away = minus(place, plus(p, times(t, v)));
-    (is_within(s) && is_within(t) && norm(away) <= reach).then_some(place)
 }
 
 /// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`: pairs of an

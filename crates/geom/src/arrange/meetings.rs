@@ -14,6 +14,11 @@ pub(super) fn edge(a: u32, b: u32) -> Edge {
     [a.min(b), a.max(b)]
 }
 
+/// The edges of a face.
+pub(super) fn edges([a, b, c]: [u32; 3]) -> [Edge; 3] {
+    [edge(a, b), edge(b, c), edge(c, a)]
+}
+
 /// A point, as two facets define it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Name {

@@ -28,6 +28,7 @@ mod imprint;
 mod meetings;
 mod outer;
 mod pairs;
+mod passing;
 mod points;
 mod ray;
 mod retile;

@@ -4,8 +4,9 @@
 //! that each triangle of the part they have in common is the same for all of them.
 
 use super::cluster::axis_of;
-use super::imprint::{Imprints, MOST};
+use super::imprint::Imprints;
 use super::meetings::{Edge, edge};
+use super::passing::MOST;
 use super::triangulate::{self, Triangles, next, triangulate};
 use crate::check::finding::area;
 use crate::mesh::Mesh;
@@ -14,7 +15,7 @@ use crate::space::{Point, cross, minus, norm};
 use crate::topology::union::Sets;
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// Cuts the facets of `mesh`, which `source` names, along what lies upon them. Facets upon which nothing lies come first, in
 /// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MOST`] vertices.
@@ -53,35 +54,55 @@ fn vertices(imprints: &Imprints, facet: u32, face: [u32; 3]) -> Vec<u32> {
 
 /// The facets that overlap, together.
 fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<Vec<Vec<u32>>> {
+    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+    marked.values().flatten().for_each(|v| *count.entry(*v).or_default() += 1);
+    // Two facets that overlap have three vertices in common: one at least is none of the two that most facets have, of either.
+    // Only those are looked up, so that facets around a hub do not all meet there.
+    let rare = |vertices: &Vec<u32>| {
+        let mut rare = vertices.clone();
+        rare.sort_by_key(|v| (count[v], *v));
+        rare.truncate(rare.len().saturating_sub(2));
+        rare
+    };
+    let rare: Vec<Vec<u32>> = marked.values().map(rare).collect();
     let mut at: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    let number: Vec<u32> = marked.keys().copied().collect();
-    for (i, vertices) in (0..).zip(marked.values()) {
+    for (i, vertices) in (0..).zip(&rare) {
         vertices.iter().for_each(|v| at.entry(*v).or_default().push(i));
     }
     if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MOST {
         return None;
     }
+    let number: Vec<(u32, &Vec<u32>)> = marked.iter().map(|(f, vertices)| (*f, vertices)).collect();
     let sets = Sets::new(number.len());
-    for (i, vertices) in (0..).zip(marked.values()) {
-        let mut shared: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for v in vertices {
-            at[v].iter().filter(|j| **j > i).for_each(|j| shared.entry(*j).or_default().push(*v));
-        }
-        for (j, _) in shared.iter().filter(|(_, shared)| is_wide(mesh, shared, reach)) {
-            sets.join(i, *j);
+    for (i, vertices) in (0..).zip(&rare) {
+        let others: BTreeSet<u32> =
+            vertices.iter().flat_map(|v| &at[v]).copied().filter(|j| *j > i).collect();
+        for j in others {
+            if sets.root(i) != sets.root(j)
+                && is_wide(mesh, &common(number[i as usize].1, number[j as usize].1), reach)
+            {
+                sets.join(i, j);
+            }
         }
     }
     let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for i in 0..number.len() as u32 {
-        members.entry(sets.root(i)).or_default().push(number[i as usize]);
+        members.entry(sets.root(i)).or_default().push(number[i as usize].0);
     }
     Some(members.into_values().collect())
+}
+
+/// What two ascending lists have in common.
+fn common(a: &[u32], b: &[u32]) -> Vec<u32> {
+    let (few, many) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    few.iter().filter(|v| many.binary_search(v).is_ok()).copied().collect()
 }
 
 /// Whether some vertex lies farther than twice the reach from the line through the first and the one farthest from it.
 fn is_wide(mesh: &Mesh, vertices: &[u32], reach: f64) -> bool {
     let at = |v: u32| mesh.positions[v as usize];
-    let a = at(vertices[0]);
+    let Some(first) = vertices.first() else { return false };
+    let a = at(*first);
     let from = |v: &u32| norm(minus(at(*v), a));
     let Some(far) = vertices.iter().max_by(|v, w| from(v).total_cmp(&from(w))) else { return false };
     let way = minus(at(*far), a);
@@ -192,21 +213,22 @@ fn outline(
 
 /// The triangles to the left of a closed outline, or to its right; `None` if the hull is reached from there.
 fn within(triangles: &Triangles, outline: &BTreeSet<[u32; 2]>, left: bool) -> Option<Vec<u32>> {
-    let mut barrier = vec![false; triangles.from.len()];
+    // Sets, as there may be many facets, each with few of very many triangles.
+    let mut barrier = HashSet::new();
     let mut stack = vec![];
     for [p, q] in outline {
         let e = if left { triangles.directed(*p, *q) } else { triangles.directed(*q, *p) }?;
-        barrier[e as usize] = true;
+        barrier.insert(e);
         stack.push(e / 3);
     }
-    let mut reached = vec![false; triangles.from.len() / 3];
+    let mut reached = HashSet::new();
     let mut all = vec![];
     while let Some(t) = stack.pop() {
-        if std::mem::replace(&mut reached[t as usize], true) {
+        if !reached.insert(t) {
             continue;
         }
         all.push(t);
-        for e in [3 * t, next(3 * t), 3 * t + 2].into_iter().filter(|e| !barrier[*e as usize]) {
+        for e in [3 * t, next(3 * t), 3 * t + 2].into_iter().filter(|e| !barrier.contains(e)) {
             match triangles.twin[e as usize] {
                 u32::MAX => return None,
                 twin => stack.push(twin / 3),
@@ -215,4 +237,56 @@ fn within(triangles: &Triangles, outline: &BTreeSet<[u32; 2]>, left: bool) -> Op
     }
     all.sort_unstable();
     Some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    /// Facets with few vertices in common, or with many, and hubs: as all pairs tell.
+    #[test]
+    fn facets_that_overlap_are_grouped_as_all_pairs_tell() {
+        let random = &mut Random::new(12);
+        for case in 0..200 {
+            let count = 20 + random.below(200);
+            let place = |_| -> Point { std::array::from_fn(|_| random.below(4) as f64) };
+            let mesh = Mesh { positions: (0..count).map(place).collect(), faces: vec![] };
+            let mut vertices = || {
+                // The first few are hubs.
+                let any = |_| if random.below(3) == 0 { random.below(3) } else { random.below(count) };
+                let all: BTreeSet<u32> = (0..3 + case % 6).map(any).map(|v| v as u32).collect();
+                all.into_iter().collect::<Vec<u32>>()
+            };
+            let marked: BTreeMap<u32, Vec<u32>> = (0..60).map(|f| (3 * f, vertices())).collect();
+            let sets = Sets::new(marked.len());
+            for (i, of_i) in (0..).zip(marked.values()) {
+                for (j, of_j) in (0..i).zip(marked.values()) {
+                    if is_wide(&mesh, &common(of_i, of_j), 1e-9) {
+                        sets.join(i, j);
+                    }
+                }
+            }
+            let mut want: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+            (0..).zip(marked.keys()).for_each(|(i, f)| want.entry(sets.root(i)).or_default().push(*f));
+            let want: Vec<Vec<u32>> = want.into_values().collect();
+            assert_eq!(groups(&mesh, &marked, 1e-9).unwrap(), want, "{case}");
+        }
+    }
+
+    /// Facets around a hub meet in no more places than around a ring.
+    #[test]
+    fn a_hub_of_many_facets_is_no_heap() {
+        let n = 20_000u32;
+        let positions = (0..n + 1).map(|i| [f64::from(i), f64::from(i % 7), 0.0]).collect();
+        let mesh = Mesh { positions, faces: vec![] };
+        let marked: BTreeMap<u32, Vec<u32>> = (0..n)
+            .map(|i| {
+                let mut all = vec![0, 1 + i, 1 + (i + 1) % n];
+                all.sort_unstable();
+                (i, all)
+            })
+            .collect();
+        assert_eq!(groups(&mesh, &marked, 1e-9).unwrap().len(), n as usize);
+    }
 }

@@ -222,43 +222,47 @@ impl Triangles {
         around
     }
 
-    /// The half-edges that start at a point, in any order.
-    fn around(&self, point: u32) -> Vec<u32> {
+    /// The half-edges that start at a point: one way round, and where the hull is met the other way for the rest.
+    fn around(&self, point: u32) -> impl Iterator<Item = u32> {
         let first = self.out[point as usize];
-        let mut all = vec![];
-        if first == NONE {
-            return all;
-        }
-        let mut e = first;
-        loop {
-            all.push(e);
-            e = self.twin[previous(e) as usize];
-            if e == first {
-                return all;
-            }
+        let back = |e: u32| match self.twin[e as usize] {
+            NONE => NONE,
+            twin => next(twin),
+        };
+        let (mut at, mut is_back) = (first, false);
+        std::iter::from_fn(move || {
+            let e = at;
             if e == NONE {
-                break;
+                return None;
             }
-        }
-        // The hull was met: the other way round for the rest.
-        let mut e = self.twin[first as usize];
-        while e != NONE {
-            all.push(next(e));
-            e = self.twin[next(e) as usize];
-        }
-        all
+            at = if is_back { back(e) } else { self.twin[previous(e) as usize] };
+            if at == NONE && !is_back {
+                (at, is_back) = (back(first), true);
+            } else if at == first {
+                at = NONE;
+            }
+            Some(e)
+        })
     }
 
     /// The half-edge from `a` to `b`, or else that from `b` to `a`.
     fn between(&self, a: u32, b: u32) -> Option<u32> {
-        let around = self.around(a);
-        let out = around.iter().copied().find(|e| self.to(*e) == b);
-        out.or_else(|| around.iter().map(|e| previous(*e)).find(|e| self.from[*e as usize] == b))
+        self.directed(a, b).or_else(|| self.directed(b, a))
     }
 
-    /// The half-edge from `a` to `b`, if there is one.
+    /// The half-edge from `a` to `b`, if there is one. Looked for around both, as one may have very many.
     pub fn directed(&self, a: u32, b: u32) -> Option<u32> {
-        self.around(a).into_iter().find(|e| self.to(*e) == b)
+        let (mut of_a, mut of_b) = (self.around(a), self.around(b).map(previous));
+        loop {
+            let e = of_a.next()?;
+            if self.to(e) == b {
+                return Some(e);
+            }
+            let e = of_b.next()?;
+            if self.from[e as usize] == a {
+                return Some(e);
+            }
+        }
     }
 
     fn fix(&mut self, e: u32) {
@@ -310,7 +314,7 @@ impl Triangles {
             let (p, q) = (self.to(*e), self.apex(*e));
             plane.orient([a, b, p]) < 0 && plane.orient([a, b, q]) > 0
         };
-        let mut e = next(self.around(a).into_iter().find(leaves)?);
+        let mut e = next(self.around(a).find(leaves)?);
         let mut all = vec![];
         loop {
             all.push([self.from[e as usize], self.to(e)]);

@@ -50,7 +50,7 @@ impl<'a> Container<'a> {
     /// the plane of `from` where that is seen at `target`; `from` and what meets it just there are not behind it.
     pub(crate) fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
-        self.columns.visit(target, self.beyond(start), |f, own| {
+        self.columns.pass(target, self.beyond(start), |f, own| {
             let around = if f == from { 0 } else { self.around(f, target) };
             if around != 0 && (own.min[self.axis] > end || self.is_behind([from, f], target)) {
                 take(f, around);
@@ -63,7 +63,7 @@ impl<'a> Container<'a> {
     pub(crate) fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         let before = |b: &Aabb| b.min[self.axis] <= end;
-        self.columns.visit(target, before, |f, own| {
+        self.columns.pass(target, before, |f, own| {
             let around = self.around(f, target);
             let is_first = || f == from || own.max[self.axis] < start || !self.is_behind([from, f], target);
             if around != 0 && is_first() {

@@ -1,7 +1,6 @@
-//! Distance from a point to a segment, and to the edges of a triangle, in double precision or in lanes of it.
+//! Distance from a point to a segment, in double precision or in lanes of it.
 
 use crate::simd::lanes::Real;
-use crate::space::Point;
 
 #[inline(always)]
 pub(super) fn sub<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
@@ -32,13 +31,4 @@ pub(super) fn aside<T: Real>(w: [T; 3], v: [T; 3], t: T) -> T {
 #[inline(always)]
 pub(super) fn edge<T: Real>(w: [T; 3], v: [T; 3], vv: T, zero: T, one: T) -> T {
     aside(w, v, along(w, v, vv, zero, one))
-}
-
-/// Squared distance to the nearest edge of a triangle.
-pub(super) fn rim(p: &Point, [a, b, c]: &[Point; 3]) -> f64 {
-    let to = |from: &Point, to: &Point| {
-        let (v, w) = (sub(*to, *from), sub(*p, *from));
-        edge(w, v, dot(v, v), 0.0, 1.0)
-    };
-    to(a, b).least(to(a, c)).least(to(b, c))
 }

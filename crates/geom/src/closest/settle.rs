@@ -42,7 +42,8 @@ pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [H
         height.store(&mut heights);
         is_thin.store(&mut slow);
         for (j, &(i, slot)) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0) {
-            (distances[j & 7], heights[j & 7]) = thin::squared(&b.points[i as usize], &tree.triangle(slot));
+            let (p, rim) = (&b.points[i as usize], distances[j & 7]);
+            (distances[j & 7], heights[j & 7]) = thin::squared(p, &tree.triangle(slot), rim);
         }
         for ((&distance_squared, &height), &(i, slot)) in distances.iter().zip(&heights).zip(part) {
             let h = &mut hits[i as usize];

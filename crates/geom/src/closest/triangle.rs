@@ -21,7 +21,7 @@ fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
 
 /// Squared distance from `p` to the triangle `a b c`, any of which may coincide; where the closest point lies inside the
 /// triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim); and 1 where
-/// the triangle is thin, so that [`thin::squared`] must be asked instead, else 0.
+/// the triangle is thin, so that the distance is that to its rim and [`thin::squared`] must be asked for the rest, else 0.
 ///
 /// # Safety
 /// The processor has the instructions of `T` (none for `f64`).
@@ -50,7 +50,8 @@ pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
 pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
     // SAFETY: `f64` needs no special instructions.
     let (distance, height, thin) = unsafe { squared::<f64>(*p, *t) };
-    if thin == 0.0 { (distance, height) } else { thin::squared(p, t) }
+    // Of a thin triangle this is the distance from its rim.
+    if thin == 0.0 { (distance, height) } else { thin::squared(p, t, distance) }
 }
 
 /// Whether the normal of a triangle is a matter for [`thin`].

@@ -1,4 +1,7 @@
 //! Facets ordered for rays along an axis: a balanced tree of boxes over the places that they cover as seen along it.
+//!
+//! Long thin facets, those of a fan say, fill next to nothing of their boxes. So each facet, and each leaf of the tree, has a strip
+//! too, along the longest side of the facet (of the first one in the leaf).
 
 use crate::mesh::Mesh;
 use crate::space::{Aabb, Point};
@@ -16,6 +19,8 @@ pub(crate) struct Columns {
     own: Vec<Aabb>,
     /// Of each node, in the order of a walk that takes a node before its children. Each child has half of the facets.
     boxes: Vec<Aabb>,
+    /// Of each facet, and of each node; all places for a node that is no leaf.
+    strips: [Vec<Strip>; 2],
 }
 
 impl Columns {
@@ -33,9 +38,12 @@ impl Columns {
             leaves *= 2;
         }
         let mut boxes = vec![Aabb::EMPTY; 2 * leaves - 1];
-        build(mesh, &mut items, &mut boxes);
+        let mut strips = vec![Strip::EVERYWHERE; boxes.len()];
+        build((mesh, axis), &mut items, (&mut boxes, &mut strips));
         let own = items.iter().map(|i| bounds(i.facet)).collect();
-        Columns { axis, facets: items.into_iter().map(|i| i.facet).collect(), own, boxes }
+        let facets: Vec<u32> = items.into_iter().map(|i| i.facet).collect();
+        let strips = [facets.iter().map(|f| Strip::of(axis, &mesh.corners(*f))).collect(), strips];
+        Columns { axis, facets, own, boxes, strips }
     }
 
     /// The box of all facets.
@@ -45,19 +53,35 @@ impl Columns {
 
     /// Hands to `take` every facet whose box the line through `p` along the axis meets, with that box, as far as the box and all
     /// that hold it `reach`.
-    pub(crate) fn visit(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut take: impl FnMut(u32, &Aabb)) {
+    pub(crate) fn visit(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, take: impl FnMut(u32, &Aabb)) {
+        self.walk(p, reach, |_, _| true, take);
+    }
+
+    /// As [`Columns::visit`], but for most of the long thin facets that the line misses.
+    pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, take: impl FnMut(u32, &Aabb)) {
+        self.walk(p, reach, Strip::holds, take);
+    }
+
+    fn walk(
+        &self,
+        p: &Point,
+        reach: impl Fn(&Aabb) -> bool,
+        holds: impl Fn(&Strip, [f64; 2]) -> bool,
+        mut take: impl FnMut(u32, &Aabb),
+    ) {
         let sides = [(self.axis + 1) % 3, (self.axis + 2) % 3];
         let meets = |b: &Aabb| reach(b) && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k]);
+        let (seen, [of_facets, of_nodes]) = (sides.map(|k| p[k]), &self.strips);
         // Each step down leaves one node behind.
         let mut stack = Vec::with_capacity(u32::BITS as usize);
         stack.push((0, self.boxes.len(), 0..self.facets.len()));
         while let Some((node, nodes, range)) = stack.pop() {
-            if range.is_empty() || !meets(&self.boxes[node]) {
+            if range.is_empty() || !meets(&self.boxes[node]) || !holds(&of_nodes[node], seen) {
                 continue;
             }
             if nodes == 1 {
-                let facets = self.facets[range.clone()].iter().zip(&self.own[range]);
-                facets.filter(|(_, own)| meets(own)).for_each(|(f, own)| take(*f, own));
+                let is_met = |i: &usize| meets(&self.own[*i]) && holds(&of_facets[*i], seen);
+                range.filter(is_met).for_each(|i| take(self.facets[i], &self.own[i]));
                 continue;
             }
             let (middle, half) = (range.start + range.len() / 2, nodes / 2);
@@ -73,12 +97,60 @@ struct Item {
     facet: u32,
 }
 
-/// Orders the facets of a node and its children, and finds their boxes.
-fn build(mesh: &Mesh, items: &mut [Item], boxes: &mut [Aabb]) {
-    let Some((own, children)) = boxes.split_first_mut() else { return };
+/// A strip of the plane that is seen along the axis.
+#[derive(Clone, Copy)]
+struct Strip {
+    /// A unit vector across it, or zero.
+    across: [f64; 2],
+    low: f64,
+    high: f64,
+}
+
+impl Strip {
+    const EVERYWHERE: Strip = Strip { across: [0.0; 2], low: f64::NEG_INFINITY, high: f64::INFINITY };
+
+    /// Along the longest side of the triangle that the first three corners form, as wide as all need.
+    fn of(axis: usize, corners: &[Point]) -> Strip {
+        /// Of the sum of magnitudes: more than both products and their sum are rounded by, here and for the place asked about.
+        const ROUNDING: f64 = 16.0 * f64::EPSILON;
+        let seen = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
+        let [a, b, c, ..] = corners else { return Strip::EVERYWHERE };
+        let way = |p: &Point, q: &Point| {
+            let (p, q) = (seen(p), seen(q));
+            [q[0] - p[0], q[1] - p[1]]
+        };
+        let size = |v: &[f64; 2]| v[0].abs() + v[1].abs();
+        let sides = [way(a, b), way(b, c), way(c, a)];
+        let longest = sides.into_iter().fold([0.0; 2], |l, v| if size(&v) > size(&l) { v } else { l });
+        let across = [-longest[1], longest[0]].map(|x| x / size(&longest));
+        if !across.iter().all(|x| x.is_finite()) {
+            return Strip::EVERYWHERE;
+        }
+        let (mut low, mut high, mut most) = (f64::INFINITY, f64::NEG_INFINITY, f64::MIN_POSITIVE);
+        for p in corners.iter().map(seen) {
+            let at = across[0] * p[0] + across[1] * p[1];
+            (low, high, most) = (low.min(at), high.max(at), most.max(size(&p)));
+        }
+        // Places beyond the box are none of its concern, so no coordinate asked about is larger.
+        Strip { across, low: low - 2.0 * ROUNDING * most, high: high + 2.0 * ROUNDING * most }
+    }
+
+    fn holds(&self, p: [f64; 2]) -> bool {
+        let at = self.across[0] * p[0] + self.across[1] * p[1];
+        // True for what is no number.
+        !(at < self.low || at > self.high)
+    }
+}
+
+/// Orders the facets of a node and its children, and finds their boxes and strips.
+fn build((mesh, axis): (&Mesh, usize), items: &mut [Item], (boxes, strips): (&mut [Aabb], &mut [Strip])) {
+    let (Some((own, children)), Some((strip, inner))) = (boxes.split_first_mut(), strips.split_first_mut())
+    else {
+        return;
+    };
     if children.is_empty() {
-        let corners = items.iter().flat_map(|i| mesh.faces[i.facet as usize]);
-        *own = Aabb::of(&corners.map(|v| mesh.positions[v as usize]).collect::<Vec<Point>>());
+        let corners: Vec<Point> = items.iter().flat_map(|i| mesh.corners(i.facet)).collect();
+        (*own, *strip) = (Aabb::of(&corners), Strip::of(axis, &corners));
         return;
     }
     let range = |k: usize| {
@@ -94,11 +166,14 @@ fn build(mesh: &Mesh, items: &mut [Item], boxes: &mut [Aabb]) {
     }
     let (low, high) = items.split_at_mut(middle);
     let (first, second) = children.split_at_mut(children.len() / 2);
-    if low.len() > ALONE {
-        rayon::join(|| build(mesh, low, first), || build(mesh, high, second));
+    let (of_first, of_second) = inner.split_at_mut(inner.len() / 2);
+    let mut one = || build((mesh, axis), low, (&mut *first, of_first));
+    let mut other = || build((mesh, axis), high, (&mut *second, of_second));
+    if middle > ALONE {
+        rayon::join(one, other);
     } else {
-        build(mesh, low, first);
-        build(mesh, high, second);
+        one();
+        other();
     }
     *own = first[0].union(&second[0]);
 }
@@ -106,9 +181,10 @@ fn build(mesh: &Mesh, items: &mut [Item], boxes: &mut [Aabb]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::predicates::side_of_line;
     use crate::num::random::Random;
 
-    /// Every facet whose box the ray meets is there, once, and no other, by brute force.
+    /// Every facet whose box the ray meets is there, once, and no other, by brute force; and of those every one that it passes.
     #[test]
     fn rays_meet_what_lies_in_their_column() {
         let random = &mut Random::new(5);
@@ -140,7 +216,53 @@ mod tests {
                 let mut all: Vec<u32> = facets.iter().filter(meets).copied().collect();
                 all.sort_unstable();
                 assert_eq!(found, all, "{p:?}");
+                found.clear();
+                columns.pass(&p, |b| p[axis] <= b.max[axis], |f, _| found.push(f));
+                found.sort_unstable();
+                assert!(found.iter().all(|f| all.binary_search(f).is_ok()), "{p:?}");
+                all.retain(|f| is_seen(&mesh.corners(*f), &p, axis));
+                assert!(all.iter().all(|f| found.binary_search(f).is_ok()), "{p:?}");
             }
+        }
+    }
+
+    /// Whether a place is seen in a triangle or on its rim, decided exactly.
+    fn is_seen([a, b, c]: &[Point; 3], p: &Point, axis: usize) -> bool {
+        let sides = [[a, b], [b, c], [c, a]].map(|[u, v]| side_of_line(axis, u, v, p));
+        !(sides.contains(&1) && sides.contains(&-1))
+    }
+
+    /// A fan turned so that the boxes of its thin facets overlap with a quarter of the others: a ray is handed some few of them,
+    /// however many there are.
+    #[test]
+    fn of_a_fan_few_facets_are_handed_out() {
+        for n in [500u32, 4000, 32_000] {
+            let (random, mut mesh) = (&mut Random::new(9), Mesh::default());
+            mesh.positions.push([0.3, 0.1, 0.2]);
+            for i in 0..n {
+                let turn = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+                mesh.positions.push([0.3 + libm::cos(turn), 0.1 + libm::sin(turn), 0.2 + libm::cos(turn)]);
+                mesh.faces.push([0, 1 + i, 1 + (i + 1) % n]);
+            }
+            let facets: Vec<u32> = (0..n).collect();
+            let columns = Columns::new(&mesh, &facets, 2);
+            let mut handed = 0;
+            for _ in 0..500 {
+                let turn = std::f64::consts::TAU * random.unit();
+                let far = 0.2 + 0.8 * random.unit();
+                let p = [0.3 + far * libm::cos(turn), 0.1 + far * libm::sin(turn), -9.0];
+                let mut seen = 0;
+                columns.pass(
+                    &p,
+                    |_| true,
+                    |f, _| {
+                        handed += 1;
+                        seen += usize::from(is_seen(&mesh.corners(f), &p, 2));
+                    },
+                );
+                assert!(seen > 0 || far > 0.999);
+            }
+            assert!(handed < 500 * 8, "{n}: {handed}");
         }
     }
 }

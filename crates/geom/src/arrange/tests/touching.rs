@@ -126,6 +126,21 @@ pub(crate) fn touching(random: &mut Random) -> Vec<(&'static str, Mesh, f64)> {
     all
 }
 
+/// A cone over or under a fan around the origin, which has `n` facets.
+fn cone(mesh: &mut Mesh, n: u32, (radius, turn): (f64, f64), tip: f64) {
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend([[0.0, 0.0, tip], [0.0; 3]]);
+    for i in 0..n {
+        let angle = TAU * (f64::from(i) + turn) / f64::from(n);
+        mesh.positions.push([radius * libm::cos(angle), radius * libm::sin(angle), 0.0]);
+    }
+    for (i, j) in (0..n).map(|i| (2 + i, 2 + (i + 1) % n)) {
+        for [a, b, c] in [[0, i, j], [1, j, i]] {
+            mesh.faces.push(if tip > 0.0 { [a, b, c] } else { [a, c, b] }.map(|v| v + first));
+        }
+    }
+}
+
 /// A rotation about any place.
 pub(crate) fn rotation(random: &mut Random) -> Rigid {
     let mut any = || 6.0 * random.unit() - 3.0;
@@ -169,4 +184,21 @@ fn a_copy_a_step_away_vanishes() {
     let union = union(&mesh, &Options::default());
     assert!(near(volume(&union.mesh), 4.0 * area));
     assert_eq!(union.mesh.faces.len(), copy.faces.len());
+}
+
+/// Cones base to base, turned and rounded: two fans of thousands of facets upon each other. The pairs of facets whose boxes meet are many
+/// times as many as are found at once.
+#[test]
+fn fans_of_thousands_of_facets_that_touch_are_united() {
+    let turn = rotation(&mut Random::new(6));
+    for n in [60, 2500] {
+        let mut mesh = Mesh { positions: vec![], faces: vec![] };
+        cone(&mut mesh, n, (10.0, 0.0), 10.0);
+        cone(&mut mesh, n, (8.0, 0.35), -10.0);
+        mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p).map(|x| f64::from(x as f32)));
+        let got = volume(&union(&mesh, &Options { single: true, ..Options::default() }).mesh);
+        let base = 0.5 * f64::from(n) * libm::sin(TAU / f64::from(n));
+        let want = base * (100.0 + 64.0) * 10.0 / 3.0;
+        assert!((got - want).abs() < 1e-5 * want, "{n}: {got}, not {want}");
+    }
 }

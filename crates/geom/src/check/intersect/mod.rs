@@ -14,7 +14,7 @@ mod hub;
 mod masks;
 mod meet;
 mod pairs;
-mod seen;
+pub(crate) mod seen;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -162,6 +162,26 @@ pub(crate) fn reaching(
         return Err(Cancelled);
     }
     Ok((found.into_inner() <= most).then_some(all))
+}
+
+/// The facets with area whose box meets one of these boxes, ascending: those that [`reaching`] lists for any of them. Cost: n log n,
+/// however many boxes a facet meets.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn reaching_any(
+    mesh: &Mesh,
+    topology: &Topology,
+    boxes: &[Aabb],
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, Cancelled> {
+    let in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
+    let mut facets = Tree::build(mesh, topology, &in_tree, None, progress).reaching_any(boxes, progress);
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    facets.sort_unstable();
+    Ok(facets)
 }
 
 /// What is searched.

@@ -333,3 +333,36 @@ fn a_tangle_is_not_counted_to_the_end() {
     };
     assert!(found.first.iter().all(|[a, b]| a < b && meet::meet(&triangle(*a), &triangle(*b))));
 }
+
+/// The same facets as are listed box by box, each once; around a hub too, whose facets every box meets.
+#[test]
+fn facets_in_reach_of_any_box_are_those_in_reach_of_some() {
+    let random = &mut Random::new(31);
+    for case in 0..40 {
+        let (n, single) = (1 + random.below(3000) as usize, case % 2 == 0);
+        let mut place = || -> Point {
+            let p: Point = std::array::from_fn(|_| 3.0 * random.unit());
+            if single { p.map(|x| f64::from(x as f32)) } else { p }
+        };
+        let hub = place();
+        let facets: Vec<Facet> = (0..n)
+            .map(|f| {
+                let a = if f % 3 == 0 { hub } else { place() };
+                let size = if f % 5 == 0 { 1.0 } else { 0.05 };
+                [
+                    a,
+                    plus(a, place().map(|x| size * x)),
+                    if f % 50 == 0 { a } else { plus(a, place().map(|x| size * x)) },
+                ]
+            })
+            .collect();
+        let mesh = weld::corners(facets.len(), |f, k| facets[f][k]).unwrap();
+        let topology = Topology::of(&mesh).unwrap();
+        let boxes: Vec<Aabb> = (0..case).map(|i| Aabb::of(&facets[i * 7 % n])).collect();
+        let mut want: Vec<u32> =
+            reaching(&mesh, &topology, &boxes, usize::MAX, &Silent).unwrap().unwrap().concat();
+        want.sort_unstable();
+        want.dedup();
+        assert_eq!(reaching_any(&mesh, &topology, &boxes, &Silent).unwrap(), want, "{case}");
+    }
+}

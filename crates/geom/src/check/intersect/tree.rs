@@ -279,11 +279,7 @@ impl Tree {
 
     /// The facets whose boxes reach into `bounds`, in the order of the tree.
     pub fn reaching(&self, bounds: &Aabb) -> Vec<u32> {
-        // Rounded outwards: a place may be off by the slack, and once more by rounding.
-        let place = [bounds.min, bounds.max].map(|p| self.frame.place(&p));
-        let low: [f32; 3] = std::array::from_fn(|k| (place[0][k] as f32).next_down() - self.frame.slack);
-        let high: [f32; 3] = std::array::from_fn(|k| (place[1][k] as f32).next_up() + self.frame.slack);
-        let overlaps = |b: &Boxes, i: usize| (0..3).all(|k| b.0[k][i] <= high[k] && low[k] <= b.0[k + 3][i]);
+        let overlaps = self.overlaps(bounds);
         let top = self.levels.len() - 1;
         let (mut stack, mut found) = (vec![(top, 0)], vec![]);
         while let Some((level, node)) = stack.pop() {
@@ -296,5 +292,52 @@ impl Tree {
             }
         }
         found
+    }
+
+    /// The facets whose boxes reach into some of `bounds`, each once. Nodes of which all are found are not entered again.
+    pub fn reaching_any(&self, bounds: &[Aabb], progress: &dyn Progress) -> Vec<u32> {
+        // For each node the children that hold facets not found yet.
+        let is_full = |b: &Boxes| bits((0..W).map(|i| b.0[0][i] <= b.0[3][i]));
+        let mut left: Vec<Vec<u32>> =
+            self.levels.iter().map(|level| level.iter().map(is_full).collect()).collect();
+        let top = self.levels.len() - 1;
+        let (mut stack, mut found) = (vec![], vec![]);
+        for (n, bounds) in bounds.iter().enumerate() {
+            if n % (1 << 10) == 0 && progress.cancelled() {
+                break;
+            }
+            let overlaps = self.overlaps(bounds);
+            stack.push((top, 0));
+            while let Some((level, node)) = stack.pop() {
+                let Some(boxes) = self.levels[level].get(node) else { continue };
+                let open = left[level][node];
+                for i in (0..W).filter(|&i| open >> i & 1 == 1 && overlaps(boxes, i)) {
+                    if level > 0 {
+                        stack.push((level - 1, node * W + i));
+                        continue;
+                    }
+                    found.push(self.leaves[node].face[i]);
+                    let (mut level, mut child) = (0, node * W + i);
+                    while level <= top {
+                        let of = &mut left[level][child / W];
+                        *of &= !(1 << (child % W));
+                        if *of != 0 {
+                            break;
+                        }
+                        (level, child) = (level + 1, child / W);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether a box of a node reaches into `bounds`.
+    fn overlaps(&self, bounds: &Aabb) -> impl Fn(&Boxes, usize) -> bool {
+        // Rounded outwards: a place may be off by the slack, and once more by rounding.
+        let place = [bounds.min, bounds.max].map(|p| self.frame.place(&p));
+        let low: [f32; 3] = std::array::from_fn(|k| (place[0][k] as f32).next_down() - self.frame.slack);
+        let high: [f32; 3] = std::array::from_fn(|k| (place[1][k] as f32).next_up() + self.frame.slack);
+        move |b: &Boxes, i: usize| (0..3).all(|k| b.0[k][i] <= high[k] && low[k] <= b.0[k + 3][i])
     }
 }
