@@ -15,6 +15,7 @@ mod order;
 mod planes;
 mod points;
 mod predict;
+mod sample;
 mod simplify;
 
 pub use blob::{base64, zlib};
@@ -42,6 +43,9 @@ const LEVEL_BYTES: usize = 2;
 /// Points drawn at most: more change nothing that can be seen, and the file is for looking.
 const MOST_POINTS: usize = 1_000_000;
 
+/// Of what would just fit, so that it does.
+const SAFELY: f64 = 0.96;
+
 /// How much may be kept.
 #[derive(Clone, Copy, Debug)]
 struct Quality {
@@ -68,39 +72,62 @@ impl Purpose<'_> {
     }
 }
 
-/// All objects as they probably fit, before it is known how much room there is.
-pub struct First {
-    packed: Vec<Packed>,
-    quality: Quality,
-    /// Nothing left out.
-    all: Quality,
-}
-
 /// An object as blobs, without the coarser levels of a mesh.
 struct Packed {
     part: Payload,
     mesh: Option<Ordered>,
 }
 
-/// Packs everything as finely as it probably fits into `budget` bytes of base64.
-pub fn pack(objects: &[ViewObject], purpose: &Purpose, budget: usize) -> Result<First, ReportError> {
-    let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
-    let points =
-        objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
-    let all = Quality { points, triangles, bits: 16 };
-    let quality = all.probably_within(budget, objects);
-    Ok(First { packed: pack_at(objects, purpose, quality)?, quality, all })
+/// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
+///
+/// How finely they are packed is told from a part of each. What has clearly less than that is packed again with more, once; what
+/// has more is packed again with less until it fits: first positions are rounded to 14 bits, then points are left out evenly and
+/// edges collapsed.
+pub fn pack(
+    objects: &[ViewObject],
+    marks: &[Marks],
+    purpose: &Purpose,
+    budget: usize,
+) -> Result<Payload, ReportError> {
+    /// There is clearly more room.
+    const ROOM: f64 = 1.3;
+    let marks = pack_all_marks(objects, marks);
+    let budget = budget.saturating_sub(marks.len());
+    let all = Quality::all(objects);
+    let mut quality = sample::quality(all, objects, purpose, budget)?;
+    let mut may_grow = quality.points < all.points || quality.triangles < all.triangles;
+    loop {
+        let packed = pack_at(objects, purpose, quality)?;
+        let least = quality.points <= 1000 && quality.triangles <= 1000;
+        let expected: usize = packed.iter().map(Packed::expected).sum();
+        let mut share = budget as f64 / expected.max(1) as f64;
+        if may_grow && share > ROOM {
+            (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
+            continue;
+        }
+        if share >= 1.0 || least {
+            let payload = with_levels(packed, purpose)?;
+            share = budget as f64 / payload.len().max(1) as f64;
+            if share >= 1.0 || least {
+                purpose.progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
+                return Ok(join(payload, marks));
+            }
+        }
+        may_grow = false;
+        if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
+            quality.bits = 14;
+        } else {
+            quality = quality.times(share * SAFELY);
+        }
+    }
 }
 
 impl Quality {
-    /// The finest of which experience says that it fits: first positions are rounded to 14 bits, then much is left out evenly.
-    fn probably_within(self, budget: usize, objects: &[ViewObject]) -> Quality {
-        let share = |bits| budget as f64 / objects.iter().map(|o| usual_bytes(o, bits)).sum::<f64>().max(1.0);
-        if share(16) >= 1.0 {
-            return self;
-        }
-        let bits = if objects.iter().all(coarse_grid_is_fine) { 14 } else { 16 };
-        Quality { bits, ..self }.times(share(bits).min(1.0))
+    /// Nothing left out.
+    fn all(objects: &[ViewObject]) -> Quality {
+        let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
+        let points = objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0);
+        Quality { points: points.min(MOST_POINTS), triangles, bits: 16 }
     }
 
     fn times(self, share: f64) -> Quality {
@@ -111,69 +138,6 @@ impl Quality {
     fn at_most(self, most: Quality) -> Quality {
         let (points, triangles) = (self.points.min(most.points), self.triangles.min(most.triangles));
         Quality { points, triangles, ..self }
-    }
-}
-
-/// Bytes of base64 that an object usually takes; measured on scans of figures. A wrong guess costs time only.
-fn usual_bytes(object: &ViewObject, bits: u32) -> f64 {
-    const FIELD: f64 = 2.6;
-    const TRIANGLE: f64 = 1.1;
-    let place = if bits == 16 { 6.0 } else { 5.0 } + FIELD * object.fields.len() as f64;
-    match object.geometry {
-        Geometry::Points(points) => points.len().min(MOST_POINTS) as f64 * place,
-        Geometry::Mesh(mesh) => {
-            let triangles = mesh.faces.len();
-            let levels = mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES;
-            triangles as f64 * (TRIANGLE + 0.5 * place) + levels as f64
-        }
-    }
-}
-
-impl First {
-    /// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
-    ///
-    /// What has clearly less than that is packed again with more, once; what has more is packed again with less until it fits:
-    /// first positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
-    pub fn within(
-        self,
-        budget: usize,
-        objects: &[ViewObject],
-        marks: &[Marks],
-        purpose: &Purpose,
-    ) -> Result<Payload, ReportError> {
-        /// There is clearly more room.
-        const ROOM: f64 = 1.3;
-        /// Of what would just fit, so that it does.
-        const SAFELY: f64 = 0.96;
-        let marks = pack_all_marks(objects, marks);
-        let budget = budget.saturating_sub(marks.len());
-        let First { mut packed, mut quality, all } = self;
-        let mut may_grow = quality.points < all.points || quality.triangles < all.triangles;
-        loop {
-            let least = quality.points <= 1000 && quality.triangles <= 1000;
-            let expected: usize = packed.iter().map(Packed::expected).sum();
-            let mut share = budget as f64 / expected.max(1) as f64;
-            if may_grow && share > ROOM {
-                (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
-                packed = pack_at(objects, purpose, quality)?;
-                continue;
-            }
-            if share >= 1.0 || least {
-                let payload = with_levels(packed, purpose)?;
-                share = budget as f64 / payload.len().max(1) as f64;
-                if share >= 1.0 || least {
-                    purpose.progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
-                    return Ok(join(payload, marks));
-                }
-            }
-            may_grow = false;
-            if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
-                quality.bits = 14;
-            } else {
-                quality = quality.times(share * SAFELY);
-            }
-            packed = pack_at(objects, purpose, quality)?;
-        }
     }
 }
 
@@ -244,20 +208,25 @@ fn coarse_grid_is_fine(object: &ViewObject) -> bool {
 fn pack_at(objects: &[ViewObject], purpose: &Purpose, quality: Quality) -> Result<Vec<Packed>, ReportError> {
     let shown = first_view(objects);
     let one = |(id, object): (usize, &ViewObject)| {
-        let mut part = Payload::default();
-        let (entry, mesh) = match object.geometry {
-            Geometry::Mesh(mesh) => {
-                let (entry, ordered) = pack_mesh(&mut part, object, mesh, purpose, quality)?;
-                (entry, Some(ordered))
-            }
-            Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
-        };
-        part.objects.push(entry);
-        part.objects[0]["id"] = json!(id);
-        part.objects[0]["shown"] = json!(shown.contains(&id));
-        Ok(Packed { part, mesh })
+        let mut packed = pack_object(object, purpose, quality)?;
+        packed.part.objects[0]["id"] = json!(id);
+        packed.part.objects[0]["shown"] = json!(shown.contains(&id));
+        Ok(packed)
     };
     objects.par_iter().enumerate().map(one).collect()
+}
+
+fn pack_object(object: &ViewObject, purpose: &Purpose, quality: Quality) -> Result<Packed, ReportError> {
+    let mut part = Payload::default();
+    let (entry, mesh) = match object.geometry {
+        Geometry::Mesh(mesh) => {
+            let (entry, ordered) = pack_mesh(&mut part, object, mesh, purpose, quality)?;
+            (entry, Some(ordered))
+        }
+        Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
+    };
+    part.objects.push(entry);
+    Ok(Packed { part, mesh })
 }
 
 /// Appends a part, whose blobs get later numbers.
