@@ -4,7 +4,9 @@
 //! all. The part is some of the cells of a coarse grid: within them places lie as densely as in the whole.
 
 use super::super::{Geometry, ReportError, ViewField, ViewObject};
-use super::{LEVEL_BYTES, MOST_POINTS, NoValue, Purpose, Quality, coarse_grid_is_fine, mesh, pack_object};
+use super::field::NoValue;
+use super::mesh;
+use super::packed::{LEVEL_BYTES, MOST_POINTS, Purpose, Quality, coarse_grid_is_fine, pack_object};
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Aabb, Point};
@@ -189,7 +191,6 @@ fn taken(places: &[Point]) -> impl Fn(&Point) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::super::ViewRole;
-    use super::super::pack_at;
     use super::*;
     use trueness_geom::num::random::Random;
     use trueness_geom::progress::Silent;
@@ -225,8 +226,8 @@ mod tests {
                 let purpose = Purpose { ranges: &[0.2], zone: None, progress: &Silent };
                 for budget in [300_000, 700_000] {
                     let quality = quality(Quality::all(&objects), &objects, &purpose, budget).unwrap();
-                    let packed = pack_at(&objects, &purpose, quality).unwrap();
-                    let share = packed.iter().map(|p| p.expected()).sum::<usize>() as f64 / budget as f64;
+                    let packed = pack_object(&objects[0], &purpose, quality).unwrap();
+                    let share = packed.expected() as f64 / budget as f64;
                     let all = quality.points.max(quality.triangles) >= Quality::all(&objects).points;
                     assert!(share <= 1.0 && (all || share > 0.88), "{share} of {budget}, noise {noise}");
                 }
