@@ -2,8 +2,10 @@
 
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
+use rayon::prelude::*;
 use std::path::Path;
 use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
+use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::space::{Aabb, Point};
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 
@@ -27,6 +29,10 @@ pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Op
     let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
     let mut record = record(role, &provenance, &warnings);
     if let Body::Mesh(mesh) = &body {
+        let out = |v: &u32| mesh.mesh.positions.get(*v as usize).is_some_and(|p| out_of_range(p, MAX_VERTEX));
+        if let Some(v) = mesh.mesh.faces.par_iter().flatten_iter().copied().filter(out).min() {
+            bail!(refusal(path, "vertex", v as usize, MAX_VERTEX));
+        }
         describe(&mut record, &mesh.mesh.positions);
         record.facets = Some(mesh.mesh.faces.len() as u64);
     }
@@ -56,13 +62,32 @@ pub fn mesh(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<(S
     }
 }
 
-/// All points of a source.
-pub fn all_points(mut source: PointSource) -> anyhow::Result<Vec<Point>> {
+/// Whether a coordinate has a size that no command measures with: not 0, and below what distances keep their digits of, or
+/// above `greatest`. What is not finite is another fault.
+fn out_of_range(p: &Point, greatest: f64) -> bool {
+    let size = |x: &f64| x.abs();
+    p.iter().map(size).any(|x| x.is_finite() && x > 0.0 && !(MIN_COORDINATE..=greatest).contains(&x))
+}
+
+/// Why a file is refused in which the coordinates of a place are [`out_of_range`].
+fn refusal(path: &Path, what: &str, number: usize, greatest: f64) -> String {
+    let file = path.display();
+    format!(
+        "{file}: {what} {number} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {greatest:e} mm: give the \
+         file's unit (--units), or leave the {what} out"
+    )
+}
+
+/// All points of a source, which is the file at `path`.
+pub fn all_points(path: &Path, mut source: PointSource) -> anyhow::Result<Vec<Point>> {
     let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
     loop {
         source.next_block(&mut block)?;
         if block.is_empty() {
             return Ok(all);
+        }
+        if let Some(i) = block.iter().position(|p| out_of_range(p, MAX_COORDINATE)) {
+            bail!(refusal(path, "point", all.len() + i, MAX_COORDINATE));
         }
         all.extend_from_slice(&block);
     }

@@ -134,6 +134,12 @@ impl RunFiles {
                     "{option} {shown} would overwrite the input {input}, which is the same file; {remedy}"
                 )));
             }
+            // A path of an input that does not exist is told where it is opened.
+            if replaces && !inputs.is_empty() && inputs.iter().all(|(p, _)| *p != place) {
+                return Err(Usage(format!(
+                    "--in-place writes over the input, but {option} names another file, {shown}: leave one of the two out"
+                )));
+            }
             taken.push((place, output));
         }
         Ok(())

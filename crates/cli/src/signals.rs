@@ -10,8 +10,9 @@ use std::time::Duration;
 /// The first signal that came; 0 for none.
 static RECEIVED: AtomicI32 = AtomicI32::new(0);
 
-/// Time that the work has for stopping by itself.
-const PATIENCE: Duration = Duration::from_millis(150);
+/// Time that the work has for stopping by itself. The system then takes its memory back, which of gigabytes takes as long again,
+/// and all of it shall be over within 0.2 s.
+const PATIENCE: Duration = Duration::from_millis(60);
 
 /// Whether the work should stop.
 pub fn received() -> bool {

@@ -26,6 +26,23 @@ fn a_sound_mesh_is_described_and_conforms() {
     assert!(stdout(&o).ends_with("\nsound\n"), "{}", stdout(&o));
 }
 
+/// Two boxes that cross: the place they share is counted twice, and the table, the document and the report say so.
+#[test]
+fn the_volume_of_crossing_bodies_says_what_it_counts_twice() {
+    let f = Folder::new();
+    let (mesh, html) = (corpus("broken/self_intersecting_boxes.stl"), f.file("r.html"));
+    let said = "in common counts as often as there are bodies";
+    let o = trueness(["check".as_ref(), mesh.as_os_str(), "--html".as_ref(), html.as_os_str()]);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    let row = stdout(&o).lines().find(|l| l.starts_with("volume")).unwrap().to_string();
+    assert!(row.contains("mm³") && row.contains(said), "{row}");
+    let d = document(["check".as_ref(), mesh.as_os_str()]);
+    assert!(d["volume"].is_f64() && d["volume_note"].as_str().unwrap().contains(said));
+    assert!(std::fs::read_to_string(html).unwrap().contains("data-t=\"volume.overlaps\""));
+    let cube = f.write("cube.off", CUBE);
+    assert!(document(["check".as_ref(), cube.as_os_str()])["volume_note"].is_null());
+}
+
 #[test]
 fn a_hole_is_found_with_its_place() {
     let f = Folder::new();

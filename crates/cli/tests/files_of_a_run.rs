@@ -111,6 +111,18 @@ fn a_mesh_is_repaired_in_place_where_that_is_said() {
     refused(&f, &[w("repair"), a.as_os_str()], 2, &["--out"]);
 }
 
+#[test]
+fn in_place_and_another_output_contradict_each_other() {
+    let f = Folder::new();
+    let open = CUBE.replace("8 12 0", "8 11 0").replace("3 0 2 1\n", "");
+    let (a, other) = (f.write("a.off", &open), f.file("other.off"));
+    let w = OsStr::new;
+    let words = [w("repair"), a.as_os_str(), w("--in-place"), w("-o"), other.as_os_str()];
+    refused(&f, &words, 2, &["--in-place", "other.off", "leave one of the two out"]);
+    assert!(!other.exists());
+    assert_eq!(std::fs::read_to_string(&a).unwrap(), open);
+}
+
 /// The input is a pipe that nobody writes to: a run that looked at it first would never end.
 #[cfg(unix)]
 #[test]
@@ -277,7 +289,7 @@ fn signals_end_a_run_that_waits_and_leave_nothing() {
         kill(signal);
         let start = std::time::Instant::now();
         let o = child.wait_with_output().unwrap();
-        // Its own patience is 0.15 s; the rest is for machines with much else to do.
+        // Its own patience is 0.06 s; the rest is for machines with much else to do.
         assert!(start.elapsed().as_secs_f64() < 2.0, "{signal}: {:?}", start.elapsed());
         assert_eq!(o.status.code(), Some(want), "{signal}");
         assert_eq!(f.names(), ["c.off", "pipe"], "{signal}");

@@ -207,6 +207,27 @@ fn the_table_tells_what_was_done_and_left() {
 }
 
 #[test]
+fn what_a_mended_ply_loses_is_said() {
+    let f = Folder::new();
+    let header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+                  property uchar green\nproperty uchar blue\nelement face 4\nproperty list uchar int vertex_indices\nproperty float quality\n\
+                  end_header\n";
+    let rows = "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n0 0 1 9 9 9\n3 0 2 1 1\n3 0 1 3 1\n3 1 2 3 1\n3 2 0 3 1\n";
+    let (mesh, out) = (f.write("colored.ply", format!("{header}{rows}")), f.file("o.ply"));
+    let lost = "places and facets only; the file's other data are not in it: red, green, blue, quality";
+    let o = trueness(repair(&mesh, &out, &[]));
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    assert!(stdout(&o).contains(lost), "{}", stdout(&o));
+    assert!(document(repair(&mesh, &out, &[]))["inputs"][0]["warnings"][0].as_str().unwrap().contains(lost));
+    // What the program writes itself has nothing to lose.
+    assert!(
+        document(repair(&out, &f.file("again.ply"), &[]))["inputs"][0]["warnings"]
+            .as_array()
+            .is_none_or(Vec::is_empty)
+    );
+}
+
+#[test]
 fn options_choose_steps_and_limits() {
     let f = Folder::new();
     let (mesh, out) = (f.write("open.off", open_cube()), f.file("o.ply"));

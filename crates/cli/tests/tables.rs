@@ -94,6 +94,32 @@ fn coordinates_below_the_least_are_refused_as_those_beyond_the_greatest() {
             "{said}"
         );
     }
+    // Every other command says the same.
+    let least = ["fit --shape plane", "segment", "curvature", "surface", "section --plane z=0"];
+    for words in least {
+        let points = f.write("tiny.xyz", "0 0 2\n1e-55 0 2\n0 3 2\n4 1 2\n5 5 2\n");
+        let mut words: Vec<&str> = words.split(' ').collect();
+        words.insert(1, points.to_str().unwrap());
+        let answer = trueness(&words);
+        let said = stderr(&answer);
+        assert_eq!(status(&answer), 3, "{words:?}: {said}");
+        assert!(said.contains("tiny.xyz: point 1 ") && said.contains("from 1e-50 to 1e60 mm"), "{said}");
+    }
+    let mesh = f.write("least.off", CUBE.replacen("0 0 0\n", "0 0 1e-55\n", 1));
+    let (mesh, out) = (mesh.to_str().unwrap(), f.file("out.off"));
+    for words in [
+        vec!["check", mesh],
+        vec!["repair", mesh, "-o", out.to_str().unwrap()],
+        vec!["segment", mesh],
+        vec!["curvature", mesh],
+        vec!["section", mesh, "--plane", "z=0.5"],
+    ] {
+        let answer = trueness(&words);
+        let said = stderr(&answer);
+        assert_eq!(status(&answer), 3, "{words:?}: {said}");
+        assert!(said.contains("least.off: vertex 0 ") && said.contains("from 1e-50 to 1e45 mm"), "{said}");
+    }
+    assert!(!out.exists());
     let tiny = f.write("tiny.off", CUBE.replacen("0 0 0\n", "0 0 1e-60\n", 1));
     let points = f.write("p.xyz", "0 0 2\n");
     let answer = trueness(["compare", points.to_str().unwrap(), tiny.to_str().unwrap()]);

@@ -17,9 +17,10 @@ use std::{
 /// replaced. Guards against failure of the program, not of the power supply: nothing is forced onto the disk.
 #[derive(Debug)]
 pub struct AtomicFile {
-    file: BufWriter<File>,
-    /// Where it is written, and where it shall be; `None` for what is written directly.
+    /// Where it is written, and where it shall be; `None` for what is written directly. It is dropped before the file is
+    /// closed: without its lock it would look like that of a run that was killed.
     places: Option<(Temporary, PathBuf)>,
+    file: BufWriter<File>,
 }
 
 impl AtomicFile {

@@ -105,4 +105,7 @@ pub struct SourceMesh {
     pub stored_normals: Option<Vec<[f32; 3]>>,
     /// How many facets were left out because of a NaN or infinite coordinate.
     pub nonfinite_facets: u64,
+    /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colours, in the order of
+    /// the header. It was not read. Empty for other formats.
+    pub unread: Vec<String>,
 }

@@ -135,7 +135,7 @@ pub fn remove_unfinished(wait: bool) {
 /// What runs that were killed left in a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
-    /// Files that nobody wrote any longer; they are gone now.
+    /// Files that nobody wrote any longer; they are gone now. Empty ones are not told of.
     pub removed: Vec<PathBuf>,
     /// Files of which that cannot be known, as the file system has no locks; they are still there.
     pub kept: Vec<PathBuf>,
@@ -145,9 +145,14 @@ pub struct Leftovers {
 ///
 /// Errors: none; what cannot be read or removed is passed over. Cost: one pass over the names in the folder.
 pub fn remove_leftovers(folder: &Path) -> Leftovers {
+    let own = held().clone();
+    leftovers(folder, &own)
+}
+
+/// The same for a run that holds `own`.
+fn leftovers(folder: &Path, own: &[PathBuf]) -> Leftovers {
     let mut found = Leftovers::default();
     let Ok(entries) = fs::read_dir(folder) else { return found };
-    let own = held().clone();
     for entry in entries.flatten() {
         let path = entry.path();
         if !is_ours(&entry.file_name().to_string_lossy())
@@ -157,9 +162,16 @@ pub fn remove_leftovers(folder: &Path) -> Leftovers {
         }
         let Ok(file) = File::open(&path) else { continue };
         match lock(&file) {
-            Lock::Own if fs::remove_file(&path).is_ok() => found.removed.push(path),
+            Lock::Own => {
+                // One that is empty may have been made just now, by a run that has not come to lock it: that run makes
+                // itself another. It holds nothing, so there is nothing to tell either.
+                let empty = file.metadata().is_ok_and(|m| m.len() == 0);
+                if fs::remove_file(&path).is_ok() && !empty {
+                    found.removed.push(path);
+                }
+            }
             Lock::Unknown => found.kept.push(path),
-            Lock::Own | Lock::Foreign => {}
+            Lock::Foreign => {}
         }
     }
     found.removed.sort();
@@ -189,6 +201,47 @@ mod tests {
         {
             assert!(!is_ours(other), "{other}");
         }
+    }
+
+    /// Four runs make, write and give up files while another one clears the folder, which sees their locks alone.
+    #[cfg(unix)]
+    #[test]
+    fn nobody_is_said_to_have_been_killed_who_was_not() {
+        use crate::atomic_file::AtomicFile;
+        use std::{io::Write, sync::atomic::AtomicBool};
+        let folder = Folder::new();
+        let (done, said) = (AtomicBool::new(false), Mutex::new(vec![]));
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.load(Relaxed) {
+                    let found = leftovers(folder.path(), &[]);
+                    said.lock().unwrap().extend(found.removed);
+                }
+            });
+            let writers: Vec<_> = (0..4)
+                .map(|n| {
+                    let target = folder.path().join(format!("out{n}.txt"));
+                    scope.spawn(move || {
+                        for round in 0..500 {
+                            let mut file = AtomicFile::create(&target).unwrap();
+                            file.write_all(b"half").unwrap();
+                            file.flush().unwrap();
+                            if round % 2 == 0 {
+                                file.commit().unwrap();
+                            }
+                        }
+                    })
+                })
+                .collect();
+            writers.into_iter().for_each(|w| w.join().unwrap());
+            done.store(true, Relaxed);
+        });
+        assert_eq!(*said.lock().unwrap(), Vec::<PathBuf>::new());
+        // What was made and not yet locked is empty: it goes without a word.
+        let born = folder.path().join(".out.csv.3-0.trueness.part");
+        fs::write(&born, "").unwrap();
+        assert_eq!(leftovers(folder.path(), &[]), Leftovers::default());
+        assert!(!born.exists());
     }
 
     #[cfg(unix)]

@@ -96,6 +96,28 @@ fn the_example_has_the_stated_numbers() {
     }
 }
 
+/// Old exporters sign the header without the word `comment`.
+#[test]
+fn an_unknown_header_line_of_a_ply_is_a_warning_before_the_first_element_and_an_error_after_it() {
+    let signature = "Created by Blender3D 247 - www.blender.org, source file: part.blend\n";
+    let element = "element vertex 1\n";
+    let rest = "property float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+    let folder = Folder::new();
+    let before =
+        folder.file("before.ply", format!("ply\nformat ascii 1.0\n{signature}{element}{rest}").as_bytes());
+    let input = open(&before, &ReadOptions::default()).unwrap();
+    let said: Vec<String> = input.warnings.iter().map(ToString::to_string).collect();
+    assert!(
+        said.len() == 1 && said[0].contains("line 3") && said[0].contains("Created by Blender3D"),
+        "{said:?}"
+    );
+    assert_eq!(read(&before).unwrap().points, [[1.0, 2.0, 3.0]]);
+    let after =
+        folder.file("after.ply", format!("ply\nformat ascii 1.0\n{element}{signature}{rest}").as_bytes());
+    let error = open(&after, &ReadOptions::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("line 4") && error.contains("Created by"), "{error}");
+}
+
 #[test]
 fn without_welding_the_vertices_are_those_of_the_file() {
     let options = ReadOptions { weld: Weld::None, ..ReadOptions::default() };

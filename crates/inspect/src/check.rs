@@ -45,6 +45,7 @@ pub fn document(
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(why_not),
+        volume_note: (solid && overlaps(report)).then(|| OVERLAPS.into()),
         centre_of_mass: centre,
         centre_of_mass_reason: centre
             .is_none()
@@ -64,6 +65,17 @@ pub fn document(
         },
         defects: defects.collect(),
     }
+}
+
+/// What the volume of bodies that cross or lie in each other is.
+const OVERLAPS: &str = "what crossing bodies have in common counts as often as there are bodies";
+
+/// Whether bodies were found to cross or to lie in each other the same way round.
+fn overlaps(report: &Report) -> bool {
+    let count = |name| report.defects.iter().find(|(kind, _)| kind.name == name);
+    ["self_intersections", "inside_out_shells"]
+        .into_iter()
+        .any(|name| count(name).and_then(|(_, found)| found.as_ref()).is_some_and(|f| f.count > 0))
 }
 
 /// The findings of a kind as the documents have them; `None` where they were not looked for.

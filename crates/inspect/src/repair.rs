@@ -3,7 +3,7 @@
 mod effect;
 mod view;
 
-pub use view::{View, by_step};
+pub use view::{GONE, NEW, View, by_step};
 
 use crate::results::repair::{
     Change, Deviation, Distances, FacetCounts, OutputRecord, RepairDocument, SCHEMA, State, VertexCounts,

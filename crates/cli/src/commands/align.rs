@@ -108,7 +108,9 @@ impl Scan {
             read::open(&args.measured, Role::Measured, &args.input.reading())?;
         let mesh = match body {
             Body::Mesh(source) => source.mesh,
-            Body::Points(source) => Mesh { positions: read::all_points(source)?, faces: vec![] },
+            Body::Points(source) => {
+                Mesh { positions: read::all_points(&args.measured, source)?, faces: vec![] }
+            }
         };
         read::describe(&mut record, &mesh.positions);
         Ok(Scan { mesh, record })

@@ -120,7 +120,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
         read::open(&args.points, Role::Measured, &args.input.reading())?;
     let points = match body {
         Body::Mesh(mesh) => mesh.mesh.positions,
-        Body::Points(source) => read::all_points(source)?,
+        Body::Points(source) => read::all_points(&args.points, source)?,
     };
     read::describe(&mut record, &points);
     read::hash(&mut record, &args.points)?;

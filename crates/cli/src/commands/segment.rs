@@ -127,7 +127,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let (mesh, kind) = match body {
         Body::Mesh(source) => (source.mesh, PieceKind::Facets),
         Body::Points(source) => {
-            (Mesh { positions: read::all_points(source)?, faces: Vec::new() }, PieceKind::Points)
+            (Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() }, PieceKind::Points)
         }
     };
     read::describe(&mut record, &mesh.positions);

@@ -13,7 +13,8 @@ const MEMORY: usize = 32 << 20;
 /// Bytes to be read again from the start, in memory or, when they grow, in a file beside the one being written.
 pub(crate) struct Spool {
     memory: Vec<u8>,
-    disk: Option<(File, Temporary)>,
+    /// The file is removed before it is closed, which would free its lock.
+    disk: Option<(Temporary, File)>,
     /// The file beside which one may be made.
     target: PathBuf,
     length: u64,
@@ -36,9 +37,12 @@ impl Spool {
         self.memory.extend(bytes);
         self.length += (self.memory.len() - before) as u64;
         if self.memory.len() >= MEMORY {
-            let (file, _) = match &mut self.disk {
+            let (_, file) = match &mut self.disk {
                 Some(disk) => disk,
-                none => none.insert(Temporary::beside(&self.target)?),
+                none => {
+                    let (file, temporary) = Temporary::beside(&self.target)?;
+                    none.insert((temporary, file))
+                }
             };
             file.write_all(&self.memory)?;
             self.memory.clear();
@@ -48,7 +52,7 @@ impl Spool {
 
     /// Hands all bytes to `out`, in order.
     pub fn play(&mut self, mut out: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
-        if let Some((file, _)) = &mut self.disk {
+        if let Some((_, file)) = &mut self.disk {
             file.seek(SeekFrom::Start(0))?;
             let mut buffer = vec![0; 1 << 20];
             loop {

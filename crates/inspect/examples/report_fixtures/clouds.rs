@@ -1,6 +1,7 @@
 //! Reports of measured points against references far coarser than the points are apart, compared by the program itself.
 
 use super::{record, uv_sphere, written};
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::path::Path;
 use trueness_geom::cloud::PointStream;
@@ -23,6 +24,7 @@ pub fn write_all(folder: &Path) {
     written(folder, "scratch", page(&scratched_cube(30_000), &cube(20.0), 0.1));
     let few: Vec<Point> = dent.iter().step_by(25).copied().collect();
     written(folder, "few", page(&few, &cube(20.0), 0.1));
+    written(folder, "million", page(&a_million(), &fine_cube(170), 0.1));
     written(folder, "bunny", page(&bunny_scans(), &bunny_model(), 0.5));
     // Coarser than the points, but not far coarser: the map is on the reference.
     written(folder, "sphere_points", page(&uv_sphere(200).positions, &uv_sphere(110), 0.05));
@@ -96,6 +98,43 @@ fn dented_cube(n: usize, wanted: impl Fn(&Point) -> bool) -> Vec<Point> {
             points.push(p);
         }
     }
+    points
+}
+
+/// A cube of 20 mm whose faces are cut into `n` × `n` squares of two facets each.
+fn fine_cube(n: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut numbers = BTreeMap::new();
+    for (axis, high) in (0..3usize).flat_map(|axis| [0, n].map(|high| (axis, high))) {
+        let mut vertex = |i: u32, j: u32| {
+            let mut place = [0; 3];
+            (place[axis], place[(axis + 1) % 3], place[(axis + 2) % 3]) = (high, i, j);
+            *numbers.entry(place).or_insert_with(|| {
+                mesh.positions.push(place.map(|x| 20.0 * f64::from(x) / f64::from(n)));
+                mesh.positions.len() as u32 - 1
+            })
+        };
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+            mesh.faces.extend(if high > 0 { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+        }
+    }
+    mesh
+}
+
+/// A million points 0.02 mm before or behind the faces of that cube, at random; but for 25 single ones, which lie 0.3 mm under
+/// the top at every third millimetre from 4 to 16.
+fn a_million() -> Vec<Point> {
+    let mut random = Random::new(3);
+    let mut point = |_| {
+        let (axis, high) = (random.below(3) as usize, random.below(2) == 1);
+        let mut p = [0.0; 3].map(|_: f64| 20.0 * random.unit());
+        p[axis] = if high { 20.0 } else { 0.0 } + if random.below(2) == 1 { 0.02 } else { -0.02 };
+        p
+    };
+    let mut points: Vec<Point> = (0..1_000_000).map(&mut point).collect();
+    let single = |k: usize| [4.0 + 3.0 * (k % 5) as f64, 4.0 + 3.0 * (k / 5) as f64, 19.7];
+    (0..25).for_each(|k| points[40_000 * k] = single(k));
     points
 }
 

@@ -10,9 +10,10 @@ use trueness_geom::space::{Point, Vector, cross, minus, unit};
 
 /// Facets drawn as new or gone, at most.
 const MOST: usize = 100_000;
-/// Colours of facets that came and went.
-const NEW: Rgb = [0x00, 0x91, 0x3f];
-const GONE: Rgb = [0xc8, 0x1e, 0x1e];
+/// Colour of facets that came.
+pub const NEW: Rgb = [0x00, 0x91, 0x3f];
+/// Colour of facets that went.
+pub const GONE: Rgb = [0xc8, 0x1e, 0x1e];
 
 /// A repair prepared for drawing.
 pub struct View<'a> {

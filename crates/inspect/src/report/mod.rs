@@ -52,9 +52,6 @@ pub struct ReportSummary {
 /// Bytes that an object's entry in the manifest may take, names apart.
 const MANIFEST_ENTRY: usize = 4000;
 
-/// Tenths of the budget that objects are packed for at first; the page itself takes the rest.
-const FIRST: usize = 9;
-
 /// What [`write()`] tells its progress in all: each object's places twice, once drawn and once packed.
 pub fn work(objects: &[ViewObject]) -> u64 {
     2 * objects.iter().map(|o| o.places().len() as u64).sum::<u64>()
@@ -91,15 +88,14 @@ pub fn write(
         let view = picture::FirstView::of(input, &input.result.subject().picks());
         picture::png(input, &view, progress).map(|png| page::Picture { png: payload::base64(&png), view })
     };
-    let (picture, first) =
-        rayon::join(draw, || payload::pack(input.objects, &purpose, FIRST * input.options.budget / 10));
+    let (picture, maps) = rayon::join(draw, || page::maps(input));
     let picture = picture?;
     // What the page takes without its 3D part is left of the budget first.
-    let bare = page::page(input, &Payload::default(), &page::Stage::Part(&picture))?.len()
+    let bare = page::page(input, &Payload::default(), &page::Stage::Part(&picture), &maps)?.len()
         + MANIFEST_ENTRY * input.objects.len();
     let room = input.options.budget.saturating_sub(bare);
-    let payload = first?.within(room, input.objects, input.marks, &purpose)?;
-    let html = page::page(input, &payload, &page::Stage::Part(&picture))?;
+    let payload = payload::pack(input.objects, input.marks, &purpose, room)?;
+    let html = page::page(input, &payload, &page::Stage::Part(&picture), &maps)?;
     finish(&html, &payload, progress, out)
 }
 
@@ -110,11 +106,12 @@ fn write_drawing(
     progress: &dyn Progress,
     out: &mut impl Write,
 ) -> Result<ReportSummary, ReportError> {
-    let bare = page::page(input, &Payload::default(), &page::Stage::Drawing(drawing, 0))?.len();
+    let maps = page::maps(input);
+    let bare = page::page(input, &Payload::default(), &page::Stage::Drawing(drawing, 0), &maps)?.len();
     let room = input.options.budget.saturating_sub(bare);
     let payload = Payload { points: drawing.shown(input.objects, room), ..Payload::default() };
     progress.advance(work(input.objects));
-    let html = page::page(input, &payload, &page::Stage::Drawing(drawing, room))?;
+    let html = page::page(input, &payload, &page::Stage::Drawing(drawing, room), &maps)?;
     finish(&html, &payload, progress, out)
 }
 

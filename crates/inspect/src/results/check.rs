@@ -44,6 +44,10 @@ pub struct CheckDocument {
     /// Why there is no volume.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub volume_reason: Option<String>,
+    /// What the volume counts otherwise than one might think: where bodies cross or lie in each other, the places they have
+    /// in common count as often as there are bodies.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub volume_note: Option<String>,
     /// Centre of mass of that volume.
     pub centre_of_mass: Option<[f64; 3]>,
     /// Why there is none.

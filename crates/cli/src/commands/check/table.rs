@@ -44,7 +44,10 @@ fn head(d: &CheckDocument) -> String {
     rows.push((
         "volume",
         match (d.volume, &d.volume_reason) {
-            (Some(v), _) => format!("{} mm³", extent(v)),
+            (Some(v), _) => {
+                let note = d.volume_note.as_ref().map(|note| format!("  ({note})"));
+                format!("{} mm³{}", extent(v), note.unwrap_or_default())
+            }
             (None, reason) => format!("none: {}", reason.as_deref().unwrap_or_default()),
         },
     ));

@@ -74,7 +74,7 @@ impl Measured {
         progress: &dyn Progress,
     ) -> anyhow::Result<Alignment> {
         let stream = std::mem::replace(&mut self.points, Box::new(Whole::new(vec![])));
-        let mut points = read::all_points(stream)?;
+        let mut points = read::all_points(path, stream)?;
         let tree = Tree::build_watched(reference, progress)?;
         let scan = match &self.mesh {
             Some(mesh) => align::Measured::Mesh(mesh),

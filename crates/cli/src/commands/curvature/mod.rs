@@ -117,7 +117,9 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     let (mesh, of_mesh) = match body {
         Body::Mesh(source) => (source.mesh, true),
-        Body::Points(source) => (Mesh { positions: read::all_points(source)?, faces: vec![] }, false),
+        Body::Points(source) => {
+            (Mesh { positions: read::all_points(&args.input, source)?, faces: vec![] }, false)
+        }
     };
     read::describe(&mut record, &mesh.positions);
     let stage = Stage::new(common.progress, "fitting", "places", Some(mesh.positions.len() as u64));

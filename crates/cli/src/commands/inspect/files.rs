@@ -136,7 +136,7 @@ fn take(path: &Path, options: &ReadOptions) -> anyhow::Result<(Mesh, InputRecord
     let Opened { mut record, body, planar, .. } = read::open(path, Role::Measured, options)?;
     let mesh = match body {
         Body::Mesh(source) => source.mesh,
-        Body::Points(source) => Mesh { positions: read::all_points(source)?, faces: vec![] },
+        Body::Points(source) => Mesh { positions: read::all_points(path, source)?, faces: vec![] },
     };
     read::describe(&mut record, &mesh.positions);
     read::hash(&mut record, path)?;

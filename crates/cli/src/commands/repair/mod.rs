@@ -139,6 +139,9 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
     let max_change = not_negative("max-change", args.max_change)? / 100.0;
     let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &args.input.reading())?;
+    if !source.unread.is_empty() {
+        record.warnings.push(lost(&source.unread));
+    }
     let stage = Stage::new(common.progress, "repairing", "facets", None);
     let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
         RepairError::Cancelled(e) => e.into(),
@@ -168,6 +171,15 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table::text(&document))?;
     Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
+}
+
+/// What the file read tells of its vertices and facets and the file written will not.
+fn lost(names: &[String]) -> String {
+    /// A header may name thousands.
+    const NAMED: usize = 12;
+    let named = names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = if names.len() > NAMED { ", …" } else { "" };
+    format!("the mended mesh has places and facets only; the file's other data are not in it: {named}{more}")
 }
 
 /// Reads the file written and checks it.

@@ -124,7 +124,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             planes::mesh(&source.mesh, &planes, &options, &stage)
         }
         Body::Points(source) => {
-            let points = read::all_points(source)?;
+            let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);
             match planes.is_empty() {
                 true => row(&points, planar, &options, &stage).and_then(|found| {

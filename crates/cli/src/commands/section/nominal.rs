@@ -52,7 +52,7 @@ impl NominalArgs {
         let nominal = match body {
             Body::Mesh(source) => Nominal::Mesh(source.mesh),
             Body::Points(source) => {
-                let points = read::all_points(source)?;
+                let points = read::all_points(path, source)?;
                 read::describe(&mut record, &points);
                 Nominal::Row(points, planar)
             }

@@ -151,7 +151,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     let points = match body {
         Body::Mesh(mesh) => mesh.mesh.positions,
-        Body::Points(source) => read::all_points(source)?,
+        Body::Points(source) => read::all_points(&args.points, source)?,
     };
     read::describe(&mut record, &points);
     read::hash(&mut record, &args.points)?;

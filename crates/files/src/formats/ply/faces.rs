@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use trueness_geom::space::Point;
 
 /// Names of the list of vertices.
-const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+pub(super) const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Whether an element connects vertices.
 pub(super) fn is_faces(element: &Element) -> bool {

@@ -78,7 +78,25 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         warnings.push(Warning::TrailingBytes { count: rest.len() as u64 });
     }
     let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
-    Ok(Parsed::mesh(variant, SourceMesh { mesh, ..SourceMesh::default() }, warnings))
+    Ok(Parsed::mesh(variant, SourceMesh { mesh, unread: unread(&header), ..SourceMesh::default() }, warnings))
+}
+
+/// What the vertices and faces have beside places and corners, each name once.
+fn unread(header: &Header) -> Vec<String> {
+    let mut names: Vec<String> = vec![];
+    for element in header.elements.iter().filter(|e| e.count > 0) {
+        let known: &[&str] = match element.name.as_str() {
+            "vertex" => &["x", "y", "z"],
+            _ if faces::is_faces(element) => &faces::INDICES,
+            _ => continue,
+        };
+        for property in &element.properties {
+            if !known.contains(&property.name.as_str()) && !names.contains(&property.name) {
+                names.push(property.name.clone());
+            }
+        }
+    }
+    names
 }
 
 /// The elements before the vertices, the vertices, and those after.

@@ -94,6 +94,7 @@ fn mesh<F: Facet>(
         mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld != Weld::None)?,
         stored_normals: Some(good.par_iter().map(F::normal).collect()),
         nonfinite_facets: bad.len() as u64,
+        unread: vec![],
     };
     Ok(Parsed::mesh(variant, mesh, warnings))
 }

@@ -2,7 +2,8 @@
 
 use super::{Kind, Made, Method, Options, fit};
 use crate::progress::Silent;
-use crate::space::Point;
+use crate::shape::Shape;
+use crate::space::{Point, dot, minus, plus, times};
 
 /// Many sets of points with fresh noise: the standard deviation of every parameter over them is within a tenth of what the
 /// fits state. Of least squares and robust, of whole elements and of pieces. The places stay the same, and of the robust
@@ -33,6 +34,46 @@ fn stated_uncertainties_are_the_spread_of_repeated_fits() {
                     "{method:?} {kind:?} {share} parameter {k}: spread {spread} stated {stated}"
                 );
             }
+        }
+    }
+}
+
+/// Noise across the surface alone, which is not what is stated: all that the surface itself determines has the stated spread
+/// all the same, and where along its axis an element is told is no more uncertain than stated.
+#[test]
+fn noise_across_the_surface_alone_is_never_more_than_stated() {
+    const TRIALS: u64 = 1500;
+    for kind in [Kind::Line, Kind::Cylinder, Kind::Cone] {
+        let made = Made { kind, count: 80, share: 0.4, noise: 0.0, seed: 5 };
+        let base = made.points();
+        let options = Options { method: Method::Gaussian, start: Some(made.shape()), seed: 0 };
+        let axis = match made.shape() {
+            Shape::Line { direction, .. }
+            | Shape::Cylinder { direction, .. }
+            | Shape::Cone { direction, .. } => direction,
+            other => panic!("{other:?}"),
+        };
+        let fits: Vec<(Vec<f64>, Vec<f64>)> = (0..TRIALS)
+            .map(|seed| {
+                let moved = noisy(&base, kind, seed);
+                // Without the part along the axis, for a cone nearly across.
+                let across = |(p, q): (&Point, &Point)| {
+                    let d = minus(*q, *p);
+                    plus(*p, minus(d, times(dot(d, axis), axis)))
+                };
+                let points: Vec<Point> = base.iter().zip(&moved).map(across).collect();
+                stated(&points, kind, &options)
+            })
+            .collect();
+        let count = TRIALS as f64;
+        for k in 0..fits[0].0.len() {
+            let mean = fits.iter().map(|f| f.0[k]).sum::<f64>() / count;
+            let spread = (fits.iter().map(|f| (f.0[k] - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+            let stated = (fits.iter().map(|f| f.1[k]).sum::<f64>() / count).sqrt();
+            assert!(
+                spread <= 1.1 * stated + 1e-12,
+                "{kind:?} parameter {k}: spread {spread} stated {stated}"
+            );
         }
     }
 }

@@ -62,7 +62,8 @@ impl Subject for CheckDocument {
         if let Some(size) = self.dimensions {
             key_number(h, "size", "", |h| dimensions(h, size));
         }
-        key_number(h, "volume", "", |h| volume(h, self));
+        let warned = if self.volume_note.is_some() { "warn" } else { "" };
+        key_number(h, "volume", warned, |h| volume(h, self));
         let (class, sign, key) =
             if self.precondition { ("", "✓\u{a0}", "holds") } else { ("warn", "⚠\u{a0}", "fails") };
         key_number(h, "precondition", class, |h| {
@@ -251,7 +252,12 @@ fn model(h: &mut Html, d: &CheckDocument) {
     fact(h, "area.title", |h| {
         h.number(d.area, 3, false).raw("\u{a0}mm²");
     });
-    fact(h, "volume", |h| volume(h, d));
+    fact(h, "volume", |h| {
+        volume(h, d);
+        if d.volume_note.is_some() {
+            h.raw(" (").word("volume.overlaps").raw(")");
+        }
+    });
     fact(h, "centre_of_mass", |h| match d.centre_of_mass {
         Some(place) => triple(h, place, ", ", 3),
         None => {

@@ -6,7 +6,7 @@ use super::super::page::blocks::{
 };
 use super::super::text::word;
 use super::{Head, Pick, Subject};
-use crate::repair::by_step;
+use crate::repair::{GONE, NEW, by_step};
 use crate::results::repair::{Change, Distances, RepairDocument, State};
 use crate::scale::palette::category;
 use serde_json::Value;
@@ -130,6 +130,18 @@ fn changes(h: &mut Html, d: &RepairDocument) {
     let steps = by_step(d);
     if steps.is_empty() {
         h.raw("<p>").word("changes.none").raw("</p>");
+    }
+    // The places of a step have its colour, the facets that came and went have their own.
+    let (came, went) = (d.facets.added > 0, d.facets.removed > 0);
+    if came || went {
+        h.raw("<p class=\"note\">");
+        for (_, color, key) in
+            [(came, NEW, "facets.new"), (went, GONE, "facets.gone")].iter().filter(|(any, ..)| *any)
+        {
+            swatch(h, *color);
+            h.raw(" ").word(key).raw(" ");
+        }
+        h.raw("</p>\n");
     }
     let open = if steps.len() == 1 { " open" } else { "" };
     let mut first = 0;

@@ -18,6 +18,7 @@ pub fn data(
     input: &ReportInput,
     payload: &Payload,
     first: Option<&FirstView>,
+    maps: &Value,
 ) -> Result<(), ReportError> {
     let subject = input.result.subject();
     let manifest = json!({
@@ -32,7 +33,7 @@ pub fn data(
         "scale": subject.scale(),
         "quantity": subject.quantity(),
         "palettes": subject.scale().map(palettes),
-        "maps": maps(input),
+        "maps": maps,
         "picks": picks(input, first),
         "objects": payload.objects,
         "simplified": payload.simplified,
@@ -48,7 +49,7 @@ pub fn data(
 }
 
 /// The maps that can be shown, with what the scale draws beside them.
-fn maps(input: &ReportInput) -> Value {
+pub fn maps(input: &ReportInput) -> Value {
     let subject = input.result.subject();
     let maps = subject.maps();
     let values: Vec<Vec<f64>> = (0..maps.len()).map(|n| sorted(input, n)).collect();

@@ -8,12 +8,15 @@ mod header;
 mod policy;
 pub mod symbols;
 
+pub use data::maps;
+
 use super::documents::Drawn;
 use super::html::{Html, escaped};
 use super::number::Style;
 use super::payload::Payload;
 use super::picture::FirstView;
 use super::{ReportError, ReportInput};
+use serde_json::Value;
 
 /// The stored picture.
 pub struct Picture {
@@ -31,8 +34,8 @@ pub enum Stage<'a> {
     Drawing(&'a dyn Drawn, usize),
 }
 
-/// The page around the payload and what is on its stage.
-pub fn page(input: &ReportInput, payload: &Payload, on: &Stage) -> Result<String, ReportError> {
+/// The page around the payload and what is on its stage. `maps`: see [`maps`].
+pub fn page(input: &ReportInput, payload: &Payload, on: &Stage, maps: &Value) -> Result<String, ReportError> {
     let (options, subject) = (input.options, input.result.subject());
     let mut h = Html::new(Style { language: options.language, decimal: options.decimal });
     h.raw("<!doctype html>\n<html lang=\"")
@@ -86,7 +89,7 @@ pub fn page(input: &ReportInput, payload: &Payload, on: &Stage) -> Result<String
         Stage::Part(picture) => Some(&picture.view),
         Stage::Drawing(..) => None,
     };
-    data::data(&mut h, input, payload, first)?;
+    data::data(&mut h, input, payload, first, maps)?;
     if trueness_viewer::BUILT {
         h.raw("<script>").raw(trueness_viewer::SCRIPT).raw("</script>\n");
     }

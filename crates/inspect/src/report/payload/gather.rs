@@ -15,9 +15,12 @@ pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
         dot(d, d)
     };
     let mut offers: Vec<u32> = vec![u32::MAX; owners.len()];
+    let whole = |f: &&[u32; 3]| f.iter().all(|v| (*v as usize) < mesh.positions.len());
+    let mut faces: Vec<&[u32; 3]> = mesh.faces.iter().filter(whole).collect();
     loop {
         let mut open = vec![];
-        for face in mesh.faces.iter().filter(|f| f.iter().all(|v| (*v as usize) < owners.len())) {
+        faces.retain(|f| f.iter().any(|v| owners[*v as usize] == u32::MAX));
+        for face in &faces {
             for k in 0..3 {
                 for (from, to) in [(face[k], face[(k + 1) % 3]), (face[(k + 1) % 3], face[k])] {
                     let owner = owners[from as usize];

@@ -12,176 +12,71 @@ mod grid;
 mod marks;
 mod mesh;
 mod order;
+mod packed;
 mod planes;
 mod points;
 mod predict;
+mod sample;
 mod simplify;
 
 pub use blob::{base64, zlib};
 pub use contents::Payload;
 pub use field::NoValue;
+pub use packed::Purpose;
 
 use super::marks::Marks;
 use super::picture::first_view;
-use super::{Geometry, ReportError, ViewObject, ViewRole};
-use crate::scale::palette::hex;
+use super::{ReportError, ViewObject};
 use blob::Kind;
-use field::Codes;
-use grid::Grid;
-use mesh::{MeshBytes, Ordered, Wanted};
+use packed::{Packed, Quality, coarse_grid_is_fine, pack_object};
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
-/// The worst points of each field are kept however much is left out.
-const KEPT: usize = 200;
-/// Bytes of base64 that a triangle of a coarser level takes.
-const LEVEL_BYTES: usize = 2;
-/// Points drawn at most: more change nothing that can be seen, and the file is for looking.
-const MOST_POINTS: usize = 1_000_000;
+/// Of what would just fit, so that it does.
+const SAFELY: f64 = 0.96;
 
-/// How much may be kept.
-#[derive(Clone, Copy, Debug)]
-struct Quality {
-    points: usize,
-    triangles: usize,
-    bits: u32,
-}
-
-/// What objects are packed for.
-#[derive(Clone, Copy)]
-pub struct Purpose<'a> {
-    /// What the values of each map are looked at in: the width of the tolerance zone or of the scale. The last one is that of all
-    /// further maps.
-    pub ranges: &'a [f64],
-    /// The tolerance, by which the worst of several points is told.
-    pub zone: Option<[f64; 2]>,
-    /// Hears of places, and is asked whether to go on.
-    pub progress: &'a dyn Progress,
-}
-
-impl Purpose<'_> {
-    fn range(&self, map: usize) -> f64 {
-        self.ranges.get(map).or(self.ranges.last()).copied().unwrap_or(1.0)
-    }
-}
-
-/// All objects as they probably fit, before it is known how much room there is.
-pub struct First {
-    packed: Vec<Packed>,
-    quality: Quality,
-    /// Nothing left out.
-    all: Quality,
-}
-
-/// An object as blobs, without the coarser levels of a mesh.
-struct Packed {
-    part: Payload,
-    mesh: Option<Ordered>,
-}
-
-/// Packs everything as finely as it probably fits into `budget` bytes of base64.
-pub fn pack(objects: &[ViewObject], purpose: &Purpose, budget: usize) -> Result<First, ReportError> {
-    let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
-    let points =
-        objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0).min(MOST_POINTS);
-    let all = Quality { points, triangles, bits: 16 };
-    let quality = all.probably_within(budget, objects);
-    Ok(First { packed: pack_at(objects, purpose, quality)?, quality, all })
-}
-
-impl Quality {
-    /// The finest of which experience says that it fits: first positions are rounded to 14 bits, then much is left out evenly.
-    fn probably_within(self, budget: usize, objects: &[ViewObject]) -> Quality {
-        let share = |bits| budget as f64 / objects.iter().map(|o| usual_bytes(o, bits)).sum::<f64>().max(1.0);
-        if share(16) >= 1.0 {
-            return self;
+/// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
+///
+/// How finely they are packed is told from a part of each. What has clearly less than that is packed again with more, once; what
+/// has more is packed again with less until it fits: first positions are rounded to 14 bits, then points are left out evenly and
+/// edges collapsed.
+pub fn pack(
+    objects: &[ViewObject],
+    marks: &[Marks],
+    purpose: &Purpose,
+    budget: usize,
+) -> Result<Payload, ReportError> {
+    /// There is clearly more room.
+    const ROOM: f64 = 1.3;
+    let marks = pack_all_marks(objects, marks);
+    let budget = budget.saturating_sub(marks.len());
+    let all = Quality::all(objects);
+    let mut quality = sample::quality(all, objects, purpose, budget)?;
+    let mut may_grow = quality.points < all.points || quality.triangles < all.triangles;
+    loop {
+        let packed = pack_at(objects, purpose, quality)?;
+        let least = quality.points <= 1000 && quality.triangles <= 1000;
+        let expected: usize = packed.iter().map(Packed::expected).sum();
+        let mut share = budget as f64 / expected.max(1) as f64;
+        if may_grow && share > ROOM {
+            (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
+            continue;
         }
-        let bits = if objects.iter().all(coarse_grid_is_fine) { 14 } else { 16 };
-        Quality { bits, ..self }.times(share(bits).min(1.0))
-    }
-
-    fn times(self, share: f64) -> Quality {
-        let part = |n: usize| (n as f64 * share) as usize;
-        Quality { points: part(self.points), triangles: part(self.triangles), ..self }
-    }
-
-    fn at_most(self, most: Quality) -> Quality {
-        let (points, triangles) = (self.points.min(most.points), self.triangles.min(most.triangles));
-        Quality { points, triangles, ..self }
-    }
-}
-
-/// Bytes of base64 that an object usually takes; measured on scans of figures. A wrong guess costs time only.
-fn usual_bytes(object: &ViewObject, bits: u32) -> f64 {
-    const FIELD: f64 = 2.6;
-    const TRIANGLE: f64 = 1.1;
-    let place = if bits == 16 { 6.0 } else { 5.0 } + FIELD * object.fields.len() as f64;
-    match object.geometry {
-        Geometry::Points(points) => points.len().min(MOST_POINTS) as f64 * place,
-        Geometry::Mesh(mesh) => {
-            let triangles = mesh.faces.len();
-            let levels = mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES;
-            triangles as f64 * (TRIANGLE + 0.5 * place) + levels as f64
-        }
-    }
-}
-
-impl First {
-    /// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
-    ///
-    /// What has clearly less than that is packed again with more, once; what has more is packed again with less until it fits:
-    /// first positions are rounded to 14 bits, then points are left out evenly and edges collapsed.
-    pub fn within(
-        self,
-        budget: usize,
-        objects: &[ViewObject],
-        marks: &[Marks],
-        purpose: &Purpose,
-    ) -> Result<Payload, ReportError> {
-        /// There is clearly more room.
-        const ROOM: f64 = 1.3;
-        /// Of what would just fit, so that it does.
-        const SAFELY: f64 = 0.96;
-        let marks = pack_all_marks(objects, marks);
-        let budget = budget.saturating_sub(marks.len());
-        let First { mut packed, mut quality, all } = self;
-        let mut may_grow = quality.points < all.points || quality.triangles < all.triangles;
-        loop {
-            let least = quality.points <= 1000 && quality.triangles <= 1000;
-            let expected: usize = packed.iter().map(Packed::expected).sum();
-            let mut share = budget as f64 / expected.max(1) as f64;
-            if may_grow && share > ROOM {
-                (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
-                packed = pack_at(objects, purpose, quality)?;
-                continue;
-            }
+        if share >= 1.0 || least {
+            let payload = with_levels(packed, purpose)?;
+            share = budget as f64 / payload.len().max(1) as f64;
             if share >= 1.0 || least {
-                let payload = with_levels(packed, purpose)?;
-                share = budget as f64 / payload.len().max(1) as f64;
-                if share >= 1.0 || least {
-                    purpose.progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
-                    return Ok(join(payload, marks));
-                }
+                purpose.progress.advance(objects.iter().map(|o| o.places().len() as u64).sum());
+                return Ok(join(payload, marks));
             }
-            may_grow = false;
-            if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
-                quality.bits = 14;
-            } else {
-                quality = quality.times(share * SAFELY);
-            }
-            packed = pack_at(objects, purpose, quality)?;
         }
-    }
-}
-
-impl Packed {
-    /// Bytes of base64, with what the levels will probably take.
-    fn expected(&self) -> usize {
-        let triangles = self.mesh.as_ref().map_or(0, |m| m.triangles.len());
-        self.part.len() + mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES
+        may_grow = false;
+        if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
+            quality.bits = 14;
+        } else {
+            quality = quality.times(share * SAFELY);
+        }
     }
 }
 
@@ -226,36 +121,13 @@ fn finite(p: &&Point) -> bool {
     p.iter().all(|x| x.is_finite())
 }
 
-/// 14 bits do while their step is at most an eighth of the median edge.
-fn coarse_grid_is_fine(object: &ViewObject) -> bool {
-    let Some(mesh) = object.mesh() else { return true };
-    let mut edges: Vec<f64> = mesh
-        .faces
-        .iter()
-        .step_by(1 + mesh.faces.len() / 10_000)
-        .filter_map(|f| Some((mesh.positions.get(f[0] as usize)?, mesh.positions.get(f[1] as usize)?)))
-        .map(|(a, b)| trueness_geom::space::norm(trueness_geom::space::minus(*a, *b)))
-        .collect();
-    edges.sort_by(f64::total_cmp);
-    let median = edges.get(edges.len() / 2).copied().unwrap_or(0.0);
-    Grid::over(&mesh.bounds(), 14).step <= median / 8.0
-}
-
 fn pack_at(objects: &[ViewObject], purpose: &Purpose, quality: Quality) -> Result<Vec<Packed>, ReportError> {
     let shown = first_view(objects);
     let one = |(id, object): (usize, &ViewObject)| {
-        let mut part = Payload::default();
-        let (entry, mesh) = match object.geometry {
-            Geometry::Mesh(mesh) => {
-                let (entry, ordered) = pack_mesh(&mut part, object, mesh, purpose, quality)?;
-                (entry, Some(ordered))
-            }
-            Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
-        };
-        part.objects.push(entry);
-        part.objects[0]["id"] = json!(id);
-        part.objects[0]["shown"] = json!(shown.contains(&id));
-        Ok(Packed { part, mesh })
+        let mut packed = pack_object(object, purpose, quality)?;
+        packed.part.objects[0]["id"] = json!(id);
+        packed.part.objects[0]["shown"] = json!(shown.contains(&id));
+        Ok(packed)
     };
     objects.par_iter().enumerate().map(one).collect()
 }
@@ -287,150 +159,4 @@ fn renumber(value: &mut Value, shift: usize) {
         Value::Array(list) => list.iter_mut().for_each(|inner| renumber(inner, shift)),
         _ => {}
     }
-}
-
-fn pack_mesh(
-    part: &mut Payload,
-    object: &ViewObject,
-    mesh: &Mesh,
-    purpose: &Purpose,
-    quality: Quality,
-) -> Result<(Value, Ordered), ReportError> {
-    let keep = kept(object);
-    // Places that show gathered points lie together on purpose where faces meet.
-    let wanted = Wanted { keep: &keep, limit: quality.triangles.max(4), join: object.gathered.is_none() };
-    let ordered = Ordered::of(mesh, &wanted, purpose.progress)?;
-    let grid = Grid::over(&Aabb::of(&ordered.positions), quality.bits);
-    let bytes = MeshBytes::of(&ordered, &grid)?;
-    if purpose.progress.cancelled() {
-        return Err(Cancelled.into());
-    }
-    part.simplified = ordered.error > 0.0;
-    part.display_error = ordered.error + grid.error();
-    let triangles = json!({"blob": part.add(&bytes.triangles, Kind::Code)});
-    let positions = json!({"blob": part.add(&bytes.positions, Kind::Differences)});
-    let mut reach = object.gathered.map(|g| g.reach);
-    let owners = reach.filter(|_| part.simplified).map(|r| {
-        let owners = gather::owners(mesh, &ordered.source);
-        reach = Some(r + gather::farthest(mesh, &owners));
-        owners
-    });
-    let mut fields = vec![];
-    for field in &object.fields {
-        let codes = Codes::for_values(field.values, purpose.range(field.comparison));
-        let worst = owners.as_ref().map(|owners| gather::worst(field.values, owners, purpose.zone));
-        let at = |v: usize| match &worst {
-            Some(worst) => (worst[v], field.at(v).1),
-            None => field.at(v),
-        };
-        let packed = bytes.field(&codes, |v| at(ordered.source[v as usize] as usize));
-        fields.push(field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences)));
-    }
-    let entry = entry(
-        object,
-        "mesh",
-        &grid,
-        (ordered.positions.len(), object.gathered.map_or(mesh.positions.len(), |g| g.vertices)),
-        json!({
-            "triangles": ordered.triangles.len(), "source_triangles": mesh.faces.len(), "reach": reach,
-            "corners": triangles, "positions": positions, "levels": [], "fields": fields,
-            "display_error": part.display_error,
-        }),
-    );
-    Ok((entry, ordered))
-}
-
-fn pack_points(
-    part: &mut Payload,
-    object: &ViewObject,
-    points: &[Point],
-    purpose: &Purpose,
-    quality: Quality,
-) -> Result<Value, ReportError> {
-    let finite: Vec<u32> =
-        (0u32..).zip(points).filter(|(_, p)| p.iter().all(|x| x.is_finite())).map(|(i, _)| i).collect();
-    let grid = Grid::over(&Aabb::of(finite.iter().map(|i| &points[*i as usize])), quality.bits);
-    let places: Vec<[u16; 3]> = finite.iter().map(|i| grid.place(&points[*i as usize])).collect();
-    let worst: Vec<u32> =
-        kept(object).iter().filter_map(|w| finite.binary_search(w).ok()).map(|i| i as u32).collect();
-    let levels = points::levels(&places, &worst, quality.points);
-    let count = levels.order.len();
-    if purpose.progress.cancelled() {
-        return Err(Cancelled.into());
-    }
-    let positions: Vec<u8> = (0..3)
-        .flat_map(|k| {
-            let at = |i: usize| i32::from(places[levels.order[i] as usize][k]);
-            let differences = (0..count).into_par_iter().map(|i| at(i) - if i > 0 { at(i - 1) } else { 0 });
-            planes::pack(differences, 2)
-        })
-        .collect();
-    let positions = json!({"blob": part.add(&positions, Kind::Differences)});
-    let fields: Vec<Value> = object
-        .fields
-        .iter()
-        .map(|field| {
-            let codes = Codes::for_values(field.values, purpose.range(field.comparison));
-            let at = |i: usize| {
-                let (value, reason) = field.at(finite[levels.order[i] as usize] as usize);
-                codes.code(value, reason)
-            };
-            let differences =
-                (0..count).into_par_iter().map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
-            let packed = planes::pack(differences, codes.bytes);
-            field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences))
-        })
-        .collect();
-    part.display_error = grid.error();
-    if object.role == ViewRole::Measured {
-        part.points = (count, points.len());
-    }
-    let ends: Vec<Value> = levels.ends.iter().map(|e| json!({"points": e})).collect();
-    Ok(entry(
-        object,
-        "points",
-        &grid,
-        (count, points.len()),
-        json!({
-            "positions": positions, "levels": ends, "fields": fields, "display_error": part.display_error,
-        }),
-    ))
-}
-
-fn entry(object: &ViewObject, kind: &str, grid: &Grid, (shown, given): (usize, usize), rest: Value) -> Value {
-    let mut entry = json!({
-        "role": object.role, "name": object.name, "color": hex(object.color()), "kind": kind, "comparison": object.comparison,
-        "vertices": shown, "source_vertices": given, "origin": grid.origin, "step": grid.step,
-    });
-    if let (Some(all), Value::Object(rest)) = (entry.as_object_mut(), rest) {
-        all.extend(rest);
-    }
-    entry
-}
-
-fn field_entry(comparison: usize, codes: &Codes, blob: usize) -> Value {
-    let reasons = NoValue::ALL.map(|r| (codes.no_value(r).to_string(), json!(r.name())));
-    json!({
-        "comparison": comparison, "name": "deviation", "unit": "mm", "bits": 8 * codes.bytes,
-        "step": codes.step, "blob": blob, "no_value": serde_json::Map::from_iter(reasons),
-    })
-}
-
-/// The points or vertices with the greatest deviations, over all fields, and those that the result names.
-fn kept(object: &ViewObject) -> Vec<u32> {
-    let mut worst: Vec<u32> = object.keep.to_vec();
-    for field in &object.fields {
-        let size = |i: &u32| field.values[*i as usize].abs();
-        let mut finite: Vec<u32> =
-            (0u32..).zip(field.values).filter(|(_, v)| v.is_finite()).map(|(i, _)| i).collect();
-        let by_size = |a: &u32, b: &u32| size(b).total_cmp(&size(a)).then(a.cmp(b));
-        if finite.len() > KEPT {
-            finite.select_nth_unstable_by(KEPT, by_size);
-            finite.truncate(KEPT);
-        }
-        worst.extend(finite);
-    }
-    worst.sort_unstable();
-    worst.dedup();
-    worst
 }

@@ -1,7 +1,11 @@
 //! The samples of a picture: what is nearest at each.
 
+use rayon::prelude::*;
+
 /// Samples a pixel and side.
 pub const FINE: u32 = 2;
+/// Rows of samples that one task draws.
+const BAND: u32 = 128;
 
 pub struct Canvas {
     pub width: u32,
@@ -9,12 +13,26 @@ pub struct Canvas {
     pub depth: Vec<f32>,
     pub color: Vec<[u8; 3]>,
     /// A mark behind the surface shows here.
-    pub marked: Vec<bool>,
+    marked: Vec<bool>,
     /// An edge of the surface is drawn here.
-    pub edged: Vec<bool>,
+    edged: Vec<bool>,
+}
+
+/// Some rows of a canvas, to be drawn on. What lies above or below them is passed over.
+pub struct Band<'a> {
+    pub width: u32,
+    /// The first row.
+    top: u32,
+    /// The row after the last.
+    bottom: u32,
+    pub depth: &'a mut [f32],
+    pub color: &'a mut [[u8; 3]],
+    pub marked: &'a mut [bool],
+    pub edged: &'a mut [bool],
 }
 
 impl Canvas {
+    /// Nothing drawn yet.
     pub fn new(width: u32, height: u32) -> Canvas {
         let n = (width * height) as usize;
         Canvas {
@@ -27,56 +45,29 @@ impl Canvas {
         }
     }
 
-    pub fn put(&mut self, x: u32, y: u32, depth: f32, color: impl FnOnce() -> [u8; 3]) {
-        let at = (y * self.width + x) as usize;
-        if depth > self.depth[at] {
-            self.depth[at] = depth;
-            self.color[at] = color();
-            self.edged[at] = false;
+    /// All rows.
+    pub fn whole(&mut self) -> Band<'_> {
+        Band {
+            width: self.width,
+            top: 0,
+            bottom: self.height,
+            depth: &mut self.depth,
+            color: &mut self.color,
+            marked: &mut self.marked,
+            edged: &mut self.edged,
         }
     }
 
-    /// Calls `put` with place, depth and barycentric coordinates for every sample that a triangle covers.
-    pub fn each_sample(&mut self, at: &[[f64; 3]; 3], put: impl Fn(&mut Canvas, u32, u32, f64, [f64; 3])) {
-        let [a, b, c] = at;
-        let edge = |p: &[f64; 3], q: &[f64; 3], x: f64, y: f64| {
-            (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
-        };
-        let area = edge(a, b, c[0], c[1]);
-        if area == 0.0 || !area.is_finite() {
-            return;
-        }
-        let span = |k: usize, limit: u32| {
-            let low = at.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min).floor().max(0.0) as u32;
-            let high = at.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max).ceil().max(0.0) as u32;
-            low..high.saturating_add(1).min(limit)
-        };
-        for y in span(1, self.height) {
-            for x in span(0, self.width) {
-                let (px, py) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let w = [edge(b, c, px, py) / area, edge(c, a, px, py) / area, edge(a, b, px, py) / area];
-                if w.iter().all(|v| *v >= 0.0) {
-                    let depth = (0..3).map(|k| w[k] * at[k][2]).sum::<f64>();
-                    put(self, x, y, depth, w);
-                }
-            }
-        }
-    }
-
-    /// Calls `put` with place and squared distance for every sample within `radius` of a place.
-    pub fn disc(&mut self, [cx, cy]: [f64; 2], radius: f64, put: impl Fn(&mut Canvas, u32, u32, f64)) {
-        let span = |c: f64, limit: u32| {
-            let from = (c - radius).ceil().max(0.0) as u32;
-            from..((c + radius).floor().max(-1.0) + 1.0).min(f64::from(limit)) as u32
-        };
-        let (columns, rows) = (span(cx, self.width), span(cy, self.height));
-        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
-            let (dx, dy) = (f64::from(x) - cx, f64::from(y) - cy);
-            let square = dx * dx + dy * dy;
-            if square <= radius * radius {
-                put(self, x, y, square);
-            }
-        }
+    /// The rows in pieces that can be drawn on at the same time.
+    pub fn bands(&mut self) -> impl IndexedParallelIterator<Item = Band<'_>> {
+        let (width, height) = (self.width, self.height);
+        let size = (width * BAND).max(1) as usize;
+        let depth = self.depth.par_chunks_mut(size).zip(self.color.par_chunks_mut(size));
+        let marks = self.marked.par_chunks_mut(size).zip(self.edged.par_chunks_mut(size));
+        depth.zip(marks).enumerate().map(move |(n, ((depth, color), (marked, edged)))| {
+            let top = n as u32 * BAND;
+            Band { width, top, bottom: (top + BAND).min(height), depth, color, marked, edged }
+        })
     }
 
     /// One pixel from `FINE`² samples; opacity is the share covered.
@@ -93,6 +84,77 @@ impl Canvas {
             };
             [mean(0) as u8, mean(1) as u8, mean(2) as u8, (255 * n / (FINE * FINE)) as u8]
         };
-        (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
+        (0..w * h).into_par_iter().map(|i| pixel(i % w, i / w)).collect()
+    }
+}
+
+impl Band<'_> {
+    /// Number of a sample in the lists of this band.
+    pub fn at(&self, x: u32, y: u32) -> usize {
+        ((y - self.top) * self.width + x) as usize
+    }
+
+    /// Whether places of these rows lie in the band.
+    pub fn meets(&self, [low, high]: [f64; 2]) -> bool {
+        high >= f64::from(self.top) - 1.0 && low <= f64::from(self.bottom) + 1.0
+    }
+
+    /// Draws a sample where nothing is in front.
+    pub fn put(&mut self, x: u32, y: u32, depth: f32, color: impl FnOnce() -> [u8; 3]) {
+        let at = self.at(x, y);
+        if depth > self.depth[at] {
+            self.depth[at] = depth;
+            self.color[at] = color();
+            self.edged[at] = false;
+        }
+    }
+
+    /// Calls `put` with place, depth and barycentric coordinates for every sample that a triangle covers.
+    pub fn each_sample(&mut self, at: &[[f64; 3]; 3], put: impl Fn(&mut Self, u32, u32, f64, [f64; 3])) {
+        let [a, b, c] = at;
+        let edge = |p: &[f64; 3], q: &[f64; 3], x: f64, y: f64| {
+            (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
+        };
+        let area = edge(a, b, c[0], c[1]);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        let span = |k: usize, from: u32, to: u32| {
+            let low = at.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min).floor().max(0.0) as u32;
+            let high = at.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max).ceil().max(0.0) as u32;
+            low.max(from)..high.saturating_add(1).min(to)
+        };
+        let (columns, share) = (span(0, 0, self.width), 1.0 / area);
+        for y in span(1, self.top, self.bottom) {
+            for x in columns.clone() {
+                let (px, py) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+                // Most samples around a triangle are outside of it: one side after the other.
+                let u = edge(b, c, px, py) * share;
+                if u.is_nan() || u < 0.0 {
+                    continue;
+                }
+                let v = edge(c, a, px, py) * share;
+                let w = edge(a, b, px, py) * share;
+                if v >= 0.0 && w >= 0.0 {
+                    put(self, x, y, u * a[2] + v * b[2] + w * c[2], [u, v, w]);
+                }
+            }
+        }
+    }
+
+    /// Calls `put` with place and squared distance for every sample within `radius` of a place.
+    pub fn disc(&mut self, [cx, cy]: [f64; 2], radius: f64, put: impl Fn(&mut Self, u32, u32, f64)) {
+        let span = |c: f64, first: u32, end: u32| {
+            let from = (c - radius).ceil().max(0.0) as u32;
+            from.max(first)..((c + radius).floor().max(-1.0) + 1.0).min(f64::from(end)) as u32
+        };
+        let (columns, rows) = (span(cx, 0, self.width), span(cy, self.top, self.bottom));
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            let (dx, dy) = (f64::from(x) - cx, f64::from(y) - cy);
+            let square = dx * dx + dy * dy;
+            if square <= radius * radius {
+                put(self, x, y, square);
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The sharp edges of a surface as lines: without them faces of one colour run into each other.
 
 use super::camera::Camera;
-use super::canvas::{Canvas, FINE};
+use super::canvas::{Band, Canvas, FINE};
 use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, unit};
@@ -78,15 +78,15 @@ pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            canvas.disc([x, y], 0.5 * WIDE, |canvas, x, y, _| canvas.darken(x, y, z + lift, opacity));
+            canvas.whole().disc([x, y], 0.5 * WIDE, |canvas, x, y, _| canvas.darken(x, y, z + lift, opacity));
         }
     }
 }
 
-impl Canvas {
+impl Band<'_> {
     /// Darkens a sample once, where nothing is in front of the place.
     fn darken(&mut self, x: u32, y: u32, depth: f64, opacity: f64) {
-        let at = (y * self.width + x) as usize;
+        let at = self.at(x, y);
         // Beside the surface there is nothing to darken.
         if self.edged[at] || depth < f64::from(self.depth[at]) || self.depth[at] == f32::NEG_INFINITY {
             return;
@@ -249,7 +249,7 @@ mod tests {
         let mut canvas = Canvas::new(400, 400);
         for face in &mesh.faces {
             let corners = face.map(|v| camera.project(&mesh.positions[v as usize]));
-            canvas.each_sample(&corners, |canvas, x, y, depth, _| {
+            canvas.whole().each_sample(&corners, |canvas, x, y, depth, _| {
                 canvas.put(x, y, depth as f32, || [200; 3]);
             });
         }

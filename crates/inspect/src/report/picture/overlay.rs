@@ -2,7 +2,7 @@
 
 use super::super::marks::Mark;
 use super::camera::Camera;
-use super::canvas::{Canvas, FINE};
+use super::canvas::{Band, Canvas, FINE};
 use crate::scale::palette::Rgb;
 
 /// Half the width of a line and radius of a dot, in samples.
@@ -16,7 +16,7 @@ pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, throu
     // What lies in the surface is in front of it.
     let lift = 1e-3 * f64::from(canvas.width);
     for t in &mark.triangles {
-        canvas.each_sample(&t.map(|p| camera.project(&p)), |canvas, x, y, depth, _| {
+        canvas.whole().each_sample(&t.map(|p| camera.project(&p)), |canvas, x, y, depth, _| {
             canvas.blend(x, y, depth + lift, color, through);
         });
     }
@@ -26,19 +26,19 @@ pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, throu
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            canvas.disc([x, y], LINE, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
+            canvas.whole().disc([x, y], LINE, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
         }
     }
     for p in &mark.points {
         let [x, y, z] = camera.project(p);
-        canvas.disc([x, y], DOT, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
+        canvas.whole().disc([x, y], DOT, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
     }
 }
 
-impl Canvas {
+impl Band<'_> {
     /// The colour itself where nothing is in front; where something is, nothing, or a mixture, but only once.
     fn blend(&mut self, x: u32, y: u32, depth: f64, color: Rgb, through: bool) {
-        let at = (y * self.width + x) as usize;
+        let at = self.at(x, y);
         if depth as f32 >= self.depth[at] {
             self.depth[at] = depth as f32;
             self.color[at] = color;
@@ -64,7 +64,7 @@ mod tests {
         let around = [[-4.0, -4.0, 0.0], [4.0, 4.0, 5.0]];
         let camera = Camera::first_view(around.iter(), Up::Z, [0.0, 0.0, 1.0], [400, 400, 0]);
         let mut canvas = Canvas::new(400, 400);
-        canvas.each_sample(&[a, b, c].map(|p| camera.project(&p)), |canvas, x, y, depth, _| {
+        canvas.whole().each_sample(&[a, b, c].map(|p| camera.project(&p)), |canvas, x, y, depth, _| {
             canvas.put(x, y, depth as f32, || [200; 3]);
         });
         draw(&mut canvas, &line, [255, 0, 0], &camera, through);

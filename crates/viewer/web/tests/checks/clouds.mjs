@@ -240,6 +240,42 @@ export const clouds = [
     },
   ],
   [
+    'a million points on 346 thousand facets: places show values of real points, and single bad ones are seen',
+    async (session) => {
+      const page = await session.report('million')
+      const { objects } = await manifest(page)
+      assert.deepEqual(objects.map((o) => [o.source_vertices, o.source_triangles]), [[1_000_000, undefined], [173_402, 346_800]])
+      await tool(page, 'Flat')
+      await tool(page, 'Flags')
+      for (const reference of [false, true]) {
+        if (reference) await onReference(page)
+        await key(page, '5')
+        await page.mouse.move(5, 5)
+        const box = await stageBox(page)
+        const perPixel = (await view(page)) / box.height
+        const at = (x, y) => [Math.round(box.cx + (x - 10) / perPixel), Math.round(box.cy - (y - 10) / perPixel)]
+        const picture = await screen(page)
+        for (const x of [4, 7, 10, 13, 16]) {
+          for (const y of [4, 7, 10, 13, 16]) {
+            const [i, j] = at(x, y)
+            const near = [-2, -1, 0, 1, 2].flatMap((a) => [-2, -1, 0, 1, 2].map((b) => picture.at(i + a, j + b)))
+            assert.ok(near.some(blue), `the point 0.3 mm under ${x}, ${y} is not seen (reference: ${reference})`)
+            await page.mouse.move(i, j)
+            const bad = await read(page)
+            assert.ok(Math.abs(Number(bad.value) + 0.3) < 1e-3, `${bad.text} at ${x}, ${y} (reference: ${reference})`)
+            // Between them no place is coloured, and none shows what no point has: a mean would lie between.
+            const [k, l] = at(x + 1.5, y + 1.5)
+            assert.ok(!out(picture.at(k, l)), `${x + 1.5}, ${y + 1.5}`)
+            await page.mouse.move(k, l)
+            const good = await read(page)
+            if (good.text) assert.ok(Math.abs(Math.abs(Number(good.value)) - 0.02) < 1e-3, good.text)
+          }
+        }
+      }
+      assert.deepEqual(page.seen.errors, [])
+    },
+  ],
+  [
     'the bunny: thousands of points out of tolerance are seen, as points and on the reference',
     async (session) => {
       const page = await session.report('bunny')
