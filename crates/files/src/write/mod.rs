@@ -4,6 +4,7 @@ pub(crate) mod corners;
 mod held;
 mod loss;
 mod mesh_file;
+pub(crate) mod named;
 mod points_file;
 mod regions;
 #[cfg(test)]
@@ -19,5 +20,6 @@ pub use mesh_file::{MeshFile, mesh};
 pub use points_file::{PointsFile, points};
 pub use regions::{Pieces, regions};
 pub use sink::{Block, Layout};
-pub use values::{Values, values};
+pub use named::Values;
+pub use values::values;
 pub use writable::Writable;

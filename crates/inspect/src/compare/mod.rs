@@ -9,6 +9,7 @@ mod reference;
 mod research;
 mod reverse;
 mod shown;
+mod target;
 mod view;
 mod worst;
 
@@ -82,12 +83,16 @@ pub fn run<S: PointStream + ?Sized, K>(
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
-        trees.push(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?);
+        let tree = match r.splines {
+            None => Some(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?),
+            Some(_) => None,
+        };
+        trees.push(tree);
     }
     let keep = options.kept_values / references.len().max(1);
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {
-        running.push(Running::new(r.mesh, tree, options, keep, progress).map_err(|e| refused(r, e))?);
+        running.push(Running::new(r, tree.as_ref(), options, keep, progress).map_err(|e| refused(r, e))?);
     }
     let mut paired = vec![];
     for second in 1..references.len() {
