@@ -278,7 +278,7 @@ def foreign_surfaces(folder):
                 assert np.abs(found - lift).max() < 1e-7, (file.name, np.abs(found - lift).max())
                 reference = json.loads((folder / "lifted.json").read_text())["inputs"][1]
                 assert "warnings" not in reference, (file.name, reference)
-            face = TopoDS.Face_s(face.Reversed())
+            face = TopoDS.Face(face.Reversed())
 
 
 def along(segment, shares):

@@ -195,7 +195,10 @@ mod tests {
         assert!(number(k1, 1).is_nan() && (number(k1, 2), number(k1, 3)) == (1.0, 1.5));
         assert_eq!(number(array("points", "(4, 3)"), 7), 3.0);
         assert_eq!(array("reason", "'|u1'")[..4], [0, 1, 0, 0]);
-        assert_eq!(array("faces", "'<u4', 'fortran_order': False, 'shape': (2, 3)")[..8], [0, 0, 0, 0, 1, 0, 0, 0]);
+        assert_eq!(
+            array("faces", "'<u4', 'fortran_order': False, 'shape': (2, 3)")[..8],
+            [0, 0, 0, 0, 1, 0, 0, 0]
+        );
     }
 
     /// Offsets lead to arrays, each behind its length.
@@ -217,7 +220,10 @@ mod tests {
                 let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
                 &bytes[at + 8..at + 8 + length]
             };
-            assert_eq!((array("k1").len(), array("Points").len(), array("reason")), (32, 96, &[0, 1, 0, 0][..]));
+            assert_eq!(
+                (array("k1").len(), array("Points").len(), array("reason")),
+                (32, 96, &[0, 1, 0, 0][..])
+            );
             assert_eq!(array("k2")[24..], (-0.25f64).to_le_bytes());
             assert_eq!(array("colour")[9..], [3, 7, 9]);
             let corners = if faces.is_empty() { 4 } else { 6 };

@@ -33,8 +33,8 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
                 let raw = of_curve(&file, entity, unit)?;
                 out.curves.push(curve(raw).map_err(|f| f.at_line(entity.line))?);
             }
-            // Ruled, turned, swept and offset surfaces, planes and other shapes, faces of solids.
-            108 | 114 | 118 | 120 | 122 | 140 | 190 | 192 | 194 | 196 | 198 | 510 => left_out += 1,
+            // Ruled, turned, swept and offset surfaces, planes and other shapes.
+            108 | 114 | 118 | 120 | 122 | 140 | 190 | 192 | 194 | 196 | 198 => left_out += 1,
             _ => {}
         }
     }
@@ -172,6 +172,8 @@ fn trims(file: &Model) -> Result<BTreeMap<u64, bool>> {
                 (number(0)?, number(2)? > 0 || number(1)? != 0 && !on_border(file, number(0)?, number(3)?)?)
             }
             143 => (number(1)?, true),
+            // A face of a solid: its loops beyond the first are holes.
+            510 => (number(0)?, number(1)? > 1),
             _ => continue,
         };
         all.insert(surface, trimmed);

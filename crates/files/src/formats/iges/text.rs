@@ -116,8 +116,8 @@ pub(super) fn model(text: &[u8]) -> Result<Model> {
     Ok(Model { global, entities })
 }
 
-/// Kinds whose parameters are read: matrix, B-spline curve and surface, what trims, and what that is made of.
-const KNOWN: [u64; 8] = [102, 110, 124, 126, 128, 142, 143, 144];
+/// Kinds whose parameters are read: matrix, B-spline curve and surface, what trims, what that is made of, and faces.
+const KNOWN: [u64; 9] = [102, 110, 124, 126, 128, 142, 143, 144, 510];
 
 /// The signs that end a parameter and an entity: the first two global parameters say them.
 fn signs(global: &[(u64, &[u8])]) -> [u8; 2] {

@@ -114,7 +114,9 @@ pub(crate) fn values<const N: usize>(
     let numbers = |of: &[f64], bytes: &mut Vec<u8>| of.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
     add("points", header("<f8", count as u64, Some(3)), count, &|i, bytes| numbers(&points[i], bytes))?;
     for (k, name) in values.names.iter().enumerate() {
-        add(name, header("<f8", count as u64, None), count, &|i, bytes| numbers(&(values.of)(i)[k..=k], bytes))?;
+        add(name, header("<f8", count as u64, None), count, &|i, bytes| {
+            numbers(&(values.of)(i)[k..=k], bytes)
+        })?;
     }
     add("reason", header("|u1", count as u64, None), count, &|i, bytes| bytes.push((values.reason)(i)))?;
     add("colour", header("|u1", count as u64, Some(3)), count, &|i, bytes| bytes.extend((values.color)(i)))?;
