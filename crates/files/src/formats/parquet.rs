@@ -169,7 +169,7 @@ pub(crate) fn values<const N: usize>(
             let rows = start..points.len().min(start + GROUP);
             let mut group = writer.next_row_group()?;
             for axis in 0..3 {
-                let own: Vec<f64> = rows.clone().map(|i| points[i][axis]).collect();
+                let own: Vec<f64> = points[rows.clone()].iter().map(|p| p[axis]).collect();
                 doubles(&mut group, &own, None)?;
             }
             for k in 0..N {

@@ -1,5 +1,6 @@
 //! One measured set against one or several references, in one pass over the points.
 
+mod against;
 mod document;
 mod found;
 mod map;
@@ -13,11 +14,12 @@ mod target;
 mod view;
 mod worst;
 
+pub use against::{Reference, ReferenceError};
 pub use document::{Inputs, document};
-pub use found::{Comparisons, Reference};
+pub use found::Comparisons;
 pub use map::MapSurface;
 pub use options::{Method, Options};
-pub use reference::{Compared, ReferenceError, Values, WorstPlace};
+pub use reference::{Compared, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;

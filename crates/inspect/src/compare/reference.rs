@@ -1,12 +1,12 @@
 //! The running comparison with one reference.
 
-use super::found::Reference;
+use super::against::{Reference, ReferenceError};
 use super::map::{Flagged, Foot, MapSurface, PointMap};
 use super::options::{Method, Options};
 use super::target::{Measures, Target};
 use super::worst::{Place, WorstPlaces, sort};
 use trueness_geom::check::Precondition;
-use trueness_geom::closest::{MeshError, QueryError, Tree};
+use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
 use trueness_geom::deviation::sign_choice::SignChoice;
 use trueness_geom::deviation::surface::{Disagreement, Exclusion};
@@ -15,7 +15,6 @@ use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges, zone_edges};
 use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
-use trueness_geom::topology::TopologyError;
 
 /// What was found about one reference.
 pub struct Compared {
@@ -80,20 +79,6 @@ pub enum Values {
     All(Vec<f64>),
     /// Counts and moments.
     Many(Box<Accumulator>),
-}
-
-/// Why a reference cannot be measured against.
-#[derive(Debug, thiserror::Error)]
-pub enum ReferenceError {
-    /// Its facets or coordinates do not allow it.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// Its topology cannot be told.
-    #[error(transparent)]
-    Topology(#[from] TopologyError),
-    /// The paper's method refuses it.
-    #[error(transparent)]
-    Paper(#[from] PaperError),
 }
 
 /// Places of each sign that a result names.

@@ -1,9 +1,8 @@
 //! What points are measured against: facets, or B-spline surfaces themselves.
 
-use super::found::Reference;
+use super::against::{Reference, ReferenceError};
 use super::map::{Foot, PointMap};
 use super::options::Options;
-use super::reference::ReferenceError;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};

@@ -453,7 +453,7 @@ fn alone(grid: &Grid, part: &Part, foot: &SurfaceFoot, jet: &Jet, p: Point, size
         let held = at[k] <= domain[k].0 && slope > 0.0 || at[k] >= domain[k].1 && slope < 0.0;
         held || slope.abs() <= 1e-8 * size
     };
-    if !foot.settled || !(still(0) && still(1)) {
+    if !(foot.settled && still(0) && still(1)) {
         return None;
     }
     let cosine = (dot(jet.first[0], jet.first[1]) / (scale[0] * scale[1])).abs();
