@@ -1,12 +1,16 @@
 //! Files of the command line, read and described for the result document.
 
+mod surface_document;
+
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::path::Path;
-use trueness_files::{Body, ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
+use trueness_files::cad::SplineModel;
+use trueness_files::{ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::space::{Aabb, Point};
+use trueness_geom::spline::surface::Nurbs;
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 
 /// A file of this run: what the document says of it, and what is in it.
@@ -23,30 +27,102 @@ pub struct Opened {
     pub empty: bool,
 }
 
+/// A mesh or points.
+pub enum Body {
+    /// Vertices and faces.
+    Mesh(SourceMesh),
+    /// Vertices without faces; not yet read beyond the first few.
+    Points(PointSource),
+}
+
 /// Opens a file that is taken for `role`. Counts and box of a mesh stand in the record; those of points, which have not
 /// been read yet, do not.
 pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Opened> {
+    match any(path, role, options)? {
+        Any::Whole(opened) => Ok(opened),
+        Any::Splines(..) => bail!(
+            "{}: it holds B-spline surfaces or curves, but this command needs a mesh or points; surfaces are references of \
+             `trueness compare`",
+            path.display()
+        ),
+    }
+}
+
+/// A file of any kind.
+enum Any {
+    Whole(Opened),
+    Splines(SplineModel, InputRecord),
+}
+
+fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
     let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
     let mut record = record(role, &provenance, &warnings);
-    if let Body::Mesh(mesh) = &body {
-        let out = |v: &u32| mesh.mesh.positions.get(*v as usize).is_some_and(|p| out_of_range(p, MAX_VERTEX));
-        if let Some(v) = mesh.mesh.faces.par_iter().flatten_iter().copied().filter(out).min() {
-            bail!(refusal(path, "vertex", v as usize, MAX_VERTEX));
+    let body = match body {
+        trueness_files::Body::Splines(model) => return Ok(Any::Splines(model, record)),
+        trueness_files::Body::Points(points) => Body::Points(points),
+        trueness_files::Body::Mesh(mesh) => {
+            let out =
+                |v: &u32| mesh.mesh.positions.get(*v as usize).is_some_and(|p| out_of_range(p, MAX_VERTEX));
+            if let Some(v) = mesh.mesh.faces.par_iter().flatten_iter().copied().filter(out).min() {
+                bail!(refusal(path, "vertex", v as usize, MAX_VERTEX));
+            }
+            describe(&mut record, &mesh.mesh.positions);
+            record.facets = Some(mesh.mesh.faces.len() as u64);
+            Body::Mesh(mesh)
         }
-        describe(&mut record, &mesh.mesh.positions);
-        record.facets = Some(mesh.mesh.faces.len() as u64);
-    }
+    };
     let empty = warnings.contains(&Warning::Nothing);
-    Ok(Opened { record, body, planar: provenance.planar, format: provenance.format, empty })
+    Ok(Any::Whole(Opened { record, body, planar: provenance.planar, format: provenance.format, empty }))
+}
+
+/// What points are compared with.
+pub enum ReferenceBody {
+    /// Facets.
+    Mesh(SourceMesh),
+    /// B-spline surfaces, at least one.
+    Surfaces(Vec<Nurbs>),
+}
+
+/// Reads a mesh or B-spline surfaces: those of a CAD file, or of a document of `trueness surface`. Points are refused with a remedy.
+pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(ReferenceBody, InputRecord)> {
+    if options.format.is_none()
+        && let Some(found) = surface_document::read(path)?
+    {
+        return Ok((ReferenceBody::Surfaces(vec![found.0]), found.1));
+    }
+    match any(path, Role::Reference, options)? {
+        Any::Whole(opened) => {
+            opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
+        }
+        Any::Splines(model, _) if model.surfaces.is_empty() => bail!(
+            "{}: it holds no B-spline surface ({} curves); a reference must have surfaces or facets: export the part's \
+             surfaces as B-splines, or as STL",
+            path.display(),
+            model.curves.len()
+        ),
+        Any::Splines(model, mut record) => {
+            let points: Vec<Point> =
+                model.surfaces.iter().flat_map(|s| s.control_points().into_iter().map(|p| p.0)).collect();
+            if let Some(i) = points.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
+                bail!(refusal(path, "control point", i, MAX_VERTEX));
+            }
+            record.points = points.len() as u64;
+            Ok((ReferenceBody::Surfaces(model.surfaces), record))
+        }
+    }
 }
 
 /// Reads a mesh; points are refused with a remedy.
 pub fn mesh(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
-    let opened = open(path, role, options)?;
+    opened_mesh(path, role, open(path, role, options)?)
+}
+
+fn opened_mesh(path: &Path, role: Role, opened: Opened) -> anyhow::Result<(SourceMesh, InputRecord)> {
     match opened.body {
         Body::Mesh(mesh) => Ok((mesh, opened.record)),
         Body::Points(_) if role == Role::Reference => bail!(
-            "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF); \
+            "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF) or \
+             B-spline surfaces (STEP, IGES); \
              give the points first and the mesh after them",
             path.display()
         ),

@@ -1,5 +1,6 @@
 //! What a file held.
 
+use crate::cad::SplineModel;
 use crate::{ReadError, Unit, Warning};
 use trueness_geom::{cloud::PointStream, mesh::Mesh};
 
@@ -7,7 +8,7 @@ use trueness_geom::{cloud::PointStream, mesh::Mesh};
 pub struct Input {
     /// Where it came from and how it was taken.
     pub provenance: Provenance,
-    /// The mesh, or the points as a stream.
+    /// The mesh, the points as a stream, or the splines.
     pub body: Body,
     /// What was odd, in the order it was found.
     pub warnings: Vec<Warning>,
@@ -39,7 +40,7 @@ pub struct Provenance {
 pub enum UnitFrom {
     /// [`ReadOptions::units`](crate::ReadOptions::units), or [`ReadOptions::unit_else`](crate::ReadOptions::unit_else).
     Option,
-    /// The names of the columns.
+    /// The file: the names of its columns, or what a CAD file says of its unit.
     Header,
     /// Nowhere: millimetres are assumed.
     Assumed,
@@ -87,12 +88,14 @@ pub struct ColumnTaken {
 /// The points of a file, block by block, in the file's order, millimetres.
 pub type PointSource = Box<dyn PointStream<Error = ReadError> + Send>;
 
-/// A mesh or points.
+/// A mesh, points, or splines.
 pub enum Body {
     /// Vertices and faces.
     Mesh(SourceMesh),
     /// Vertices without faces; not yet read beyond the first few.
     Points(PointSource),
+    /// B-spline surfaces and curves of a CAD file.
+    Splines(SplineModel),
 }
 
 /// A mesh as the file holds it.

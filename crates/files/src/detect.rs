@@ -37,7 +37,6 @@ pub(crate) fn by_extension(path: &Path) -> Option<&'static Format> {
 fn foreign(bytes: &[u8]) -> Option<&'static str> {
     const KNOWN: &[(&[u8], &str)] = &[
         (b"PK\x03\x04", "a ZIP archive (3MF, a spreadsheet or another packed folder)"),
-        (b"ISO-10303-21", "a STEP model"),
         (b"ASTM-E57", "an E57 point cloud"),
         (b"LASF", "a LAS or LAZ point cloud"),
         (b"# .PCD", "a PCD point cloud"),

@@ -2,6 +2,7 @@
 
 use crate::{
     Columns, Unit, Warning,
+    cad::SplineModel,
     content::{SourceMesh, TableReading},
     error::{Located, Result},
     source::Source,
@@ -79,6 +80,13 @@ pub struct ReadOptions {
     pub block: usize,
 }
 
+impl ReadOptions {
+    /// The unit of a file that says `said`: what a CAD file says counts more than what is asked.
+    pub(crate) fn unit_of(&self, said: Option<Unit>) -> Unit {
+        said.or(self.units).or(self.unit_else).unwrap_or_default()
+    }
+}
+
 /// Which vertices of a mesh become one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Weld {
@@ -126,9 +134,10 @@ pub(crate) struct Parsed {
     pub warnings: Vec<Warning>,
 }
 
-/// A mesh, or a stream of points whose errors do not yet name the file.
+/// A mesh, a stream of points whose errors do not yet name the file, or splines, which are in millimetres already.
 pub(crate) enum Parts {
     Mesh(SourceMesh),
+    Splines(SplineModel),
     Points(Box<dyn PointStream<Error = Located> + Send>),
 }
 
@@ -141,6 +150,18 @@ impl Parsed {
             warnings.push(Warning::Nothing);
         }
         Parsed::of(variant, Parts::Mesh(mesh), warnings)
+    }
+    /// Splines whose unit the file says, if it does.
+    pub fn splines(
+        variant: &'static str,
+        model: SplineModel,
+        unit: Option<Unit>,
+        mut warnings: Vec<Warning>,
+    ) -> Parsed {
+        if model.surfaces.is_empty() && model.curves.is_empty() {
+            warnings.push(Warning::NoSplines);
+        }
+        Parsed { unit, ..Parsed::of(variant, Parts::Splines(model), warnings) }
     }
     pub fn points(
         variant: &'static str,

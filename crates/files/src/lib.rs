@@ -7,7 +7,7 @@
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
-//! | write B-spline surfaces for CAD programs | [`cad`] |
+//! | B-spline surfaces and curves for CAD programs, and from them | [`cad`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
 //! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
 //! | the hash of a file | [`sha256`] |

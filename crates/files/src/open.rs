@@ -1,7 +1,7 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, assemble, detect,
+    Body, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, Warning, assemble, detect,
     error::Located,
     format::{Parts, ReadOptions, Weld},
     source::Source,
@@ -39,7 +39,14 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     }
     let (bytes, gzip) = (source.bytes, source.gzip);
     let mut parsed = reader(source, options)?;
+    let is_cad = matches!(parsed.content, Parts::Splines(_));
     let (unit, unit_from) = match (options.units, parsed.unit) {
+        (asked, Some(said)) if is_cad => {
+            if let Some(asked) = asked.filter(|asked| *asked != said) {
+                parsed.warnings.push(Warning::UnitKept { said, asked });
+            }
+            (said, UnitFrom::Header)
+        }
         (Some(asked), _) => (asked, UnitFrom::Option),
         (None, Some(said)) => (said, UnitFrom::Header),
         (None, None) => match options.unit_else {
@@ -60,6 +67,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
             }
             Body::Mesh(mesh)
         }
+        Parts::Splines(model) => Body::Splines(model),
         Parts::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
     };
     let provenance = Provenance {
@@ -95,11 +103,12 @@ impl PointStream for Named {
 }
 
 impl Body {
-    /// The points: those of a cloud, or the vertices of a mesh in their order.
+    /// The points: those of a cloud, or the vertices of a mesh in their order; none of splines.
     pub fn into_points(self) -> crate::PointSource {
         match self {
             Body::Points(points) => points,
             Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Whole::new(mesh.positions)),
+            Body::Splines(_) => Box::new(Whole::new(vec![])),
         }
     }
 }

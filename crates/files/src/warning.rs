@@ -78,6 +78,25 @@ pub enum Warning {
         /// That which was taken.
         asked: Unit,
     },
+    /// A CAD file says its unit, and the user another one, which was not taken.
+    UnitKept {
+        /// That of the file, which was taken.
+        said: Unit,
+        /// That which was asked for.
+        asked: Unit,
+    },
+    /// There are neither B-spline surfaces nor curves in a CAD file.
+    NoSplines,
+    /// Faces that are less than their surface; it was taken whole.
+    Trimmed {
+        /// How many.
+        count: u64,
+    },
+    /// Faces on surfaces that are no B-splines were left out.
+    FacesLeftOut {
+        /// How many.
+        count: u64,
+    },
     /// Lines of a header that say nothing known were passed over.
     HeaderLines {
         /// How many.
@@ -137,6 +156,20 @@ impl fmt::Display for Warning {
             }
             Warning::UnitOverruled { header, asked } => {
                 write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
+            }
+            Warning::UnitKept { said, asked } => {
+                write!(
+                    f,
+                    "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
+                )
+            }
+            Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
+            Warning::Trimmed { count } => write!(
+                f,
+                "{count} face(s) with holes or edges within their surface; each surface was taken whole"
+            ),
+            Warning::FacesLeftOut { count } => {
+                write!(f, "{count} face(s) on surfaces that are no B-splines left out")
             }
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };

@@ -77,6 +77,10 @@ impl Aabb {
             max: std::array::from_fn(|k| self.max[k].max(other.max[k])),
         }
     }
+    /// Distance of a point from the box; 0 within.
+    pub fn distance(&self, p: &Point) -> f64 {
+        norm(std::array::from_fn(|k| (self.min[k] - p[k]).max(p[k] - self.max[k]).max(0.0)))
+    }
     /// Side lengths; negative where empty.
     pub fn sides(&self) -> Vector {
         minus(self.max, self.min)

@@ -21,16 +21,22 @@ import trimesh
 import vtk
 from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
-from OCP.Geom import Geom_BSplineSurface
+from OCP.Geom import Geom_BSplineSurface, Geom_RectangularTrimmedSurface, Geom_SphericalSurface, Geom_ToroidalSurface
 from OCP.GeomAbs import GeomAbs_BSplineCurve, GeomAbs_Circle, GeomAbs_Line
-from OCP.IGESControl import IGESControl_Reader
-from OCP.STEPControl import STEPControl_Reader
+from OCP.GeomConvert import GeomConvert
+from OCP.GeomLProp import GeomLProp_SLProps
+from OCP.IFSelect import IFSelect_RetDone
+from OCP.IGESControl import IGESControl_Reader, IGESControl_Writer
+from OCP.Interface import Interface_Static
+from OCP.STEPControl import STEPControl_AsIs, STEPControl_Reader, STEPControl_Writer
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
 from vtk.util.numpy_support import vtk_to_numpy
 
 PROGRAM, CORPUS = sys.argv[1], Path(sys.argv[2])
@@ -234,6 +240,47 @@ def surfaces(folder):
             print(f"      {name} {' '.join(options)}: {worst:.1e} mm at {len(parameters)} places")
 
 
+def foreign_surfaces(folder):
+    """Surfaces that Open CASCADE writes as STEP and IGES are read as what they are: points lifted off them have that deviation."""
+    torus = Geom_RectangularTrimmedSurface(Geom_ToroidalSurface(gp_Ax3(), 20.0, 5.0), 0.0, 2.0, 0.5, 3.0)
+    sphere = Geom_SphericalSurface(gp_Ax3(gp_Pnt(3, 4, 5), gp_Dir(1, 2, 3)), 7.0)
+    for name, shape in (("torus", torus), ("sphere", sphere)):
+        surface = GeomConvert.SurfaceToBSplineSurface_s(shape)
+        face = BRepBuilderAPI_MakeFace(surface, 1e-7).Face()
+        for sense in ("forward", "reversed"):
+            files = []
+            for unit in ("MM", "INCH"):
+                Interface_Static.SetCVal_s("write.step.unit", unit)
+                writer = STEPControl_Writer()
+                writer.Transfer(face, STEPControl_AsIs)
+                files.append(folder / f"{name}-{sense}-{unit}.step")
+                assert writer.Write(str(files[-1])) == IFSelect_RetDone
+            for unit in ("MM", "IN") if sense == "forward" else ():
+                writer = IGESControl_Writer(unit, 0)
+                writer.AddShape(face)
+                writer.ComputeModel()
+                files.append(folder / f"{name}-{unit}.iges")
+                assert writer.Write(str(files[-1]))
+            u0, u1, v0, v1 = surface.Bounds()
+            rng = np.random.default_rng(5)
+            lift = rng.uniform(-0.5, 0.5, 500)
+            rows = []
+            for u, v, by in zip(rng.uniform(u0, u1, 500), rng.uniform(v0, v1, 500), lift):
+                at = GeomLProp_SLProps(surface, u, v, 1, 1e-9)
+                p, n = at.Value(), at.Normal()
+                side = 1.0 if sense == "forward" else -1.0
+                rows.append([getattr(p, k)() + side * by * getattr(n, k)() for k in "XYZ"])
+            points = folder / f"{name}.npy"
+            np.save(points, np.array(rows))
+            for file in files:
+                run("compare", points, file, "--out", folder / "lifted.npz", "--json", folder / "lifted.json")
+                found = np.load(folder / "lifted.npz")["deviation"]
+                assert np.abs(found - lift).max() < 1e-7, (file.name, np.abs(found - lift).max())
+                reference = json.loads((folder / "lifted.json").read_text())["inputs"][1]
+                assert "warnings" not in reference, (file.name, reference)
+            face = TopoDS.Face(face.Reversed())
+
+
 def along(segment, shares):
     """Places of a segment of a section's document, in its plane, at shares of its parameter."""
     if segment["kind"] == "line":
@@ -297,6 +344,6 @@ def sections(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (deviations, meshes, regions, surfaces, sections):
+    for check in (deviations, meshes, regions, surfaces, foreign_surfaces, sections):
         check(Path(scratch))
         print(f"ok    {check.__name__}: {check.__doc__}")

@@ -26,6 +26,8 @@ pub static FORMATS: &[&Format] = &[
     &off::OFF,
     &stl::STL,
     &obj::OBJ,
+    &step::STEP,
+    &iges::IGES,
     &table::TABLE,
     &npz::NPZ,
     &vtp::VTP,
@@ -69,6 +71,7 @@ mod tests {
             Body::Mesh(source) => {
                 source.mesh.faces.iter().flatten().map(|v| source.mesh.positions[*v as usize]).collect()
             }
+            Body::Splines(_) => vec![],
             Body::Points(mut points) => {
                 let (mut all, mut block) = (vec![], vec![]);
                 while points.next_block(&mut block).is_ok() && !block.is_empty() {

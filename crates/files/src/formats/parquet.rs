@@ -4,6 +4,7 @@ use crate::{
     AtomicFile,
     error::WriteFault,
     format::{Format, Head},
+    write::named::Values,
     write::sink::{Block, Layout, PointsSink},
 };
 use parquet::{
@@ -17,6 +18,7 @@ use parquet::{
     schema::types::Type,
 };
 use std::{io, sync::Arc};
+use trueness_geom::space::Point;
 
 /// Parquet table.
 pub(crate) const PARQUET: Format = Format {
@@ -70,15 +72,18 @@ fn schema(layout: Layout) -> Result<Arc<Type>, ParquetError> {
 }
 
 fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
+    let schema = schema(layout).map_err(fault)?;
+    let writer = SerializedFileWriter::new(file, schema, properties()).map_err(fault)?;
+    Ok(Box::new(Table { writer, layout }))
+}
+
+fn properties() -> Arc<WriterProperties> {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         // Measured numbers hardly ever repeat.
         .set_dictionary_enabled(false)
-        .set_created_by("trueness".into())
-        .build();
-    let schema = schema(layout).map_err(fault)?;
-    let writer = SerializedFileWriter::new(file, schema, Arc::new(properties)).map_err(fault)?;
-    Ok(Box::new(Table { writer, layout }))
+        .set_created_by("trueness".into());
+    Arc::new(properties.build())
 }
 
 struct Table {
@@ -141,4 +146,46 @@ fn doubles(
         column.close()?;
     }
     Ok(())
+}
+
+/// Writes points with a column of each of their numbers, null where there is none, and of the number of the reason.
+pub(crate) fn values<const N: usize>(
+    file: AtomicFile,
+    points: &[Point],
+    values: &Values<N>,
+) -> Result<AtomicFile, WriteFault> {
+    let table = || -> Result<AtomicFile, ParquetError> {
+        let mut columns = vec![];
+        for name in ["x", "y", "z"] {
+            columns.push(column(name, Physical::DOUBLE, Repetition::REQUIRED)?);
+        }
+        for name in values.names {
+            columns.push(column(name, Physical::DOUBLE, Repetition::OPTIONAL)?);
+        }
+        columns.push(column("reason", Physical::INT32, Repetition::REQUIRED)?);
+        let schema = Type::group_type_builder("points").with_fields(columns).build()?;
+        let mut writer = SerializedFileWriter::new(file, Arc::new(schema), properties())?;
+        for start in (0..points.len()).step_by(GROUP) {
+            let rows = start..points.len().min(start + GROUP);
+            let mut group = writer.next_row_group()?;
+            for axis in 0..3 {
+                let own: Vec<f64> = points[rows.clone()].iter().map(|p| p[axis]).collect();
+                doubles(&mut group, &own, None)?;
+            }
+            for k in 0..N {
+                let all: Vec<f64> = rows.clone().map(|i| (values.of)(i)[k]).collect();
+                let levels: Vec<i16> = all.iter().map(|x| i16::from(x.is_finite())).collect();
+                let own: Vec<f64> = all.into_iter().filter(|x| x.is_finite()).collect();
+                doubles(&mut group, &own, Some(&levels))?;
+            }
+            let reasons: Vec<i32> = rows.map(|i| i32::from((values.reason)(i))).collect();
+            if let Some(mut column) = group.next_column()? {
+                column.typed::<Int32Type>().write_batch(&reasons, None, None)?;
+                column.close()?;
+            }
+            group.close()?;
+        }
+        writer.into_inner()
+    };
+    table().map_err(fault)
 }

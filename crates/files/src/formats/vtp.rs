@@ -7,6 +7,7 @@ use crate::{
     write::{
         Loss,
         corners::corner_positions,
+        named::Values,
         sink::{Block, Layout, PointsSink},
         spool::Spool,
     },
@@ -15,7 +16,7 @@ use std::{
     fmt::Write as _,
     io::{self, Seek, SeekFrom, Write},
 };
-use trueness_geom::mesh::Mesh;
+use trueness_geom::{mesh::Mesh, space::Point};
 
 /// XML PolyData of VTK.
 pub(crate) const VTP: Format = Format {
@@ -34,16 +35,28 @@ pub(crate) const VTP: Format = Format {
 const HEADER: usize = 2048;
 
 /// Arrays in the order of their bytes: name, type, components, bytes.
-type Array = (&'static str, &'static str, u32, u64);
+type Array<'a> = (&'a str, &'static str, u32, u64);
 
 /// The XML part: `cells` are `Verts` or `Polys`, of which there are `cell_count`.
 fn header(points: u64, cells: &str, cell_count: u64, data: &[Array], lists: &[Array]) -> Vec<u8> {
+    sized_header(HEADER, points, cells, cell_count, data, lists)
+}
+
+/// The same in `size` bytes.
+fn sized_header(
+    size: usize,
+    points: u64,
+    cells: &str,
+    cell_count: u64,
+    data: &[Array],
+    lists: &[Array],
+) -> Vec<u8> {
     let mut xml = String::from("<?xml version=\"1.0\"?>\n");
     xml.push_str(
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
     );
     let mut offset = 0;
-    let mut array = |xml: &mut String, (name, kind, components, bytes): Array| {
+    let mut array = |xml: &mut String, (name, kind, components, bytes): &Array| {
         // Writing to a string cannot fail.
         let _ = writeln!(
             xml,
@@ -55,14 +68,14 @@ fn header(points: u64, cells: &str, cell_count: u64, data: &[Array], lists: &[Ar
         xml,
         "<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOf{cells}=\"{cell_count}\">\n<Points>"
     );
-    array(&mut xml, ("Points", "Float64", 3, 24 * points));
+    array(&mut xml, &("Points", "Float64", 3, 24 * points));
     xml.push_str("</Points>\n<PointData>\n");
-    data.iter().for_each(|a| array(&mut xml, *a));
+    data.iter().for_each(|a| array(&mut xml, a));
     let _ = writeln!(xml, "</PointData>\n<{cells}>");
-    lists.iter().for_each(|a| array(&mut xml, *a));
+    lists.iter().for_each(|a| array(&mut xml, a));
     let _ = writeln!(xml, "</{cells}>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">");
     let mut bytes = xml.into_bytes();
-    bytes.resize(HEADER - 1, b' ');
+    bytes.resize(bytes.len().max(size - 1), b' ');
     bytes.push(b'_');
     bytes
 }
@@ -151,4 +164,50 @@ fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFault> {
     numbers(file, faces, |i| 3 * (i + 1))?;
     end(file)?;
     Ok(Loss::default())
+}
+
+/// Bytes of the XML part of a file with named numbers, some twenty of them.
+const NAMED: usize = 4096;
+
+/// Writes points, an array of each of their numbers, and their facets; without facets one cell of all points.
+pub(crate) fn values<const N: usize>(
+    mut file: AtomicFile,
+    points: &[Point],
+    faces: &[[u32; 3]],
+    values: &Values<N>,
+) -> Result<AtomicFile, WriteFault> {
+    let (count, face_count) = (points.len() as u64, faces.len() as u64);
+    let mut data: Vec<Array> = values.names.iter().map(|name| (*name, "Float64", 1, 8 * count)).collect();
+    data.extend([("reason", "UInt8", 1, count), ("colour", "UInt8", 3, 3 * count)]);
+    let (cells, cell_count, corners) = match faces.is_empty() {
+        true => ("Verts", u64::from(count > 0), count),
+        false => ("Polys", face_count, 3 * face_count),
+    };
+    let lists = [("connectivity", "Int64", 1, 8 * corners), ("offsets", "Int64", 1, 8 * cell_count)];
+    file.write_all(&sized_header(NAMED, count, cells, cell_count, &data, &lists))?;
+    let mut add = |width: u64, row: &dyn Fn(usize, &mut Vec<u8>)| -> io::Result<()> {
+        file.write_all(&(width * count).to_le_bytes())?;
+        for start in (0..points.len()).step_by(1 << 14) {
+            let mut bytes = vec![];
+            (start..points.len().min(start + (1 << 14))).for_each(|i| row(i, &mut bytes));
+            file.write_all(&bytes)?;
+        }
+        Ok(())
+    };
+    add(24, &|i, bytes| points[i].iter().for_each(|x| bytes.extend(x.to_le_bytes())))?;
+    for k in 0..N {
+        add(8, &|i, bytes| bytes.extend((values.of)(i)[k].to_le_bytes()))?;
+    }
+    add(1, &|i, bytes| bytes.push((values.reason)(i)))?;
+    add(3, &|i, bytes| bytes.extend((values.color)(i)))?;
+    let flat = faces.as_flattened();
+    if faces.is_empty() {
+        numbers(&mut file, count, |i| i)?;
+        numbers(&mut file, cell_count, |_| count)?;
+    } else {
+        numbers(&mut file, corners, |i| u64::from(flat[i as usize]))?;
+        numbers(&mut file, cell_count, |i| 3 * (i + 1))?;
+    }
+    end(&mut file)?;
+    Ok(file)
 }

@@ -4,6 +4,7 @@ pub(crate) mod corners;
 mod held;
 mod loss;
 mod mesh_file;
+pub(crate) mod named;
 mod points_file;
 mod regions;
 #[cfg(test)]
@@ -16,8 +17,9 @@ mod writable;
 pub use held::HeldPoints;
 pub use loss::Loss;
 pub use mesh_file::{MeshFile, mesh};
+pub use named::Values;
 pub use points_file::{PointsFile, points};
 pub use regions::{Pieces, regions};
 pub use sink::{Block, Layout};
-pub use values::{Values, values};
+pub use values::values;
 pub use writable::Writable;

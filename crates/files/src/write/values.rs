@@ -1,9 +1,13 @@
 //! Points or vertices, each with named numbers.
 
 use super::Writable;
+use super::named::Values;
+#[cfg(feature = "parquet")]
+use crate::formats::parquet;
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
+    formats::{npz, vtp},
 };
 use rayon::prelude::*;
 use std::io::{BufWriter, Write};
@@ -13,27 +17,15 @@ use trueness_geom::space::Point;
 /// Rows made into bytes by one task.
 const CHUNK: usize = 1 << 12;
 
-/// What is known of each point.
-pub struct Values<'a, const N: usize> {
-    /// Names of the numbers.
-    pub names: [&'a str; N],
-    /// The numbers of a point, NaN where there is none.
-    pub of: &'a (dyn Fn(usize) -> [f64; N] + Sync),
-    /// Why a point lacks its numbers: a place in `reasons`, 0 where it has them.
-    pub reason: &'a (dyn Fn(usize) -> u8 + Sync),
-    /// The words for it; the first is empty.
-    pub reasons: &'a [&'a str],
-    /// The colour of a point.
-    pub color: &'a (dyn Fn(usize) -> [u8; 3] + Sync),
-}
-
 /// Writes `points` (millimetres), the facets between them if there are any, and what is known of each point.
 ///
-/// A `.ply` file has a property of each name, `reason` as a number that the header explains, a colour, and the facets. A `.csv` file
-/// has a column of each name, empty where there is no number, and `reason` as a word.
+/// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a colour, and
+/// the facets. A `.csv` file has a column of each name, empty where there is no number, and `reason` as a word; a `.parquet` file the
+/// same without the word's spelling out: null, and the reason's number. A `.npz` file has an array of each name, `reason`, and the
+/// facets.
 ///
 /// # Errors
-/// An extension other than .ply and .csv; a facet that names no point; those of the system.
+/// Another extension; a facet that names no point; those of the system.
 pub fn values<const N: usize>(
     path: &Path,
     points: &[Point],
@@ -46,13 +38,22 @@ pub fn values<const N: usize>(
         if let Some(face) = faces.iter().position(lost) {
             return Err(WriteFault::NoSuchVertex { face });
         }
-        let mut file = BufWriter::new(AtomicFile::create(path)?);
-        if ending == "ply" {
-            ply(&mut file, points, faces, values)?;
-        } else {
-            csv(&mut file, points, values)?;
-        }
-        file.into_inner().map_err(|e| e.into_error())?.commit()?;
+        let file = AtomicFile::create(path)?;
+        let file = match ending {
+            "npz" => npz::values(file, points, faces, values)?,
+            "vtp" => vtp::values(file, points, faces, values)?,
+            #[cfg(feature = "parquet")]
+            "parquet" => parquet::values(file, points, values)?,
+            _ => {
+                let mut file = BufWriter::new(file);
+                match ending {
+                    "ply" => ply(&mut file, points, faces, values)?,
+                    _ => csv(&mut file, points, values)?,
+                }
+                file.into_inner().map_err(|e| e.into_error())?
+            }
+        };
+        file.commit()?;
         Ok(())
     };
     write().map_err(|e| e.in_file(path))
@@ -176,6 +177,62 @@ mod tests {
         );
     }
 
+    /// Arrays of an archive lie as they are: each follows its name and header.
+    #[test]
+    fn an_archive_has_an_array_of_each_name() {
+        let folder = Folder::new();
+        let path = folder.path().join("k.npz");
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        let bytes = std::fs::read(&path).unwrap();
+        let array = |name: &str, header: &str| {
+            let start = memchr::memmem::find(&bytes, format!("{name}.npy").as_bytes()).unwrap();
+            let start = start + memchr::memmem::find(&bytes[start..], b"\x93NUMPY").unwrap();
+            assert!(String::from_utf8_lossy(&bytes[start..start + 128]).contains(header), "{name}");
+            &bytes[start + 128..]
+        };
+        let number = |of: &[u8], k: usize| f64::from_le_bytes(of[8 * k..8 * k + 8].try_into().unwrap());
+        let k1 = array("k1", "'<f8', 'fortran_order': False, 'shape': (4,)");
+        assert!(number(k1, 1).is_nan() && (number(k1, 2), number(k1, 3)) == (1.0, 1.5));
+        assert_eq!(number(array("points", "(4, 3)"), 7), 3.0);
+        assert_eq!(array("reason", "'|u1'")[..4], [0, 1, 0, 0]);
+        assert_eq!(
+            array("faces", "'<u4', 'fortran_order': False, 'shape': (2, 3)")[..8],
+            [0, 0, 0, 0, 1, 0, 0, 0]
+        );
+    }
+
+    /// Offsets lead to arrays, each behind its length.
+    #[test]
+    fn a_vtk_file_has_arrays_where_it_says() {
+        let folder = Folder::new();
+        for faces in [&FACES[..], &[]] {
+            let path = folder.path().join("k.vtp");
+            known(|v| values(&path, &POINTS, faces, v).unwrap());
+            let bytes = std::fs::read(&path).unwrap();
+            let data = 4096;
+            assert_eq!(bytes[data - 1], b'_');
+            let xml = String::from_utf8_lossy(&bytes[..data]).into_owned();
+            let array = |name: &str| {
+                let rest = xml.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
+                let offset: usize =
+                    rest.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+                let at = data + offset;
+                let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
+                &bytes[at + 8..at + 8 + length]
+            };
+            assert_eq!(
+                (array("k1").len(), array("Points").len(), array("reason")),
+                (32, 96, &[0, 1, 0, 0][..])
+            );
+            assert_eq!(array("k2")[24..], (-0.25f64).to_le_bytes());
+            assert_eq!(array("colour")[9..], [3, 7, 9]);
+            let corners = if faces.is_empty() { 4 } else { 6 };
+            assert_eq!(array("connectivity").len(), 8 * corners);
+            assert_eq!(array("offsets")[..8], (if faces.is_empty() { 4u64 } else { 3 }).to_le_bytes());
+            assert!(bytes.ends_with(b"</VTKFile>\n"));
+        }
+    }
+
     #[test]
     fn what_does_not_fit_is_refused() {
         let folder = Folder::new();
@@ -183,7 +240,7 @@ mod tests {
             let write = |name: &str, faces: &[[u32; 3]]| {
                 values(&folder.path().join(name), &POINTS, faces, v).unwrap_err().to_string()
             };
-            assert!(write("k.stl", &FACES).contains(".ply .csv"));
+            assert!(write("k.stl", &FACES).contains(".ply .csv .npz .vtp"));
             assert!(write("k.ply", &[[0, 1, 9]]).contains("face 0"));
         });
     }

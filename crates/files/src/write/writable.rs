@@ -28,7 +28,11 @@ impl Writable {
             Writable::Regions | Writable::Values => false,
         };
         match self {
-            Writable::Regions | Writable::Values => vec!["ply", "csv"],
+            Writable::Regions => vec!["ply", "csv"],
+            #[cfg(feature = "parquet")]
+            Writable::Values => vec!["ply", "csv", "npz", "vtp", "parquet"],
+            #[cfg(not(feature = "parquet"))]
+            Writable::Values => vec!["ply", "csv", "npz", "vtp"],
             _ => FORMATS.iter().filter(writes).flat_map(|f| f.written_as.iter().copied()).collect(),
         }
     }

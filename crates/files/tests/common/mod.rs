@@ -58,6 +58,7 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Whole, ReadError>
     let (kind, faces) = match &input.body {
         Body::Mesh(m) => ("mesh", m.mesh.faces.len()),
         Body::Points(_) => ("points", 0),
+        Body::Splines(_) => ("splines", 0),
     };
     let mut stream = input.body.into_points();
     let (mut points, mut block) = (vec![], vec![]);

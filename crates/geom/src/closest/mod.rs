@@ -55,6 +55,7 @@ pub use query::Query;
 pub use sign::Signs;
 pub use tree::{Closest, Tree};
 pub use triangle::Feature;
+pub(crate) use triangle::{Place, closest_point, squared_distance};
 pub use winding::Winding;
 
 #[cfg(test)]

@@ -35,6 +35,8 @@ pub enum SignMethod {
     Pseudonormal,
     /// Inside where the winding number exceeds one half.
     Winding,
+    /// Side of the normal of a B-spline surface.
+    Normal,
     /// No sign: distances.
     None,
 }
@@ -57,6 +59,8 @@ pub struct SignChoice {
 pub enum SignReason {
     /// It was asked for.
     Requested,
+    /// The reference is a B-spline surface, whose normal looks to one side.
+    Normal,
     /// It was asked for, and the reference is not closed, consistently oriented and free of overlapping shells as the method
     /// needs it.
     RequestedUnsound,
@@ -84,6 +88,14 @@ pub enum SignReason {
 pub(crate) const SHEET: f64 = 0.25;
 
 impl SignChoice {
+    /// That of B-spline surfaces: their normal, unless no sign is asked for.
+    pub fn by_normal(requested: SignRequest) -> SignChoice {
+        let (method, reason) = match requested {
+            SignRequest::None => (SignMethod::None, SignReason::Requested),
+            _ => (SignMethod::Normal, SignReason::Normal),
+        };
+        SignChoice { requested, method, reason, inside_out: false }
+    }
     /// Chooses for a mesh of which this is known. Cost: linear in the facets.
     ///
     /// One shell that crosses itself is not told from one that does not: where it overlaps itself, pseudonormals may
@@ -148,6 +160,7 @@ impl SignMethod {
         match self {
             SignMethod::Pseudonormal => "pseudonormal",
             SignMethod::Winding => "winding",
+            SignMethod::Normal => "normal",
             SignMethod::None => "none",
         }
     }
@@ -160,6 +173,10 @@ impl fmt::Display for SignChoice {
             SignReason::RequestedUnsound => write!(
                 f,
                 "asked for, although the reference is not closed and consistently oriented, or its shells overlap"
+            )?,
+            SignReason::Normal => write!(
+                f,
+                "the reference is a B-spline surface: the side that its normal, u times v, looks to is outside"
             )?,
             SignReason::Closed => write!(f, "the reference is closed and consistently oriented")?,
             SignReason::Overlapping => {

@@ -104,7 +104,7 @@ impl<'t> Surface<'t> {
         let side = match choice.method {
             SignMethod::Pseudonormal => Side::Pseudonormal(Signs::watched(tree, progress)?),
             SignMethod::Winding => Side::Winding(Winding::new(tree)),
-            SignMethod::None => Side::None,
+            SignMethod::None | SignMethod::Normal => Side::None,
         };
         let free_edges = (options.skip_boundary && !soundness.closed)
             .then(|| FreeEdges::watched(tree, progress))

@@ -37,6 +37,14 @@ pub enum KnotError {
         /// Points that fit.
         needed: usize,
     },
+    /// A weight that is not above 0.
+    #[error("the weight of control point {index} is {value}: it must be above 0")]
+    Weight {
+        /// Its control point, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
 }
 
 /// A sequence of knots that do not fall, with the degree of the functions over it.

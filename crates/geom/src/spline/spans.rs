@@ -68,9 +68,13 @@ impl Spans {
     /// The span of a parameter and its coordinate there; outside of the domain those of the nearer end.
     #[inline]
     pub fn locate(&self, t: f64) -> (usize, f64) {
-        let last = self.first.len() - 1;
-        let mut k = ((t - self.limits[0]) * self.rate).clamp(0.0, last as f64) as usize;
-        while k > 0 && t < self.limits[k] {
+        self.locate_among(t, 0, self.first.len() - 1)
+    }
+    /// The same among the spans from `first` to `last`: at their ends seen from within.
+    #[inline]
+    pub(super) fn locate_among(&self, t: f64, first: usize, last: usize) -> (usize, f64) {
+        let mut k = ((t - self.limits[0]) * self.rate).clamp(first as f64, last as f64) as usize;
+        while k > first && t < self.limits[k] {
             k -= 1;
         }
         while k < last && t >= self.limits[k + 1] {

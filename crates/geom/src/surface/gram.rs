@@ -115,7 +115,7 @@ impl Binned {
             .par_iter()
             .map(|(cell, from, to)| {
                 let one = |k: usize| {
-                    let place = surface.place(*cell as usize, self.local[k][0], self.local[k][1]);
+                    let place = surface.value(*cell as usize, self.local[k][0], self.local[k][1]);
                     (0..3)
                         .map(|d| (self.points[k][d] - place[d]) * (self.points[k][d] - place[d]))
                         .sum::<f64>()
@@ -140,7 +140,7 @@ impl Binned {
     /// The sums of what the `surface` (of points less the center) leaves of the points.
     pub(super) fn left_by(&self, surface: &Patches, progress: &dyn Progress) -> Result<Sums, Cancelled> {
         self.sums_of(None, progress, |k, cell, [s, t]| {
-            let place = surface.place(cell, s, t);
+            let place = surface.value(cell, s, t);
             std::array::from_fn(|d| self.points[k][d] - place[d])
         })
     }

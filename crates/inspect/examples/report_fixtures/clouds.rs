@@ -52,7 +52,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
         shown: 1_000_000,
         ..Options::default()
     };
-    let references = [Reference { name: "nominal.stl".into(), mesh: reference }];
+    let references = [Reference { name: "nominal.stl".into(), mesh: reference, splines: None }];
     let sink = |_: &compare::Block| Ok::<(), Infallible>(());
     let found = compare::run(&mut Once(Some(points.to_vec())), &references, &options, &Silent, sink).unwrap();
     let files = vec![

@@ -388,6 +388,7 @@ fn comparison(
     let missing = (field.len() - values.len()) as u64;
     let side = |keep: &dyn Fn(f64) -> bool| statistics(&sorted(values.iter().copied().filter(|v| keep(*v))));
     Comparison {
+        surfaces: None,
         reference: reference.into(),
         rank: n as u32 + 1,
         warnings: vec![],

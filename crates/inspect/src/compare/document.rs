@@ -10,7 +10,7 @@ use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{Found, Kind};
 use trueness_geom::deviation::paper::Differences;
-use trueness_geom::deviation::sign_choice::SignChoice;
+use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::stats::histogram::Limits;
 
 mod geom {
@@ -94,6 +94,11 @@ fn comparison(
         reference,
         rank,
         warnings: vec![],
+        surfaces: c.splines.map(|s| SurfacesRecord {
+            count: s.surfaces as u64,
+            uncertain: s.uncertain,
+            drawn_within: s.drawn_within,
+        }),
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),
         deviation: BySide::of(&c.summary),
@@ -126,6 +131,7 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
         reason: choice.to_string(),
         disagreement: share,
         disagreement_reason: share.is_none().then(|| match disagreement {
+            None if choice.method == SignMethod::Normal => "there is no other method for surfaces".into(),
             None => "distances are unsigned".into(),
             Some(_) => "all points looked at lie on the surface".into(),
         }),

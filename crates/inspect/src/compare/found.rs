@@ -1,19 +1,9 @@
-//! What a comparison is made with, and all that it found.
+//! All that a comparison found.
 
 use super::reference::Compared;
 use super::shown::ShownPoints;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::stats::paired::Paired;
-
-/// A mesh that points are compared with.
-#[derive(Clone, Debug)]
-pub struct Reference<'a> {
-    /// For messages and documents: its path.
-    pub name: String,
-    /// The mesh.
-    pub mesh: &'a Mesh,
-}
 
 /// All that the comparison found.
 pub struct Comparisons {

@@ -1,5 +1,6 @@
 //! One measured set against one or several references, in one pass over the points.
 
+mod against;
 mod document;
 mod found;
 mod map;
@@ -9,14 +10,16 @@ mod reference;
 mod research;
 mod reverse;
 mod shown;
+mod target;
 mod view;
 mod worst;
 
+pub use against::{Reference, ReferenceError};
 pub use document::{Inputs, document};
-pub use found::{Comparisons, Reference};
+pub use found::Comparisons;
 pub use map::MapSurface;
 pub use options::{Method, Options};
-pub use reference::{Compared, ReferenceError, Values, WorstPlace};
+pub use reference::{Compared, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;
@@ -82,12 +85,16 @@ pub fn run<S: PointStream + ?Sized, K>(
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
-        trees.push(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?);
+        let tree = match r.splines {
+            None => Some(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?),
+            Some(_) => None,
+        };
+        trees.push(tree);
     }
     let keep = options.kept_values / references.len().max(1);
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {
-        running.push(Running::new(r.mesh, tree, options, keep, progress).map_err(|e| refused(r, e))?);
+        running.push(Running::new(r, tree.as_ref(), options, keep, progress).map_err(|e| refused(r, e))?);
     }
     let mut paired = vec![];
     for second in 1..references.len() {

@@ -1,19 +1,20 @@
 //! The running comparison with one reference.
 
+use super::against::{Reference, ReferenceError};
 use super::map::{Flagged, Foot, MapSurface, PointMap};
 use super::options::{Method, Options};
+use super::target::{Measures, Target};
 use super::worst::{Place, WorstPlaces, sort};
 use trueness_geom::check::Precondition;
-use trueness_geom::closest::{Closest, MeshError, QueryError, Tree};
+use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
-use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface};
+use trueness_geom::deviation::sign_choice::SignChoice;
+use trueness_geom::deviation::surface::{Disagreement, Exclusion};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
-use trueness_geom::space::{Point, Vector, cross, minus, unit};
+use trueness_geom::space::{Point, Vector};
 use trueness_geom::stats::histogram::{Histogram, Limits, nice_edges, zone_edges};
 use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
-use trueness_geom::topology::TopologyError;
 
 /// What was found about one reference.
 pub struct Compared {
@@ -40,8 +41,21 @@ pub struct Compared {
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
+    /// Of B-spline surfaces.
+    pub splines: Option<SplinesFound>,
     /// The reference coloured by the points near each place, for a report.
     pub map: Option<MapSurface>,
+}
+
+/// What is to be said of a comparison with B-spline surfaces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplinesFound {
+    /// Number of surfaces.
+    pub surfaces: usize,
+    /// Points whose nearest place is not beyond doubt.
+    pub uncertain: u64,
+    /// How far the facets that draw them may be from the surfaces, millimetres.
+    pub drawn_within: f64,
 }
 
 /// One of the worst places, with where it is on the reference.
@@ -67,27 +81,14 @@ pub enum Values {
     Many(Box<Accumulator>),
 }
 
-/// Why a reference cannot be measured against.
-#[derive(Debug, thiserror::Error)]
-pub enum ReferenceError {
-    /// Its facets or coordinates do not allow it.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// Its topology cannot be told.
-    #[error(transparent)]
-    Topology(#[from] TopologyError),
-    /// The paper's method refuses it.
-    #[error(transparent)]
-    Paper(#[from] PaperError),
-}
-
 /// Places of each sign that a result names.
 const WORST: usize = 3;
 
 /// A comparison under way.
 pub struct Running<'a> {
     mesh: &'a Mesh,
-    surface: Surface<'a>,
+    target: Target<'a>,
+    splines: Option<SplinesFound>,
     values: Values,
     keep: usize,
     limits: Option<Limits>,
@@ -100,18 +101,24 @@ pub struct Running<'a> {
 impl<'a> Running<'a> {
     /// Nothing measured yet; at most `keep` deviations stay in memory.
     pub fn new(
-        mesh: &'a Mesh,
-        tree: &'a Tree,
+        reference: &Reference<'a>,
+        tree: Option<&'a Tree>,
         options: &Options,
         keep: usize,
         progress: &dyn Progress,
     ) -> Result<Running<'a>, ReferenceError> {
+        let mesh = reference.mesh;
         let paper = match options.method {
             Method::Exact => None,
             Method::Paper => Some((Paper::new(mesh)?, Differences::default())),
         };
         Ok(Running {
-            surface: Surface::new(tree, mesh, &options.surface, progress)?,
+            target: Target::new(reference, tree, options, progress)?,
+            splines: reference.splines.map(|s| SplinesFound {
+                surfaces: s.surfaces(),
+                uncertain: 0,
+                drawn_within: s.mesh_distance(),
+            }),
             values: Values::All(vec![]),
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
@@ -157,10 +164,11 @@ impl<'a> Running<'a> {
         points: &[Point],
         progress: &dyn Progress,
     ) -> Result<(Vec<f64>, Vec<Option<Foot>>), PaperError> {
-        let (mut deviations, feet) = match &self.map {
-            None => (self.surface.deviations(points, progress)?, vec![]),
-            Some(map) => with_feet(&self.surface, map, points, progress)?,
-        };
+        let Measures { mut deviations, feet, uncertain } =
+            self.target.measure(points, self.map.as_ref(), progress)?;
+        if let Some(splines) = &mut self.splines {
+            splines.uncertain += uncertain;
+        }
         if let Some((paper, versus)) = &mut self.paper {
             let theirs = paper.values(points, progress)?;
             let size = |d: &f64| if d.is_finite() { d.abs() } else { f64::NAN };
@@ -183,7 +191,7 @@ impl<'a> Running<'a> {
 
     /// Deviations of points that have been counted already.
     pub fn again(&self, points: &[Point]) -> Result<Vec<f64>, PaperError> {
-        let mut deviations = self.surface.deviations(points, &Silent)?;
+        let mut deviations = self.target.measure(points, None, &Silent)?.deviations;
         if let Some((paper, _)) = &self.paper {
             for (d, t) in deviations.iter_mut().zip(paper.values(points, &Silent)?) {
                 *d = if d.is_finite() { t.distance.copysign(*d) } else { *d };
@@ -194,10 +202,9 @@ impl<'a> Running<'a> {
 
     /// The end of the points; `sample` is an even sample of them.
     pub fn finish(self, sample: &[Point], progress: &dyn Progress) -> Result<Compared, QueryError> {
-        let choice = *self.surface.sign();
-        let signed = choice.method != SignMethod::None;
+        let choice = *self.target.sign();
         let summary = self.values.summary();
-        let worst = worst(&self.surface, self.mesh, &self.worst_places())?;
+        let worst = worst(&self.target, &self.worst_places())?;
         let flag =
             |w: &WorstPlace| Flagged { face: w.face, weights: w.weights, deviation: w.place.deviation };
         let flagged: Vec<Flagged> = worst.iter().map(flag).collect();
@@ -206,13 +213,14 @@ impl<'a> Running<'a> {
             histogram: self.values.histogram(&summary.all, self.limits.as_ref()),
             limits: self.limits,
             sign: choice,
-            disagreement: if signed { Some(self.surface.disagreement(sample, progress)?) } else { None },
-            precondition: self.surface.precondition().clone(),
+            disagreement: self.target.disagreement(sample, progress)?,
+            precondition: self.target.precondition().clone(),
             summary,
             worst,
             values: self.values,
             excluded: Exclusion::ALL.iter().map(|&e| (e, self.excluded[e as usize])).collect(),
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
+            splines: self.splines,
             map: self.map.map(|map| MapSurface::of(self.mesh, &map, &flagged)),
         })
     }
@@ -256,31 +264,18 @@ impl Values {
     }
 }
 
-/// Deviations of a block, and the pieces of the map that the nearest places lie in.
-fn with_feet(
-    surface: &Surface,
-    map: &PointMap,
-    points: &[Point],
-    progress: &dyn Progress,
-) -> Result<(Vec<f64>, Vec<Option<Foot>>), QueryError> {
-    let tree = surface.tree();
-    let found = surface.map(points, progress, |i, deviation, hit| {
-        let place = hit.filter(|_| deviation.is_finite()).map(|h| tree.place(&points[i], h));
-        (deviation, place.map(|p| map.foot(p.face, p.barycentric)))
-    })?;
-    Ok(found.into_iter().unzip())
-}
-
 /// The worst places with their nearest places on the reference.
-fn worst(surface: &Surface, mesh: &Mesh, places: &[Place]) -> Result<Vec<WorstPlace>, QueryError> {
+fn worst(target: &Target, places: &[Place]) -> Result<Vec<WorstPlace>, QueryError> {
     let mut out = vec![];
     for &place in places {
-        if let Some(Closest { point, face, barycentric: weights, .. }) =
-            surface.tree().closest(&place.point, f64::INFINITY)?
-        {
-            let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-            let normal = unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n);
-            out.push(WorstPlace { place, nearest: point, normal, face, weights });
+        if let Some(found) = target.nearest(&place.point)? {
+            out.push(WorstPlace {
+                place,
+                nearest: found.place,
+                normal: found.normal,
+                face: found.face,
+                weights: found.weights,
+            });
         }
     }
     Ok(out)

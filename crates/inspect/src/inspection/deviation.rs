@@ -25,7 +25,7 @@ pub struct Deviations {
 impl Deviations {
     /// The reference under the name that documents call it by.
     pub fn references(&self, name: &str) -> [Reference<'_>; 1] {
-        [Reference { name: name.into(), mesh: &self.reference }]
+        [Reference { name: name.into(), mesh: &self.reference, splines: None }]
     }
 }
 
@@ -51,7 +51,7 @@ pub(super) fn deviations(
         ..Options::default()
     };
     let mut points = Whole::<Infallible>::new(measured.positions.clone());
-    let references = [Reference { name: "the reference".into(), mesh: &reference }];
+    let references = [Reference { name: "the reference".into(), mesh: &reference, splines: None }];
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),

@@ -69,7 +69,7 @@ pub struct Measured {
 pub struct SignRecord {
     /// What was asked for: `auto`, `pseudonormal`, `winding` or `none`.
     pub requested: String,
-    /// What was used: `pseudonormal`, `winding`, `none`, or `several` when references differ.
+    /// What was used: `pseudonormal`, `winding`, `normal` (of B-spline surfaces), `none`, or `several` when references differ.
     pub method: String,
     /// Why that one.
     pub reason: String,
@@ -92,9 +92,12 @@ pub struct Comparison {
     /// What makes it unlikely that measured and reference belong together as they lie.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub warnings: Vec<Warning>,
+    /// Of a reference that is not a mesh but B-spline surfaces; absent for meshes.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub surfaces: Option<SurfacesRecord>,
     /// How the sign was found here.
     pub sign: SignRecord,
-    /// Whether the statistics rest on a sound mesh.
+    /// Whether the statistics rest on a sound mesh; of B-spline surfaces, which have no facets that could be wrong, `sound`.
     pub soundness: Soundness,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
@@ -142,6 +145,19 @@ pub enum WarningKind {
     SizeRatio,
     /// Their boxes hardly overlap. `value`: the common share of the smaller box, both widened by a margin.
     HardlyOverlapping,
+}
+
+/// B-spline surfaces as a reference: distances are those from the surfaces themselves.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct SurfacesRecord {
+    /// Their number.
+    pub count: u64,
+    /// Points for which a nearer place by more than a billionth of the surfaces' size is not excluded, as around the center of a
+    /// sphere.
+    pub uncertain: u64,
+    /// How far the facets that draw them may be from the surfaces, millimetres. No number rests on them but those of `--both` and
+    /// of the alignment.
+    pub drawn_within: f64,
 }
 
 /// Whether a reference is a sound mesh: the precondition of the statistics.

@@ -27,13 +27,13 @@ pub struct InputRecord {
     pub sha256_reason: Option<String>,
     /// The unit its numbers were taken for.
     pub unit_assumed: String,
-    /// Where that comes from: `option`, `header` (the names of a table's columns) or `assumed`.
+    /// Where that comes from: `option`, `header` (the names of a table's columns, or what a CAD file says) or `assumed`.
     #[serde(default = "assumed")]
     pub unit_from: String,
     /// What was taken for what in a table of text; absent for other files.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub table: Option<TableRecord>,
-    /// Points of a cloud, or distinct vertices of a mesh.
+    /// Points of a cloud, distinct vertices of a mesh, or control points of B-spline surfaces.
     pub points: u64,
     /// Facets; absent for a cloud.
     #[serde(skip_serializing_if = "Option::is_none", default)]

@@ -2,10 +2,10 @@
 
 use crate::exit::Usage;
 use crate::memory;
-use crate::read::{self, Opened};
+use crate::read::{self, Body, Opened};
 use anyhow::Context;
 use std::path::Path;
-use trueness_files::{Body, PointSource, ReadOptions, Weld};
+use trueness_files::{PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::cloud::Whole;

@@ -2,6 +2,7 @@
 
 mod measured;
 mod output;
+mod references;
 mod table;
 
 use crate::command::Run;
@@ -21,15 +22,16 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{self, Inputs, Method, Options, Reference, View};
+use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::{Reverse, Sampling};
-use trueness_inspect::results::{Role, Verdict};
 use trueness_inspect::scale::Scale;
 
-/// Deviations of measured points (or a mesh) from one or several reference meshes
+/// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces
 ///
-/// Every point's exact distance to the nearest facet, + outside the reference, − inside, with its statistics. Several
-/// references are ranked by their root mean square.
+/// Every point's exact distance to the nearest facet, or to the nearest place of the surfaces themselves (STEP, IGES, or the
+/// document of `trueness surface`), + outside the reference, − inside, with its statistics. Several references are ranked by
+/// their root mean square.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -37,11 +39,12 @@ Examples:
   trueness compare scan.xyz nominal.stl --tolerance -0.1,+0.2 --html report.html
   trueness compare scan.stl nominal.stl --align --tolerance 0.1
   trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
-  trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5")]
+  trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5
+  trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html")]
 pub struct CompareArgs {
     /// The scan: points or a mesh (its vertices are compared); `-` reads stdin
     measured: PathBuf,
-    /// The nominal, or the mesh under test; several are ranked side by side
+    /// The nominal, or the mesh under test: a mesh, or B-spline surfaces; several are ranked side by side
     #[arg(required = true)]
     references: Vec<PathBuf>,
     /// Bring the measured to the first reference first, by the best fit from any pose (see `trueness align`)
@@ -169,18 +172,15 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         );
     }
     let reading = ReadOptions { weld: weld(args.weld)?, ..args.of_references.reading(&args.input) };
-    let (mut meshes, mut files) = (vec![], vec![measured.record.clone()]);
-    for path in &args.references {
-        let (mesh, record) = read::mesh(path, Role::Reference, &reading)?;
-        meshes.push(mesh.mesh);
-        files.push(record);
-    }
+    let (opened, records) = references::open(&args.references, &reading, &options, common)?;
+    let mut files = vec![measured.record.clone()];
+    files.extend(records);
     let alignment = match args.align {
-        true => Some(aligned(args, &mut measured, &meshes[0], &files[1].path, common)?),
+        true => Some(aligned(args, &mut measured, opened[0].mesh(), &files[1].path, common)?),
         false => None,
     };
     let references: Vec<Reference> =
-        files[1..].iter().zip(&meshes).map(|(f, mesh)| Reference { name: f.path.clone(), mesh }).collect();
+        files[1..].iter().zip(&opened).map(|(f, r)| r.reference(f.path.clone())).collect();
     let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
         Some(path) => Some(PointFiles::create(path, references.len(), early_scale)?),

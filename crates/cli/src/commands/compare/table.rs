@@ -2,7 +2,7 @@
 
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
-use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics};
+use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics, SurfacesRecord};
 use trueness_inspect::results::research::{Finding, Research, Test};
 
 /// The whole text.
@@ -50,6 +50,9 @@ fn head(d: &CompareDocument) -> String {
             _ => String::new(),
         };
         rows.push(("sign".into(), format!("{of}{}: {}{disagreement}", c.sign.method, c.sign.reason)));
+        if let Some(s) = &c.surfaces {
+            rows.push(("surfaces".into(), format!("{of}{}", surfaces(s))));
+        }
         if !c.soundness.sound {
             rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
             rows.extend(places(c).map(|place| (String::new(), format!("  {of}{place}"))));
@@ -75,6 +78,18 @@ fn head(d: &CompareDocument) -> String {
     }
     out.push('\n');
     out
+}
+
+/// What is said of surfaces that are measured against themselves.
+fn surfaces(s: &SurfacesRecord) -> String {
+    let doubt = match s.uncertain {
+        0 => String::new(),
+        n => format!("; {} with a nearest place that may not be the only one", counted(n, POINTS)),
+    };
+    format!(
+        "{}, measured against directly{doubt}",
+        counted(s.count, ["B-spline surface", "B-spline surfaces"])
+    )
 }
 
 /// What is wrong with a reference, in words.

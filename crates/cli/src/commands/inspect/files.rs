@@ -1,11 +1,11 @@
 //! The plan's file, and the files that it names.
 
-use crate::read::{self, Opened};
+use crate::read::{self, Body, Opened};
 use anyhow::{Context, anyhow, bail};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueness_files::{Body, ReadOptions};
+use trueness_files::ReadOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 use trueness_inspect::inspection::{Data, OwnPoints};

@@ -7,10 +7,12 @@ use crate::{
     error::WriteFault,
     format::{Format, Head},
     write::{
+        named::Values,
         sink::{Block, Layout, PointsSink},
         spool::Spool,
     },
 };
+use trueness_geom::space::Point;
 use zip::Archive;
 
 /// Archive of NumPy arrays.
@@ -89,4 +91,40 @@ impl PointsSink for Arrays {
         }
         Ok(self.archive.finish()?)
     }
+}
+
+/// Writes points, their facets, and an array of each of their numbers.
+pub(crate) fn values<const N: usize>(
+    file: AtomicFile,
+    points: &[Point],
+    faces: &[[u32; 3]],
+    values: &Values<N>,
+) -> Result<AtomicFile, WriteFault> {
+    let mut archive = Archive::new(file);
+    let count = points.len();
+    let mut add = |name: &str, head: Vec<u8>, rows: usize, row: &dyn Fn(usize, &mut Vec<u8>)| {
+        archive.begin(&format!("{name}.npy"), HEADER)?;
+        for start in (0..rows).step_by(1 << 14) {
+            let mut bytes = vec![];
+            (start..rows.min(start + (1 << 14))).for_each(|i| row(i, &mut bytes));
+            archive.write(&bytes)?;
+        }
+        archive.end(&head)
+    };
+    let numbers = |of: &[f64], bytes: &mut Vec<u8>| of.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    add("points", header("<f8", count as u64, Some(3)), count, &|i, bytes| numbers(&points[i], bytes))?;
+    for (k, name) in values.names.iter().enumerate() {
+        add(name, header("<f8", count as u64, None), count, &|i, bytes| {
+            numbers(&(values.of)(i)[k..=k], bytes)
+        })?;
+    }
+    add("reason", header("|u1", count as u64, None), count, &|i, bytes| bytes.push((values.reason)(i)))?;
+    add("colour", header("|u1", count as u64, Some(3)), count, &|i, bytes| bytes.extend((values.color)(i)))?;
+    if !faces.is_empty() {
+        let rows = faces.len();
+        add("faces", header("<u4", rows as u64, Some(3)), rows, &|i, bytes| {
+            faces[i].iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+        })?;
+    }
+    Ok(archive.finish()?)
 }

@@ -38,56 +38,66 @@ impl Patches {
     /// Newton's method on the squared distance, kept within the domain; where the distance is not convex, the method of Gauss
     /// and Newton; steps that do not lead nearer are halved. Cost: some evaluations.
     pub fn foot_from(&self, point: Point, start: [f64; 2]) -> SurfaceFoot {
-        let domain = self.domain();
-        let clamp =
-            |p: [f64; 2]| [p[0].clamp(domain[0].0, domain[0].1), p[1].clamp(domain[1].0, domain[1].1)];
-        let mut at = clamp(start);
-        let mut jet = self.jet(at[0], at[1]);
-        let mut away = minus(jet.place, point);
-        let mut square = dot(away, away);
-        let mut settled = false;
-        for _ in 0..STEPS {
-            let (step, newton) = step(&jet, away, at, domain);
-            let scale = [norm(jet.first[0]), norm(jet.first[1])];
-            // A move below the rounding of the place itself.
-            let rounding = 4.0 * f64::EPSILON * (norm(jet.place) + norm(away));
-            let mut factor = 1.0;
-            let mut next = None;
-            while factor > 1e-6 {
-                let tried = clamp([at[0] + factor * step[0], at[1] + factor * step[1]]);
-                let moved = ((tried[0] - at[0]) * scale[0]).abs().max(((tried[1] - at[1]) * scale[1]).abs());
-                if moved <= rounding {
-                    settled = true;
-                    break;
-                }
-                let new = self.jet(tried[0], tried[1]);
-                let to = minus(new.place, point);
-                // A step of Newton's that moves so little has one of its square after it: it is the last one.
-                let last = newton && factor == 1.0 && moved <= NEARLY * (norm(jet.place) + norm(away));
-                if last && dot(to, to) <= square * (1.0 + 1e-9) {
-                    (at, jet, away) = (tried, new, to);
-                    square = dot(away, away);
-                    settled = true;
-                    break;
-                }
-                if dot(to, to) < square {
-                    next = Some((tried, new, to));
-                    break;
-                }
-                factor *= 0.25;
-            }
-            let Some((tried, new, to)) = next else { break };
-            (at, jet, away) = (tried, new, to);
-            square = dot(away, away);
-        }
-        SurfaceFoot {
-            parameters: at,
-            place: jet.place,
-            distance: square.sqrt(),
-            normal: unit(cross(jet.first[0], jet.first[1])).map(|(n, _)| n),
-            settled,
-        }
+        descend(|at| self.jet(at[0], at[1]), self.domain(), point, start).0
     }
+}
+
+/// [`Patches::foot_from`] on any surface that has derivatives, and what it is like there.
+#[inline]
+pub(super) fn descend(
+    jet_at: impl Fn([f64; 2]) -> Jet,
+    domain: [(f64, f64); 2],
+    point: Point,
+    start: [f64; 2],
+) -> (SurfaceFoot, Jet) {
+    let clamp = |p: [f64; 2]| [p[0].clamp(domain[0].0, domain[0].1), p[1].clamp(domain[1].0, domain[1].1)];
+    let mut at = clamp(start);
+    let mut jet = jet_at(at);
+    let mut away = minus(jet.place, point);
+    let mut square = dot(away, away);
+    let mut settled = false;
+    for _ in 0..STEPS {
+        let (step, newton) = step(&jet, away, at, domain);
+        let scale = [norm(jet.first[0]), norm(jet.first[1])];
+        // A move below the rounding of the place itself.
+        let rounding = 4.0 * f64::EPSILON * (norm(jet.place) + norm(away));
+        let mut factor = 1.0;
+        let mut next = None;
+        while factor > 1e-6 {
+            let tried = clamp([at[0] + factor * step[0], at[1] + factor * step[1]]);
+            let moved = ((tried[0] - at[0]) * scale[0]).abs().max(((tried[1] - at[1]) * scale[1]).abs());
+            if moved <= rounding {
+                settled = true;
+                break;
+            }
+            let new = jet_at(tried);
+            let to = minus(new.place, point);
+            // A step of Newton's that moves so little has one of its square after it: it is the last one.
+            let last = newton && factor == 1.0 && moved <= NEARLY * (norm(jet.place) + norm(away));
+            if last && dot(to, to) <= square * (1.0 + 1e-9) {
+                (at, jet, away) = (tried, new, to);
+                square = dot(away, away);
+                settled = true;
+                break;
+            }
+            if dot(to, to) < square {
+                next = Some((tried, new, to));
+                break;
+            }
+            factor *= 0.25;
+        }
+        let Some((tried, new, to)) = next else { break };
+        (at, jet, away) = (tried, new, to);
+        square = dot(away, away);
+    }
+    let foot = SurfaceFoot {
+        parameters: at,
+        place: jet.place,
+        distance: square.sqrt(),
+        normal: unit(cross(jet.first[0], jet.first[1])).map(|(n, _)| n),
+        settled,
+    };
+    (foot, jet)
 }
 
 /// The step to the least of a quadratic model, along an edge of the domain where it would leave it there, and whether the

@@ -1,17 +1,23 @@
 //! B-spline surfaces: tensor products.
 
 mod bend;
+mod cells;
 mod closest;
+mod nurbs;
 mod patches;
 mod rational;
+mod search;
 mod tensor;
 mod tessellate;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 pub use bend::{Bend, Principal};
 pub use closest::SurfaceFoot;
+pub use nurbs::Nurbs;
 pub use patches::Patches;
 pub use rational::RationalSurface;
+pub use search::{FootError, FootSearch, NearestFoot, SHARE};
 pub use tensor::{Direction, Surface};
 pub use tessellate::Tessellation;

@@ -17,11 +17,13 @@ use crate::space::{Point, Vector};
 /// let (a, b) = (surface.at(0.3, 0.7), Patches::new(&surface).at(0.3, 0.7));
 /// assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-14));
 /// ```
+///
+/// With `D` of 4 they are those of mass points: three coordinates times the mass, and the mass.
 #[derive(Clone, Debug)]
-pub struct Patches {
-    spans: [Spans; 2],
-    /// `(p + 1)(q + 1)` numbers of three for each patch, patches row after row: powers of `v` within powers of `u`.
-    coefficients: Vec<Point>,
+pub struct Patches<const D: usize = 3> {
+    pub(super) spans: [Spans; 2],
+    /// `(p + 1)(q + 1)` numbers of `D` for each patch, patches row after row: powers of `v` within powers of `u`.
+    coefficients: Vec<[f64; D]>,
 }
 
 /// A place of a surface with its derivatives by `u` and `v`.
@@ -44,11 +46,31 @@ impl Patches {
         )
     }
 
+    /// The place at `u`, `v`; outside of the domain that of the nearest place of it.
+    pub fn at(&self, u: f64, v: f64) -> Point {
+        let ((i, s), (j, t)) = (self.spans[0].locate(u), self.spans[1].locate(v));
+        self.value(i * self.spans[1].count() + j, s, t)
+    }
+
+    /// Place and derivatives at `u`, `v`.
+    pub(crate) fn jet(&self, u: f64, v: f64) -> Jet {
+        let [place, su, sv, suu, suv, svv] = self.six(self.spans[0].locate(u), self.spans[1].locate(v));
+        Jet { place, first: [su, sv], second: [suu, suv, svv] }
+    }
+
+    /// Normal and curvatures at `u`, `v`; `None` where the derivatives span no plane.
+    pub fn bend(&self, u: f64, v: f64) -> Option<Bend> {
+        let jet = self.jet(u, v);
+        Bend::new(jet.first, jet.second)
+    }
+}
+
+impl<const D: usize> Patches<D> {
     /// Of control points over spans, `n` to a row.
-    pub(crate) fn of(spans: [Spans; 2], points: &[Point], n: usize) -> Patches {
+    pub(crate) fn of(spans: [Spans; 2], points: &[[f64; D]], n: usize) -> Patches<D> {
         let [p, q] = [spans[0].degree() + 1, spans[1].degree() + 1];
         let mut coefficients = Vec::with_capacity(spans[0].count() * spans[1].count() * p * q);
-        let mut rows = vec![[0.0; 3]; p * q];
+        let mut rows = vec![[0.0; D]; p * q];
         for i in 0..spans[0].count() {
             let a = spans[0].polynomials(i);
             for j in 0..spans[1].count() {
@@ -58,12 +80,12 @@ impl Patches {
                     let own = &points[corner + r * n..][..q];
                     for l in 0..q {
                         rows[r * q + l] =
-                            own.iter().enumerate().fold([0.0; 3], |sum, (c, x)| sum.plus(b[c * q + l], *x));
+                            own.iter().enumerate().fold([0.0; D], |sum, (c, x)| sum.plus(b[c * q + l], *x));
                     }
                 }
                 for k in 0..p {
                     for l in 0..q {
-                        let sum = (0..p).fold([0.0; 3], |sum, r| sum.plus(a[r * p + k], rows[r * q + l]));
+                        let sum = (0..p).fold([0.0; D], |sum, r| sum.plus(a[r * p + k], rows[r * q + l]));
                         coefficients.push(sum);
                     }
                 }
@@ -78,14 +100,14 @@ impl Patches {
     }
 
     /// The coefficients of patch number `cell`.
-    fn patch(&self, cell: usize) -> (&[Point], usize) {
+    pub(super) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
         let [p, q] = [self.spans[0].degree() + 1, self.spans[1].degree() + 1];
         (&self.coefficients[cell * p * q..(cell + 1) * p * q], q)
     }
 
-    /// The place at the coordinates `s`, `t` of a patch.
+    /// The value at the coordinates `s`, `t` of a patch.
     #[inline]
-    pub(crate) fn place(&self, cell: usize, s: f64, t: f64) -> Point {
+    pub(crate) fn value(&self, cell: usize, s: f64, t: f64) -> [f64; D] {
         let (own, q) = self.patch(cell);
         // The degrees in use have loops of known length.
         match q {
@@ -96,28 +118,22 @@ impl Patches {
         }
     }
 
-    /// The place at `u`, `v`; outside of the domain that of the nearest place of it.
-    pub fn at(&self, u: f64, v: f64) -> Point {
-        let ((i, s), (j, t)) = (self.spans[0].locate(u), self.spans[1].locate(v));
-        self.place(i * self.spans[1].count() + j, s, t)
-    }
-
-    /// Place and derivatives at `u`, `v`.
-    pub(crate) fn jet(&self, u: f64, v: f64) -> Jet {
-        let ((i, s), (j, t)) = (self.spans[0].locate(u), self.spans[1].locate(v));
+    /// Value and derivatives at the coordinates `s`, `t` of patch `i`, `j`: itself, by `u`, by `v`, by `uu`, `uv` and `vv`.
+    #[inline(always)]
+    pub(super) fn six(&self, (i, s): (usize, f64), (j, t): (usize, f64)) -> [[f64; D]; 6] {
         let (own, q) = self.patch(i * self.spans[1].count() + j);
         // Horner's rule for value, derivative and half the second derivative, in both directions.
-        let mut sum = [[0.0f64; 3]; 6];
+        let mut sum = [[0.0f64; D]; 6];
         for row in own.chunks_exact(q).rev() {
-            let mut inner = [[0.0f64; 3]; 3];
+            let mut inner = [[0.0f64; D]; 3];
             for c in row.iter().rev() {
-                for d in 0..3 {
+                for d in 0..D {
                     inner[2][d] = inner[2][d] * t + inner[1][d];
                     inner[1][d] = inner[1][d] * t + inner[0][d];
                     inner[0][d] = inner[0][d] * t + c[d];
                 }
             }
-            for d in 0..3 {
+            for d in 0..D {
                 sum[3][d] = sum[3][d] * s + sum[1][d];
                 sum[1][d] = sum[1][d] * s + sum[0][d];
                 sum[4][d] = sum[4][d] * s + sum[2][d];
@@ -127,34 +143,31 @@ impl Patches {
             }
         }
         let (a, b) = (1.0 / self.spans[0].half(i), 1.0 / self.spans[1].half(j));
-        let [place, su, sv, suu, suv, svv] = sum;
-        Jet {
-            place,
-            first: [su.map(|x| x * a), sv.map(|x| x * b)],
-            second: [suu.map(|x| 2.0 * x * a * a), suv.map(|x| x * a * b), svv.map(|x| 2.0 * x * b * b)],
-        }
-    }
-
-    /// Normal and curvatures at `u`, `v`; `None` where the derivatives span no plane.
-    pub fn bend(&self, u: f64, v: f64) -> Option<Bend> {
-        let jet = self.jet(u, v);
-        Bend::new(jet.first, jet.second)
+        let [value, u, v, uu, uv, vv] = sum;
+        [
+            value,
+            u.map(|x| x * a),
+            v.map(|x| x * b),
+            uu.map(|x| 2.0 * x * a * a),
+            uv.map(|x| x * a * b),
+            vv.map(|x| 2.0 * x * b * b),
+        ]
     }
 }
 
 /// The value of a polynomial whose rows are polynomials of `t`, for powers of `s`.
 #[inline(always)]
-fn horner<'a, R>(rows: impl DoubleEndedIterator<Item = &'a R>, s: f64, t: f64) -> Point
+fn horner<'a, R, const D: usize>(rows: impl DoubleEndedIterator<Item = &'a R>, s: f64, t: f64) -> [f64; D]
 where
-    R: AsRef<[Point]> + ?Sized + 'a,
+    R: AsRef<[[f64; D]]> + ?Sized + 'a,
 {
-    let mut sum = [0.0f64; 3];
+    let mut sum = [0.0f64; D];
     for row in rows.rev() {
-        let mut inner = [0.0f64; 3];
+        let mut inner = [0.0f64; D];
         for c in row.as_ref().iter().rev() {
-            (0..3).for_each(|d| inner[d] = inner[d] * t + c[d]);
+            (0..D).for_each(|d| inner[d] = inner[d] * t + c[d]);
         }
-        (0..3).for_each(|d| sum[d] = sum[d] * s + inner[d]);
+        (0..D).for_each(|d| sum[d] = sum[d] * s + inner[d]);
     }
     sum
 }

@@ -1,5 +1,7 @@
 //! Surfaces against closed forms, and against themselves under changes that keep them.
 
+mod search;
+
 use super::super::basis::Knots;
 use super::*;
 use crate::num::random::Random;

@@ -1,0 +1,94 @@
+//! The references: meshes, and B-spline surfaces made ready to be searched.
+
+use crate::exit::Usage;
+use crate::options::Common;
+use crate::progress::Stage;
+use crate::read::{self, ReferenceBody};
+use anyhow::Context;
+use std::path::{Path, PathBuf};
+use trueness_files::ReadOptions;
+use trueness_geom::deviation::sign_choice::SignRequest;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Aabb;
+use trueness_geom::spline::surface::{FootError, FootSearch, Nurbs};
+use trueness_inspect::compare::{Method, Options, Reference};
+use trueness_inspect::results::{Bounds, InputRecord};
+
+/// A reference as it was read.
+pub enum Opened {
+    /// A mesh.
+    Mesh(Mesh),
+    /// Surfaces, and the mesh that draws them.
+    Surfaces(Box<FootSearch>, Mesh),
+}
+
+impl Opened {
+    /// The mesh, or the one that draws the surfaces.
+    pub fn mesh(&self) -> &Mesh {
+        match self {
+            Opened::Mesh(mesh) | Opened::Surfaces(_, mesh) => mesh,
+        }
+    }
+    /// The same for the comparison.
+    pub fn reference(&self, name: String) -> Reference<'_> {
+        let splines = match self {
+            Opened::Mesh(_) => None,
+            Opened::Surfaces(search, _) => Some(&**search),
+        };
+        Reference { name, mesh: self.mesh(), splines }
+    }
+}
+
+/// Reads all references.
+pub fn open(
+    paths: &[PathBuf],
+    reading: &ReadOptions,
+    options: &Options,
+    common: &Common,
+) -> anyhow::Result<(Vec<Opened>, Vec<InputRecord>)> {
+    let (mut all, mut records) = (vec![], vec![]);
+    for path in paths {
+        let (body, mut record) = read::reference(path, reading)?;
+        let opened = match body {
+            ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh),
+            ReferenceBody::Surfaces(surfaces) => {
+                allowed(path, options)?;
+                prepared(path, &surfaces, common)?
+            }
+        };
+        if matches!(opened, Opened::Surfaces(..)) {
+            record.bounds = Bounds::of(&Aabb::of(&opened.mesh().positions));
+        }
+        all.push(opened);
+        records.push(record);
+    }
+    Ok((all, records))
+}
+
+/// Refuses what is asked of facets only.
+fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
+    let shown = path.display();
+    if options.method == Method::Paper {
+        return Err(Usage(format!(
+            "--method paper: it measures to the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+        )));
+    }
+    match options.surface.sign {
+        SignRequest::Auto | SignRequest::None => Ok(()),
+        SignRequest::Pseudonormal | SignRequest::Winding => Err(Usage(format!(
+            "--sign {}: it is for meshes, and {shown} holds B-spline surfaces; take auto, for the side of their normal, or none",
+            options.surface.sign.name()
+        ))),
+    }
+}
+
+fn prepared(path: &Path, surfaces: &[Nurbs], common: &Common) -> anyhow::Result<Opened> {
+    let stage = Stage::new(common.progress, "preparing the surfaces", "points", None);
+    let search = FootSearch::new(surfaces, &stage).map_err(|e| match e {
+        FootError::Cancelled(e) => anyhow::Error::from(e),
+        e => anyhow::Error::from(e),
+    });
+    let search = search.with_context(|| path.display().to_string())?;
+    let mesh = search.mesh();
+    Ok(Opened::Surfaces(Box::new(search), mesh))
+}

@@ -1,0 +1,38 @@
+//! What points are compared with, and why that may not be possible.
+
+use trueness_geom::closest::MeshError;
+use trueness_geom::deviation::paper::PaperError;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::spline::surface::FootSearch;
+use trueness_geom::topology::TopologyError;
+
+/// A mesh, or B-spline surfaces, that points are compared with.
+#[derive(Clone)]
+pub struct Reference<'a> {
+    /// For messages and documents: its path.
+    pub name: String,
+    /// The mesh; of surfaces that of [`FootSearch::mesh`], which draws them.
+    pub mesh: &'a Mesh,
+    /// The surfaces that are measured against instead of the mesh.
+    pub splines: Option<&'a FootSearch>,
+}
+
+impl std::fmt::Debug for Reference<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+/// Why a reference cannot be measured against.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    /// Its facets or coordinates do not allow it.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// Its topology cannot be told.
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+    /// The paper's method refuses it.
+    #[error(transparent)]
+    Paper(#[from] PaperError),
+}

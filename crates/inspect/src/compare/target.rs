@@ -1,0 +1,186 @@
+//! What points are measured against: facets, or B-spline surfaces themselves.
+
+use super::against::{Reference, ReferenceError};
+use super::map::{Foot, PointMap};
+use super::options::Options;
+use trueness_geom::check::Precondition;
+use trueness_geom::closest::{Closest, QueryError, Tree};
+use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
+use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface, SurfaceOptions};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Point, Vector, cross, minus, unit};
+use trueness_geom::spline::surface::{FootSearch, NearestFoot};
+use trueness_geom::topology::Soundness;
+
+/// A reference ready to be measured against.
+pub enum Target<'a> {
+    /// The nearest facet counts.
+    Facets { surface: Box<Surface<'a>>, mesh: &'a Mesh },
+    /// The nearest place of the surfaces counts; facets only draw them.
+    Splines(Splines<'a>),
+}
+
+/// B-spline surfaces with what is asked of them.
+pub struct Splines<'a> {
+    search: &'a FootSearch,
+    options: SurfaceOptions,
+    choice: SignChoice,
+    precondition: Precondition,
+}
+
+/// Where a point is nearest to the reference.
+pub struct Nearest {
+    /// The place.
+    pub place: Point,
+    /// Unit normal there; `None` where there is none.
+    pub normal: Option<Vector>,
+    /// The facet there.
+    pub face: u32,
+    /// Weights of the facet's corners.
+    pub weights: [f64; 3],
+}
+
+/// Deviations of points; with a map, where their nearest places lie in it; and how many nearest places are not beyond doubt.
+pub struct Measures {
+    pub deviations: Vec<f64>,
+    pub feet: Vec<Option<Foot>>,
+    pub uncertain: u64,
+}
+
+impl<'a> Target<'a> {
+    /// Prepares a reference; `tree` is that of its mesh, unless it has surfaces.
+    pub fn new(
+        reference: &Reference<'a>,
+        tree: Option<&'a Tree>,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Target<'a>, ReferenceError> {
+        match (reference.splines, tree) {
+            (None, Some(tree)) => {
+                let surface = Surface::new(tree, reference.mesh, &options.surface, progress)?;
+                Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh })
+            }
+            (Some(search), _) => Ok(Target::Splines(Splines {
+                search,
+                options: options.surface,
+                choice: SignChoice::by_normal(options.surface.sign),
+                precondition: without_facets(search.surfaces()),
+            })),
+            (None, None) => Err(ReferenceError::Mesh(trueness_geom::closest::MeshError::NoFaces)),
+        }
+    }
+
+    /// How the sign is found.
+    pub fn sign(&self) -> &SignChoice {
+        match self {
+            Target::Facets { surface, .. } => surface.sign(),
+            Target::Splines(s) => &s.choice,
+        }
+    }
+    /// Whether the facets are sound; surfaces have none that could be wrong.
+    pub fn precondition(&self) -> &Precondition {
+        match self {
+            Target::Facets { surface, .. } => surface.precondition(),
+            Target::Splines(s) => &s.precondition,
+        }
+    }
+    /// How both sign methods agree on a sample; surfaces have one.
+    pub fn disagreement(
+        &self,
+        sample: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Option<Disagreement>, QueryError> {
+        match self {
+            Target::Facets { surface, .. } if surface.sign().method != SignMethod::None => {
+                surface.disagreement(sample, progress).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Deviations of points, and their places in a map.
+    pub fn measure(
+        &self,
+        points: &[Point],
+        map: Option<&PointMap>,
+        progress: &dyn Progress,
+    ) -> Result<Measures, QueryError> {
+        match (self, map) {
+            (Target::Facets { surface, .. }, None) => {
+                let deviations = surface.deviations(points, progress)?;
+                Ok(Measures { deviations, feet: vec![], uncertain: 0 })
+            }
+            (Target::Facets { surface, .. }, Some(map)) => {
+                let tree = surface.tree();
+                let found = surface.map(points, progress, |i, deviation, hit| {
+                    let place = hit.filter(|_| deviation.is_finite()).map(|h| tree.place(&points[i], h));
+                    (deviation, place.map(|p| map.foot(p.face, p.barycentric)))
+                })?;
+                let (deviations, feet) = found.into_iter().unzip();
+                Ok(Measures { deviations, feet, uncertain: 0 })
+            }
+            (Target::Splines(s), map) => {
+                let found = s.search.map(points, progress, |i, foot| {
+                    let deviation = s.deviation(&points[i], &foot);
+                    let place = map.filter(|_| deviation.is_finite());
+                    (deviation, place.map(|map| map.foot(foot.face, foot.weights)), foot.certain)
+                })?;
+                let uncertain = found.iter().filter(|f| !f.2).count() as u64;
+                let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
+                Ok(Measures { deviations, feet, uncertain })
+            }
+        }
+    }
+
+    /// Where a point is nearest; `None` for one that cannot be measured.
+    pub fn nearest(&self, p: &Point) -> Result<Option<Nearest>, QueryError> {
+        match self {
+            Target::Facets { surface, mesh } => {
+                let found = surface.tree().closest(p, f64::INFINITY)?;
+                Ok(found.map(|Closest { point, face, barycentric: weights, .. }| {
+                    let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
+                    let normal = unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n);
+                    Nearest { place: point, normal, face, weights }
+                }))
+            }
+            Target::Splines(s) => {
+                let NearestFoot { foot, face, weights, .. } = s.search.nearest(p);
+                let found = Nearest { place: foot.place, normal: foot.normal, face, weights };
+                Ok(foot.distance.is_finite().then_some(found))
+            }
+        }
+    }
+}
+
+impl Splines<'_> {
+    fn deviation(&self, p: &Point, found: &NearestFoot) -> f64 {
+        if found.foot.distance > self.options.max_distance {
+            return Exclusion::MaxDistance.value();
+        }
+        if self.options.skip_boundary && found.border {
+            return Exclusion::FreeEdge.value();
+        }
+        if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
+    }
+}
+
+/// Nothing is wrong with facets where there are none.
+fn without_facets(surfaces: usize) -> Precondition {
+    let soundness = Soundness {
+        sound: true,
+        closed: false,
+        consistently_oriented: true,
+        outward: true,
+        boundary_edges: 0,
+        non_manifold_edges: 0,
+        non_manifold_vertices: 0,
+        duplicate_facets: 0,
+        degenerate_facets: 0,
+        not_finite_facets: 0,
+        inconsistent_edges: 0,
+        shells: surfaces,
+        first_flaws: vec![],
+    };
+    Precondition { soundness, findings: vec![], shells_overlap: false }
+}
