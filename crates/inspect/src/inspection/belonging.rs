@@ -260,12 +260,13 @@ mod tests {
             let (value, points) = flatness(&wall, Some(&wall), TOP, extract);
             assert!(value < 1e-9 && points >= 49 * 49, "{extract}: {value} {points}");
         }
-        // The way it goes tells the wall without a reference too.
+        // The way it goes tells the wall without a reference too, but for its rim, which lies on both.
         let (value, points) = flatness(&wall, None, TOP, "distance = 0.5");
-        assert!(value < 1e-9 && points >= 51 * 51, "{value} {points}");
+        assert!(value < 1e-9 && points >= 49 * 51, "{value} {points}");
         let fillet = bar(true);
         let wide = "distance = 0.5, margin = -2";
-        assert!(flatness(&fillet, None, TOP, wide).0 > 0.3);
+        // All of it that is within reach would make 0.5.
+        assert!(flatness(&fillet, None, TOP, wide).0 < 0.25);
         let (value, points) = flatness(&fillet, Some(&fillet), TOP, wide);
         // Its second facet of 10 degrees lies at 15.
         assert!(value < 2.0 * (1.0 - libm::cos(20f64.to_radians())) + 1e-3, "{value}");

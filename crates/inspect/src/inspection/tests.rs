@@ -109,10 +109,15 @@ fn a_bore_off_its_model_is_no_part_of_the_top() {
 /// Without a reference the walls are left out too, but nothing is proven; a margin, where there is no bore within it, decides.
 #[test]
 fn without_a_reference_walls_are_told_and_nothing_passes() {
-    let cloud = || plate(4.0, TURNS, 0.25, waves);
+    // The outer walls have rows much farther apart than their points, and tell nothing: left out here, they would count.
+    let cloud = || {
+        let mut cloud = plate(4.0, TURNS, 0.25, waves);
+        cloud.positions.retain(|p| p[2].abs() < 0.02 || libm::hypot(p[0], p[1]) < 4.01);
+        cloud
+    };
     let (c, left_out) = flatness(cloud(), None, "distance = 1");
     assert!(c.value.unwrap() < 0.0201 && c.verdict == Verdict::Undecided, "{:?}", c.value);
-    assert!(left_out >= 2 * 4 * u64::from(TURNS), "{left_out}");
+    assert!(left_out >= 4 * u64::from(TURNS), "{left_out}");
     assert!(c.notes[1].contains("a reference, or a margin"), "{:?}", c.notes);
     // Without the bore's wall and with a margin there is nothing that could be of something else.
     let mut bare = cloud();
