@@ -6,11 +6,13 @@
 //! printing based on the STL model (in Chinese), section 3. Where they start from one facet, several starts are taken, so
 //! that a hole at the middle or a gap in the scan loses nothing; and a distance from the nominal bounds planes too.
 
+mod beside;
 mod bounds;
 mod nominal;
 mod rules;
 mod surface;
 
+pub use beside::{Piece, pieces_beside};
 pub use nominal::{FeatureError, Nearness, Nominal};
 pub use surface::Surface;
 

@@ -5,7 +5,7 @@
 use super::taken::Taken;
 use super::value::{Missing, Value};
 use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
-use crate::plan::{Basic, Boundary, Class, DatumSpec, Feature, Limits};
+use crate::plan::{Basic, Boundary, Class, DatumSpec, Feature, Limits, Source};
 use crate::tolerance_class::Table;
 use std::fmt::Debug;
 use std::ops::Range;
@@ -100,6 +100,23 @@ impl Spec {
     /// The unit of its value.
     pub fn unit(&self) -> &'static str {
         self.kind.unit(self.parameter)
+    }
+
+    /// Numbers of the features that the value depends on: its own, those of its datums, and those that they are derived from;
+    /// ascending.
+    pub fn numbers(&self, features: &[Feature]) -> Vec<usize> {
+        let datums = self.datums.iter().flat_map(|d| &d.features);
+        let mut all: Vec<usize> = self.features.iter().chain(datums).copied().collect();
+        let mut next = 0;
+        while let Some(n) = all.get(next).copied() {
+            if let Source::Derived { of, .. } = &features[n].source {
+                all.extend(of);
+            }
+            next += 1;
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 }
 

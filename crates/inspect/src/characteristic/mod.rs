@@ -29,7 +29,7 @@ mod value;
 
 pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 pub(crate) use located::datum_source;
-pub use taken::{Element, LeftOut, Taken};
+pub use taken::{Element, LeftOut, Others, Taken};
 pub use value::{Missing, Value};
 
 /// All of them, in the order of ISO 1101, then dimensions, then texture.

@@ -35,8 +35,19 @@ pub struct Taken {
     pub coverage: Option<f64>,
     /// Measured points that lie where the reference has it, but too far off to be part of it.
     pub left_out: Option<LeftOut>,
+    /// Measured points within its reach that were taken for those of other surfaces.
+    pub others: Others,
     /// The element, or why there is none.
     pub element: Result<Element, String>,
+}
+
+/// Points within the reach of a feature that were taken for those of other surfaces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Others {
+    /// Where they are.
+    pub points: Vec<Point>,
+    /// Whether the reference has those surfaces there; without one nothing but the points tells.
+    pub on_reference: bool,
 }
 
 /// Points that were left out of a feature.
@@ -44,10 +55,12 @@ pub struct Taken {
 pub struct LeftOut {
     /// Their number.
     pub points: u64,
-    /// Distance, mm, of the farthest of them from the reference.
+    /// Distance, mm, of the farthest of them from the reference, or from the nominal surface.
     pub farthest: f64,
     /// The distance, mm, that they are beyond.
     pub limit: f64,
+    /// Whether the reference has the feature there; else nothing else of it was measured there.
+    pub on_reference: bool,
 }
 
 /// What a feature is made to.

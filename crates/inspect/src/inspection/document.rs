@@ -1,6 +1,7 @@
 //! From what was found by a plan to the result document.
 
 use super::decision::{utilisation, verdict};
+use super::left_out;
 use super::{Element, Found, Inspection, Taken};
 use crate::characteristic::Value;
 use crate::compare;
@@ -24,7 +25,7 @@ impl InspectDocument {
         inputs: Vec<InputRecord>,
     ) -> InspectDocument {
         let characteristics: Vec<CharacteristicRecord> =
-            plan.specs.iter().zip(&found.values).map(|(s, v)| characteristic(plan, found, s, v)).collect();
+            (0..plan.specs.len()).map(|n| characteristic(plan, found, n)).collect();
         let (deviation, scale) = deviation(found, &inputs).unzip();
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         InspectDocument {
@@ -156,7 +157,18 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         rms: fit.map(|f| f.residuals.rms),
         reason: taken.element.as_ref().err().cloned(),
         extract,
+        left_out: left_out_record(taken),
     }
+}
+
+fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
+    let (others, beyond) = (taken.others.points.len() as u64, taken.left_out);
+    (others > 0 || beyond.is_some()).then(|| LeftOutRecord {
+        others,
+        beyond: beyond.map_or(0, |b| b.points),
+        farthest: beyond.map(|b| b.farthest),
+        on_reference: beyond.map_or(taken.others.on_reference, |b| b.on_reference),
+    })
 }
 
 /// How near facets had to be to the nominal.
@@ -166,12 +178,8 @@ fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> 
     Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }
 
-fn characteristic(
-    plan: &Plan,
-    found: &Inspection,
-    spec: &Spec,
-    value: &Result<Value, String>,
-) -> CharacteristicRecord {
+fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRecord {
+    let (spec, value) = (&plan.specs[n], &found.values[n]);
     let id = |n: &usize| plan.features[*n].id.clone();
     let rule = plan.decision.rule;
     let measured = value.as_ref().ok();
@@ -189,7 +197,13 @@ fn characteristic(
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
-    let left_out = left_out(found, spec);
+    let judged = |value: &Result<Value, String>| {
+        value.as_ref().map_or(Verdict::NotMeasured, |v| {
+            verdict(v.value, &spec.limits.widened(v.bonus), rule, spec.uncertainty)
+        })
+    };
+    let with_others = found.with_others[n].as_ref();
+    let told = left_out::told(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
     CharacteristicRecord {
         id: spec.id.clone(),
         kind: spec.kind.word().into(),
@@ -206,37 +220,17 @@ fn characteristic(
         unit: spec.unit().into(),
         uncertainty: spec.uncertainty,
         decision_rule: rule.word().into(),
-        verdict: measured.map_or(Verdict::NotMeasured, |v| {
-            let found = verdict(v.value, &limits, rule, spec.uncertainty);
-            if found == Verdict::Pass && !left_out.is_empty() { Verdict::Undecided } else { found }
-        }),
+        verdict: told.verdict,
         reason: value.as_ref().err().cloned(),
         utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
         parts: measured
             .map_or(BTreeMap::new(), |v| v.parts.iter().map(|(k, x)| (k.to_string(), *x)).collect()),
-        notes: measured.map_or(vec![], |v| v.notes.iter().cloned().chain(left_out).collect()),
+        value_with_others: with_others.and_then(|v| Some(v.as_ref().ok()?.value)),
+        notes: measured.map_or(vec![], |v| v.notes.clone()).into_iter().chain(told.notes).collect(),
         standard: spec.kind.standard().into(),
     }
-}
-
-/// A note for each feature and datum of a characteristic that leaves out points which lie where the reference has it: nothing is
-/// proven by the others alone.
-fn left_out(found: &Inspection, spec: &Spec) -> Vec<String> {
-    let datums = spec.datums.iter().flat_map(|d| &d.features);
-    let mut numbers: Vec<usize> = spec.features.iter().chain(datums).copied().collect();
-    numbers.sort_unstable();
-    numbers.dedup();
-    let note = |n: usize| {
-        let (taken, out) = (&found.features[n], found.features[n].left_out?);
-        Some(format!(
-            "feature \"{}\": {} measured points, up to {:.3} mm off, lie where the reference has it and are left out as farther \
-             than its extract distance of {:.3} mm; give a larger one to judge them",
-            taken.id, out.points, out.farthest, out.limit
-        ))
-    };
-    numbers.into_iter().filter_map(note).collect()
 }
 
 /// What modifies a characteristic, as words.

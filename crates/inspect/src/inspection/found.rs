@@ -12,6 +12,9 @@ pub struct Inspection {
     pub features: Vec<Taken>,
     /// The values of the characteristics, in the plan's order, or why there are none.
     pub values: Vec<Result<Value, String>>,
+    /// What each value would be with the points of its features and datums that were left out as of other surfaces; `None`
+    /// where there are none.
+    pub with_others: Vec<Option<Result<Value, String>>>,
     /// The measured data where they were evaluated: aligned.
     pub measured: Option<Mesh>,
     /// What took them there.

@@ -1,20 +1,33 @@
 //! Measured points that a feature leaves out as too far off, although they lie where the reference has it.
 //!
 //! A dent deeper than the extract distance is no part of its feature, and the feature is the better for it. Where the
-//! reference is at hand, such points are told: those whose nearest place on it belongs to the feature.
+//! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Of a cloud without a
+//! reference those are told that lie over places of the feature where nothing of it was measured, or among its points.
 
-use super::belonging::Belonging;
+use super::belonging::{Belonging, ELSEWHERE};
 use super::data::{Data, Stop};
+use super::found::Inspection;
 use super::seed::Seeded;
-use crate::characteristic::{LeftOut, Taken};
-use crate::plan::Plan;
+use crate::characteristic::{LeftOut, Taken, Value};
+use crate::plan::{Plan, Spec};
+use crate::results::Verdict;
 use std::collections::BTreeMap;
-use trueness_geom::feature::Nominal;
+use trueness_geom::feature::{Nearness, Nominal, in_cloud};
 use trueness_geom::progress::Progress;
+use trueness_geom::space::{Aabb, Point, Vector, minus, times};
+use trueness_geom::spatial::neighbours::{Neighbour, PointTree};
 
-/// Tells the features which points they leave out. Without a reference there is nothing to tell.
+/// A place of the feature was not measured if no point is within so many mean spacings of it: the chance of that is one in a
+/// million where points lie at random.
+const GAP: f64 = 2.1;
+/// A point beyond reach is a spike of the feature if so many of its points are nearer
+const OWN: usize = 6;
+/// than so many others beyond reach.
+const OTHERS: usize = 3;
+
+/// Tells the features which points they leave out. Of a mesh without a reference there is nothing to tell.
 ///
-/// Cost: one look at each measured point for each feature.
+/// Cost: one look at each measured point for each feature, and a search for those over or below it.
 pub(super) fn tell(
     plan: &Plan,
     data: &Data,
@@ -23,7 +36,6 @@ pub(super) fn tell(
     features: &mut [Taken],
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let Some(belonging) = belonging else { return Ok(()) };
     let of = |n: usize| seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref());
     let sought: Vec<usize> = (0..plan.features.len())
         .filter(|n| of(*n).is_some_and(|nominal| !matches!(nominal, Nominal::Edge { .. })))
@@ -32,24 +44,134 @@ pub(super) fn tell(
     for n in sought {
         let Some(nominal) = of(n) else { continue };
         let near = plan.features[n].extract.near(nominal);
-        let off = belonging.beyond(nominal, &near, progress);
+        let off = match (belonging, &data.measured) {
+            (Some(belonging), _) => belonging.beyond(nominal, &near, progress),
+            (None, Some(cloud)) if cloud.faces.is_empty() => {
+                over_gaps(&cloud.positions, &features[n].points, nominal, &near)
+            }
+            _ => vec![],
+        };
         if !off.is_empty() {
             let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-            features[n].left_out = Some(LeftOut { points: off.len() as u64, farthest, limit: near.distance });
+            let (points, on_reference) = (off.len() as u64, belonging.is_some());
+            features[n].left_out = Some(LeftOut { points, farthest, limit: near.distance, on_reference });
         }
     }
     if progress.cancelled() { Err(Stop::Cancelled) } else { Ok(()) }
+}
+
+/// How far off the points of a cloud are that lie beyond the reach of a nominal, up to a tenth of the size of the cloud, over
+/// places of it where nothing was measured or among its points, mm.
+fn over_gaps(cloud: &[Point], taken: &[Point], nominal: &Nominal, near: &Nearness) -> Vec<f64> {
+    let (Some(surface), Some(area)) = (nominal.surface(), nominal.area()) else { return vec![] };
+    let farthest = ELSEWHERE * Aabb::of(cloud).diagonal();
+    let wide = Nearness { distance: farthest.max(near.distance), margin: near.margin.max(0.0), ..*near };
+    let Ok(found) = in_cloud(cloud, nominal, &wide) else { return vec![] };
+    let height = |p: u32| cloud.get(p as usize).and_then(|p| Some((*p, surface.distance(*p)?)));
+    let far: Vec<(Point, f64, Vector)> = found
+        .points
+        .iter()
+        .filter_map(|p| height(*p))
+        .filter(|(_, (off, _))| off.abs() > near.distance)
+        .map(|(p, (off, way))| (p, off, way))
+        .collect();
+    if far.is_empty() {
+        return vec![];
+    }
+    let own = PointTree::new(taken);
+    let others: Vec<Point> = far.iter().map(|f| f.0).collect();
+    let beyond = PointTree::new(&others);
+    let gap = GAP * (area / taken.len() as f64).sqrt();
+    let is_told = |n: usize, (p, off, way): &(Point, f64, Vector)| {
+        let foot = minus(*p, times(*off, *way));
+        let is_gap = own.nearest(&foot).is_none_or(|(square, _)| square > gap * gap);
+        let last = |n: Vec<Neighbour>, count: usize| n.get(count - 1).map_or(f64::INFINITY, |n| n.0);
+        let reach = last(own.k_nearest(p, OWN, None), OWN);
+        is_gap || last(beyond.k_nearest(p, OTHERS, Some(n as u32)), OTHERS) > reach
+    };
+    far.iter().enumerate().filter(|(n, f)| is_told(*n, f)).map(|(_, f)| f.1.abs()).collect()
+}
+
+/// A verdict, and what is to be said of the points that were left out.
+pub(super) struct Told {
+    pub verdict: Verdict,
+    pub notes: Vec<String>,
+}
+
+/// The verdict of a characteristic that was reached without the points which its features, its datums and what they are derived
+/// from leave out; `with_others` is the value, and its verdict, with those that were taken for points of other surfaces.
+///
+/// What lies where the feature is and was not judged leaves no pass: nothing is proven by the others alone. Nor does what was
+/// taken for other surfaces by nothing but the cloud itself, if it would change the verdict.
+pub(super) fn told(
+    plan: &Plan,
+    found: &Inspection,
+    spec: &Spec,
+    judged: Verdict,
+    with_others: Option<(&Result<Value, String>, Verdict)>,
+) -> Told {
+    let mut told = Told { verdict: judged, notes: vec![] };
+    if judged == Verdict::NotMeasured {
+        return told;
+    }
+    let features: Vec<&Taken> =
+        spec.numbers(&plan.features).into_iter().map(|n| &found.features[n]).collect();
+    for (taken, out) in features.iter().filter_map(|t| Some((t, t.left_out?))) {
+        let where_to = if out.on_reference {
+            "lie where the reference has it"
+        } else {
+            "lie where nothing else of it was measured"
+        };
+        told.notes.push(format!(
+            "feature \"{}\": {} measured points, up to {:.3} mm off, {where_to} and are left out as farther than its extract \
+             distance of {:.3} mm; give a larger one to judge them",
+            taken.id, out.points, out.farthest, out.limit
+        ));
+        if judged == Verdict::Pass {
+            told.verdict = Verdict::Undecided;
+        }
+    }
+    let Some((value, verdict)) = with_others else { return told };
+    let mut known = true;
+    for taken in features.iter().filter(|t| !t.others.points.is_empty()) {
+        let count = taken.others.points.len();
+        let why = if taken.others.on_reference {
+            "are of other surfaces of the reference"
+        } else {
+            "face another way and go on beyond it, as walls and bores do"
+        };
+        known &= taken.others.on_reference;
+        told.notes.push(format!(
+            "feature \"{}\": {count} points within its reach {why} and are left out",
+            taken.id
+        ));
+    }
+    if verdict != judged {
+        let value = match value {
+            Ok(v) => format!("the value would be {}: {}", round(v.value), verdict.word()),
+            Err(why) => format!("there would be no value: {why}"),
+        };
+        let remedy = if known { "" } else { "; a reference, or a margin that keeps them out, decides it" };
+        told.notes.push(format!("with the points of other surfaces {value}{remedy}"));
+        if !known {
+            told.verdict = Verdict::Undecided;
+        }
+    }
+    told
+}
+
+/// To the micrometre.
+fn round(x: f64) -> f64 {
+    (1e6 * x).round() / 1e6
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::inspection::run;
-    use crate::results::Verdict;
     use crate::results::inspect::{InspectDocument, PlanRecord};
     use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
-    use trueness_geom::space::Point;
 
     /// A floor of squares, 20 by 20.
     fn floor() -> Mesh {

@@ -12,16 +12,19 @@ mod seed;
 mod take;
 mod view;
 
-pub use crate::characteristic::{Element, LeftOut, Taken};
+#[cfg(test)]
+mod tests;
+
+pub use crate::characteristic::{Element, LeftOut, Others, Taken};
 pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints, Stop};
 pub use deviation::Deviations;
 pub use found::Inspection;
 pub use view::View;
 
-use crate::characteristic::{Measuring, Missing};
+use crate::characteristic::{Measuring, Missing, Value};
 use crate::compare::plausibility;
-use crate::plan::Plan;
+use crate::plan::{Plan, Spec};
 use crate::results::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
@@ -57,23 +60,20 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let mut features = take::features(plan, &data, &seeds, belonging.as_ref(), progress)?;
     left_out::tell(plan, &data, &seeds, belonging.as_ref(), &mut features, progress)?;
     drop(belonging);
-    let mut values = Vec::with_capacity(plan.specs.len());
-    for spec in &plan.specs {
-        let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
-        let own = of(&spec.features);
-        let datums: Vec<Vec<&Taken>> = spec.datums.iter().map(|d| of(&d.features)).collect();
-        let measuring = Measuring { spec, features: &own, datums: &datums, progress };
-        values.push(match spec.kind.measure(&measuring) {
-            Ok(value) if value.value.is_finite() => Ok(value),
-            Ok(_) => Err("the value is not a finite number".into()),
-            Err(Missing::NotMeasured(reason)) => Err(reason),
-            Err(Missing::Cancelled) => return Err(Stop::Cancelled),
-            Err(Missing::Impossible(what)) => {
-                let what = format!("characteristic \"{}\": {what}", spec.id);
-                return Err(Stop::Plan { span: spec.span.clone(), what });
-            }
-        });
-    }
+    let measured = |spec: &Spec, features: &[Taken]| measured(spec, features, progress);
+    let values = plan.specs.iter().map(|spec| measured(spec, &features)).collect::<Result<Vec<_>, Stop>>()?;
+    // What the values would be with all that was left out as of other surfaces.
+    let whole = take::whole(plan, &features, progress)?;
+    let concerned =
+        |spec: &Spec| spec.numbers(&plan.features).into_iter().any(|n| !features[n].others.points.is_empty());
+    let with_others = plan
+        .specs
+        .iter()
+        .map(|spec| match &whole {
+            Some(whole) if concerned(spec) => measured(spec, whole).map(Some),
+            _ => Ok(None),
+        })
+        .collect::<Result<Vec<_>, Stop>>()?;
     if progress.cancelled() {
         return Err(Stop::Cancelled);
     }
@@ -81,7 +81,25 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         Some(asked) => Some(deviation::deviations(asked, &mut data, progress)?),
         None => None,
     };
-    Ok(Inspection { features, values, measured: data.measured, alignment, doubts, deviations })
+    Ok(Inspection { features, values, with_others, measured: data.measured, alignment, doubts, deviations })
+}
+
+/// The value of a characteristic, or why there is none.
+fn measured(spec: &Spec, features: &[Taken], progress: &dyn Progress) -> Result<Result<Value, String>, Stop> {
+    let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
+    let own = of(&spec.features);
+    let datums: Vec<Vec<&Taken>> = spec.datums.iter().map(|d| of(&d.features)).collect();
+    let measuring = Measuring { spec, features: &own, datums: &datums, progress };
+    match spec.kind.measure(&measuring) {
+        Ok(value) if value.value.is_finite() => Ok(Ok(value)),
+        Ok(_) => Ok(Err("the value is not a finite number".into())),
+        Err(Missing::NotMeasured(reason)) => Ok(Err(reason)),
+        Err(Missing::Cancelled) => Err(Stop::Cancelled),
+        Err(Missing::Impossible(what)) => {
+            let what = format!("characteristic \"{}\": {what}", spec.id);
+            Err(Stop::Plan { span: spec.span.clone(), what })
+        }
+    }
 }
 
 /// Whether the aligned data lie where the reference does, or where the features should be if there is no reference. Of places

@@ -3,18 +3,19 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::seed::Seeded;
-use crate::characteristic::{Element, Taken};
+use crate::characteristic::{Element, Others, Taken};
 use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, Found, Nominal, in_cloud, in_mesh};
+use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, in_cloud, in_mesh, pieces_beside};
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, Vector, cross, minus, norm, plus, times};
+use trueness_geom::spatial::neighbours::PointTree;
 use trueness_geom::zone::datum::{self, Datum, mean};
 
 /// All features of the plan, in its order.
@@ -32,6 +33,9 @@ pub(super) fn features(
         }
         _ => None,
     };
+    let cloud = data.measured.as_ref().filter(|mesh| sought && mesh.faces.is_empty());
+    let cloud = cloud.map(|mesh| PointTree::new(&mesh.positions));
+    let search = Search { tree: tree.as_ref(), cloud: cloud.as_ref(), belonging };
     let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
     for (number, feature) in plan.features.iter().enumerate() {
         if progress.cancelled() {
@@ -48,13 +52,74 @@ pub(super) fn features(
                 associated(taken, feature, progress)?
             }
             Source::Nominal | Source::Seed(_) => {
-                let found = found(feature, seeds.get(&number), data, (tree.as_ref(), belonging), progress)?;
+                let found = found(feature, seeds.get(&number), data, &search, progress)?;
                 associated(found, feature, progress)?
             }
         };
         all.push(taken);
     }
     Ok(all)
+}
+
+/// The features with the points that were left out as of other surfaces; `None` where there are none.
+pub(super) fn whole(
+    plan: &Plan,
+    features: &[Taken],
+    progress: &dyn Progress,
+) -> Result<Option<Vec<Taken>>, Stop> {
+    if features.iter().all(|f| f.others.points.is_empty()) {
+        return Ok(None);
+    }
+    let mut all: Vec<Taken> = Vec::with_capacity(features.len());
+    for (feature, taken) in plan.features.iter().zip(features) {
+        all.push(match &feature.source {
+            Source::Derived { how, of: [a, b] } => derived(feature, *how, &all[*a], &all[*b]),
+            _ if taken.others.points.is_empty() => taken.clone(),
+            _ => {
+                let mut taken = taken.clone();
+                taken.points.append(&mut taken.others.points);
+                taken.areas = vec![1.0; taken.points.len()];
+                associated(taken, feature, progress)?
+            }
+        });
+    }
+    Ok(Some(all))
+}
+
+/// What features are sought with.
+struct Search<'a> {
+    /// Of a mesh.
+    tree: Option<&'a Tree>,
+    /// Of a cloud.
+    cloud: Option<&'a PointTree>,
+    belonging: Option<&'a Belonging<'a>>,
+}
+
+/// Takes the points of other surfaces out of those of a cloud near a nominal.
+fn others(
+    points: &mut Vec<u32>,
+    measured: &[Point],
+    (cloud, belonging): (&PointTree, Option<&Belonging>),
+    (nominal, near): (&Nominal, &Nearness),
+    progress: &dyn Progress,
+) -> Result<Others, Stop> {
+    let mut out = match belonging {
+        Some(belonging) => belonging.keep(points, nominal, near, progress)?,
+        None => vec![],
+    };
+    let beside = pieces_beside(measured, cloud, points, nominal, near, progress);
+    let mut pieces = beside.map_err(|e| match e {
+        FeatureError::Cancelled => Stop::Cancelled,
+        e => Stop::Mesh(e.to_string()),
+    })?;
+    if let Some(belonging) = belonging {
+        pieces = belonging.known(pieces, nominal, near, progress)?;
+    }
+    out.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
+    out.sort_unstable();
+    points.retain(|p| out.binary_search(p).is_err());
+    let points = out.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
+    Ok(Others { points, on_reference: belonging.is_some() })
 }
 
 /// The direction out of the material that a nominal has.
@@ -81,6 +146,7 @@ fn bare(feature: &Feature) -> Taken {
         nominal: feature.nominal.clone(),
         coverage: None,
         left_out: None,
+        others: Others::default(),
         element: Err("it was not measured".into()),
     }
 }
@@ -90,7 +156,7 @@ fn found(
     feature: &Feature,
     seeded: Option<&Seeded>,
     data: &Data,
-    (tree, belonging): (Option<&Tree>, Option<&Belonging>),
+    search: &Search,
     progress: &dyn Progress,
 ) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
@@ -100,7 +166,7 @@ fn found(
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
     let near = feature.extract.near(&nominal);
-    let found = match tree {
+    let found = match search.tree {
         Some(tree) => in_mesh(mesh, tree, &nominal, &near, progress),
         None => in_cloud(&mesh.positions, &nominal, &near),
     };
@@ -108,13 +174,14 @@ fn found(
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     })?;
-    if let Some(belonging) = belonging.filter(|_| tree.is_none()) {
-        belonging.keep(&mut found.points, &nominal, &near, progress)?;
+    if let Some(cloud) = search.cloud {
+        let with = (cloud, search.belonging);
+        taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;
     }
     taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
     taken.areas = areas(mesh, &found);
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
-    taken.coverage = whole.filter(|_| tree.is_some()).map(|whole| found.area / whole);
+    taken.coverage = whole.filter(|_| search.tree.is_some()).map(|whole| found.area / whole);
     taken.facets = found.facets;
     Ok(taken)
 }

@@ -118,6 +118,22 @@ pub struct FeatureRecord {
     /// How near facets had to be to the nominal feature; absent where it was not sought by it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub extract: Option<ExtractRecord>,
+    /// Measured points that it leaves out; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub left_out: Option<LeftOutRecord>,
+}
+
+/// Measured points that a feature leaves out.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct LeftOutRecord {
+    /// Points within its reach that were taken for those of other surfaces: walls, bores, fillets.
+    pub others: u64,
+    /// Points that lie where the feature is, but farther off than its extract distance.
+    pub beyond: u64,
+    /// How far off the farthest of these is; null where there are none.
+    pub farthest: Option<f64>,
+    /// Whether a reference has the other surfaces, and the feature, there. Without one the points alone tell.
+    pub on_reference: bool,
 }
 
 /// How near facets had to be to the nominal feature.
@@ -180,6 +196,9 @@ pub struct CharacteristicRecord {
     pub anchor: Option<[f64; 3]>,
     /// Further numbers.
     pub parts: BTreeMap<String, f64>,
+    /// The value with the points of its features and datums that were taken for those of other surfaces; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub value_with_others: Option<f64>,
     /// What the reader should know.
     pub notes: Vec<String>,
     /// The standard and clause that define it.
