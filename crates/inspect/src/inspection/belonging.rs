@@ -137,12 +137,13 @@ impl<'a> Belonging<'a> {
         for piece in &pieces {
             let places: Vec<Point> = piece.points.iter().map(|p| self.measured[p.0 as usize]).collect();
             let hits = nearest(&tree, &places, reach, progress)?;
-            let is_there = |((place, (_, facing)), (face, _)): ((&Point, &(u32, Vector)), &(u32, f64))| {
-                let other = normal(&others, *face).map(|n| angle(n, *facing));
-                let nominal = surface.distance(*place).map(|(_, way)| angle(way, *facing));
+            let is_there = |n: usize| {
+                let facing = piece.points[n].1;
+                let other = normal(&others, hits[n].0).map(|n| angle(n, facing));
+                let nominal = surface.distance(places[n]).map(|(_, way)| angle(way, facing));
                 other.zip(nominal).is_some_and(|(other, nominal)| 2.0 * other <= nominal)
             };
-            let there = places.iter().zip(&piece.points).zip(&hits).filter(|p| is_there(*p)).count();
+            let there = (0..places.len()).filter(|n| is_there(*n)).count();
             known.push(there as f64 >= MOST * places.len() as f64);
         }
         let mut known = known.into_iter();
