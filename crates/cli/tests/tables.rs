@@ -95,7 +95,7 @@ fn coordinates_below_the_least_are_refused_as_those_beyond_the_greatest() {
         );
     }
     // Every other command says the same.
-    let least = ["fit --shape plane", "segment", "curvature", "surface", "section --plane z=0"];
+    let least = ["fit --shape plane", "segment", "curvature", "surface", "section --plane 0,0,1,0"];
     for words in least {
         let points = f.write("tiny.xyz", "0 0 2\n1e-55 0 2\n0 3 2\n4 1 2\n5 5 2\n");
         let mut words: Vec<&str> = words.split(' ').collect();
@@ -112,7 +112,7 @@ fn coordinates_below_the_least_are_refused_as_those_beyond_the_greatest() {
         vec!["repair", mesh, "-o", out.to_str().unwrap()],
         vec!["segment", mesh],
         vec!["curvature", mesh],
-        vec!["section", mesh, "--plane", "z=0.5"],
+        vec!["section", mesh, "--plane", "0,0,1,0.5"],
     ] {
         let answer = trueness(&words);
         let said = stderr(&answer);

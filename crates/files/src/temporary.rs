@@ -135,7 +135,7 @@ pub fn remove_unfinished(wait: bool) {
 /// What runs that were killed left in a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
-    /// Files that nobody wrote any longer; they are gone now. Empty ones are not told of.
+    /// Files that nobody wrote any longer; they are gone now.
     pub removed: Vec<PathBuf>,
     /// Files of which that cannot be known, as the file system has no locks; they are still there.
     pub kept: Vec<PathBuf>,
@@ -163,11 +163,13 @@ fn leftovers(folder: &Path, own: &[PathBuf]) -> Leftovers {
         let Ok(file) = File::open(&path) else { continue };
         match lock(&file) {
             Lock::Own => {
-                // One that is empty may have been made just now, by a run that has not come to lock it: that run makes
-                // itself another. It holds nothing, so there is nothing to tell either.
-                let empty = file.metadata().is_ok_and(|m| m.len() == 0);
-                if fs::remove_file(&path).is_ok() && !empty {
-                    found.removed.push(path);
+                // One that is empty may have been made just now, by a run that has not come to lock it.
+                let young = file.metadata().is_ok_and(|m| m.len() == 0);
+                match if young { writer(&path) } else { Writer::Gone } {
+                    Writer::Gone if fs::remove_file(&path).is_ok() => found.removed.push(path),
+                    // It holds nothing, and whoever made it makes itself another: nothing to tell.
+                    Writer::Unknown => drop(fs::remove_file(&path)),
+                    Writer::Gone | Writer::There => {}
                 }
             }
             Lock::Unknown => found.kept.push(path),
@@ -179,12 +181,40 @@ fn leftovers(folder: &Path, own: &[PathBuf]) -> Leftovers {
     found
 }
 
+/// The run whose number a name has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Writer {
+    /// A process has this number; it may be another one.
+    There,
+    /// No process here has it.
+    Gone,
+    /// The system does not tell.
+    Unknown,
+}
+
+/// Whether there is a process of the number in the name of a file. Of another machine's nothing is known here, but the moment
+/// between the making of a file and its lock is short.
+fn writer(path: &Path) -> Writer {
+    let processes = Path::new("/proc");
+    let name = path.file_name().map(|n| n.to_string_lossy());
+    match name.as_deref().and_then(process).filter(|_| processes.join("self").exists()) {
+        None => Writer::Unknown,
+        Some(number) if processes.join(number).exists() => Writer::There,
+        Some(_) => Writer::Gone,
+    }
+}
+
+/// The number of the process in a name that [`new_name`] makes.
+fn process(name: &str) -> Option<&str> {
+    let (_, marks) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
+    let (process, n) = marks.split_once('-')?;
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    (name.starts_with('.') && number(process) && number(n)).then_some(process)
+}
+
 /// Whether a name is one that [`new_name`] makes.
 fn is_ours(name: &str) -> bool {
-    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let marks = name.strip_suffix(ENDING).and_then(|rest| rest.rsplit_once('.')).map(|(_, marks)| marks);
-    name.starts_with('.')
-        && marks.and_then(|m| m.split_once('-')).is_some_and(|(process, n)| number(process) && number(n))
+    process(name).is_some()
 }
 
 #[cfg(test)]
@@ -237,11 +267,15 @@ mod tests {
             done.store(true, Relaxed);
         });
         assert_eq!(*said.lock().unwrap(), Vec::<PathBuf>::new());
-        // What was made and not yet locked is empty: it goes without a word.
-        let born = folder.path().join(".out.csv.3-0.trueness.part");
+        // What was made and not yet locked is empty: it stays while its run is there. No process has the other number.
+        let name = |process: u32| folder.path().join(format!(".out.csv.{process}-77.trueness.part"));
+        let (born, left) = (name(std::process::id()), name(999_999_999));
         fs::write(&born, "").unwrap();
-        assert_eq!(leftovers(folder.path(), &[]), Leftovers::default());
-        assert!(!born.exists());
+        fs::write(&left, "").unwrap();
+        if Path::new("/proc/self").exists() {
+            assert_eq!(leftovers(folder.path(), &[]).removed, [left]);
+            assert!(born.exists());
+        }
     }
 
     #[cfg(unix)]

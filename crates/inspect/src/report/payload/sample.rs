@@ -18,7 +18,7 @@ const CELLS: usize = 4;
 /// One of so many cells is taken.
 const EVERY: usize = 13;
 /// So many times its share a part takes, as it has rims.
-const RIMS: f64 = 1.05;
+const RIMS: f64 = 1.065;
 /// Of what would just fit, so that it does.
 const SAFELY: f64 = 0.97;
 /// So many times the room, by what is usual, and it is certain that all fits, or that it does not.
