@@ -91,6 +91,25 @@ fn what_is_closed_but_another_part_is_said() {
     }
 }
 
+/// A flake beside a body is no part of it; a larger sheet is, and the advice that is given closes or keeps it.
+#[test]
+fn a_loose_sheet_that_was_removed_is_said() {
+    let f = Folder::new();
+    for (size, changed) in [(0.1, false), (0.5, true)] {
+        let (far, top) = (3.0 + size, size);
+        let corners = format!("3 0 0\n{far} 0 0\n{far} {top} 0\n3 {top} {size}\n");
+        let text = CUBE.replace("8 12 0", "12 14 0").replace("1 1 1\n", &format!("1 1 1\n{corners}"));
+        let mesh = f.write("m.off", format!("{text}3 8 9 10\n3 8 10 11\n").as_bytes());
+        let out = f.file("o.ply");
+        let o = trueness(repair(&mesh, &out, &[]));
+        assert_eq!(status(&o), i32::from(changed), "{size}: {}", stdout(&o));
+        assert_eq!(stdout(&o).contains("CLOSED, BUT CHANGED"), changed, "{size}: {}", stdout(&o));
+        assert_eq!(stdout(&o).contains("--all-holes closes them"), changed, "{size}: {}", stdout(&o));
+        let o = trueness(repair(&mesh, &out, &["--all-holes"]));
+        assert_eq!(status(&o), 0, "{size}: {}", stdout(&o));
+    }
+}
+
 /// Facets around one edge: a body made of two of them is no mended book, however sound it is.
 /// Bodies that touch in a part of a face become one: the contact vanishes, and what bounded the bodies stays where it was.
 #[test]

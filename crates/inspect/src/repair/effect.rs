@@ -38,21 +38,27 @@ pub(super) fn record(
     }
 }
 
-/// Share of the area that loose sheets may have in all without being missed.
-const TRIFLE: f64 = 0.1;
+/// Share of the area that fins may have in all without being missed.
+const FINS: f64 = 0.1;
+/// And loose sheets: flakes that hang on nothing. Parts of a model that are open have more.
+const SHEETS: f64 = 0.01;
 
 /// The largest distance that counts. Surface inside a body bounds nothing and may go. A hole has no surface: what fills it is
-/// far from the old one, and what hung at its rim may go; but what was torn out because it crossed counts, and sheets that
+/// far from the old one, and what hung at its rim may go; but what was torn out because it crossed counts, and fins and sheets that
 /// were removed count where together they were more than a trifle.
 fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
     let deviation = deviation?;
     match repaired.effect.enclosed {
         Ok(_) => repaired.effect.surface.map(|x| x.max(deviation.back.max)),
         Err(NotEnclosed::Open) => {
-            let by = |steps: &'static [&str]| repaired.changes.iter().filter(|c| steps.contains(&c.step));
-            let removed: f64 = by(&["fins", "scraps"]).map(|c| c.size).sum();
-            let torn = by(&["self_intersections"]).next().is_some();
-            (torn || removed > TRIFLE * repaired.before.properties.area).then_some(deviation.there.max)
+            let removed = |step: &str| -> f64 {
+                let share = |size: f64| size / repaired.before.properties.area;
+                repaired.changes.iter().filter(|c| c.step == step).map(|c| share(c.size)).sum()
+            };
+            let torn = repaired.changes.iter().any(|c| c.step == "self_intersections");
+            let lost = repaired.effect.surface.filter(|_| torn || removed("scraps") > SHEETS);
+            let fins = (removed("fins") > FINS).then_some(deviation.there.max);
+            [lost, fins].into_iter().flatten().reduce(f64::max)
         }
         Err(_) => Some(deviation.there.max.max(deviation.back.max)),
     }

@@ -148,7 +148,8 @@ pub struct Effect {
     /// `null` where either is not known, and where the mesh is still not sound.
     pub volume_change: Option<f64>,
     /// Largest distance that counts, mm: from the surface that bounded the volume to the new one, and from the new surface
-    /// to the old one. Where no volume was enclosed, of what was torn out to the new surface; `null` where nothing was.
+    /// to the old one. Where no volume was enclosed, of what was torn out, and of more than a trifle of fins and loose sheets, to the new
+    /// surface; `null` where nothing was.
     pub surface: Option<f64>,
     /// The limits as a share of the diagonal and of the volume.
     pub limit: f64,
