@@ -24,7 +24,7 @@ pub fn write_all(folder: &Path) {
     written(folder, "scratch", page(&scratched_cube(30_000), &cube(20.0), 0.1));
     let few: Vec<Point> = dent.iter().step_by(25).copied().collect();
     written(folder, "few", page(&few, &cube(20.0), 0.1));
-    written(folder, "million", page(&a_million(), &fine_cube(170), 0.1));
+    written(folder, "dense", page(&a_million(), &fine_cube(170), 0.1));
     written(folder, "bunny", page(&bunny_scans(), &bunny_model(), 0.5));
     // Coarser than the points, but not far coarser: the map is on the reference.
     written(folder, "sphere_points", page(&uv_sphere(200).positions, &uv_sphere(110), 0.05));

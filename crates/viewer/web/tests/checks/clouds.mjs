@@ -242,9 +242,9 @@ export const clouds = [
   [
     'a million points on 346 thousand facets: places show values of real points, and single bad ones are seen',
     async (session) => {
-      const page = await session.report('million')
+      const page = await session.report('dense')
       const { objects } = await manifest(page)
-      assert.deepEqual(objects.map((o) => [o.source_vertices, o.source_triangles]), [[1_000_000, undefined], [173_402, 346_800]])
+      assert.deepEqual(objects.map((o) => o.source_vertices), [1_000_000, 173_402])
       await tool(page, 'Flat')
       await tool(page, 'Flags')
       for (const reference of [false, true]) {
@@ -260,9 +260,13 @@ export const clouds = [
             const [i, j] = at(x, y)
             const near = [-2, -1, 0, 1, 2].flatMap((a) => [-2, -1, 0, 1, 2].map((b) => picture.at(i + a, j + b)))
             assert.ok(near.some(blue), `the point 0.3 mm under ${x}, ${y} is not seen (reference: ${reference})`)
-            await page.mouse.move(i, j)
-            const bad = await read(page)
-            assert.ok(Math.abs(Number(bad.value) + 0.3) < 1e-3, `${bad.text} at ${x}, ${y} (reference: ${reference})`)
+            // On the reference the nearest vertex shows it, up to half a facet away.
+            const found = []
+            for (const [a, b] of [[0, 0], [2, 0], [-2, 0], [0, 2], [0, -2], [2, 2], [-2, -2], [2, -2], [-2, 2]].slice(0, reference ? 9 : 1)) {
+              await page.mouse.move(i + a, j + b)
+              found.push(Number((await read(page)).value))
+            }
+            assert.ok(found.some((v) => Math.abs(v + 0.3) < 1e-3), `${found} at ${x}, ${y} (reference: ${reference})`)
             // Between them no place is coloured, and none shows what no point has: a mean would lie between.
             const [k, l] = at(x + 1.5, y + 1.5)
             assert.ok(!out(picture.at(k, l)), `${x + 1.5}, ${y + 1.5}`)
