@@ -85,6 +85,7 @@ fn what_is_closed_but_another_part_is_said() {
                 "{}",
                 stdout(&o)
             );
+            assert_eq!(stdout(&o).contains("What looks inwards"), turned > 0.0, "{name}: {}", stdout(&o));
             let o = trueness(repair(&mesh, &out, &["--max-change", "1000"]));
             assert_eq!(status(&o), 0, "{name}: {}", stdout(&o));
         }

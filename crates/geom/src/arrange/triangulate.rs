@@ -47,12 +47,12 @@ fn previous(e: u32) -> u32 {
 }
 
 /// Triangulates the hull of points `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty
-/// where all points lie on a line; `None` if the edges do cross.
+/// where all points lie on a line; `None` if the edges do cross, or what the plane says contradicts itself.
 pub(super) fn triangulate(n: u32, edges: &[[u32; 2]], plane: &impl Plane) -> Option<Triangles> {
     let none = vec![NONE; n as usize];
     let (out, hull, before) = (none.clone(), none.clone(), none);
     let mut t = Triangles { from: vec![], twin: vec![], fixed: vec![], out, hull, before };
-    t.sweep(n, plane);
+    t.sweep(n, plane)?;
     if t.from.is_empty() {
         return Some(t);
     }
@@ -92,12 +92,12 @@ impl Triangles {
         self.from[previous(e) as usize]
     }
 
-    fn sweep(&mut self, n: u32, plane: &impl Plane) {
+    fn sweep(&mut self, n: u32, plane: &impl Plane) -> Option<()> {
         let mut order: Vec<u32> = (0..n).collect();
         order.sort_unstable_by(|a, b| plane.compare(*a, *b));
         let Some(first) = (2..order.len()).find(|&i| plane.orient([order[0], order[1], order[i]]) != 0)
         else {
-            return;
+            return Some(());
         };
         let (apex, side) = (order[first], plane.orient([order[0], order[1], order[first]]));
         // A fan over the points on the first line.
@@ -120,21 +120,34 @@ impl Triangles {
         }
         let mut last = apex;
         for &p in &order[first + 1..] {
-            self.join(p, last, plane);
+            self.join(p, last, plane)?;
             last = p;
         }
+        Some(())
     }
 
-    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees.
-    fn join(&mut self, p: u32, last: u32, plane: &impl Plane) {
+    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees. `None` where it sees all of the hull, or
+    /// where that is no ring: points that are taken to lie on a line but do not may be told so.
+    fn join(&mut self, p: u32, last: u32, plane: &impl Plane) -> Option<()> {
         let sees = |a: u32, b: u32| plane.orient([a, b, p]) < 0;
+        let mut left = self.out.len();
         let mut start = last;
-        while sees(self.before[start as usize], start) {
-            start = self.before[start as usize];
+        loop {
+            let before = self.before[start as usize];
+            if before == NONE || left == 0 {
+                return None;
+            }
+            if !sees(before, start) {
+                break;
+            }
+            (start, left) = (before, left - 1);
         }
         let (mut at, mut before, mut new) = (start, NONE, vec![]);
         loop {
             let seen = self.hull[at as usize];
+            if seen == NONE || new.len() > self.out.len() {
+                return None;
+            }
             let b = self.to(seen);
             if !sees(at, b) {
                 break;
@@ -154,6 +167,7 @@ impl Triangles {
             self.at_hull(before);
             self.legalise(new, plane);
         }
+        Some(())
     }
 
     /// A half-edge lies at the hull.
@@ -352,4 +366,50 @@ fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> bool {
     let sum: f64 = terms.iter().map(|(l, m)| l * m).sum();
     let size: f64 = terms.iter().map(|(l, m)| (l * m).abs()).sum();
     sum > CLEAR * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    /// Points at random, of which some triples are told to lie on a line, or the wrong way round.
+    struct Contradictory {
+        points: Vec<[f64; 2]>,
+        lies: u64,
+    }
+
+    impl Plane for Contradictory {
+        fn orient(&self, corners: [u32; 3]) -> i32 {
+            let [a, b, c] = corners.map(|p| self.points[p as usize]);
+            let true_one = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            let seed = corners.iter().fold(self.lies, |seed, p| 64 * seed + u64::from(*p));
+            match Random::new(seed).below(8) {
+                0 => 0,
+                1 => -(true_one.total_cmp(&0.0) as i32),
+                _ => true_one.total_cmp(&0.0) as i32,
+            }
+        }
+        fn compare(&self, a: u32, b: u32) -> Ordering {
+            self.points[a as usize][0].total_cmp(&self.points[b as usize][0])
+        }
+        fn rough(&self, point: u32) -> [f64; 2] {
+            self.points[point as usize]
+        }
+    }
+
+    /// It is given up, or ends in some triangulation; it neither hangs nor names an edge that is none.
+    #[test]
+    fn a_plane_that_contradicts_itself_is_given_up() {
+        let random = &mut Random::new(4);
+        let mut given_up = 0;
+        for lies in 0..400 {
+            let n = 4 + random.below(40) as u32;
+            let points = (0..n).map(|_| [random.unit(), random.unit()]).collect();
+            let mut end = || random.below(u64::from(n)) as u32;
+            let edges: Vec<[u32; 2]> = (0..10).map(|_| [end(), end()]).filter(|[a, b]| a != b).collect();
+            given_up += usize::from(triangulate(n, &edges, &Contradictory { points, lies }).is_none());
+        }
+        assert!(given_up > 0);
+    }
 }

@@ -164,12 +164,23 @@ fn verdict(d: &RepairDocument) -> String {
             "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
         ),
         (true, _) if d.effect.changed => {
-            let sheets = match d.changes.iter().any(|change| change.step == "scraps") {
-                true => " Loose sheets were removed: --all-holes closes them, --skip scraps keeps them.",
-                false => "",
+            let removed = d.changes.iter().any(|change| change.step == "scraps");
+            let sheets = match (removed, d.hole_limit) {
+                (true, Some(_)) => {
+                    " Loose sheets were removed: --all-holes closes them, --skip scraps keeps them."
+                }
+                (true, None) => " Loose sheets were removed that no patch closes: --skip scraps keeps them.",
+                (false, _) => "",
+            };
+            let inwards = match d.effect.volume_inverted {
+                Some(volume) if volume > 0.0 => {
+                    " What looks inwards bounds no material; a whole body is kept if it is turned first: --only orient,outward, \
+                     then repair the result."
+                }
+                _ => "",
             };
             format!(
-                "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{sheets}{again}\n"
+                "\nCLOSED, BUT CHANGED: {written}. It is not the same part: volume or surface went beyond --max-change.{sheets}{inwards}{again}\n"
             )
         }
         (true, None) => format!("\nsound; {written}, not read again\n"),
