@@ -176,6 +176,9 @@ fn gone(
 
 /// Largest distance from facets that were removed to the surface, where they do not lie in the material; `None` if there are none.
 fn beyond(lost: &[[Point; 3]], after: &Mesh, progress: &dyn Progress) -> Result<Option<f64>, Cancelled> {
+    if lost.is_empty() {
+        return Ok(None);
+    }
     let Ok(tree) = Tree::build(after) else { return Ok(None) };
     let all: Vec<Point> = lost.iter().flat_map(|corners| places(*corners)).collect();
     let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));

@@ -151,10 +151,11 @@ const ROUNDS: usize = 8;
 
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
-/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50 to 1e45 mm; what cannot be mended stays, and
-/// [`Repaired::after`] lists it. No defect that makes a mesh unsound is there more often than before, and what was closed
-/// stays closed: where the steps together would end worse, it is done without one of them, without the last of them, or not at all. Crossing facets and loose
-/// sheets are removed only where the rest then is sound. The result is the
+/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50
+/// to 1e45 mm; what cannot be mended stays, and [`Repaired::after`] lists it. No defect that makes a mesh unsound is there
+/// more often than before, and what was closed stays closed: where the steps together would end worse, it is done without
+/// one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest
+/// then is sound; facets that are not finite always are, and what is compared is the mesh without them. The result is the
 /// same for any number of threads. Cost: for each step that changes something about as much as a check; filling holes up to
 /// the cube of 100 for each ring; what ends worse twice more for each step that changed something.
 ///
@@ -182,15 +183,15 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
         attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
     };
     // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
-    let finite = match before.found("not_finite_facets").map_or(0, |found| found.count) {
+    let mut finite = match before.found("not_finite_facets").map_or(0, |found| found.count) {
         0 => None,
         _ => Some(attempt(&names_but(not_finite::STEP.name))?),
     };
     let least = finite.as_ref().map_or(&before, |finite| &finite.after).clone();
-    let mut done = match (soup, finite.is_some()) {
-        (Some(_), true) => attempt(&names_but(not_finite::STEP.name))?,
-        (Some(_), false) => Attempt::none(&mut base, &before)?,
+    let mut done = match (soup, finite.take_if(|_| soup.is_some())) {
         (None, _) => attempt(&[])?,
+        (Some(_), Some(finite)) => finite,
+        (Some(_), None) => Attempt::none(&mut base, &before)?,
     };
     done.not_united = soup.or(done.not_united);
     let mut taken_back = vec![];
