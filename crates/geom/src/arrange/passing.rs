@@ -7,13 +7,13 @@
 
 use super::meetings::{Edge, edges};
 use crate::check::intersect::seen;
+use crate::check::intersect::views::{Node, View, overlap};
 use crate::mesh::Mesh;
 use crate::num::predicates::height;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -25,8 +25,6 @@ pub(super) type Passing = ([Edge; 2], Point);
 
 /// From so many edges on, a vertex is a hub.
 const HUB: usize = 32;
-/// Items of a node that is not halved.
-const FEW: usize = 8;
 /// Boxes and directions are widened by so many reaches: one, and much more than places are rounded.
 const WIDER: f64 = 2.0;
 /// No hub.
@@ -117,24 +115,8 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
 struct Bundle {
     hub: u32,
     /// Neighbours stand near each other.
-    items: Vec<Item>,
+    items: Vec<View>,
     root: Node,
-}
-
-struct Item {
-    /// Its place among all.
-    number: usize,
-    /// Of its directions from the hub; without one, its box.
-    seen: Aabb,
-    bounds: Aabb,
-}
-
-/// Some of the items.
-struct Node {
-    range: Range<usize>,
-    seen: Aabb,
-    bounds: Aabb,
-    halves: Option<Box<[Node; 2]>>,
 }
 
 /// Those with hubs first, ascending.
@@ -146,16 +128,16 @@ fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
     let bundle = |(hub, members): (u32, Vec<usize>)| {
         let item = |number: usize| {
             let (seen, bounds) = views(mesh, hub, sides[number].edge, reach);
-            Item { number, seen, bounds }
+            View { number: number as u32, seen, bounds }
         };
-        let mut items: Vec<Item> = members.into_iter().map(item).collect();
-        let root = node(&mut items, 0);
+        let mut items: Vec<View> = members.into_iter().map(item).collect();
+        let root = Node::of(&mut items);
         Bundle { hub, items, root }
     };
     members.into_iter().map(bundle).collect()
 }
 
-/// Box of the directions from a hub to an edge, and of the edge; both widened by the reach.
+/// Box of the directions from a hub to an edge (without one, the box of the edge), and of the edge; both widened by the reach.
 fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let [a, b] = edge.map(|v| mesh.positions[v as usize]);
     let bounds = widened(Aabb::of([&a, &b]), WIDER * reach);
@@ -181,23 +163,6 @@ fn widened(b: Aabb, by: f64) -> Aabb {
     Aabb { min: b.min.map(|x| x - by), max: b.max.map(|x| x + by) }
 }
 
-/// Halves the items, which begin at number `start`, again and again where they spread most.
-fn node(items: &mut [Item], start: usize) -> Node {
-    let seen = items.iter().fold(Aabb::EMPTY, |all, item| all.union(&item.seen));
-    let bounds = items.iter().fold(Aabb::EMPTY, |all, item| all.union(&item.bounds));
-    let range = start..start + items.len();
-    if items.len() <= FEW {
-        return Node { range, seen, bounds, halves: None };
-    }
-    let sides = seen.sides();
-    let axis = (0..3).fold(0, |k, j| if sides[j] > sides[k] { j } else { k });
-    let middle = |i: &Item| i.seen.min[axis] + i.seen.max[axis];
-    let half = items.len() / 2;
-    items.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.number.cmp(&b.number)));
-    let (left, right) = items.split_at_mut(half);
-    Node { range, seen, bounds, halves: Some(Box::new([node(left, start), node(right, start + half)])) }
-}
-
 impl Bundle {
     /// Hands to `take` the edges of the bundle that an edge may pass. Of two edges asked about one looks for the other: one without
     /// a hub for one with a hub, else the one with the higher hub, or the lower number.
@@ -221,14 +186,11 @@ impl Bundle {
                 continue;
             }
             let items = self.items[node.range.clone()].iter();
-            let near = items.filter(|i| is_near(&i.seen, &i.bounds) && !(is_same && i.number <= number));
-            near.for_each(|i| take(i.number));
+            let near =
+                items.filter(|i| is_near(&i.seen, &i.bounds) && !(is_same && i.number as usize <= number));
+            near.for_each(|i| take(i.number as usize));
         }
     }
-}
-
-fn overlap(a: &Aabb, b: &Aabb) -> bool {
-    (0..3).all(|k| a.min[k] <= b.max[k] && b.min[k] <= a.max[k])
 }
 
 /// Whether two edges belong to a pair of facets that are not apart, the lower one of them asked about.

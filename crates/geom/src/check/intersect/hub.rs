@@ -11,6 +11,7 @@
 
 use super::book::Book;
 use super::seen;
+use super::views::{Node, View, overlap};
 use crate::mesh::Mesh;
 use crate::space::Aabb;
 use crate::topology::Topology;
@@ -22,28 +23,10 @@ pub(super) struct Hub {
     /// Where all facets have an edge in common.
     book: Option<Book>,
     /// Neighbours stand near each other.
-    arcs: Vec<Arc>,
+    arcs: Vec<View>,
     root: Node,
 }
 
-struct Arc {
-    facet: u32,
-    /// Of the directions.
-    seen: Aabb,
-    /// Of the facet.
-    bounds: Aabb,
-}
-
-/// Some of the arcs.
-struct Node {
-    range: Range<usize>,
-    seen: Aabb,
-    bounds: Aabb,
-    halves: Option<Box<[Node; 2]>>,
-}
-
-/// Arcs of a node that is not halved.
-const FEW: usize = 8;
 /// From so many facets on, an edge at a hub is a book.
 const BOOK: usize = 64;
 
@@ -75,39 +58,22 @@ pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> b
     hubs
 }
 
-/// Halves the arcs, which begin at number `start`, again and again where they spread most.
-fn node(arcs: &mut [Arc], start: usize) -> Node {
-    let seen = arcs.iter().fold(Aabb::EMPTY, |all, a| all.union(&a.seen));
-    let bounds = arcs.iter().fold(Aabb::EMPTY, |all, a| all.union(&a.bounds));
-    let range = start..start + arcs.len();
-    if arcs.len() <= FEW {
-        return Node { range, seen, bounds, halves: None };
-    }
-    let sides = seen.sides();
-    let axis = (0..3).fold(0, |k, j| if sides[j] > sides[k] { j } else { k });
-    let middle = |a: &Arc| a.seen.min[axis] + a.seen.max[axis];
-    let half = arcs.len() / 2;
-    arcs.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.facet.cmp(&b.facet)));
-    let (left, right) = arcs.split_at_mut(half);
-    Node { range, seen, bounds, halves: Some(Box::new([node(left, start), node(right, start + half)])) }
-}
-
 impl Hub {
     fn new(mesh: &Mesh, center: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
-        let arc = |&facet: &u32| Arc {
-            facet,
+        let arc = |&facet: &u32| View {
+            number: facet,
             seen: seen_from(mesh, center, facet),
             bounds: Aabb::of(&mesh.corners(facet)),
         };
-        let mut arcs: Vec<Arc> = facets.iter().map(arc).collect();
-        let root = node(&mut arcs, 0);
+        let mut arcs: Vec<View> = facets.iter().map(arc).collect();
+        let root = Node::of(&mut arcs);
         let book = spine.map(|spine| Book::new(mesh, [center, spine], facets));
         Hub { center, book, arcs, root }
     }
 
     /// Its facets.
     pub fn facets(&self) -> impl Iterator<Item = u32> {
-        self.arcs.iter().map(|a| a.facet)
+        self.arcs.iter().map(|a| a.number)
     }
 
     /// Box of its facets.
@@ -133,14 +99,14 @@ impl Hub {
             return pages
                 .all(|page| !overlap(&bounds, &Aabb::of(&mesh.corners(page))) || decide(facet, page));
         }
-        let other = Arc { facet, seen: seen_from(mesh, self.center, facet), bounds };
+        let other = View { number: facet, seen: seen_from(mesh, self.center, facet), bounds };
         let sides = seen::Sides::of(mesh.positions[self.center as usize], mesh.corners(facet));
         self.one_below((&other, &sides), &self.root, decide)
     }
 
     fn one_below(
         &self,
-        (one, sides): (&Arc, &seen::Sides),
+        (one, sides): (&View, &seen::Sides),
         node: &Node,
         decide: &mut impl FnMut(u32, u32) -> bool,
     ) -> bool {
@@ -150,11 +116,11 @@ impl Hub {
         match &node.halves {
             Some(halves) => halves.iter().all(|half| self.one_below((one, sides), half, decide)),
             None => {
-                let near = |o: &&Arc| {
+                let near = |o: &&View| {
                     overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds) && !sides.miss(&o.seen)
                 };
                 let arcs = &self.arcs[node.range.clone()];
-                arcs.iter().filter(near).all(|other| decide(one.facet, other.facet))
+                arcs.iter().filter(near).all(|other| decide(one.number, other.number))
             }
         }
     }
@@ -190,9 +156,9 @@ impl Hub {
         halves.iter().all(|half| self.between(half, whole, decide))
     }
 
-    fn one_with(&self, one: &Arc, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        let near = |o: &&Arc| overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds);
-        self.arcs[others].iter().filter(near).all(|other| decide(one.facet, other.facet))
+    fn one_with(&self, one: &View, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
+        let near = |o: &&View| overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds);
+        self.arcs[others].iter().filter(near).all(|other| decide(one.number, other.number))
     }
 }
 
@@ -204,8 +170,4 @@ fn seen_from(mesh: &Mesh, center: u32, facet: u32) -> Aabb {
         [v, a, b] | [b, v, a] | [a, b, v] if v == center => seen::segment(from, place(a), place(b)),
         face => seen::triangle(from, face.map(place)),
     }
-}
-
-fn overlap(a: &Aabb, b: &Aabb) -> bool {
-    (0..3).all(|k| a.min[k] <= b.max[k] && b.min[k] <= a.max[k])
 }

@@ -18,6 +18,7 @@ pub(crate) mod seen;
 #[cfg(test)]
 mod tests;
 mod tree;
+pub(crate) mod views;
 
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
