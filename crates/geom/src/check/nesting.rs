@@ -47,7 +47,8 @@ impl<'a> Container<'a> {
     }
 
     /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
-    /// the plane of `from` where that is seen at `target`; `from` and what meets it just there are not behind it.
+    /// the plane of `from` where that is seen at `target`; `from` and what lies in its plane are not behind it. Where others meet
+    /// it just there, the ray beside is meant that [`Container::around`] means.
     pub(crate) fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         self.columns.pass(target, self.beyond(start), |f, own| {
@@ -110,11 +111,21 @@ impl<'a> Container<'a> {
         if clear && further.abs() > 32.0 * ROUNDING * s * s * t * t * (s + t) {
             return (further > 0.0) == ((m > 0.0) == (n > 0.0));
         }
-        let [[d, m], [e, n]] = corners.map(|[a, b, c]| -> [Big; 2] {
+        let [(first, d), (second, e)] = corners.map(|[a, b, c]| {
             let normal = big::cross(&big::minus(b, a), &big::minus(c, a));
-            [big::dot(&normal, &big::minus(a, from)), normal[self.axis].clone()]
+            let offset = big::dot(&normal, &big::minus(a, from));
+            (normal, offset)
         });
-        (&(&e * &m) - &(&d * &n)).sign() * m.sign() * n.sign() > 0
+        let (m, n) = (&first[self.axis], &second[self.axis]);
+        // Where the planes meet just there, their slopes tell: in `around` the half open edges amount to a ray that is moved by a trifle
+        // along the first of the other axes, and by a trifle of that along the second.
+        let offset = || &(&e * m) - &(&d * n);
+        let slope = |k: usize| &(&first[k] * n) - &(&second[k] * m);
+        let order = match offset().sign() {
+            0 => [1, 2].map(|k| slope((self.axis + k) % 3).sign()).into_iter().find(|s| *s != 0).unwrap_or(0),
+            sign => sign,
+        };
+        order * m.sign() * n.sign() > 0
     }
 
     fn corners(&self, f: u32) -> [Point; 3] {

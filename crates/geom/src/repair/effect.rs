@@ -1,6 +1,6 @@
 //! What a repair did to the places that the mesh encloses.
 
-use super::enclosed::{self, Enclosed, NotEnclosed};
+use super::enclosed::{self, Enclosed, NotEnclosed, Piece};
 use super::error::RepairError;
 use super::measure::{once, places};
 use super::options::Options;
@@ -12,7 +12,7 @@ use crate::check::{Known, Report};
 use crate::closest::{Query, Tree};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Point, cross, minus, plus, times, unit};
+use crate::space::{Point, cross, minus, norm, plus, times, unit};
 use crate::topology::{Properties, Topology};
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -24,7 +24,7 @@ pub struct Effect {
     /// shells that are removed on request.
     pub enclosed: Result<Enclosed, NotEnclosed>,
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
-    /// others the middle of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation);
+    /// others the middle and the corners of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation);
     /// gaps in the material narrower than 1e-5 of the size do not count.
     /// With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be
     /// closed count too, where no material is now. `None` where nothing was enclosed, or nothing is left, and no such facet was removed.
@@ -129,6 +129,13 @@ const GAP: f64 = 1e-5;
 /// Of that, distances that are not worth asking.
 const NOTHING: f64 = 1e-3;
 
+/// A place of the old surface, and a middle of what it was taken from.
+struct Asked {
+    facet: u32,
+    place: Point,
+    middle: Point,
+}
+
 fn gone(
     before: &Mesh,
     enclosed: &Enclosed,
@@ -139,16 +146,20 @@ fn gone(
     let bounding = before.faces.par_iter().enumerate().zip(&enclosed.bounds);
     let is_gone = bounding.filter(|((_, face), bounds)| **bounds && !kept.holds(before, face));
     let asked_of = |((f, face), _): ((usize, &[u32; 3]), &bool)| {
-        places(face.map(|v| before.positions[v as usize])).map(|p| (f as u32, p))
+        let places = places(face.map(|v| before.positions[v as usize]));
+        places.map(|place| Asked { facet: f as u32, place, middle: places[6] })
     };
-    let mut asked: Vec<(u32, Point)> = is_gone.flat_map_iter(asked_of).collect();
-    let whole = asked.len();
-    asked.extend(&enclosed.middles);
+    let of_piece = |Piece { facet, middle, corners }: &Piece| {
+        let [a, b, c, d] = *corners;
+        [*middle, a, b, c, d].map(|place| Asked { facet: *facet, place, middle: *middle })
+    };
+    let mut asked: Vec<Asked> = is_gone.flat_map_iter(asked_of).collect();
+    asked.extend(enclosed.pieces.iter().flat_map(of_piece));
     if asked.is_empty() {
         return Ok(Gone { farthest: Some(0.0), gaps: vec![] });
     }
     let Ok(tree) = Tree::build(after) else { return Ok(Gone::default()) };
-    let all: Vec<Point> = asked.iter().map(|a| a.1).collect();
+    let all: Vec<Point> = asked.iter().map(|a| a.place).collect();
     let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
     if progress.cancelled() {
         return Err(Cancelled);
@@ -157,14 +168,14 @@ fn gone(
     let reach = GAP * before.finite_bounds().diagonal();
     let gaps = Gaps::new(before, reach);
     let mut found = Gone { farthest: Some(0.0), gaps: vec![] };
-    for (i, ((f, p), distance)) in asked.into_iter().zip(distances).enumerate() {
-        // Off the edges of the facet, where a side belongs to a neighbour.
+    for (Asked { facet, place, middle }, distance) in asked.into_iter().zip(distances) {
+        // Off the edges, where a side belongs to a neighbour, but not out of the gap: its rim is part of the new surface.
         let inside = || {
-            let middle = places(before.faces[f as usize].map(|v| before.positions[v as usize]))[6];
-            if i < whole { plus(times(0.999, p), times(0.001, middle)) } else { p }
+            let way = minus(middle, place);
+            plus(place, times((0.5 * distance / norm(way)).min(0.001), way))
         };
-        if distance > NOTHING * reach && gaps.hold(f, inside()) {
-            found.gaps.push(f);
+        if distance > NOTHING * reach && gaps.hold(facet, inside()) {
+            found.gaps.push(facet);
         } else {
             found.farthest = found.farthest.map(|most| most.max(distance));
         }

@@ -106,7 +106,8 @@ pub struct Repaired {
     /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
     /// and the mesh still not been sound.
     pub taken_back: Vec<&'static str>,
-    /// Vertices that were rounded to single precision before anything was decided.
+    /// Vertices that were rounded to single precision before anything was decided: on request, or because shells could not be
+    /// united otherwise.
     pub rounded: Rounded,
     /// Why closed shells that meet were not united, if they were not.
     pub not_united: Option<ArrangeError>,
@@ -156,12 +157,36 @@ const ROUNDS: usize = 8;
 /// more often than before, and what was closed stays closed: where the steps together would end worse, it is done without
 /// one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest
 /// then is sound; facets that are not finite always are, and what is compared is the mesh without them. The result is the
-/// same for any number of threads. Cost: for each step that changes something about as much as a check; filling holes up to
-/// the cube of 100 for each ring; what ends worse twice more for each step that changed something.
+/// same for any number of threads. Shells whose union cannot be written as they are, are united with all vertices rounded to single
+/// precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
+/// Cost: for each step that changes something about as much as a check; filling holes up to
+/// the cube of 100 for each ring; what ends worse twice more for each step that changed something; all of it twice where vertices are
+/// rounded.
 ///
 /// # Errors
 /// [`RepairError`].
 pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
+    let exact = repaired(mesh, options, progress)?;
+    let left_out = exact.taken_back.contains(&union::STEP.name)
+        || matches!(exact.not_united, Some(ArrangeError::Unresolved { .. } | ArrangeError::Open { .. }));
+    if exact.after.sound || !left_out || options.single || !is_fine_in_single(mesh) {
+        return Ok(exact);
+    }
+    let single = repaired(mesh, &Options { single: true, ..options.clone() }, progress)?;
+    Ok(if single.after.sound { single } else { exact })
+}
+
+/// Whether single precision takes no vertex farther than a trifle of the size.
+fn is_fine_in_single(mesh: &Mesh) -> bool {
+    /// Of the diagonal.
+    const TRIFLE: f64 = 1e-6;
+    let bounds = mesh.finite_bounds();
+    let most = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
+    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= TRIFLE * bounds.diagonal()
+}
+
+/// As [`repair`], in the precision of `options` alone.
+fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     in_range(mesh)?;
     let mut base = Work::new(as_it_is(mesh)?, options, progress)?;

@@ -23,6 +23,6 @@ pub struct Options {
     /// Shells with a smaller share of the diagonal of the whole are removed; `None`: none.
     pub islands: Option<f64>,
     /// The result shall be exact in single precision, as a file may hold no more: vertices are rounded before anything is
-    /// decided.
+    /// decided. Without it they are where shells cannot be united otherwise.
     pub single: bool,
 }

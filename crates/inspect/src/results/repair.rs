@@ -63,7 +63,7 @@ pub struct RepairDocument {
 pub struct OutputRecord {
     /// As given on the command line.
     pub path: String,
-    /// Vertices that the format could not hold exactly.
+    /// Vertices that the format could not hold exactly, or that were rounded because shells could not be united otherwise.
     pub rounded_vertices: u64,
     /// Greatest change of a coordinate by that, mm.
     pub rounding: f64,
@@ -162,7 +162,8 @@ pub struct Effect {
 /// How far the surface went.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Deviation {
-    /// From the old surface to the new one: what is missing.
+    /// From the old surface to the new one: what is missing. Facets of which a part lay inside a body count in the greatest, not in
+    /// the mean.
     pub removed: Distances,
     /// From the new surface to the old one: what was added.
     pub added: Distances,

@@ -11,6 +11,7 @@ pub(super) type Place = [f64; 2];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub centre: Place,
+    pub corners: [Place; 4],
     pub area: f64,
 }
 
@@ -29,19 +30,23 @@ pub(super) fn cells(triangle: &[Place; 3], segments: &[[Place; 2]]) -> Option<Ve
         if y <= low || y >= high {
             continue;
         }
-        let sides = (0..3).filter_map(|i| at_height(&[triangle[i], triangle[(i + 1) % 3]], y));
-        let range = |(l, h): (f64, f64), x: f64| (l.min(x), h.max(x));
-        let (left, right) = sides.fold((f64::INFINITY, f64::NEG_INFINITY), range);
-        if left >= right {
+        let sides = (0..3).filter_map(|i| Passing::of(&[triangle[i], triangle[(i + 1) % 3]], [low, y, high]));
+        let mut sides: Vec<Passing> = sides.collect();
+        sides.sort_unstable_by(|a, b| a.middle.total_cmp(&b.middle));
+        let [left, right] = sides[..] else { continue };
+        if left.middle >= right.middle {
             continue;
         }
         across.clear();
         across.extend([left, right]);
-        across.extend(segments.iter().filter_map(|s| at_height(s, y)).map(|x| x.clamp(left, right)));
-        across.sort_unstable_by(f64::total_cmp);
-        for x in across.windows(2).filter(|x| x[0] < x[1]) {
-            let area = (x[1] - x[0]) * (high - low);
-            cells.push(Cell { centre: [x[0] + 0.5 * (x[1] - x[0]), y], area });
+        let passing = segments.iter().filter_map(|s| Passing::of(s, [low, y, high]));
+        across.extend(passing.map(|x| x.clamp(&left, &right)));
+        across.sort_unstable_by(|a, b| a.middle.total_cmp(&b.middle));
+        for x in across.windows(2).filter(|x| x[0].middle < x[1].middle) {
+            let [from, to] = [x[0], x[1]];
+            let width = to.middle - from.middle;
+            let corners = [[from.low, low], [to.low, low], [to.high, high], [from.high, high]];
+            cells.push(Cell { centre: [from.middle + 0.5 * width, y], corners, area: width * (high - low) });
         }
     }
     Some(cells)
@@ -68,9 +73,30 @@ fn heights(triangle: &[Place; 3], segments: &[[Place; 2]]) -> Option<Vec<f64>> {
     Some(heights)
 }
 
-/// Where the segment passes this height.
-fn at_height([a, b]: &[Place; 2], y: f64) -> Option<f64> {
-    ((a[1] < y) != (b[1] < y)).then(|| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+/// Where a segment passes the lower end, the middle and the upper end of a slab.
+#[derive(Clone, Copy)]
+struct Passing {
+    low: f64,
+    middle: f64,
+    high: f64,
+}
+
+impl Passing {
+    fn of([a, b]: &[Place; 2], [low, y, high]: [f64; 3]) -> Option<Passing> {
+        let at = |y: f64| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+        ((a[1] < y) != (b[1] < y)).then(|| Passing { low: at(low), middle: at(y), high: at(high) })
+    }
+
+    /// The same not beyond the sides of the triangle.
+    fn clamp(&self, left: &Passing, right: &Passing) -> Passing {
+        // Rounding may exchange the sides where they meet.
+        let between = |x: f64, l: f64, r: f64| x.max(l).min(r.max(l));
+        Passing {
+            low: between(self.low, left.low, right.low),
+            middle: between(self.middle, left.middle, right.middle),
+            high: between(self.high, left.high, right.high),
+        }
+    }
 }
 
 /// Height of the place where two segments cross.

@@ -20,7 +20,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm, plus, times};
 use crate::topology::union::Sets;
 use crate::topology::{EdgeAt, Properties, Topology};
-use cells::{Cell, cells};
+use cells::{Cell, Place, cells};
 use meeting::{Facet, Meeting, meeting};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -38,8 +38,16 @@ pub struct Enclosed {
     pub error: f64,
     /// Facets that meet no other and bound either, by number.
     pub(super) bounds: Vec<bool>,
-    /// Middles of the parts that bound either, of facets that meet others, each with its facet.
-    pub(super) middles: Vec<(u32, Point)>,
+    /// The parts that bound either, of facets that meet others.
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// A part of a facet.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Piece {
+    pub facet: u32,
+    pub middle: Point,
+    pub corners: [Point; 4],
 }
 
 impl Enclosed {
@@ -128,7 +136,7 @@ pub(super) fn enclosed(
     }
     let mut result = Enclosed { bounds: whole.iter().map(|w| w.bounds()).collect(), ..Enclosed::default() };
     for (parts, windings) in parts.iter().zip(&windings) {
-        sums.add(solid.sum(parts, windings, &mut result.middles));
+        sums.add(solid.sum(parts, windings, &mut result.pieces));
     }
     let [v, i, x, y, z, ix, iy, iz, size] = sums.each().map(|s| s.value());
     let missed = norm([x, y, z]).max(norm([ix, iy, iz]));
@@ -210,11 +218,12 @@ impl Facet {
     }
 }
 
-/// A part of a facet.
+/// What is asked about: a part of a facet, or the whole of one.
 struct Part {
     facet: u32,
     /// Its middle.
     at: Point,
+    corners: [Point; 4],
     /// As seen along the axis along which the facet is seen largest.
     area: f64,
     /// Other facets that lie upon it, and +1 if they look the same way, −1 if not.
@@ -274,7 +283,7 @@ impl Solid<'_> {
         let asked = |facet: u32| {
             let [a, b, c] = self.facet(facet).local;
             let at = plus(self.centre, times(1.0 / 3.0, plus(a, plus(b, c))));
-            Part { facet, at, area: 0.0, upon: vec![] }
+            Part { facet, at, corners: [at; 4], area: 0.0, upon: vec![] }
         };
         Sheets { sheet_of, asked: largest.into_iter().map(|f| f.map(asked)).collect() }
     }
@@ -305,17 +314,19 @@ impl Solid<'_> {
             }
         }
         let found = cells(&facet.local.map(|p| flat(&p)), &segments).ok_or(NotEnclosed::Tangle)?;
-        let part = |Cell { centre, area }: Cell| Part {
+        let place = |p: Place| plus(self.centre, lifted(&facet, vector, axis, p));
+        let part = |Cell { centre, corners, area }: Cell| Part {
             facet: f,
-            at: plus(self.centre, lifted(&facet, vector, axis, centre)),
+            at: place(centre),
+            corners: corners.map(place),
             area,
             upon: upon.iter().filter(|u| holds(&u.2, &centre)).map(|u| (u.0, u.1)).collect(),
         };
         Ok(found.into_iter().map(part).collect())
     }
 
-    /// What the parts of a facet add; the middles of those that bound something go to `middles`.
-    fn sum(&self, parts: &[Part], windings: &[Winding], middles: &mut Vec<(u32, Point)>) -> [f64; 9] {
+    /// What the parts of a facet add; those that bound something go to `pieces`.
+    fn sum(&self, parts: &[Part], windings: &[Winding], pieces: &mut Vec<Piece>) -> [f64; 9] {
         let mut sums = Sums::<9>::ZERO;
         for (part, winding) in parts.iter().zip(windings).filter(|(_, winding)| winding.bounds()) {
             let facet = self.facet(part.facet);
@@ -324,7 +335,7 @@ impl Solid<'_> {
             let weight = 1.0 / (1 + part.upon.len()) as f64;
             sums.add(facet.terms(winding, part.area / whole, weight));
             if part.area > HAIR * whole {
-                middles.push((part.facet, part.at));
+                pieces.push(Piece { facet: part.facet, middle: part.at, corners: part.corners });
             }
         }
         sums.each().map(|s| s.value())

@@ -122,3 +122,70 @@ fn the_number_of_threads_changes_nothing() {
     add(&mut mesh, &moved(block(4, 2.0), 1.1), [0.3; 3]);
     assert_eq!(on_threads(1, || of(&mesh)), on_threads(3, || of(&mesh)));
 }
+
+/// An octahedron between two corners.
+fn octahedron(low: Point, high: Point) -> Mesh {
+    let middle = times(0.5, plus(low, high));
+    let tip = |k: usize| {
+        let mut p = middle;
+        p[k % 3] = if k < 3 { low[k % 3] } else { high[k % 3] };
+        p
+    };
+    let faces =
+        [[3, 4, 5], [4, 0, 5], [0, 1, 5], [1, 3, 5], [4, 3, 2], [0, 4, 2], [1, 0, 2], [3, 1, 2]].to_vec();
+    Mesh { positions: (0..6).map(tip).collect(), faces }
+}
+
+/// A tip that touches a side of a box, from inside or from outside, at places of a grid: in the middle of what is asked about too,
+/// where a ray meets both at once.
+#[test]
+fn what_touches_a_side_counts_where_it_lies() {
+    let block = cuboid([-2.0; 3], [2.0; 3]);
+    for (axis, side) in [(0, -2.0), (0, 2.0), (1, -2.0), (1, 2.0), (2, -2.0), (2, 2.0)] {
+        for (i, j) in (0..25).map(|k| (k / 5 - 2, k % 5 - 2)) {
+            for way in [-1.0, 1.0] {
+                let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+                (low[axis], high[axis]) = if way < 0.0 { (side - 1.0, side) } else { (side, side + 1.0) };
+                for (k, at, reach) in [(1, 0.5 * f64::from(i), 0.5), (2, 0.5 * f64::from(j), 0.25)] {
+                    let k = (axis + k) % 3;
+                    (low[k], high[k]) = (at - reach, at + reach);
+                }
+                let mut mesh = block.clone();
+                add(&mut mesh, &octahedron(low, high), [0.0; 3]);
+                let found = of(&mesh).unwrap();
+                let [x, y, z] = minus(high, low);
+                let outside = if way * side > 0.0 { x * y * z / 6.0 } else { 0.0 };
+                assert!(
+                    (found.volume - 64.0 - outside).abs() < 1e-12,
+                    "{axis} {side} {i} {j} {way}: {found:?}"
+                );
+                assert!(found.error < 1e-10);
+            }
+        }
+    }
+}
+
+/// The corners of the union of two boxes are corners of pieces or of whole facets, and none lies within a box.
+#[test]
+fn pieces_reach_to_the_corners_of_what_bounds() {
+    let mut mesh = cuboid([0.0; 3], [2.0; 3]);
+    add(&mut mesh, &cuboid([0.0; 3], [2.0; 3]), [1.25, 0.75, 0.5]);
+    let found = of(&mesh).unwrap();
+    let mut corners: Vec<Point> = found.pieces.iter().flat_map(|p| p.corners).collect();
+    let whole = mesh.faces.iter().zip(&found.bounds).filter(|(_, bounds)| **bounds);
+    corners.extend(whole.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize])));
+    let within = |p: &Point, low: f64, shift: Vector| {
+        (0..3).all(|k| low < p[k] - shift[k] && p[k] - shift[k] < 2.0 - low)
+    };
+    let shifts = [[0.0; 3], [1.25, 0.75, 0.5]];
+    for p in &corners {
+        assert!(shifts.iter().all(|shift| !within(p, 1e-12, *shift)), "{p:?}");
+    }
+    for shift in shifts {
+        for corner in (0..8).map(|k| plus(shift, [0, 1, 2].map(|i| f64::from(k >> i & 1) * 2.0))) {
+            let buried = shifts.iter().any(|shift| within(&corner, 0.0, *shift));
+            let found = corners.iter().any(|p| norm(minus(*p, corner)) < 1e-12);
+            assert!(found != buried, "{corner:?}");
+        }
+    }
+}

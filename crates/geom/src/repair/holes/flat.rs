@@ -10,8 +10,11 @@ use std::collections::BTreeMap;
 /// the area. Slivers may look anywhere.
 const AGREE: f64 = 0.999;
 
+/// And no vertex is farther from the plane than this share of the root of the area: vertices that were parted lie off it.
+const FLAT: f64 = 1e-3;
+
 /// For each shell with a ring the sum of its facets' normals, each as long as twice the facet's area; only of shells that lie in one
-/// plane, but for the gap up to which two places may have been meant as one. Linear time.
+/// plane. Linear time.
 pub(super) fn sheets(work: &Work, known: &Known, rings: &[Ring]) -> BTreeMap<u32, Vector> {
     let mut sums: BTreeMap<u32, (Vector, &Ring)> = rings.iter().map(|r| (r.shell, ([0.0; 3], r))).collect();
     let (faces, shell_of) = (&work.mesh().faces, &known.topology.shell_of);
@@ -25,7 +28,8 @@ pub(super) fn sheets(work: &Work, known: &Known, rings: &[Ring]) -> BTreeMap<u32
     for (face, shell) in faces.iter().zip(shell_of) {
         if let Some((sum, ring)) = sums.get(shell) {
             let (normal, on) = (times(1.0 / norm(*sum), *sum), work.at(ring.vertices[0]));
-            let off = |v: &u32| dot(normal, minus(work.at(*v), on)).abs() > work.gap;
+            let reach = work.gap.max(FLAT * ring.shell_area.sqrt());
+            let off = |v: &u32| dot(normal, minus(work.at(*v), on)).abs() > reach;
             if face.iter().any(off) {
                 sums.remove(shell);
             }

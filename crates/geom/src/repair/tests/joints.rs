@@ -284,3 +284,22 @@ fn bodies_that_touch_are_united_however_they_are_turned() {
         }
     }
 }
+
+/// Boxes that touch, turned: their sides lie a rounding apart, and where these cross cannot be written in double precision. Rounded to
+/// single precision they become one; where that would take vertices too far, nothing is rounded.
+#[test]
+fn what_cannot_be_united_as_it_is_becomes_one_in_single_precision() {
+    let mut numbers = include_str!("boxes_a_rounding_apart.off").split_whitespace().skip(1);
+    let mut next = || numbers.next().unwrap();
+    let [vertices, facets, _] = [(); 3].map(|()| next().parse::<usize>().unwrap());
+    let positions = (0..vertices).map(|_| [(); 3].map(|()| next().parse().unwrap())).collect();
+    let faces = (0..facets).map(|_| [(); 4].map(|()| next().parse().unwrap())).map(|[_, a, b, c]| [a, b, c]);
+    let mut mesh = Mesh { positions, faces: faces.collect() };
+    let repaired = super::super::repair(&mesh, &Options::default(), &Silent).unwrap();
+    assert!(repaired.after.sound && repaired.taken_back.is_empty() && repaired.not_united.is_none());
+    assert!(repaired.rounded.vertices > 0 && repaired.rounded.farthest < 1e-6);
+    assert!((repaired.after.properties.signed_volume - 35.0).abs() < 1e-5);
+    mesh.positions.iter_mut().for_each(|p| *p = plus(*p, [1024.0; 3]));
+    let far = super::super::repair(&mesh, &Options::default(), &Silent).unwrap();
+    assert_eq!(far.rounded.vertices, 0);
+}

@@ -203,7 +203,9 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
             });
         }
         fact(h, "sign.method", |h| sign(h, &c.sign));
-        fact(h, "soundness", |h| soundness(h, c));
+        if c.surfaces.is_none() {
+            fact(h, "soundness", |h| soundness(h, c));
+        }
         if let Some(p) = &c.paper_vs_exact {
             fact(h, "paper_differs", |h| {
                 h.count(p.differing)
