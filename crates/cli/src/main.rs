@@ -4,6 +4,7 @@ mod command;
 mod commands;
 mod console;
 mod exit;
+mod instructions;
 mod memory;
 mod number;
 mod options;
@@ -43,6 +44,7 @@ fn before_any_work(message: &clap::Error) -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    instructions::limit()?;
     if let Some(n) = arguments.common.threads {
         rayon::ThreadPoolBuilder::new().num_threads(n.into()).build_global()?;
     }

@@ -49,7 +49,7 @@ pub fn six_digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
     }
-    let digits = (5 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let digits = (5 - libm::log10(x.abs()).floor() as i32).clamp(0, 12) as usize;
     if (1e-6..1e9).contains(&x.abs()) { fixed(x, digits) } else { scientific(x, 5) }
 }
 

@@ -1,5 +1,5 @@
 //! What the author of a plan meets: each fault with its place, its remedy and its exit status.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 mod common;
 

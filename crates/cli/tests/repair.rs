@@ -1,5 +1,5 @@
 //! `trueness repair`: what is mended, the document, the file written, wrong inputs.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 use common::*;

@@ -1,5 +1,5 @@
 //! `trueness segment` as users run it.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs)]
 
 mod common;
 

@@ -27,6 +27,7 @@
 //! | features found with the nominal | [`feature`] |
 //! | tolerance zones, datum systems | [`zone`] |
 //! | progress and cancellation | [`progress`] |
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod align;
 pub mod arrange;

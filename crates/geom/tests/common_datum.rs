@@ -1,5 +1,5 @@
 //! Common datums against closed forms, against the fit of all points, and against elements near them.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use std::f64::consts::TAU;
 use trueness_geom::fit::{Method, Options, fit};

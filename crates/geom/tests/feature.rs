@@ -1,5 +1,5 @@
 //! Features found in meshes and clouds whose facets are known.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, in_cloud, in_mesh};

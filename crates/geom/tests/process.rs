@@ -1,5 +1,5 @@
 //! Control charts and capability: by hand, by their definitions, and by the share of intervals that hold the truth.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs)]
 
 use trueness_geom::num::random::Random;
 use trueness_geom::num::special::{chi_square_quantile, normal_quantile};

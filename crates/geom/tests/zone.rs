@@ -1,5 +1,5 @@
 //! Zones against brute force, datum systems against their definition.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use std::f64::consts::FRAC_PI_2;
 use trueness_geom::num::random::Random;

@@ -73,7 +73,7 @@ impl Scale {
     /// digits as show a hundredth of it, however small it is.
     pub fn for_values(most: f64, unit: &str) -> Scale {
         let scale = Scale::for_deviations(most, None);
-        let decimals = (2.0 - scale.upper.log10().floor()).clamp(3.0, 15.0) as u32;
+        let decimals = (2.0 - libm::log10(scale.upper).floor()).clamp(3.0, 15.0) as u32;
         Scale { decimals, unit: unit.into(), ..scale }
     }
 
@@ -234,7 +234,7 @@ fn round_up(x: f64) -> f64 {
     if !(x > 0.0 && x.is_finite()) {
         return 0.001;
     }
-    let exponent = x.log10().floor() as i32;
+    let exponent = libm::log10(x).floor() as i32;
     // Decimal text is the one way to the nearest double of a decimal number.
     let candidates = [(1.0, 0), (1.5, 0), (2.0, 0), (3.0, 0), (5.0, 0), (7.0, 0), (1.0, 1)];
     let of = |(m, e): (f64, i32)| format!("{m}e{}", exponent + e).parse().unwrap_or(x);
@@ -243,7 +243,7 @@ fn round_up(x: f64) -> f64 {
 
 /// Digits after the point: micrometres, and more where a hundredth of `upper` is finer; at most 6.
 fn decimals(upper: f64) -> u32 {
-    (2.0 - upper.log10().floor()).clamp(3.0, 6.0) as u32
+    (2.0 - libm::log10(upper).floor()).clamp(3.0, 6.0) as u32
 }
 
 #[cfg(test)]

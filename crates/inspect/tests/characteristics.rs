@@ -1,6 +1,6 @@
 //! Every characteristic of the list: a case in closed form, moved rigidly, with too few points, and the zone against least
 //! squares.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod common;
 

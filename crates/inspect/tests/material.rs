@@ -1,5 +1,5 @@
 //! Material requirements: closed forms of perfect cylinders, gauges by brute force, datums that shift.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod common;
 

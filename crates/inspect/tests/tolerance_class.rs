@@ -1,5 +1,5 @@
 //! Tolerance classes against published values, and against the formulas that the standards took them from.
-#![allow(clippy::unwrap_used, missing_docs)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, missing_docs)]
 
 use trueness_inspect::tolerance_class::{ClassError, Table};
 

@@ -1,5 +1,12 @@
 //! Running the program as a user does, in a folder of its own.
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+#![allow(
+    dead_code,
+    clippy::disallowed_methods,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    missing_docs
+)]
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -78,7 +78,7 @@ fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
     let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
     let size = |f: &u32| corners(*f).iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     let largest = facets.par_iter().map(size).reduce(|| 0.0, f64::max);
-    let unit = 2f64.powi(-(largest.max(f64::MIN_POSITIVE).log2().floor() as i32).max(-1000));
+    let unit = 2f64.powi(-(libm::log2(largest.max(f64::MIN_POSITIVE)).floor() as i32).max(-1000));
     let of_part = |part: &[u32]| {
         let mut sum = Exact::default();
         for &f in part {

@@ -5,7 +5,7 @@
 //! counts once; then the vertex lies before or behind the plane of the facet.
 
 use crate::mesh::Mesh;
-use crate::num::big::{self, Big};
+use crate::num::big;
 use crate::num::predicates::{side_of_line, side_of_plane};
 use crate::space::{Aabb, Point, cross, dot, minus};
 use crate::spatial::columns::Columns;

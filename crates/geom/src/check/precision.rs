@@ -8,7 +8,7 @@ use crate::space::Aabb;
 pub fn spacing(bounds: &Aabb) -> f64 {
     let largest = bounds.min.iter().chain(&bounds.max).map(|x| x.abs()).filter(|x| x.is_finite());
     let largest = largest.fold(0.0, f64::max);
-    if largest == 0.0 { 0.0 } else { 2f64.powf(largest.log2().floor()) * f64::from(f32::EPSILON) }
+    if largest == 0.0 { 0.0 } else { libm::pow(2f64, libm::log2(largest).floor()) * f64::from(f32::EPSILON) }
 }
 
 #[cfg(test)]

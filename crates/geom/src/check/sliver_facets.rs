@@ -10,7 +10,7 @@ pub(super) const KIND: Kind = Kind {
     about: "Facets with an area, but a smaller angle than the one given, or lower than the spacing of the coordinates.",
     size: "height over the longest edge, mm",
     find: |m| {
-        let (sine, lowest) = (m.options.sliver_angle.sin(), spacing(&m.properties.bounds));
+        let (sine, lowest) = (libm::sin(m.options.sliver_angle), spacing(&m.properties.bounds));
         let is_sliver = |f: usize| {
             let shape = Shape::of(m.corners(f as u32));
             shape.sine < sine || shape.height < lowest
@@ -44,6 +44,6 @@ impl Shape {
 fn sliver(m: &Inspected, facet: u32) -> super::Finding {
     let shape = Shape::of(m.corners(facet));
     let mut finding = m.finding(vec![facet], vec![], shape.height);
-    finding.measures = vec![("smallest_angle", shape.sine.asin())];
+    finding.measures = vec![("smallest_angle", libm::asin(shape.sine))];
     finding
 }

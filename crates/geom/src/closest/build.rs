@@ -356,7 +356,8 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     let limits = limits(mesh);
     let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * limits.min[k] + 0.5 * limits.max[k]);
     let extent = limits.sides().into_iter().fold(0.0, f64::max);
-    let scale = if extent > 1e-300 { (-extent.log2().ceil()).clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
+    let scale =
+        if extent > 1e-300 { libm::exp2((-libm::log2(extent).ceil()).clamp(-1000.0, 1000.0)) } else { 1.0 };
     let item = |(i, f): (usize, &[u32; 3])| {
         let mut b = Bounds::EMPTY;
         for v in f.map(|v| mesh.positions[v as usize]) {

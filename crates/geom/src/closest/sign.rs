@@ -53,7 +53,7 @@ fn volume(tree: &Tree, origin: Point) -> f64 {
 /// Angle of a triangle at corner `i`.
 fn angle(t: &[Point; 3], i: usize) -> f64 {
     let (u, v) = (minus(t[(i + 1) % 3], t[i]), minus(t[(i + 2) % 3], t[i]));
-    norm(cross(u, v)).atan2(dot(u, v))
+    libm::atan2(norm(cross(u, v)), dot(u, v))
 }
 
 impl<'a> Signs<'a> {

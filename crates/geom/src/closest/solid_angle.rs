@@ -48,12 +48,12 @@ impl<V: Lanes<16>> Angle<V> {
     /// A sum leaves that range only if both parts lie on one side of the real axis and the product on the other.
     #[inline(always)]
     fn add(&mut self, re: V, im: V, one: V) {
-        let next_re = im.neg_mul_add(self.im, self.re * re);
-        let next_im = self.re.mul_add(im, self.im * re);
+        let next_re = im.neg_fused(self.im, self.re * re);
+        let next_im = self.re.fused(im, self.im * re);
         let [before, with, after] =
             [one.zero_where_negative(self.im), one.zero_where_negative(im), one.zero_where_negative(next_im)];
         let differ = before - with;
-        self.turns = self.turns + (before - after) * differ.neg_mul_add(differ, one);
+        self.turns = self.turns + (before - after) * differ.neg_fused(differ, one);
         (self.re, self.im) = (next_re, next_im);
     }
 
@@ -70,7 +70,7 @@ impl<V: Lanes<16>> Angle<V> {
         let (re, im, turns) = (self.re.array(), self.im.array(), self.turns.array());
         std::array::from_fn(|i| {
             // Adding zero makes a negative zero positive, as the counting of turns takes it.
-            let phase = (im[i] as f64 + 0.0).atan2(re[i] as f64);
+            let phase = libm::atan2(im[i] as f64 + 0.0, re[i] as f64);
             phase + 2.0 * std::f64::consts::PI * turns[i] as f64
         })
     }
@@ -103,14 +103,14 @@ pub unsafe fn numbers<V: Lanes<16>>(
             let (group, node) = (&groups[n as usize], &tree.nodes[n as usize]);
             for (d, &child) in group.child.iter().zip(&node.child) {
                 let e = [V::splat(d[0]) - q[0], V::splat(d[1]) - q[1], V::splat(d[2]) - q[2]];
-                let d2 = e[0].mul_add(e[0], e[1].mul_add(e[1], e[2] * e[2]));
+                let d2 = e[0].fused(e[0], e[1].fused(e[1], e[2] * e[2]));
                 let opened = d2.le(V::splat(open2 * d[6])) & who;
                 if opened != 0 {
                     stack.push((child, opened));
                 }
                 if opened != who {
-                    let v = e[1].mul_add(V::splat(d[4]), e[2] * V::splat(d[5]));
-                    let v = e[0].mul_add(V::splat(d[3]), v);
+                    let v = e[1].fused(V::splat(d[4]), e[2] * V::splat(d[5]));
+                    let v = e[0].fused(V::splat(d[3]), v);
                     far = far + (v / (d2 * d2.sqrt())).keep(who & !opened);
                 }
             }
@@ -168,24 +168,24 @@ unsafe fn triangle_angle<V: Lanes<16>>(leaf: &Leaf, lane: usize, q: [V; 3]) -> (
         let mut r = q;
         for (axis, r) in r.iter_mut().enumerate() {
             let a = AXES + 3 * axis;
-            let p = q[2].mul_add(V::splat(f(a + 2)), V::splat(-f(ORIGIN + axis)));
-            *r = q[0].mul_add(V::splat(f(a)), q[1].mul_add(V::splat(f(a + 1)), p));
+            let p = q[2].fused(V::splat(f(a + 2)), V::splat(-f(ORIGIN + axis)));
+            *r = q[0].fused(V::splat(f(a)), q[1].fused(V::splat(f(a + 1)), p));
         }
         let [x, y, z] = r;
         let (base, cx, cy) = (f(BASE), f(AC) * f(AC + 2), f(AC + 1) * f(AC + 2));
         let (bx, cx, y_c) = (V::splat(base) - x, V::splat(cx) - x, V::splat(cy) - y);
         let zz = z * z;
-        let yz = y.mul_add(y, zz);
-        let la = x.mul_add(x, yz).sqrt();
-        let lb = bx.mul_add(bx, yz).sqrt();
-        let lc = cx.mul_add(cx, y_c.mul_add(y_c, zz)).sqrt();
+        let yz = y.fused(y, zz);
+        let la = x.fused(x, yz).sqrt();
+        let lb = bx.fused(bx, yz).sqrt();
+        let lc = cx.fused(cx, y_c.fused(y_c, zz)).sqrt();
         // Scalar products of the vectors to the corners.
-        let ab = x.neg_mul_add(bx, yz);
-        let c_low = y.neg_mul_add(y_c, zz);
-        let bc = bx.mul_add(cx, c_low);
-        let ca = x.neg_mul_add(cx, c_low);
+        let ab = x.neg_fused(bx, yz);
+        let c_low = y.neg_fused(y_c, zz);
+        let bc = bx.fused(cx, c_low);
+        let ca = x.neg_fused(cx, c_low);
         let lalb = la * lb;
-        let re = lc.mul_add(lalb + ab, bc.mul_add(la, ca * lb));
+        let re = lc.fused(lalb + ab, bc.fused(la, ca * lb));
         let im = z * V::splat(-base * cy);
         let size = (lalb * lc).max(V::splat(f32::MIN_POSITIVE));
         (re / size, im / size)

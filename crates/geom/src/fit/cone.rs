@@ -22,7 +22,7 @@ impl Family<6> for Cone {
 
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
-        let (sin, cos) = size[1].sin_cos();
+        let (sin, cos) = libm::sincos(size[1]);
         let rho = (x * x + y * y).sqrt();
         let inverse = 1.0 / rho.max(TINY);
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
@@ -33,7 +33,7 @@ impl Family<6> for Cone {
     }
     #[inline(always)]
     fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
-        let (sin, cos) = size[1].sin_cos();
+        let (sin, cos) = libm::sincos(size[1]);
         (x * x + y * y).sqrt() * cos - z * sin - size[0]
     }
     fn sound(size: [f64; 2]) -> bool {
@@ -49,10 +49,10 @@ impl Family<6> for Cone {
                 // The generator: a straight line through distance from the axis over height.
                 let line = least_squares(points.iter().map(|&p| {
                     let [x, y, z] = axis.pose.local(p);
-                    (vec![1.0, z], x.hypot(y))
+                    (vec![1.0, z], libm::hypot(x, y))
                 }))?;
-                let angle = line[1].atan();
-                let element = Element { pose: axis.pose, size: [line[0] * angle.cos(), angle] };
+                let angle = libm::atan(line[1]);
+                let element = Element { pose: axis.pose, size: [line[0] * libm::cos(angle), angle] };
                 Some(Cone::settled(refooted(element, [0.0; 3])))
             })
             .collect()
@@ -66,26 +66,26 @@ impl Family<6> for Cone {
         element
     }
     fn answer([_, half_angle]: [f64; 2]) -> [f64; 6] {
-        [0.0, 0.0, 0.0, 0.0, -half_angle.sin(), 0.0]
+        [0.0, 0.0, 0.0, 0.0, -libm::sin(half_angle), 0.0]
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         let element = refooted(*element, sample.station);
         let [distance, half_angle] = element.size;
         let direction = element.pose.axes[2];
-        let apex = plus(element.pose.origin, times(-distance / half_angle.sin(), direction));
+        let apex = plus(element.pose.origin, times(-distance / libm::sin(half_angle), direction));
         Shape::Cone {
             apex: sample.place(apex),
             direction,
             half_angle,
             point: sample.place(element.pose.origin),
-            radius: distance / half_angle.cos() / sample.scale,
+            radius: distance / libm::cos(half_angle) / sample.scale,
         }
     }
     fn element(shape: &Shape, sample: &Sample) -> Option<Element> {
         let Shape::Cone { direction, half_angle, point, radius, .. } = *shape else { return None };
         let (w, _) = unit(direction)?;
         let pose = Pose::along(sample.unit(point), w);
-        let size = [radius * sample.scale * half_angle.cos(), half_angle];
+        let size = [radius * sample.scale * libm::cos(half_angle), half_angle];
         Some(refooted(Element { pose, size }, [0.0; 3]))
     }
 }
@@ -94,6 +94,6 @@ impl Family<6> for Cone {
 fn refooted(element: Element, place: Point) -> Element {
     let height = element.pose.local(place)[2];
     let mut moved = element.footed(place);
-    moved.size[0] += height * element.size[1].sin();
+    moved.size[0] += height * libm::sin(element.size[1]);
     moved
 }

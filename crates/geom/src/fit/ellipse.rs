@@ -78,10 +78,10 @@ fn conic(points: &[Point]) -> Option<Element> {
     }
     let center = [-(yy * d - xy * e) / (2.0 * det), -(xx * e - xy * d) / (2.0 * det), 0.0];
     let level = -(f + 0.5 * (d * center[0] + e * center[1]));
-    let away = a.hypot(b);
+    let away = libm::hypot(a, b);
     // The eigenvalue 1 − away belongs to the longer half axis.
-    let angle = 0.5 * b.atan2(a) + std::f64::consts::FRAC_PI_2;
+    let angle = 0.5 * libm::atan2(b, a) + std::f64::consts::FRAC_PI_2;
     let size = [level / (1.0 - away), level / (1.0 + away)].map(f64::sqrt);
-    let pose = Pose::flat(plus(center, [0.0; 3]), [angle.cos(), angle.sin(), 0.0]);
+    let pose = Pose::flat(plus(center, [0.0; 3]), [libm::cos(angle), libm::sin(angle), 0.0]);
     Ellipse2::sound(size).then_some(Element { pose, size })
 }

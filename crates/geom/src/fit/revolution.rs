@@ -213,7 +213,7 @@ fn grid_direction(k: usize) -> Vector {
     let z = (k as f64 + 0.5) / GRID as f64;
     let across = (1.0 - z * z).sqrt();
     let angle = k as f64 * (3.0 - 5f64.sqrt()) * std::f64::consts::PI;
-    [across * angle.cos(), across * angle.sin(), z]
+    [across * libm::cos(angle), across * libm::sin(angle), z]
 }
 
 #[cfg(test)]

@@ -132,7 +132,7 @@ fn trials<const P: usize, F: Family<P>>(
             let share = share_within::<P, F>(&found.1, &jury, near);
             let clean = share.powi(each as i32);
             // So many that with 99.9 % one of them had no outlier.
-            let needed = (0.001f64.ln() / (1.0 - clean).ln()).ceil();
+            let needed = (libm::log(0.001f64) / libm::log(1.0 - clean)).ceil();
             enough = TRIALS.min(needed.max(8.0) as usize);
             best = Some(found);
         }

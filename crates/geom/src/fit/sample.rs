@@ -33,7 +33,7 @@ impl<'a> Sample<'a> {
         }
         let center = plus(times(0.5, bounds.min), times(0.5, bounds.max));
         // 2^1000 and more would overflow when squared on the way back; such sizes are no parts.
-        let scale = (-reach.log2().ceil()).clamp(-1000.0, 1000.0).exp2();
+        let scale = libm::exp2((-libm::log2(reach).ceil()).clamp(-1000.0, 1000.0));
         let mut sample = Sample { points: Cow::Borrowed(points), center, scale, station: [0.0; 3] };
         sample.station = sample.mean();
         Ok(sample)

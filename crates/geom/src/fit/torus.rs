@@ -58,7 +58,7 @@ impl Family<7> for Torus {
         let frames = scatter.axes.into_iter().chain(directions()).flat_map(|w| {
             let frame = Pose::along(scatter.mean, w);
             (0..TURNS).flat_map(move |k| {
-                let (sin, cos) = (k as f64 / TURNS as f64 * std::f64::consts::TAU).sin_cos();
+                let (sin, cos) = libm::sincos(k as f64 / TURNS as f64 * std::f64::consts::TAU);
                 [0.3, 0.6, 1.0, 1.7, 3.0].map(|far| frame.moved([far * cos, far * sin, 0.0], [0.0; 2], 0.0))
             })
         });
@@ -101,7 +101,7 @@ fn about(frame: &Pose, points: &[Point]) -> Vec<Element> {
         .iter()
         .map(|&p| {
             let [x, y, z] = frame.local(p);
-            [x.hypot(y), z, 0.0]
+            [libm::hypot(x, y), z, 0.0]
         })
         .collect();
     let circles = round_starts::<2>(&section, &Scatter::flat(&section)).into_iter();

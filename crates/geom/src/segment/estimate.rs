@@ -123,11 +123,11 @@ fn cone(patch: &Patch) -> Option<Shape> {
     let direction = flattest(&rays);
     let cosine = dot(mean(rays.into_iter()), direction);
     let direction = times(cosine.signum(), direction);
-    let half_angle = cosine.abs().min(1.0).acos();
+    let half_angle = libm::acos(cosine.abs().min(1.0));
     let height = dot(minus(middle, apex), direction);
     let point = plus(apex, times(height, direction));
     let sound = height > 0.0 && half_angle > 1e-4 && half_angle < 1.55 && norm(direction) > 0.5;
-    sound.then(|| Shape::Cone { apex, direction, half_angle, point, radius: height * half_angle.tan() })
+    sound.then(|| Shape::Cone { apex, direction, half_angle, point, radius: height * libm::tan(half_angle) })
 }
 
 /// By its axis, which a large piece shows best, or as a bent tube, as which a short piece of a fillet looks.
@@ -149,7 +149,7 @@ fn bent_tube(patch: &Patch) -> Option<Shape> {
         let q = minus(p, point);
         let t = dot(q, direction);
         let (x, y) = (dot(q, u), dot(q, v));
-        let rho = x.hypot(y);
+        let rho = libm::hypot(x, y);
         let [cos, sin] = [x / rho, y / rho];
         let row = [1.0, cos, sin, t * cos, t * sin, 0.5 * t * t * cos, 0.5 * t * t * sin];
         for i in 0..7 {

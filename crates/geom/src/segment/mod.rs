@@ -225,7 +225,7 @@ fn segment(
     if all.is_empty() {
         return Err(SegmentError::NoSurface);
     }
-    let crease = options.crease.cos();
+    let crease = libm::cos(options.crease);
     let Noise { distance, angle } = noise::noise(&surface, crease, options.seed, |random| all.draw(random));
     let kinds: Vec<Kind> = KINDS.into_iter().filter(|kind| options.kinds.contains(kind)).collect();
     let bounds = Aabb::of(surface.points);
@@ -238,7 +238,7 @@ fn segment(
     let terms = Terms {
         surface: &surface,
         kinds: &kinds,
-        band: Band { distance: tolerance, cosine: turned.cos() },
+        band: Band { distance: tolerance, cosine: libm::cos(turned) },
         noise,
         crease,
         size: bounds.diagonal(),

@@ -90,7 +90,8 @@ fn best(surface: &Surface, pieces: &[u32]) -> Option<(f64, f64)> {
 
 fn middle_angle(shape: &Shape, oriented: &[(Point, [f64; 3])]) -> f64 {
     let element = Probe::new(shape);
-    let mut angles: Vec<f64> = oriented.iter().map(|&(p, n)| element.cosine(p, n).min(1.0).acos()).collect();
+    let mut angles: Vec<f64> =
+        oriented.iter().map(|&(p, n)| libm::acos(element.cosine(p, n).min(1.0))).collect();
     angles.sort_by(f64::total_cmp);
     angles.get(angles.len() / 2).copied().unwrap_or(0.0)
 }

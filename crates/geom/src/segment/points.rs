@@ -71,7 +71,7 @@ fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbour]) -> Ve
     // The first neighbour is in the middle of its sector, so that a row lies in two of them.
     let mut alone = |n: &&Neighbour| {
         let q = minus(points[n.1 as usize], *p);
-        let turns = dot(q, v).atan2(dot(q, u)) / TAU + 1.0 + 0.5 / NEAR as f64;
+        let turns = libm::atan2(dot(q, v), dot(q, u)) / TAU + 1.0 + 0.5 / NEAR as f64;
         !std::mem::replace(&mut taken[(turns * NEAR as f64) as usize % NEAR], true)
     };
     let (mut chosen, others): (Vec<&Neighbour>, Vec<&Neighbour>) = near.iter().partition(|n| alone(n));

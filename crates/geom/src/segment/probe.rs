@@ -23,7 +23,7 @@ impl Probe {
                 Probe::Cylinder { point, axis: direction, radius }
             }
             Shape::Cone { direction, half_angle, point, radius, .. } => {
-                let (sin, cos) = half_angle.sin_cos();
+                let (sin, cos) = libm::sincos(half_angle);
                 Probe::Cone { point, axis: direction, radius, sin, cos }
             }
             Shape::Torus { center, direction, major_radius, minor_radius } => {

@@ -20,7 +20,7 @@ const PARALLEL: f64 = 8.0 * f64::EPSILON;
 /// Angle between two lines or two normals without regard to their sense, 0 to π/2. Exact to rounding for small
 /// angles too.
 pub fn angle(a: Vector, b: Vector) -> f64 {
-    norm(cross(a, b)).atan2(dot(a, b).abs())
+    libm::atan2(norm(cross(a, b)), dot(a, b).abs())
 }
 
 /// The middle of two points.

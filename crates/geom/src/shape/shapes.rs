@@ -135,7 +135,7 @@ impl Shape {
             }
             Shape::Circle { center, normal, radius } => {
                 let (rho, z) = off_axis(p, center, normal);
-                (rho - radius).hypot(z)
+                libm::hypot(rho - radius, z)
             }
             Shape::Ellipse2 { center, direction, major_radius, minor_radius } => {
                 let q = Pose::flat(center, direction).local(p);
@@ -145,11 +145,11 @@ impl Shape {
             Shape::Cylinder { point, direction, radius } => off_axis(p, point, direction).0 - radius,
             Shape::Cone { point, direction, half_angle, radius, .. } => {
                 let (rho, z) = off_axis(p, point, direction);
-                (rho - radius) * half_angle.cos() - z * half_angle.sin()
+                (rho - radius) * libm::cos(half_angle) - z * libm::sin(half_angle)
             }
             Shape::Torus { center, direction, major_radius, minor_radius } => {
                 let (rho, z) = off_axis(p, center, direction);
-                (rho - major_radius).hypot(z) - minor_radius
+                libm::hypot(rho - major_radius, z) - minor_radius
             }
         }
     }

@@ -38,6 +38,17 @@ pub trait Lanes<const N: usize>: Arithmetic {
     fn mul_add(self, b: Self, c: Self) -> Self;
     /// `c - self * b`
     fn neg_mul_add(self, b: Self, c: Self) -> Self;
+    /// `self * b + c`, rounded once with every type: for kernels whose results must not depend on it. [`mul_add`](Lanes::mul_add) is
+    /// rounded twice where the processor has no instruction for it.
+    #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        self.mul_add(b, c)
+    }
+    /// `c - self * b`, rounded once with every type.
+    #[inline(always)]
+    fn neg_fused(self, b: Self, c: Self) -> Self {
+        self.neg_mul_add(b, c)
+    }
     /// Lesser of the two.
     fn min(self, o: Self) -> Self;
     /// Greater of the two.
@@ -159,6 +170,14 @@ impl<const N: usize> Lanes<N> for Plain<N> {
         c - self * b
     }
     #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        Plain(std::array::from_fn(|i| fused(self.0[i], b.0[i], c.0[i])))
+    }
+    #[inline(always)]
+    fn neg_fused(self, b: Self, c: Self) -> Self {
+        Plain(std::array::from_fn(|i| fused(-self.0[i], b.0[i], c.0[i])))
+    }
+    #[inline(always)]
     fn min(self, o: Self) -> Self {
         self.zip(o, |a, b| if a < b { a } else { b })
     }
@@ -186,6 +205,23 @@ impl<const N: usize> Lanes<N> for Plain<N> {
     fn keep(self, mask: u32) -> Self {
         Plain(std::array::from_fn(|i| if mask >> i & 1 != 0 { self.0[i] } else { 0.0 }))
     }
+}
+
+/// `a * b + c`, rounded once. The product is exact in double precision; the sum is rounded to odd there, so that rounding it once more is
+/// as rounding once (Boldo & Melquiond 2008, "Emulation of a FMA and correctly rounded sums").
+#[inline(always)]
+fn fused(a: f32, b: f32, c: f32) -> f32 {
+    let (p, c) = (f64::from(a) * f64::from(b), f64::from(c));
+    let sum = p + c;
+    // What rounding the sum has lost, exactly.
+    let back = sum - p;
+    let lost = (p - (sum - back)) + (c - back);
+    let bits = sum.to_bits();
+    // An even sum that lost something goes to its odd neighbour on that side.
+    let away = (lost > 0.0) == (sum > 0.0);
+    let odd = if away { bits.wrapping_add(1) } else { bits.wrapping_sub(1) };
+    let is_inexact = lost.abs() > 0.0 && bits & 1 == 0;
+    f64::from_bits(if is_inexact { odd } else { bits }) as f32
 }
 
 impl Real for f64 {
@@ -226,5 +262,45 @@ impl Real for f64 {
     #[inline(always)]
     fn select(m: bool, a: f64, b: f64) -> f64 {
         if m { a } else { b }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    /// Beside the mathematics library, on numbers whose sums lie at or near the middle between two others, on subnormal ones, and on
+    /// what is not finite.
+    #[test]
+    fn plain_fused_rounds_once() {
+        let random = &mut Random::new(3);
+        let mut any = |bits: u32| {
+            let few = random.below(1 << bits) as u32;
+            f32::from_bits(
+                few << (23 - bits) | (random.below(60) as u32 + 97) << 23 | (random.below(2) as u32) << 31,
+            )
+        };
+        let check = |a: f32, b: f32, c: f32| {
+            let (own, once) = (fused(a, b, c), a.mul_add(b, c));
+            assert!(
+                own.to_bits() == once.to_bits() || own.is_nan() && once.is_nan(),
+                "{a:e} {b:e} {c:e}: {own:e} {once:e}"
+            );
+        };
+        let mut differs = 0;
+        for round in 0..400_000 {
+            let bits = [1, 4, 12, 22][round % 4];
+            let (a, b, c) = (any(bits), any(23 - bits), any(1 + bits));
+            check(a, b, c);
+            differs += usize::from(fused(a, b, c) != a * b + c);
+            check(a * 1e-30, b * 1e-9, c * f32::MIN_POSITIVE);
+        }
+        assert!(differs > 10_000, "{differs}");
+        for special in [0.0, -0.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, f32::MAX, f32::MIN_POSITIVE] {
+            for (b, c) in [(2.0, 1.0), (0.0, special), (special, 1.0), (-1.0, special), (special, special)] {
+                check(special, b, c);
+            }
+        }
     }
 }

@@ -4,7 +4,13 @@
 //! cargo run -p trueness-inspect --example report_fixtures -- FOLDER
 //! ```
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, reason = "a tool of the tests")]
+#![allow(
+    clippy::disallowed_methods,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "a tool of the tests"
+)]
 
 mod answers;
 mod clouds;

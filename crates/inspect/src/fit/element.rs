@@ -73,7 +73,7 @@ fn between([from, to]: [f64; 2], n: usize) -> impl Iterator<Item = f64> {
 
 fn place(shape: &Shape, extent: &Extent, u: f64, v: f64) -> Point {
     let [a, b, w] = extent.axes;
-    let (sine, cosine) = u.sin_cos();
+    let (sine, cosine) = libm::sincos(u);
     let add = |x: f64, y: f64, z: f64| -> Vector { plus(plus(times(x, a), times(y, b)), times(z, w)) };
     // Away from the axis by `r`, along it by `z`.
     let round = |r: f64, z: f64| add(r * cosine, r * sine, z);
@@ -85,10 +85,10 @@ fn place(shape: &Shape, extent: &Extent, u: f64, v: f64) -> Point {
             add(major_radius * cosine, minor_radius * sine, 0.0)
         }
         Shape::Cylinder { radius, .. } => round(radius, v),
-        Shape::Cone { radius, half_angle, .. } => round(radius + v * half_angle.tan(), v),
-        Shape::Sphere { radius, .. } => round(radius * v.cos(), radius * v.sin()),
+        Shape::Cone { radius, half_angle, .. } => round(radius + v * libm::tan(half_angle), v),
+        Shape::Sphere { radius, .. } => round(radius * libm::cos(v), radius * libm::sin(v)),
         Shape::Torus { major_radius, minor_radius, .. } => {
-            round(major_radius + minor_radius * v.cos(), minor_radius * v.sin())
+            round(major_radius + minor_radius * libm::cos(v), minor_radius * libm::sin(v))
         }
     };
     plus(extent.origin, offset)

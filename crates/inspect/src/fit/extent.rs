@@ -21,27 +21,28 @@ pub fn extent(shape: &Shape, points: &[Point]) -> Option<Extent> {
         axes.map(|a| dot(q, a))
     };
     let all = || points.iter().map(local);
-    let turn = || arc(all().map(|q| q[1].atan2(q[0])), points.len());
+    let turn = || arc(all().map(|q| libm::atan2(q[1], q[0])), points.len());
     let along = |k: usize| range(all().map(|q| q[k]), local(first)[k]);
     let (u, v) = match *shape {
         Shape::Plane { .. } => (along(0), along(1)),
         Shape::Line2 { .. } | Shape::Line { .. } => ([0.0; 2], along(2)),
         Shape::Circle2 { .. } | Shape::Circle { .. } => (turn(), [0.0; 2]),
-        Shape::Ellipse2 { major_radius, minor_radius, .. } => {
-            (arc(all().map(|q| (q[1] / minor_radius).atan2(q[0] / major_radius)), points.len()), [0.0; 2])
-        }
+        Shape::Ellipse2 { major_radius, minor_radius, .. } => (
+            arc(all().map(|q| libm::atan2(q[1] / minor_radius, q[0] / major_radius)), points.len()),
+            [0.0; 2],
+        ),
         Shape::Cylinder { .. } => (turn(), along(2)),
         Shape::Cone { half_angle, radius, .. } => {
             // There is no cone beyond its apex.
-            let apex = -radius / half_angle.tan();
+            let apex = -radius / libm::tan(half_angle);
             (turn(), along(2).map(|v| v.max(apex)))
         }
         Shape::Sphere { .. } => {
-            let low = all().map(|q| q[2].atan2(q[0].hypot(q[1]))).fold(FRAC_PI_2, f64::min);
+            let low = all().map(|q| libm::atan2(q[2], libm::hypot(q[0], q[1]))).fold(FRAC_PI_2, f64::min);
             ([0.0, TAU], if low < WHOLE { [-FRAC_PI_2, FRAC_PI_2] } else { [low, FRAC_PI_2] })
         }
         Shape::Torus { major_radius, .. } => {
-            let around = all().map(|q| q[2].atan2(q[0].hypot(q[1]) - major_radius));
+            let around = all().map(|q| libm::atan2(q[2], libm::hypot(q[0], q[1]) - major_radius));
             (turn(), arc(around, points.len()))
         }
     };
@@ -87,8 +88,8 @@ fn longest_first([a, b, w]: [Vector; 3], origin: Point, points: &[Point]) -> [Ve
         sums[1] += (x - old[0]) * (y - mean[1]);
         sums[2] += (y - old[1]) * (y - mean[1]);
     }
-    let angle = 0.5 * (2.0 * sums[1]).atan2(sums[0] - sums[2]);
-    let (sine, cosine) = angle.sin_cos();
+    let angle = 0.5 * libm::atan2(2.0 * sums[1], sums[0] - sums[2]);
+    let (sine, cosine) = libm::sincos(angle);
     let u = plus(times(cosine, a), times(sine, b));
     [u, cross(w, u), w]
 }

@@ -342,7 +342,7 @@ fn hint(section: &Section) -> Option<String> {
 
 /// A length with two digits, for words.
 fn digits(x: f64) -> String {
-    let places = (1.0 - x.abs().max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+    let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
     format!("{x:.places$}")
 }
 

@@ -1,5 +1,5 @@
 //! Points of exact features, for tests.
-#![allow(dead_code, reason = "each test uses some of it")]
+#![allow(clippy::disallowed_methods, dead_code, reason = "each test uses some of it")]
 
 use std::f64::consts::TAU;
 use trueness_geom::rigid::Rigid;

@@ -67,7 +67,11 @@ impl Frame {
         let reach =
             (0..3).map(|k| bounds.max[k] / 2.0 - bounds.min[k] / 2.0).fold(f64::MIN_POSITIVE, f64::max);
         // 2^-23 is four times the rounding of a number below 1.
-        Frame { origin, scale: 0.5 * 2f64.powi(-(reach.log2().ceil() as i32)), slack: 1.0 / (1 << 23) as f32 }
+        Frame {
+            origin,
+            scale: 0.5 * 2f64.powi(-(libm::log2(reach).ceil() as i32)),
+            slack: 1.0 / (1 << 23) as f32,
+        }
     }
 
     /// A place in the frame, not rounded yet.

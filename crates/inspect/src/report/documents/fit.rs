@@ -37,7 +37,7 @@ impl Subject for FitDocument {
             "sphere" if v[0] > -FRAC_PI_2 => Some(w),
             // The outer side of a part of the turn.
             "cylinder" | "cone" if u[1] - u[0] < TAU => {
-                Some(plus(times(middle.cos(), a), times(middle.sin(), b)))
+                Some(plus(times(libm::cos(middle), a), times(libm::sin(middle), b)))
             }
             _ => None,
         }
@@ -204,7 +204,7 @@ fn row(h: &mut Html, name: &str, axis: &str, x: f64, uncertainty: Option<f64>, u
     }
     h.raw(&format!(" <i>{axis}</i></th><td class=\"r\">"));
     let u = uncertainty.filter(|u| *u > 0.0 && u.is_finite());
-    let decimals = u.map_or(6.0, |u| (1.0 - u.log10().floor()).clamp(3.0, 9.0)) as usize;
+    let decimals = u.map_or(6.0, |u| (1.0 - libm::log10(u).floor()).clamp(3.0, 9.0)) as usize;
     h.number(x, decimals, false).raw(unit).raw("</td><td class=\"r\">");
     match uncertainty {
         Some(0.0) => h.raw("0"),

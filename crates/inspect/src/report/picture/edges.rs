@@ -74,7 +74,7 @@ pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera
     let lift = 1e-3 * f64::from(canvas.width);
     for [a, b] in edges {
         let (a, b) = (camera.project(&a), camera.project(&b));
-        let steps = ((b[0] - a[0]).hypot(b[1] - a[1]) / (0.5 * WIDE)).ceil().clamp(1.0, 1e5);
+        let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / (0.5 * WIDE)).ceil().clamp(1.0, 1e5);
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));

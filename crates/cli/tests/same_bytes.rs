@@ -1,0 +1,132 @@
+//! The same bytes on any machine: what the commands write over the corpus, under each instruction set, on one thread and on three.
+//!
+//! Kept are hashes, in `golden/bytes.tsv`. After a change that is meant, write them anew with `TRUENESS_BLESS=1`, and say in the
+//! commit why they changed. Of a report the scripts and styles of the viewer are left out.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+mod common;
+use common::*;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+/// Files of the corpus that the commands read, by the name they have there.
+const INPUTS: &[&str] = &[
+    "bunny/zipper_res2.ply",
+    "bunny/zipper_res3.ply",
+    "broken/ok_ascii.stl",
+    "examples/plate/nominal.stl",
+    "examples/plate/plate.toml",
+    "examples/plate/scan.stl",
+    "reference_surfaces/franke_400_noise.txt",
+    "shapes/numpy-stl__Moon_Chinese.stl",
+    "shapes/trimesh__angle_block.STL",
+    "shapes/trimesh__soup.stl",
+    "shapes/trimesh__wallhole.obj",
+];
+
+/// What is run, in this order; `…` stands for the name of the run.
+const RUNS: &[(&str, &str)] = &[
+    (
+        "compare",
+        "compare zipper_res3.ply zipper_res2.ply --tolerance 0.5 --research --json ….json --html ….html --out ….csv",
+    ),
+    ("compare_npz", "compare zipper_res3.ply zipper_res2.ply --out ….npz"),
+    ("compare_parquet", "compare zipper_res3.ply zipper_res2.ply --out ….parquet"),
+    ("compare_vtp", "compare zipper_res3.ply zipper_res2.ply --out ….vtp"),
+    ("compare_ply", "compare zipper_res3.ply zipper_res2.ply --out ….ply"),
+    ("compare_paper", "compare zipper_res3.ply zipper_res2.ply --method paper --json ….json"),
+    ("compare_winding", "compare zipper_res3.ply zipper_res2.ply --sign winding --json ….json"),
+    ("align", "align scan.stl nominal.stl --json ….json --out ….ply"),
+    ("check", "check zipper_res2.ply --json ….json --html ….html"),
+    ("check_soup", "check trimesh__soup.stl --json ….json"),
+    ("repair", "repair zipper_res3.ply --json ….json --html ….html --out ….stl"),
+    ("repair_crossing", "repair trimesh__angle_block.STL --json ….json --out ….obj"),
+    ("repair_wall", "repair trimesh__wallhole.obj --json ….json --out ….off"),
+    ("fit", "fit trimesh__angle_block.STL --shape sphere --json ….json"),
+    ("fit_zone", "fit zipper_res3.ply --shape cylinder --method minimum-zone --json ….json"),
+    ("segment", "segment nominal.stl --json ….json --out ….ply --html ….html"),
+    ("section", "section scan.stl --plane 0,0,1,3 --json ….json --dxf ….dxf --svg ….svg"),
+    ("surface", "surface franke_400_noise.txt --spans 6x6 --json ….json --step ….step --iges ….igs"),
+    ("surface_tolerance", "surface franke_400_noise.txt --tolerance 0.5 --json ….json"),
+    ("curvature", "curvature zipper_res3.ply --json ….json --out ….npz"),
+    ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml"),
+    ("trend", "trend inspect.json inspect.json --json ….json --csv ….csv"),
+];
+
+/// All that is written, by file: its hash.
+fn written(level: &str, threads: &str) -> Option<String> {
+    let f = Folder::new();
+    for input in INPUTS {
+        let name = Path::new(input).file_name().unwrap();
+        std::fs::copy(corpus(input), f.0.join(name)).unwrap();
+    }
+    let given = f.names();
+    for (name, line) in RUNS {
+        let words: Vec<String> = line.split(' ').map(|word| word.replace('…', name)).collect();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trueness"));
+        command.args(&words).args(["--threads", threads, "--quiet"]);
+        let o = command.current_dir(&f.0).env("TRUENESS_INSTRUCTIONS", level).output().unwrap();
+        if stderr(&o).contains("this processor lacks") {
+            return None;
+        }
+        assert!(status(&o) <= 1, "{name}: {}", stderr(&o));
+    }
+    let mut all = String::new();
+    for name in f.names().into_iter().filter(|name| !given.contains(name)) {
+        let bytes = std::fs::read(f.file(&name)).unwrap();
+        let bytes = if name.ends_with(".html") { without_viewer(&bytes) } else { bytes };
+        writeln!(all, "{name}\t{:016x}", hash(&bytes)).unwrap();
+    }
+    Some(all)
+}
+
+/// A page without its scripts and styles, but with its data.
+fn without_viewer(page: &[u8]) -> Vec<u8> {
+    let mut text = String::from_utf8(page.to_vec()).unwrap();
+    for (open, close) in [("<script>", "</script>"), ("<style>", "</style>")] {
+        while let Some(from) = text.find(open) {
+            let to = from + text[from..].find(close).unwrap() + close.len();
+            text.replace_range(from..to, "");
+        }
+    }
+    text.into_bytes()
+}
+
+/// FNV-1a of 64 bits.
+fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[test]
+fn every_instruction_set_writes_the_bytes_that_are_kept() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/bytes.tsv");
+    if std::env::var_os("TRUENESS_BLESS").is_some() {
+        std::fs::write(&path, written("plain", "1").unwrap()).unwrap();
+    }
+    let kept = std::fs::read_to_string(&path).unwrap();
+    for (level, threads) in [("plain", "1"), ("avx2", "3"), ("avx512", "2")] {
+        let Some(now) = written(level, threads) else {
+            println!("NOT TRIED: {level}, which this processor lacks");
+            continue;
+        };
+        let other: Vec<&str> = now.lines().filter(|line| !kept.lines().any(|k| k == *line)).collect();
+        assert!(
+            other.is_empty() && now.lines().count() == kept.lines().count(),
+            "{level}: other bytes in\n{}",
+            other.join("\n")
+        );
+    }
+}
+
+#[test]
+fn an_instruction_set_that_there_is_not_is_refused() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trueness"));
+    let o = command.args(["check", "x.stl"]).env("TRUENESS_INSTRUCTIONS", "mmx").output().unwrap();
+    assert_eq!(status(&o), 2);
+    assert!(
+        stderr(&o).contains("TRUENESS_INSTRUCTIONS=mmx: give one of plain, avx2, avx512"),
+        "{}",
+        stderr(&o)
+    );
+}
