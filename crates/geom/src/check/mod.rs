@@ -116,7 +116,8 @@ const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 /// place are otherwise different vertices. `stored_normals` are those a file holds with its facets, in the order of the
 /// faces, of any length; a zero or NaN one says nothing. Any mesh will do, however broken. The report is the same for any
 /// number of threads. A scan of 1.6 million facets takes about 0.4 s on two cores, half of it for
-/// self-intersections; `progress` is told facets as they pass that search.
+/// self-intersections; `progress` is told facets as they pass that search. Closed shells within each other are compared two
+/// and two: that grows with the square of how deep they lie (3,000 boxes, each in the next: 0.7 s; 10,000: 8 s).
 ///
 /// # Errors
 /// [`CheckError`].

@@ -20,6 +20,7 @@ mod options;
 mod orient;
 mod outward;
 mod pairs;
+mod rounds;
 mod same;
 mod scraps;
 mod self_intersections;
@@ -49,6 +50,7 @@ use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
 use rayon::prelude::*;
+use rounds::{Keeper, Kept, Place, go_through};
 use same::Same;
 use std::sync::Arc;
 use work::Work;
@@ -147,9 +149,6 @@ const WIDEN: f64 = 0.25;
 /// Steps that remove surface so that what is left can be closed. Where it is not sound even so, they are not done.
 const LOSING: [&str; 2] = [self_intersections::STEP.name, scraps::STEP.name];
 
-/// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
-const ROUNDS: usize = 8;
-
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50
@@ -160,8 +159,8 @@ const ROUNDS: usize = 8;
 /// same for any number of threads. Shells whose union cannot be written as they are, are united with all vertices rounded to single
 /// precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
 /// Cost: for each step that changes something about as much as a check; filling holes up to
-/// the cube of 100 for each ring; what ends worse twice more for each step that changed something; all of it twice where vertices are
-/// rounded.
+/// the cube of 100 for each ring; what ends worse twice more for each step that changed something, from where it first did;
+/// all of it twice where vertices are rounded.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -200,21 +199,21 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         None => base.again(options),
     };
     let soup = start.soup()?;
-    let attempt = |without: &[&'static str]| {
+    let attempt = |without: &[&'static str], from: Option<&Kept>| {
         // Bodies that are not united stay whole: what crosses is not torn out in their place.
         let torn = without.contains(&union::STEP.name).then_some(self_intersections::STEP.name);
         let is_wanted = |s: &&str| !without.contains(s) && torn != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
-        attempt(&start, &Options { steps, ..options.clone() }, (&before, &check_options))
+        attempt((&start, from), &Options { steps, ..options.clone() }, (&before, &check_options))
     };
     // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
     let mut finite = match before.found("not_finite_facets").map_or(0, |found| found.count) {
         0 => None,
-        _ => Some(attempt(&names_but(not_finite::STEP.name))?),
+        _ => Some(attempt(&names_but(not_finite::STEP.name), None)?),
     };
     let least = finite.as_ref().map_or(&before, |finite| &finite.after).clone();
     let mut done = match (soup, finite.take_if(|_| soup.is_some())) {
-        (None, _) => attempt(&[])?,
+        (None, _) => attempt(&[], None)?,
         (Some(_), Some(finite)) => finite,
         (Some(_), None) => Attempt::none(&mut base, &before)?,
     };
@@ -223,7 +222,7 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     let mut lost = done.did(&LOSING);
     if !done.after.sound && !lost.is_empty() {
         // Surface was removed in vain: it shall stay.
-        done = attempt(&lost)?;
+        done = attempt(&lost, None)?;
         taken_back.append(&mut lost);
     }
     if worse(&least, &done.after) {
@@ -239,7 +238,8 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         };
         taken_back.retain(|name| options.steps.contains(name));
     }
-    let Attempt { mesh, known, changes, rounds, after, counts, not_united, lost } = done;
+    let Attempt { mesh, known, changes, rounds, after, counts, not_united, lost, kept } = done;
+    drop(kept);
     let of_start = (rounded.vertices > 0).then_some((&start, rounded.farthest));
     let effect = Effect::of((&base, &before), of_start, (&mesh, &known, &lost), options)?;
     Ok(Repaired { mesh, changes, rounds, before, after, counts, effect, taken_back, rounded, not_united })
@@ -261,12 +261,12 @@ fn names_but(name: &str) -> Vec<&'static str> {
 
 /// The steps without one of those that changed something in `done`, or without the last ones of these, so that nothing is worse than
 /// `least`; and all that were left out, with those left out before.
-fn without_some(
-    attempt: &impl Fn(&[&'static str]) -> Result<Attempt, RepairError>,
-    done: &Attempt,
+fn without_some<'a>(
+    attempt: &impl Fn(&[&'static str], Option<&Kept>) -> Result<Attempt<'a>, RepairError>,
+    done: &Attempt<'a>,
     left_out: &[&'static str],
     least: &Report,
-) -> Result<Option<(Attempt, Vec<&'static str>)>, RepairError> {
+) -> Result<Option<(Attempt<'a>, Vec<&'static str>)>, RepairError> {
     // Tearing opens what is closed: it is the first to be done without.
     let tearing = self_intersections::STEP.name;
     let singly = done.did(&[&[tearing][..], &names_but(tearing)].concat());
@@ -274,7 +274,10 @@ fn without_some(
     let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
     for tried in singly.into_iter().map(|name| vec![name]).chain(last) {
         let without = [left_out, &tried].concat();
-        let next = attempt(&without)?;
+        // The presence of these two changes what other steps do.
+        let alone = !tried.iter().any(|name| [union::STEP.name, tearing].contains(name));
+        let from = if alone { Kept::before(&done.kept, &tried) } else { None };
+        let next = attempt(&without, from)?;
         if !worse(least, &next.after) {
             return Ok(Some((next, without)));
         }
@@ -290,7 +293,7 @@ fn worse(before: &Report, after: &Report) -> bool {
 }
 
 /// What some steps came to.
-struct Attempt {
+struct Attempt<'a> {
     mesh: Mesh,
     known: Arc<Known>,
     changes: Vec<Change>,
@@ -299,16 +302,18 @@ struct Attempt {
     counts: Counts,
     not_united: Option<ArrangeError>,
     lost: Vec<[Point; 3]>,
+    /// States on the way.
+    kept: Vec<Kept<'a>>,
 }
 
-impl Attempt {
+impl Attempt<'_> {
     /// Which of these steps changed something, in the order given.
     fn did(&self, steps: &[&'static str]) -> Vec<&'static str> {
         steps.iter().copied().filter(|name| self.changes.iter().any(|c| c.step == *name)).collect()
     }
 
     /// Nothing done.
-    fn none(base: &mut Work, before: &Report) -> Result<Attempt, RepairError> {
+    fn none(base: &mut Work, before: &Report) -> Result<Self, RepairError> {
         Ok(Attempt {
             mesh: base.mesh().clone(),
             known: base.known()?,
@@ -318,23 +323,33 @@ impl Attempt {
             counts: Counts::of(base.mesh(), base.mesh()),
             not_united: None,
             lost: vec![],
+            kept: vec![],
         })
     }
 }
 
-/// Goes through the steps of `options`.
-fn attempt(
-    start: &Work,
+/// Goes through the steps of `options`, from the start or from a state on the way to which these steps have not differed.
+fn attempt<'a>(
+    (start, from): (&Work<'a>, Option<&Kept>),
     options: &Options,
     (before, check_options): (&Report, &check::Options),
-) -> Result<Attempt, RepairError> {
-    let mut work = start.again(options);
-    work.may_widen = WIDEN * before.properties.area;
-    let mut rounds = go_through(&mut work)?;
+) -> Result<Attempt<'a>, RepairError> {
+    let wanted = |(_, step): &(usize, &'static Step)| options.steps.contains(&step.name);
+    let steps: Vec<(usize, &'static Step)> = STEPS.into_iter().enumerate().filter(wanted).collect();
+    let mut keeper = Keeper { options: start.options, progress: start.progress, kept: vec![] };
+    let (mut work, mut rounds);
+    if let Some(from) = from {
+        work = from.work.copy(options, start.progress);
+        rounds = go_through(&mut work, &steps, from.place(), None)?;
+    } else {
+        work = start.again(options);
+        work.may_widen = WIDEN * before.properties.area;
+        rounds = go_through(&mut work, &steps, Place::START, Some(&mut keeper))?;
+    }
     if work.widened && work.has_torn_hole()? {
         // All for nothing: what was torn out in vain shall stay.
         work = start.again(options);
-        rounds = go_through(&mut work)?;
+        rounds = go_through(&mut work, &steps, Place::START, None)?;
     }
     let mut counts = Counts::of(start.mesh(), work.mesh());
     if !work.changes.is_empty() {
@@ -348,7 +363,8 @@ fn attempt(
     let after = work.report(check_options)?;
     let (known, not_united) = (work.known()?, work.not_united);
     let (changes, lost) = (std::mem::take(&mut work.changes), std::mem::take(&mut work.lost));
-    Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united, lost })
+    let kept = keeper.kept;
+    Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united, lost, kept })
 }
 
 /// The mesh in single precision, if that is another; of vertices that fall upon each other facets name the first.
@@ -368,31 +384,4 @@ fn in_single(mesh: &Mesh) -> Result<(Option<Mesh>, Rounded), WeldError> {
     }
     let single = if rounded.vertices > 0 { Some(rejoined(single)?) } else { None };
     Ok((single, rounded))
-}
-
-/// Goes through the steps until nothing is left to do; how often.
-fn go_through(work: &mut Work) -> Result<usize, RepairError> {
-    let wanted: Vec<&Step> = STEPS.into_iter().filter(|s| work.options.steps.contains(&s.name)).collect();
-    for round in 1..=ROUNDS {
-        let done = work.changes.len();
-        for step in &wanted {
-            (step.run)(work)?;
-        }
-        // A tangle that two rounds have not undone gets no better.
-        let idle = work.changes.len() == done;
-        let tears = wanted.iter().any(|s| s.name == self_intersections::STEP.name);
-        // Bodies whose union cannot be written stay whole.
-        let is_close = matches!(work.not_united, Some(ArrangeError::Unresolved { .. }));
-        if idle && !work.may_tear && tears && !is_close {
-            // Nothing else helps: the last resort, if there is anything to tear out.
-            work.may_tear = true;
-            if work.crossings(|_, _| true)?.is_some_and(|pairs| !pairs.is_empty()) {
-                continue;
-            }
-        }
-        if idle || round > 1 && work.crossings(|_, _| true)?.is_none() {
-            return Ok(round);
-        }
-    }
-    Ok(ROUNDS)
 }

@@ -92,7 +92,7 @@ fn apart(
     again: &[([u32; 2], [u32; 2])],
     step: &'static str,
 ) -> Result<Vec<(u32, Vec<u32>)>, RepairError> {
-    let before = work.mesh().clone();
+    let before = work.shared();
     let changing: BTreeSet<u32> = lost
         .iter()
         .flat_map(|(_, fan)| fan)

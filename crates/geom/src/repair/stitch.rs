@@ -46,15 +46,26 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let diagonal = work.known()?.properties.bounds.diagonal();
     let limit = work.options.stitch.unwrap_or(REACH * diagonal);
     let mut reach = work.gap;
+    if reach >= limit || reach <= 0.0 {
+        return Ok(());
+    }
+    // Nothing is joined at less than the distance of the first that would be joined at the limit: in a smaller reach each
+    // edge has the nearest of its partners there, in the same order.
+    let known = work.known()?;
+    let least = partners(work, &known, limit).into_iter().find(|(_, [a, b])| a != b).map(|found| found.0);
+    let Some(least) = least else { return Ok(()) };
     while reach < limit {
         reach = (GROWTH * reach).min(limit);
+        if reach < least {
+            continue;
+        }
         let known = work.known()?;
-        if known.topology.boundary_edges.is_empty() || reach <= 0.0 {
+        if known.topology.boundary_edges.is_empty() {
             break;
         }
         let sets = Sets::new(work.mesh().positions.len());
         let mut members = vec![];
-        for [a, b] in partners(work, &known, reach).into_iter().filter(|[a, b]| a != b) {
+        for (_, [a, b]) in partners(work, &known, reach).into_iter().filter(|(_, [a, b])| a != b) {
             sets.join(a, b);
             members.extend([a, b]);
         }
@@ -84,8 +95,9 @@ fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
     work.rename(|_, v| renamed.binary_search_by_key(&v, |r| r.0).map_or(v, |i| renamed[i].1));
 }
 
-/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one.
-fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
+/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one, the nearest edges first, with
+/// the distance of the edges, mm.
+fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
     let edges = &known.topology.boundary_edges;
     let ends = |e: u32| edges[e as usize].vertices;
     let length = |e: u32| norm(minus(work.at(ends(e)[0]), work.at(ends(e)[1])));
@@ -121,12 +133,12 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<[u32; 2]> {
     let parted = |v: &u32| work.parted.contains(v);
     let mut used = vec![false; edges.len()];
     let mut pairs = vec![];
-    for (_, e, f, joined) in found {
+    for (distance, e, f, joined) in found {
         let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(parted);
         let apart = |[a, b]: &[u32; 2]| a == b || !known.topology.has_edge(work.mesh(), [*a, *b]);
         if free && joined.iter().all(apart) {
             (used[e as usize], used[f as usize]) = (true, true);
-            pairs.extend(joined);
+            pairs.extend(joined.map(|pair| (distance, pair)));
         }
     }
     pairs

@@ -20,7 +20,8 @@ use std::sync::Arc;
 
 /// What a step works on.
 pub(super) struct Work<'a> {
-    mesh: Mesh,
+    /// Copied only when it changes while an earlier state still holds it.
+    mesh: Arc<Mesh>,
     pub options: &'a Options,
     pub progress: &'a dyn Progress,
     /// Distance, mm, up to which two places may have been meant as one.
@@ -60,7 +61,7 @@ impl<'a> Work<'a> {
         let single = mesh.is_single();
         let mut work = Work {
             most_facets: 100 + 4 * mesh.faces.len(),
-            mesh,
+            mesh: Arc::new(mesh),
             options,
             progress,
             gap: 0.0,
@@ -99,12 +100,43 @@ impl<'a> Work<'a> {
         }
     }
 
+    /// The same state under other options.
+    pub(super) fn copy<'b>(&self, options: &'b Options, progress: &'b dyn Progress) -> Work<'b> {
+        Work {
+            mesh: self.mesh.clone(),
+            options,
+            progress,
+            changes: self.changes.clone(),
+            torn: self.torn.clone(),
+            parted: self.parted.clone(),
+            lost: self.lost.clone(),
+            known: self.known.clone(),
+            pairs: self.pairs.clone(),
+            ..*self
+        }
+    }
+
+    /// Whether anything has changed since that state.
+    pub(super) fn is_beyond(&self, earlier: &Work) -> bool {
+        let is_same = Arc::ptr_eq(&self.mesh, &earlier.mesh) || self.mesh == earlier.mesh;
+        self.changes.len() != earlier.changes.len() || !is_same
+    }
+
     pub(super) fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
+    /// The mesh as it is, to compare with it or to go back to it.
+    pub(super) fn shared(&self) -> Arc<Mesh> {
+        self.mesh.clone()
+    }
+
     pub(super) fn into_mesh(self) -> Mesh {
-        self.mesh
+        Arc::unwrap_or_clone(self.mesh)
+    }
+
+    fn mesh_mut(&mut self) -> &mut Mesh {
+        Arc::make_mut(&mut self.mesh)
     }
 
     /// Goes on with `mesh`: the same facets at the same places, without the vertices that no facet uses. `same`: apart from that,
@@ -112,7 +144,7 @@ impl<'a> Work<'a> {
     pub(super) fn compacted(&mut self, mesh: Mesh, same: bool) {
         let known = self.known.take().filter(|_| same);
         self.known = known.and_then(|known| known.compacted(&mesh)).map(Arc::new);
-        self.mesh = mesh;
+        self.mesh = Arc::new(mesh);
         if !same {
             self.pairs = Pairs::Unknown;
         }
@@ -271,22 +303,25 @@ impl<'a> Work<'a> {
             removed.iter().for_each(|&f| keep[f as usize] = false);
             self.pairs.keep(&keep);
             let mut keep = keep.into_iter();
-            self.mesh.faces.retain(|_| keep.next().unwrap_or(true));
+            self.mesh_mut().faces.retain(|_| keep.next().unwrap_or(true));
         }
-        self.mesh.faces.extend_from_slice(added);
+        if !added.is_empty() {
+            self.mesh_mut().faces.extend_from_slice(added);
+        }
         self.known = None;
     }
 
     /// Turns facets over.
     pub(super) fn turn(&mut self, facets: impl IntoIterator<Item = u32>) {
-        facets.into_iter().for_each(|f| self.mesh.faces[f as usize].swap(1, 2));
+        let mesh = self.mesh_mut();
+        facets.into_iter().for_each(|f| mesh.faces[f as usize].swap(1, 2));
         self.known = None;
         self.pairs = Pairs::Unknown;
     }
 
     /// Lets every corner `v` name `other(facet, v)` instead.
     pub(super) fn rename(&mut self, other: impl Fn(u32, u32) -> u32) {
-        for (f, face) in (0..).zip(&mut self.mesh.faces) {
+        for (f, face) in (0..).zip(&mut self.mesh_mut().faces) {
             *face = face.map(|v| other(f, v));
         }
         self.known = None;
@@ -295,14 +330,15 @@ impl<'a> Work<'a> {
 
     /// A new vertex at `place`, rounded to single precision where all others are.
     pub(super) fn add(&mut self, place: Point) -> u32 {
-        self.mesh.positions.push(self.rounded(place));
+        let place = self.rounded(place);
+        self.mesh_mut().positions.push(place);
         self.known = None;
         self.mesh.positions.len() as u32 - 1
     }
 
     /// New vertices, as they are.
     pub(super) fn append(&mut self, places: &[Point]) {
-        self.mesh.positions.extend_from_slice(places);
+        self.mesh_mut().positions.extend_from_slice(places);
         self.known = None;
     }
 
@@ -316,8 +352,9 @@ impl<'a> Work<'a> {
     pub(super) fn truncate(&mut self, facets: u32, vertices: usize) {
         let keep: Vec<bool> = (0..self.mesh.faces.len()).map(|f| f < facets as usize).collect();
         self.pairs.keep(&keep);
-        self.mesh.faces.truncate(facets as usize);
-        self.mesh.positions.truncate(vertices);
+        let mesh = self.mesh_mut();
+        mesh.faces.truncate(facets as usize);
+        mesh.positions.truncate(vertices);
         self.known = None;
     }
 
@@ -335,7 +372,7 @@ impl<'a> Work<'a> {
     }
 
     /// Goes back to an earlier state; its vertices must be the first of those now.
-    pub(super) fn restore(&mut self, earlier: Mesh) {
+    pub(super) fn restore(&mut self, earlier: Arc<Mesh>) {
         self.mesh = earlier;
         self.known = None;
         self.pairs = Pairs::Unknown;

@@ -221,7 +221,8 @@ fn a_vertex_cuts_a_facet_once() {
         [6.0, 0.0, 5.0],
     ];
     let mesh = Mesh { positions, faces: vec![[0, 1, 2], [3, 4, 5]] };
-    let repaired = unguarded(&mesh, &Options { gap: Some(0.05), ..only(&["t_junctions"]) });
+    let options = Options { gap: Some(0.05), ..only(&["t_junctions"]) };
+    let repaired = unguarded(&mesh, &options);
     assert_eq!(repaired.mesh.faces.len(), 3);
     assert_eq!(repaired.after.found("degenerate_facets").map(|found| found.count), Some(0));
 }

@@ -5,6 +5,7 @@ mod joints;
 mod nearly;
 mod steps;
 
+use super::rounds::ROUNDS;
 use super::*;
 use crate::check::tests::{add, counts, planted, sound};
 use crate::num::random::Random;
@@ -24,11 +25,11 @@ pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
 }
 
 /// What the steps come to, even if it is worse.
-pub(super) fn unguarded(mesh: &Mesh, options: &Options) -> Attempt {
+pub(super) fn unguarded<'a>(mesh: &Mesh, options: &'a Options) -> Attempt<'a> {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let before = check::check(mesh, None, &check_options, &Silent).unwrap();
     let start = Work::new(mesh.clone(), options, &Silent).unwrap();
-    attempt(&start, options, (&before, &check_options)).unwrap()
+    attempt((&start, None), options, (&before, &check_options)).unwrap()
 }
 
 /// Vertices said to be kept are places of the mesh as it was, and the counts add up.
@@ -261,6 +262,46 @@ fn a_repair_makes_nothing_worse() {
         }
     }
     assert!(taken_back > 0, "nothing was put to the test");
+}
+
+/// Without a step that changed something: from the state before it as from the start.
+#[test]
+fn going_on_from_a_kept_state_comes_to_the_same() {
+    let random = &mut Random::new(47);
+    let mut tried: BTreeSet<&str> = BTreeSet::new();
+    let mut meshes: Vec<Mesh> = check::KINDS.iter().map(|kind| planted(kind.name, 3).0).collect();
+    for round in 0..12 {
+        let mut mesh = heap_of_bodies(random);
+        if round % 2 == 1 {
+            let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
+            mesh.faces.truncate(few);
+        }
+        meshes.push(mesh);
+    }
+    for (number, mesh) in meshes.into_iter().enumerate() {
+        let (options, check_options) = (Options::default(), check::Options::default());
+        let mesh = as_it_is(&mesh).unwrap();
+        let before = check::check(&mesh, None, &check_options, &Silent).unwrap();
+        let start = Work::new(mesh, &options, &Silent).unwrap();
+        let go = |options: &Options, from: Option<&Kept>| {
+            attempt((&start, from), options, (&before, &check_options)).unwrap()
+        };
+        let all = go(&options, None);
+        for name in all.did(&names_but("")) {
+            let from = Kept::before(&all.kept, &[name]);
+            if ["union", "self_intersections"].contains(&name) || from.is_none() {
+                continue;
+            }
+            let without = Options { steps: names_but(name), ..options.clone() };
+            let (kept, whole) = (go(&without, from), go(&without, None));
+            // As text: of facets that are not finite, no coordinate equals itself.
+            let text = |a: &Attempt| format!("{:?}", (&a.mesh, &a.changes, &a.lost, counts(&a.after)));
+            assert!(text(&kept) == text(&whole), "{number} without {name}");
+            assert_eq!((kept.rounds, kept.counts), (whole.rounds, whole.counts), "{number} without {name}");
+            tried.insert(name);
+        }
+    }
+    assert!(tried.len() >= 8, "{tried:?}");
 }
 
 /// Boxes that cross: their union has 1,000 + 1,000 − 125.

@@ -15,7 +15,7 @@ export function printStage(stage: Stage, flags: Flags, picture: HTMLImageElement
   window.addEventListener('beforeprint', () => {
     for (const details of document.querySelectorAll('details')) details.open = true
     stage.canvas.classList.add('on-paper')
-    picture.src = stage.pictureOf(WIDTH, HEIGHT, FINE, () => flags.drawInto(numbers))
+    picture.src = stage.pictureOf(WIDTH, HEIGHT, FINE, () => flags.roomOnPaper, () => flags.drawInto(numbers))
     stage.canvas.classList.remove('on-paper')
     stage.recolor()
     stage.settle()

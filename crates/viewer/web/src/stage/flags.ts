@@ -138,6 +138,11 @@ export class Flags {
     return RIM + Math.max(0, ...this.flags.map((f) => f.size.width)) + 2 * GAP
   }
 
+  /** The same on paper. */
+  get roomOnPaper(): number {
+    return RIM + Math.max(0, ...this.flags.map((f) => sizeOnPaper(f).width)) + 2 * GAP
+  }
+
   /** Puts the flags beside the part, nearest side first, without crossing leaders. */
   private place(): void {
     this.size()
@@ -169,12 +174,7 @@ export class Flags {
     const { width, pixels } = this.stage.eye
     target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     target.replaceChildren()
-    const size = ({ pick, text, label }: Flag) => {
-      const { frame } = pick
-      const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
-      return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
-    }
-    for (const { flag, hidden, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(size, RIM)) {
+    for (const { flag, hidden, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(sizeOnPaper, RIM)) {
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
@@ -226,6 +226,12 @@ export class Flags {
     })
     return kept.flat()
   }
+}
+
+function sizeOnPaper({ pick, text, label }: Flag): { width: number; height: number } {
+  const { frame } = pick
+  const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
+  return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
 }
 
 function write(element: Element, attributes: Record<string, number>): void {

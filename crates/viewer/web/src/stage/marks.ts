@@ -40,7 +40,7 @@ export class Marks {
     const numbers = data.corners
     const tints = tintsOf(object, numbers)
     const areas = areaGeometry(places.subarray(0, 9 * triangles), numbers, tints, first)
-    const lines = lineGeometry(places.subarray(9 * triangles), numbers.subarray(triangles), tints.subarray(3 * triangles), segments, points, first)
+    const lines = lineGeometry(places.subarray(9 * triangles), numbers, tints.subarray(3 * triangles), object)
     const passes = [
       { depthFunc: GreaterDepth, opacity: BEHIND, chosen: false },
       { depthFunc: LessEqualDepth, opacity: 1, chosen: false },
@@ -133,24 +133,35 @@ function areaGeometry(places: Float32Array, numbers: Uint32Array, tints: Uint8Ar
   return geometry
 }
 
-/** A line is a strip with round ends as wide as it is on the screen; a dot is a short and wide one. */
-function lineGeometry(places: Float32Array, numbers: Uint32Array, tints: Uint8Array, segments: number, points: number, first: number): BufferGeometry {
+/**
+ * A line is a strip with round ends as wide as it is on the screen; a dot is a short and wide one. First the rims of
+ * areas are drawn, then dots, then lines: a dot is wider, and is seen on both sides of the line that lies over it.
+ */
+function lineGeometry(places: Float32Array, numbers: Uint32Array, tints: Uint8Array, { triangles, segments, points, first }: MarksObject): BufferGeometry {
   const count = segments + points
+  const areas = new Set(numbers.subarray(0, triangles))
+  numbers = numbers.subarray(triangles)
+  const layer = (i: number) => (i >= segments ? 1 : areas.has(numbers[i]) ? 0 : 2)
+  const starts = [0, 0, 0]
+  for (let i = 0; i < count; i++) for (let k = layer(i) + 1; k < 3; k++) starts[k]++
   const [a, b, wide, mark] = [new Float32Array(3 * count), new Float32Array(3 * count), new Float32Array(count), new Float32Array(count)]
+  const tint = new Uint8Array(3 * count)
   for (let i = 0; i < count; i++) {
     const line = i < segments
     const from = line ? 6 * i : 6 * segments + 3 * (i - segments)
-    a.set(places.subarray(from, from + 3), 3 * i)
-    b.set(places.subarray(line ? from + 3 : from, line ? from + 6 : from + 3), 3 * i)
-    wide[i] = line ? LINE : DOT
-    mark[i] = first + numbers[i]
+    const at = starts[layer(i)]++
+    a.set(places.subarray(from, from + 3), 3 * at)
+    b.set(places.subarray(line ? from + 3 : from, line ? from + 6 : from + 3), 3 * at)
+    tint.set(tints.subarray(3 * i, 3 * i + 3), 3 * at)
+    wide[at] = line ? LINE : DOT
+    mark[at] = first + numbers[i]
   }
   const geometry = new InstancedBufferGeometry()
   geometry.setAttribute('corner', new BufferAttribute(new Float32Array([0, -1, 1, -1, 1, 1, 0, 1]), 2))
   geometry.setIndex([0, 1, 2, 0, 2, 3])
   geometry.setAttribute('a', new InstancedBufferAttribute(a, 3))
   geometry.setAttribute('b', new InstancedBufferAttribute(b, 3))
-  geometry.setAttribute('tint', new InstancedBufferAttribute(tints, 3, true))
+  geometry.setAttribute('tint', new InstancedBufferAttribute(tint, 3, true))
   geometry.setAttribute('wide', new InstancedBufferAttribute(wide, 1))
   geometry.setAttribute('mark', new InstancedBufferAttribute(mark, 1))
   geometry.instanceCount = count

@@ -26,7 +26,7 @@ const ROUGH = 0.5
 /** The closest view is this many steps of the drawing's grid high. */
 const FINEST = 500
 /** Least room for a column of flags: with values, and with numbers alone where the stage is narrow; and the most, of its width. */
-const FLAGS = { wide: 150, narrow: 48, most: 0.22 }
+const FLAGS = { wide: 150, narrow: 48, most: 0.24 }
 /** Stages narrower than this have flags with numbers alone. */
 export const NARROW = 700
 /** Room above and below the toolbar, which the part keeps clear of where the stage is narrow. */
@@ -319,10 +319,11 @@ export class Stage {
    * The view as it is, drawn in full at another size on the canvas's own colour. `look` is called while it stands, when
    * what lies over it is laid out for that size.
    */
-  pictureOf(width: number, height: number, ratio: number, look: () => void): string {
+  pictureOf(width: number, height: number, ratio: number, room: () => number, look: () => void): string {
     const { eye, renderer } = this
-    const before = { width: eye.width, pixels: eye.pixels, ratio: this.ratio, eye: eye.save(), moving: this.moving }
+    const before = { room: this.room, width: eye.width, pixels: eye.pixels, ratio: this.ratio, eye: eye.save(), moving: this.moving }
     this.moving = false
+    this.room = room
     eye.width = width
     eye.pixels = height
     this.ratio = ratio
@@ -333,6 +334,7 @@ export class Stage {
     this.drawNow()
     const picture = this.canvas.toDataURL('image/png')
     look()
+    this.room = before.room
     eye.width = before.width
     eye.pixels = before.pixels
     eye.restore(before.eye)
