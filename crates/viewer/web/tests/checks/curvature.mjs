@@ -153,14 +153,14 @@ export const curvature = [
       const signs = { '-1': 0, 1: 0 }
       for (const [x, y] of await pixels(page)) {
         const found = await read(page, x, y)
-        if (!found) continue
+        // At the border the surface follows single points.
+        if (!found || Math.abs(found.place[0]) > 27 || Math.abs(found.place[1]) > 17) continue
         // Discs of neighbours lie over one another: which of them is seen is not known, but both are as far from the surface.
         const want = 0.02 / Math.hypot(1, found.place[0] / 40, found.place[1] / 60)
-        // At the border the surface follows single points a little.
-        assert.ok(Math.abs(Math.abs(found.value) - want) < 1.2e-3, `${found.value} at ${found.place}, exact ${want}`)
+        assert.ok(Math.abs(Math.abs(found.value) - want) < 5e-4, `${found.value} at ${found.place}, exact ${want}`)
         signs[Math.sign(found.value)]++
       }
-      assert.ok(signs[-1] > 20 && signs[1] > 20, JSON.stringify(signs))
+      assert.ok(signs[-1] > 10 && signs[1] > 10, JSON.stringify(signs))
       // Lines and marks away: what is left is the surface.
       await page.keyboard.press('e')
       await tool(page, 'Flat')
