@@ -7,7 +7,7 @@ use super::{SurfaceError, SurfaceFit};
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
-use crate::spline::surface::{Direction, FootSearch, Nurbs, Surface};
+use crate::spline::surface::{FootSearch, Nurbs, Surface};
 use rayon::prelude::*;
 
 /// Points between two questions whether to stop.
