@@ -1,7 +1,7 @@
 //! How near a point must be to a surface for a foot of it to be the nearest place beyond doubt.
 //!
-//! Let the derivatives `J` of a surface differ from fixed ones `J₀` by no more than `e` along the plane that `J₀` spans, and let `m` be
-//! the least stretch of `J₀` less `e`. Then places lie at least `m` times as far apart as their parameters: the domain is convex, and `J`
+//! Let the derivatives `J` of a surface, as seen on a plane, differ from fixed ones `J₀` by no more than `e`, and let `m` be the least
+//! stretch of `J₀` seen there less `e`. Then places lie at least `m` times as far apart as their parameters: the domain is convex, and `J`
 //! is integrated along the straight line between them. Let a point have the distance `d` from a foot, and let another place be no
 //! farther. Their parameters are at most `2d / m` apart, so on the line between them the surface is nowhere farther from the point than
 //! `d + L d / m`, with the greatest stretch `L`. Half the second derivative of the squared distance along it is at least
@@ -10,7 +10,10 @@
 //! Federer, Curvature measures, Transactions of the American Mathematical Society 93, 1959.)
 
 use super::Patches;
-use crate::space::{Vector, cross, dot, minus, norm, unit};
+use crate::space::{Vector, cross, dot, minus, norm, times, unit};
+
+/// Steps to the direction of the greatest spread. It need not be met: any plane is good, the best one says most.
+const STEPS: usize = 32;
 
 impl Patches {
     /// A distance: of points nearer than that to a foot, a place where the squared distance stands still, no other place is nearer.
@@ -31,7 +34,8 @@ impl Patches {
         let smooth =
             self.spans.iter().all(|s| (1..s.count()).all(|i| s.first(i) - s.first(i - 1) < s.degree()));
         let middle = self.mean_stretch();
-        let Some(plane) = Plane::of(middle).filter(|_| smooth) else { return 0.0 };
+        let normal = self.turning(middle);
+        let Some(plane) = Plane::of(middle, normal).filter(|_| smooth) else { return 0.0 };
         let (mut off, mut most, mut bend) = (0.0f64, 0.0f64, 0.0f64);
         for cell in 0..self.spans[0].count() * self.spans[1].count() {
             let all = self.derivatives_of(cell);
@@ -59,6 +63,31 @@ impl Patches {
         sum
     }
 
+    /// The direction in which the derivatives differ most from their mean: of heights over a plane that plane's normal. Any one,
+    /// if they are all the same.
+    fn turning(&self, [u, v]: [Vector; 2]) -> Vector {
+        let mut spread = [[0.0; 3]; 3];
+        for cell in 0..self.spans[0].count() * self.spans[1].count() {
+            let all = self.derivatives_of(cell);
+            // Ends of the patch as well: a single one has nothing to differ from.
+            for (n, c) in all.coefficients.iter().enumerate() {
+                let powers = [n / all.q, n % all.q];
+                for k in 0..2 {
+                    let own = c.map(|x| powers[k] as f64 / all.half[k] * x);
+                    let constant = powers[k] == 1 && powers[1 - k] == 0;
+                    let off = if constant { minus(own, [u, v][k]) } else { own };
+                    (0..9).for_each(|e| spread[e / 3][e % 3] += off[e / 3] * off[e % 3]);
+                }
+            }
+        }
+        let mut found = unit(cross(u, v)).map_or([0.0, 0.0, 1.0], |(n, _)| n);
+        for _ in 0..STEPS {
+            let next = spread.map(|row| dot(row, found));
+            found = unit(next).map_or(found, |(n, _)| n);
+        }
+        found
+    }
+
     fn derivatives_of(&self, cell: usize) -> Derivatives<'_> {
         let columns = self.spans[1].count();
         let (coefficients, q) = self.patch(cell);
@@ -67,17 +96,17 @@ impl Patches {
     }
 }
 
-/// The plane of two derivatives.
+/// A plane that a surface is seen on.
 struct Plane {
     axes: [Vector; 2],
-    /// Least stretch.
+    /// Least stretch of the mean derivatives, as seen there.
     least: f64,
 }
 
 impl Plane {
-    /// `None` where they span none.
-    fn of([u, v]: [Vector; 2]) -> Option<Plane> {
-        let (normal, _) = unit(cross(u, v))?;
+    /// At right angles to `normal`; `None` where the derivatives are seen to span none.
+    fn of(derivatives: [Vector; 2], normal: Vector) -> Option<Plane> {
+        let [u, v] = derivatives.map(|d| minus(d, times(dot(d, normal), normal)));
         let (first, _) = unit(u)?;
         let (trace, area) = (dot(u, u) + dot(v, v), norm(cross(u, v)));
         // The smaller singular value, without a difference of near numbers.

@@ -58,6 +58,17 @@ fn a_small_bowl_has_about_half_its_radius() {
 }
 
 #[test]
+fn heights_over_a_slanting_plane_keep_their_reach() {
+    let reach = |slope: f64| {
+        let surface = hills(3.0, 3);
+        let points = surface.points().iter().map(|p| [p[0], p[1], p[2] + slope * p[0]]).collect();
+        Patches::new(&Surface::new(surface.knots().clone(), points).unwrap()).reach()
+    };
+    // Steeper walls take some of it, not all.
+    assert!(reach(2.0) > 0.2 * reach(0.0) && reach(0.0) > 0.0, "{} {}", reach(2.0), reach(0.0));
+}
+
+#[test]
 fn flat_creased_and_turning_surfaces() {
     let flat = |x: f64| vec![[0.0; 3], [0.0, 3.0, 0.0], [x, 0.0, 1.0], [x, 3.0, 1.0]];
     let line = || Knots::uniform(1, 1, 0.0, 1.0);
