@@ -6,6 +6,7 @@ run.py read FILE…                    reading a mesh (and welding it) or a clou
 run.py compare MEASURED REFERENCE    the whole command, wall time and peak memory
 run.py check MESH…                   loading, welding, checking, beside MeshLib and ADMesh
 run.py fit [--only WORDS]            least-squares elements beside SciPy, minimum zones, on one thread
+run.py surface [--only WORDS]        B-spline surfaces through a million points and more, beside FITPACK and G+Smo, on one thread
 run.py table --data FOLDER           all of it, against the goals; FOLDER as `inputs.py all` makes it
 
 See README.md. Ratios above 1 mean: the rival needs that many times longer than we do.
@@ -18,7 +19,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
-from harness import check, closest, command, data, fit, machine, readers, report, table  # noqa: E402
+from harness import check, closest, command, data, fit, machine, readers, report, surface, table  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -26,7 +27,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 def main():
     o = arguments()
     tools = Tools(o)
-    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "check": do_check, "fit": do_fit, "table": do_table}[o.job](o, tools)
+    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "check": do_check, "fit": do_fit, "surface": do_surface, "table": do_table}[o.job](o, tools)
     if o.record:
         report.record(o.record, tools.describe(), o.date, rows)
 
@@ -61,6 +62,8 @@ def arguments():
     six.add_argument("meshes", nargs="+")
     five = jobs.add_parser("fit", parents=[shared])
     five.add_argument("--only", default="", help="cases whose name, like `cylinder 1000 near`, contains this")
+    seven = jobs.add_parser("surface", parents=[shared])
+    seven.add_argument("--only", default="", help="cases whose name, like `1000000 47 once`, contains this")
     four = jobs.add_parser("table", parents=[shared])
     four.add_argument("--data", required=True)
     four.add_argument("--only", help="lines whose name contains this")
@@ -83,6 +86,7 @@ class Tools:
         self.reader = [binary("read")]
         self.checkers = {"trueness": [binary("check")], "meshlib": rival("check_meshlib")}
         self.fitters = {"trueness": [binary("fit")], "scipy": rival("fit_scipy")}
+        self.surfaces = {"trueness": [binary("surface")], **{n: [*rival("surface"), n] for n in ("fitpack", "gismo")}}
         self.programs = {"trueness": [binary("closest")]}
         for added in o.add:
             name, _, words = added.partition("=")
@@ -102,7 +106,7 @@ class Tools:
         return [os.path.join(target(root), "release", "trueness")]
 
     def describe(self):
-        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy", "scipy"])
+        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy", "scipy", "pygismo"])
         packages["parry3d"] = machine.crate_version(os.path.join(HERE, "Cargo.lock"), "parry3d")
         return {"machine": machine.describe(), "versions": packages}
 
@@ -162,6 +166,22 @@ def do_fit(o, tools):
             programs = tools.fitters if beside else {"trueness": tools.fitters["trueness"]}
             rows += fit.measure(case, path, programs, o.rounds, o.repeat)
     print(report.markdown(rows, fit.COLUMNS))
+    return rows
+
+
+def do_surface(o, tools):
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for case in surface.CASES:
+            count, spans, task, _, beside = case
+            if o.only not in f"{count} {spans} {task}":
+                continue
+            path = os.path.join(folder, f"{count}.npy")
+            if not os.path.exists(path):
+                np.save(path, surface.points(count))
+            programs = tools.surfaces if beside else {"trueness": tools.surfaces["trueness"]}
+            rows += surface.measure(case, path, programs, o.rounds, o.repeat)
+    print(report.markdown(rows, surface.COLUMNS))
     return rows
 
 

@@ -3,6 +3,7 @@
 use super::options::HIGHEST_DEGREE;
 use crate::fit::FitError;
 use crate::progress::Cancelled;
+use crate::spline::surface::FootError;
 
 /// Why there is no surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -81,7 +82,19 @@ pub enum SurfaceError {
         /// Control points without data.
         unsupported: usize,
     },
+    /// The surface found cannot be searched for nearest places.
+    #[error("nearest places on the surface: {0}")]
+    Search(FootError),
     /// Stopped through the progress argument.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<FootError> for SurfaceError {
+    fn from(error: FootError) -> SurfaceError {
+        match error {
+            FootError::Cancelled(e) => e.into(),
+            other => SurfaceError::Search(other),
+        }
+    }
 }

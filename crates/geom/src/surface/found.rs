@@ -42,8 +42,10 @@ pub struct SurfaceFit {
     pub deviations: Vec<f64>,
     /// Parameters of those places.
     pub feet: Vec<[f64; 2]>,
-    /// Points whose nearest place was not found to the last digit.
+    /// Points whose nearest place was not found to the last digit, or not beyond doubt.
     pub unsettled: usize,
+    /// Points whose foot is that of a descent from their parameters, not shown to be the nearest place.
+    pub(super) doubtful: Vec<u32>,
     /// Sum of the squared differences between the points and the surface at the parameters of the last fit, unweighted.
     pub sum_of_squares: f64,
     /// Greatest such difference.

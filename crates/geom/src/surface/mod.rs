@@ -12,6 +12,7 @@
 //! | `solve` | control points; the weight of the thin-plate term |
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
 //! | `refine` | knots for a tolerance |
+//! | `nearest` | nearest places of the points, beyond doubt |
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
 //! spline Gaussian regression: more scalable computation via efficient approximation, Journal of the Royal Statistical
@@ -23,6 +24,7 @@ mod error;
 mod fold;
 mod found;
 mod gram;
+mod nearest;
 mod options;
 mod pass;
 mod rectangle;
@@ -83,7 +85,7 @@ pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Resu
         let uniform = |spans: [usize; 2]| {
             [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
         };
-        match &options.layout {
+        let found = match &options.layout {
             Layout::Spans(spans) => {
                 pass::corrected(points, parameters, base, uniform(*spans), options, progress)
             }
@@ -94,7 +96,8 @@ pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Resu
                 let start = refine::first_spans(domain);
                 refine::to_tolerance(points, parameters, base, uniform(start), *t, options, progress)
             }
-        }
+        };
+        nearest::told(points, found?, 0.0, progress)
     })
 }
 

@@ -114,13 +114,17 @@ fn once(
         points: points.len(),
         unsupported: solved.support.unsupported,
     })?;
-    let feet = feet(&Patches::new(&surface), points, parameters, progress)?;
+    let patches = Patches::new(&surface);
+    let feet = feet(&patches, points, parameters, progress)?;
+    let reach = patches.reach();
+    let doubtful = (0..).zip(&feet).filter(|(_, f)| !f.settled || f.distance >= reach).map(|(i, _)| i);
     let sides = hull.sides();
     let far = |p: &&Point| (0..3).any(|k| (p[k] - center[k]).abs() > sides[k].max(0.5 * hull.diagonal()));
     Ok(SurfaceFit {
         far_control_points: surface.points().iter().filter(far).count(),
         deviations: feet.iter().zip(points).map(|(f, p)| f.signed(*p)).collect(),
         unsettled: feet.iter().filter(|f| !f.settled).count(),
+        doubtful: doubtful.collect(),
         feet: feet.iter().map(|f| f.parameters).collect(),
         sum_of_squares: residuals.iter().map(|d| d * d).sum(),
         max_residual: residuals.iter().fold(0.0, |m, d| m.max(*d)),

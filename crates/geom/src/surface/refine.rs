@@ -1,7 +1,7 @@
 //! Knots where a tolerance asks for them.
 
 use super::pass::{corrected, rms};
-use super::{Base, Options, Reached, SurfaceError, SurfaceFit, solve};
+use super::{Base, Options, Reached, SurfaceError, SurfaceFit, nearest, solve};
 use crate::progress::Progress;
 use crate::space::Point;
 use crate::spline::basis::Knots;
@@ -38,12 +38,14 @@ pub(super) fn to_tolerance(
     let mut best: Option<(f64, SurfaceFit)> = None;
     let mut idle = 0;
     for _ in 0..ROUNDS {
-        let found = corrected(points, parameters.clone(), base, knots.clone(), &own, progress)?;
+        let local = corrected(points, parameters.clone(), base, knots.clone(), &own, progress)?;
+        let feet = local.feet.clone();
+        let found = nearest::told(points, local, tolerance, progress)?;
         if found.deviations.iter().all(|d| d.abs() <= tolerance) {
             return Ok(SurfaceFit { reached: Some(Reached::Tolerance), ..found });
         }
         if options.base != super::BaseKind::Xy {
-            parameters.clone_from(&found.feet);
+            parameters = feet;
         }
         let used = found.degrees_of_freedom.unwrap_or(found.support.control_points as f64);
         let free = points.len() as f64 - used;
@@ -82,28 +84,42 @@ pub(super) fn to_tolerance(
     }
 }
 
-/// Halves the spans that hold points beyond the tolerance, if they hold more points than the halves have functions.
+/// Cells whose farthest point is nearer than this share of the farthest one of all wait for the next round: beside what bends most
+/// a surface of too few knots swings, and that passes by itself.
+const URGENT: f64 = 0.1;
+/// Of a cell the sides longer than this share of the other are halved.
+const LONGER: f64 = 0.7;
+
+/// Halves the longer sides of the cells that hold points beyond the tolerance, if their spans hold more points than the halves
+/// have functions.
+///
+/// A knot goes all through the surface, so it is set only where it is urgent: a dimple in a plane takes a quarter of the control points
+/// that it would if all spans with a point beyond the tolerance were halved.
 fn finer(knots: &[Knots; 2], found: &SurfaceFit, tolerance: f64) -> [Knots; 2] {
     let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
-    let mut beyond = [vec![0usize; spans[0].count()], vec![0usize; spans[1].count()]];
-    let mut held = beyond.clone();
+    let mut farthest = vec![0.0f64; spans[0].count() * spans[1].count()];
+    let mut held = [vec![0usize; spans[0].count()], vec![0usize; spans[1].count()]];
     for (foot, deviation) in found.feet.iter().zip(&found.deviations) {
+        let at = [0, 1].map(|k| spans[k].locate(foot[k]).0);
+        (0..2).for_each(|k| held[k][at[k]] += 1);
+        let cell = &mut farthest[at[0] * spans[1].count() + at[1]];
+        *cell = cell.max(deviation.abs());
+    }
+    let limit = tolerance.max(URGENT * farthest.iter().fold(0.0, |m: f64, d| m.max(*d)));
+    let mut halved = held.each_ref().map(|h| vec![false; h.len()]);
+    for (cell, _) in farthest.iter().enumerate().filter(|(_, d)| **d > limit) {
+        let at = [cell / spans[1].count(), cell % spans[1].count()];
+        let allowed = [0, 1].map(|k| held[k][at[k]] >= 2 * knots[1 - k].count());
+        let half = [0, 1].map(|k| spans[k].half(at[k]));
         for k in 0..2 {
-            let span = spans[k].locate(foot[k]).0;
-            held[k][span] += 1;
-            beyond[k][span] += usize::from(deviation.abs() > tolerance);
+            halved[k][at[k]] |= allowed[k] && (half[k] > LONGER * half[1 - k] || !allowed[1 - k]);
         }
     }
     [0, 1].map(|k| {
         let p = knots[k].degree();
-        let others = knots[1 - k].count();
         let mut inner: Vec<f64> = knots[k].values()[p + 1..knots[k].count()].to_vec();
-        for span in 0..spans[k].count() {
-            if beyond[k][span] > 0 && held[k][span] >= 2 * others {
-                let (from, to) = spans[k].limits(span);
-                inner.push(0.5 * (from + to));
-            }
-        }
+        let middle = |span: usize| 0.5 * (spans[k].limits(span).0 + spans[k].limits(span).1);
+        inner.extend((0..spans[k].count()).filter(|span| halved[k][*span]).map(middle));
         inner.sort_unstable_by(f64::total_cmp);
         let (from, to) = knots[k].domain();
         Knots::clamped(p, from, &inner, to).unwrap_or_else(|_| knots[k].clone())

@@ -6,6 +6,7 @@ mod closest;
 mod nurbs;
 mod patches;
 mod rational;
+mod reach;
 mod search;
 mod tensor;
 mod tessellate;

@@ -1,5 +1,6 @@
 //! Surfaces against closed forms, and against themselves under changes that keep them.
 
+mod reach;
 mod search;
 
 use super::super::basis::Knots;

@@ -7,7 +7,7 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../corpus/reference_surfaces")
 }
 
-fn points(file: &str) -> Vec<Point> {
+pub fn points(file: &str) -> Vec<Point> {
     let text = std::fs::read_to_string(folder().join(file)).unwrap();
     let row = |l: &str| {
         let n: Vec<f64> = l.split_whitespace().map(|w| w.parse().unwrap()).collect();

@@ -108,6 +108,29 @@ fn no_place_of_a_dense_sample_is_nearer() {
     }
 }
 
+/// Over a trough two places are nearly as near, one to each side: farther apart than the search may leave out, nearer than its cells
+/// know their places.
+#[test]
+fn the_nearer_side_of_a_trough_is_found() {
+    // z = x² over uneven cells: those of the right are coarser.
+    let along = Knots::clamped(2, -2.5, &[-1.8, -1.3, -0.6], 2.5).unwrap();
+    let t = along.values().to_vec();
+    let rows = (0..along.count()).map(|i| (0.5 * (t[i + 1] + t[i + 2]), t[i + 1] * t[i + 2]));
+    let points = rows.flat_map(|(x, z)| [-3.0, 3.0].map(|y| [x, y, z])).collect();
+    let trough = Surface::new([along, Knots::uniform(1, 1, -3.0, 3.0)], points).unwrap();
+    let patches = super::super::Patches::new(&trough);
+    let search = FootSearch::new(&[trough.into()], &Silent).unwrap();
+    let mut random = Random::stream(11, 3);
+    for k in 0..4000 {
+        let off = [1e-6, 1e-5, 1e-4, 1e-2][k % 4] * (random.unit() - 0.5);
+        let p = [off, 4.0 * (random.unit() - 0.5), 1.0 + 3.0 * random.unit()];
+        let side = |start: f64| patches.foot_from(p, [start, p[1]]).distance;
+        let wanted = side(-1.5).min(side(1.5));
+        let found = search.nearest(&p);
+        assert!(found.certain && (found.foot.distance - wanted).abs() < 1e-8, "{p:?} {found:?} {wanted}");
+    }
+}
+
 fn plus(a: Point, b: Point) -> Point {
     [0, 1, 2].map(|k| a[k] + b[k])
 }
@@ -125,7 +148,7 @@ fn sides_of_a_crease() {
     for height in [1.0, 5.0, -1.0, -5.0] {
         let search = FootSearch::new(&[roof(height)], &Silent).unwrap();
         for _ in 0..500 {
-            let p = [2.0 * (random.unit() - 0.5), 8.0 * (random.unit() - 0.5), 8.0 * (random.unit() - 0.5)];
+            let p = [2.0 * (random.unit() - 0.5), 8.0 * (random.unit() - 0.5), 20.0 * (random.unit() - 0.5)];
             let above = p[2] - height * (1.0 - p[0].abs() / 2.0);
             let flat = above.abs() / libm::hypot(1.0, height / 2.0);
             let found = search.nearest(&p);
