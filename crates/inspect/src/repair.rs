@@ -58,7 +58,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
         after,
         vertices: VertexCounts {
             kept: counts.vertices_kept,
-            moved: 0,
+            moved: if options.single { 0 } else { repaired.rounded.vertices },
             added: counts.vertices_added,
             removed: counts.vertices_removed,
         },

@@ -24,7 +24,7 @@ pub struct Effect {
     /// shells that are removed on request.
     pub enclosed: Result<Enclosed, NotEnclosed>,
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
-    /// others the middle and the corners of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation);
+    /// others the middle and the corners of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation), and places beside the corners;
     /// gaps in the material narrower than 1e-5 of the size do not count.
     /// With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be
     /// closed count too, where no material is now. `None` where nothing was enclosed, or nothing is left, and no such facet was removed.
@@ -136,6 +136,17 @@ struct Asked {
     middle: Point,
 }
 
+/// Corners, places beside them, and others, the middle last. A corner may lie on another body, and be near what is left of that, where
+/// the surface beside it is not.
+fn asked_about(facet: u32, corners: &[Point], others: &[Point]) -> Vec<Asked> {
+    /// Of the way to the middle.
+    const BESIDE: f64 = 0.02;
+    let middle = others[others.len() - 1];
+    let beside = |p: &Point| plus(times(1.0 - BESIDE, *p), times(BESIDE, middle));
+    let all = corners.iter().copied().chain(corners.iter().map(beside)).chain(others.iter().copied());
+    all.map(|place| Asked { facet, place, middle }).collect()
+}
+
 fn gone(
     before: &Mesh,
     enclosed: &Enclosed,
@@ -147,12 +158,10 @@ fn gone(
     let is_gone = bounding.filter(|((_, face), bounds)| **bounds && !kept.holds(before, face));
     let asked_of = |((f, face), _): ((usize, &[u32; 3]), &bool)| {
         let places = places(face.map(|v| before.positions[v as usize]));
-        places.map(|place| Asked { facet: f as u32, place, middle: places[6] })
+        asked_about(f as u32, &places[..3], &places[3..])
     };
-    let of_piece = |Piece { facet, middle, corners }: &Piece| {
-        let [a, b, c, d] = *corners;
-        [*middle, a, b, c, d].map(|place| Asked { facet: *facet, place, middle: *middle })
-    };
+    let of_piece =
+        |Piece { facet, middle, corners }: &Piece| asked_about(*facet, corners, std::slice::from_ref(middle));
     let mut asked: Vec<Asked> = is_gone.flat_map_iter(asked_of).collect();
     asked.extend(enclosed.pieces.iter().flat_map(of_piece));
     if asked.is_empty() {

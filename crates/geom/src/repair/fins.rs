@@ -2,12 +2,14 @@
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
 //! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay.
+//! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
+//! with as many facets one way as the other at every edge each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
 use super::error::RepairError;
 use super::holes;
 use super::step::Step;
+use super::union::solid_shells;
 use super::work::Work;
 use crate::deviation::sign_choice::SHEET;
 use crate::space::{Vector, cross, minus, norm, plus};
@@ -77,8 +79,9 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     for sheet in sheets.iter().filter(|s| !s.facets.is_empty() && s.has_border && !is_fin(s)) {
         open[shell(sheet)] = true;
     }
+    let solid = solid_shells(work.mesh(), &known.topology);
     let mut candidates: Vec<u32> = (0..sheets.len() as u32)
-        .filter(|s| !sheets[*s as usize].edges.is_empty())
+        .filter(|s| !sheets[*s as usize].edges.is_empty() && !solid[shell(&sheets[*s as usize])])
         .filter(|s| encloses_nothing(&sheets[*s as usize]) && small(&sheets[*s as usize], &may_go))
         .filter(|s| !sheets[*s as usize].has_rim || !open[shell(&sheets[*s as usize])])
         .collect();

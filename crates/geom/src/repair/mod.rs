@@ -285,8 +285,11 @@ fn without_some<'a>(
     Ok(None)
 }
 
-/// Whether a defect that makes a mesh unsound is there more often.
+/// Whether a defect that makes a mesh unsound is there more often, or all surface is gone.
 fn worse(before: &Report, after: &Report) -> bool {
+    if before.properties.area > 0.0 && after.properties.area == 0.0 {
+        return true;
+    }
     let count = |report: &Report, name: &str| report.found(name).map_or(0, |found| found.count);
     let errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
     errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))

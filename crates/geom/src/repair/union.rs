@@ -73,7 +73,7 @@ fn pairs(
 }
 
 /// Shells with as many facets one way as the other at every edge.
-fn solid_shells(mesh: &Mesh, topology: &Topology) -> Vec<bool> {
+pub(super) fn solid_shells(mesh: &Mesh, topology: &Topology) -> Vec<bool> {
     let mut solid = vec![true; topology.shells];
     for e in topology.boundary_edges.iter().chain(&topology.inconsistent_edges) {
         solid[topology.shell_of[e.facet as usize] as usize] = false;

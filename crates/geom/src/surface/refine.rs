@@ -54,7 +54,7 @@ pub(super) fn to_tolerance(
         } else {
             f64::INFINITY
         };
-        let next = finer(&knots, &found, tolerance);
+        let next = finer(&knots, &found, tolerance, points.len());
         match &best {
             Some((least, _)) if spread > (1.0 - GAIN) * least => idle += 1,
             _ => {
@@ -63,12 +63,17 @@ pub(super) fn to_tolerance(
             }
         }
         let stop = |reached| best.as_ref().map(|(_, f)| SurfaceFit { reached: Some(reached), ..f.clone() });
-        let counts = [next[0].count(), next[1].count()];
         let end = if idle >= PATIENCE {
             stop(Reached::Noise)
-        } else if next == knots || counts[0].saturating_mul(counts[1]) > points.len() {
+        } else if next == knots {
             stop(Reached::Points)
-        } else if solve::allowed(counts, [next[0].degree(), next[1].degree()], options.memory).is_err() {
+        } else if solve::allowed(
+            [next[0].count(), next[1].count()],
+            [next[0].degree(), next[1].degree()],
+            options.memory,
+        )
+        .is_err()
+        {
             stop(Reached::Memory)
         } else {
             None
@@ -91,11 +96,11 @@ const URGENT: f64 = 0.1;
 const LONGER: f64 = 0.7;
 
 /// Halves the longer sides of the cells that hold points beyond the tolerance, if their spans hold more points than the halves
-/// have functions.
+/// have functions: of the most urgent of them only, where all would make more control points than there are points.
 ///
 /// A knot goes all through the surface, so it is set only where it is urgent: a dimple in a plane takes a quarter of the control points
 /// that it would if all spans with a point beyond the tolerance were halved.
-fn finer(knots: &[Knots; 2], found: &SurfaceFit, tolerance: f64) -> [Knots; 2] {
+fn finer(knots: &[Knots; 2], found: &SurfaceFit, tolerance: f64, points: usize) -> [Knots; 2] {
     let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
     let mut farthest = vec![0.0f64; spans[0].count() * spans[1].count()];
     let mut held = [vec![0usize; spans[0].count()], vec![0usize; spans[1].count()]];
@@ -105,9 +110,26 @@ fn finer(knots: &[Knots; 2], found: &SurfaceFit, tolerance: f64) -> [Knots; 2] {
         let cell = &mut farthest[at[0] * spans[1].count() + at[1]];
         *cell = cell.max(deviation.abs());
     }
-    let limit = tolerance.max(URGENT * farthest.iter().fold(0.0, |m: f64, d| m.max(*d)));
+    let most = farthest.iter().fold(0.0, |m: f64, d| m.max(*d));
+    let mut limit = tolerance.max(URGENT * most);
+    loop {
+        let next = with_halves(knots, &spans, &held, farthest.iter().map(|d| *d > limit));
+        if limit >= most || next[0].count().saturating_mul(next[1].count()) <= points {
+            return next;
+        }
+        limit *= 1.25;
+    }
+}
+
+/// Halves the longer sides of the cells that are urgent.
+fn with_halves(
+    knots: &[Knots; 2],
+    spans: &[Spans; 2],
+    held: &[Vec<usize>; 2],
+    urgent: impl Iterator<Item = bool>,
+) -> [Knots; 2] {
     let mut halved = held.each_ref().map(|h| vec![false; h.len()]);
-    for (cell, _) in farthest.iter().enumerate().filter(|(_, d)| **d > limit) {
+    for (cell, _) in urgent.enumerate().filter(|(_, urgent)| *urgent) {
         let at = [cell / spans[1].count(), cell % spans[1].count()];
         let allowed = [0, 1].map(|k| held[k][at[k]] >= 2 * knots[1 - k].count());
         let half = [0, 1].map(|k| spans[k].half(at[k]));

@@ -352,6 +352,21 @@ fn a_tolerance_is_reached_or_the_noise_is_told() {
     assert!(rms > 0.04 && rms < 0.06, "{rms}");
 }
 
+/// Waves all over, as fine as the points can tell: where all urgent knots together would be too many, the most urgent are set. The
+/// surface that is left is about as fine as the points allow, and nearer than half as many knots would be.
+#[test]
+fn knots_are_set_as_far_as_the_points_go() {
+    // A step along a curve: knots there draw lines through all of it.
+    let step = |x: f64, y: f64| libm::tanh(6.0 * (x - 25.0 - 8.0 * libm::sin(0.12 * y)));
+    let points: Vec<Point> =
+        (0..2500).map(|k| [f64::from(k / 50), f64::from(k % 50)]).map(|[x, y]| [x, y, step(x, y)]).collect();
+    let layout = Layout::Tolerance(1e-6);
+    let found = fit(&points, &Options { layout, base: BaseKind::Xy, ..Options::default() }, &Silent).unwrap();
+    println!("{:?} {}", found.reached, found.support.control_points);
+    assert_eq!(found.reached, Some(Reached::Points));
+    assert!((1700..=2500).contains(&found.support.control_points), "{}", found.support.control_points);
+}
+
 #[test]
 fn robust_weights_leave_outliers_out() {
     let mut points = scan(5_000, 0.01, 41);

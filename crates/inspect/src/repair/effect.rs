@@ -48,9 +48,9 @@ const SHEETS: f64 = 0.01;
 /// were removed count where together they were more than a trifle.
 fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
     let deviation = deviation?;
-    match repaired.effect.enclosed {
+    match &repaired.effect.enclosed {
         Ok(_) => repaired.effect.surface.map(|x| x.max(deviation.back.max)),
-        Err(NotEnclosed::Open) => {
+        Err(reason @ (NotEnclosed::Open | NotEnclosed::Inconsistent)) => {
             let removed = |step: &str| -> f64 {
                 let share = |size: f64| size / repaired.before.properties.area;
                 repaired.changes.iter().filter(|c| c.step == step).map(|c| share(c.size)).sum()
@@ -58,7 +58,9 @@ fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
             let torn = repaired.changes.iter().any(|c| c.step == "self_intersections");
             let lost = repaired.effect.surface.filter(|_| torn || removed("scraps") > SHEETS);
             let fins = (removed("fins") > FINS).then_some(deviation.there.max);
-            [lost, fins].into_iter().flatten().reduce(f64::max)
+            // Without a hole nothing is filled: what is new lies on the old surface, or counts.
+            let new = (*reason == NotEnclosed::Inconsistent).then_some(deviation.back.max);
+            [lost, fins, new].into_iter().flatten().reduce(f64::max)
         }
         Err(_) => Some(deviation.there.max.max(deviation.back.max)),
     }

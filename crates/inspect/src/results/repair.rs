@@ -110,9 +110,9 @@ pub struct State {
 /// Vertices that stayed, came and went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct VertexCounts {
-    /// At their old place, bit for bit.
+    /// At their old place, bit for bit; where vertices were rounded to single precision first, at the rounded one.
     pub kept: u64,
-    /// At another place: always 0.
+    /// Rounded although the format could have held them, because shells could not be united otherwise. No other vertex moves.
     pub moved: u64,
     /// New.
     pub added: u64,

@@ -64,7 +64,11 @@ fn line(out: &mut String, name: &str, text: &str) {
 }
 
 fn state(s: &State) -> String {
-    let volume = s.volume.map_or("open".into(), |v| format!("{} mm³", extent(v)));
+    let volume = match (s.volume, &s.volume_reason) {
+        (Some(volume), _) => format!("{} mm³", extent(volume)),
+        (None, Some(reason)) if s.closed => format!("no volume: {reason}"),
+        (None, _) => "open".into(),
+    };
     let counts = [(s.facets, FACETS), (s.vertices, VERTICES), (s.shells, SHELLS)];
     let counts = counts.map(|(n, what)| counted(n, what)).join(", ");
     format!("{counts}, {} mm², {volume}", extent(s.area))

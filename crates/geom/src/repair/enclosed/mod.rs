@@ -140,7 +140,8 @@ pub(super) fn enclosed(
     }
     let [v, i, x, y, z, ix, iy, iz, size] = sums.each().map(|s| s.value());
     let missed = norm([x, y, z]).max(norm([ix, iy, iz]));
-    (result.volume, result.inverted) = (v, i);
+    // Rounding alone may leave less than nothing.
+    (result.volume, result.inverted) = (v.max(0.0), i.max(0.0));
     result.error = 0.5 * missed * bounds.diagonal() + ROUNDING * size;
     Ok(result)
 }

@@ -1,6 +1,7 @@
 //! Special cases of single steps.
 
 use super::*;
+use crate::arrange::tests::touching::rotation;
 use crate::check::tests::{add, inverted};
 use crate::space::{norm, plus};
 use crate::topology::tests::block;
@@ -437,4 +438,32 @@ fn a_soup_of_facets_is_given_up() {
     assert!(matches!(repaired.not_united, Some(ArrangeError::Tangle { .. })));
     assert!(repaired.changes.is_empty() && repaired.rounds == 0 && !repaired.after.sound);
     assert_eq!(repaired.mesh, mesh);
+}
+
+/// Far from the origin single precision cannot write where two bodies cross: they stay, rather than vanish.
+#[test]
+fn bodies_that_numbers_cannot_hold_stay() {
+    for far in [1e6, 3e6, 1e7] {
+        let random = &mut Random::new(4);
+        let (turn, other) = (rotation(random), rotation(random));
+        let mut mesh = block(6, 10.0);
+        mesh.positions.iter_mut().for_each(|p| *p = other.point(*p));
+        add(&mut mesh, &block(6, 10.0), [0.0; 3]);
+        mesh.positions.iter_mut().for_each(|p| *p = plus(turn.point(*p), [far, 0.7 * far, -far]));
+        let options = Options { single: true, ..Options::default() };
+        let repaired = super::super::repair(&mesh, &options, &Silent).unwrap();
+        assert!(repaired.after.properties.area > 500.0, "{far}: {}", repaired.after.properties.area);
+    }
+}
+
+/// Every other cube of a board of three by three by three: some touch around an empty cell, whose walls are no fins.
+#[test]
+fn cubes_that_touch_in_edges_keep_the_cells_between() {
+    let mut mesh = Mesh::default();
+    for i in (0..27u32).filter(|i| (i % 3 + i / 3 % 3 + i / 9) % 2 == 0) {
+        add(&mut mesh, &block(1, 1.0), [i % 3, i / 3 % 3, i / 9].map(f64::from));
+    }
+    let repaired = mend(&mesh);
+    let volume = repaired.after.properties.signed_volume;
+    assert!(repaired.after.sound && (volume - 14.0).abs() < 1e-2, "{} {volume}", repaired.after.sound);
 }
