@@ -118,6 +118,9 @@ pub enum Fault {
     /// Columns were asked for in a file that has none.
     #[error("columns were named, but this is {0}, which is no table")]
     NoTable(&'static str),
+    /// Normals were asked for in a file of a kind that has none, or whose normals are not read.
+    #[error("no normals are read from this kind of file, which is {0}")]
+    NoNormals(&'static str),
     /// Vertices are to be joined over a distance that no two of them exceed.
     #[error("all its vertices lie within {distance} mm of one another: it is only {size} mm long")]
     WeldTooFar {
@@ -225,6 +228,9 @@ impl Fault {
             Fault::Gzip(_) => "copy the file again or unpack it first",
             Fault::Unsupported { .. } => "export it in another way",
             Fault::NoTable(_) => "leave --columns out",
+            Fault::NoNormals(_) => {
+                "give the points as PLY with nx, ny, nz or as a table with such columns, or a mesh"
+            }
             Fault::WeldTooFar { .. } => "give --weld a smaller distance, or the right unit to --units",
             Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
             Fault::Cell { remedy, .. } | Fault::Unclear { remedy, .. } => remedy,
@@ -347,7 +353,7 @@ pub enum WriteFault {
     /// A block has not as many deviations or colours as points.
     #[error("{points} points with {values} {what}")]
     Uneven {
-        /// `deviations` or `colours`.
+        /// `deviations`, `reasons` or `colours`.
         what: &'static str,
         /// Points in the block.
         points: usize,

@@ -72,6 +72,8 @@ pub struct ReadOptions {
     pub unit_else: Option<Unit>,
     /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
     pub columns: Option<Columns>,
+    /// The normals of the points instead of the points, see [`open_normals`](crate::open_normals).
+    pub normals: bool,
     /// Its format; found out otherwise.
     pub format: Option<&'static Format>,
     /// Which vertices of a mesh become one.
@@ -106,6 +108,7 @@ impl Default for ReadOptions {
             units: None,
             unit_else: None,
             columns: None,
+            normals: false,
             format: None,
             weld: Weld::Same,
             block: 1 << 21,

@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
+//! | read the normals of its points | [`open_normals`] |
 //! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
@@ -49,7 +50,7 @@ pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{Format, ReadOptions, Weld};
 pub use formats::FORMATS;
 pub use hash::sha256;
-pub use open::open;
+pub use open::{open, open_normals};
 pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
 pub use warning::Warning;

@@ -1,7 +1,8 @@
 //! Reading a file of whatever format.
 
 use crate::{
-    Body, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, Warning, assemble, detect,
+    Body, Column, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, Warning,
+    assemble, detect,
     error::Located,
     format::{Parts, ReadOptions, Weld},
     source::Source,
@@ -28,13 +29,49 @@ pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
     }
 }
 
+/// The normals of the points of a file, in the order of the points and neither scaled nor normalised: of a PLY file its properties
+/// `nx`, `ny`, `nz`, of a table the columns of these names or those that `columns` says. In a file with the extension `.xyzn` and no
+/// names they are the columns four to six.
+///
+/// `options` are those that the points were read with; what they say of units and columns does not count.
+///
+/// Errors: those of [`open`]; a file without normals, or of another format.
+pub fn open_normals(
+    path: &Path,
+    columns: Option<&Columns>,
+    options: &ReadOptions,
+) -> Result<crate::PointSource, ReadError> {
+    let named = Columns(["nx", "ny", "nz"].map(|n| Column::Name(n.into())).to_vec());
+    let of = |columns: &Columns| {
+        let columns = Some(columns.clone());
+        let options = ReadOptions {
+            normals: true,
+            columns,
+            units: Some(Unit::default()),
+            unit_else: None,
+            ..options.clone()
+        };
+        open(path, &options).map(|input| input.body.into_points())
+    };
+    match columns {
+        Some(columns) => of(columns),
+        None => of(&named).or_else(|e| {
+            let xyzn = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyzn"));
+            if xyzn { of(&Columns([4, 5, 6].map(Column::Number).to_vec())) } else { Err(e) }
+        }),
+    }
+}
+
 fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> Result<Input, Located> {
     let format = match options.format {
         Some(format) => format,
         None => detect::format(&mut source, path)?,
     };
     let Some(reader) = format.read else { return Err(Fault::NotRead(format.name).into()) };
-    if options.columns.is_some() && !format.has_columns() {
+    if options.normals && !format.has_columns() && format.name != "ply" {
+        return Err(Fault::NoNormals(format.name).into());
+    }
+    if options.columns.is_some() && !format.has_columns() && !options.normals {
         return Err(Fault::NoTable(format.name).into());
     }
     let (bytes, gzip) = (source.bytes, source.gzip);

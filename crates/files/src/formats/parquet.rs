@@ -63,6 +63,9 @@ fn schema(layout: Layout) -> Result<Arc<Type>, ParquetError> {
     if layout.deviation {
         columns.push(column("deviation", Physical::DOUBLE, Repetition::OPTIONAL)?);
     }
+    if layout.reason {
+        columns.push(column("excluded", Physical::INT32, Repetition::REQUIRED)?);
+    }
     if layout.colour {
         for name in ["red", "green", "blue"] {
             columns.push(column(name, Physical::INT32, Repetition::REQUIRED)?);
@@ -99,6 +102,7 @@ impl PointsSink for Table {
             let part = Block {
                 points: &block.points[start..end],
                 deviation: &block.deviation[of(self.layout.deviation)],
+                reason: &block.reason[of(self.layout.reason)],
                 colour: &block.colour[of(self.layout.colour)],
             };
             self.group(&part).map_err(fault)?;
@@ -122,18 +126,29 @@ impl Table {
             let values: Vec<f64> = block.deviation.iter().copied().filter(|d| !d.is_nan()).collect();
             doubles(&mut group, &values, Some(&levels))?;
         }
+        if self.layout.reason {
+            bytes(&mut group, block.reason.iter().copied())?;
+        }
         if self.layout.colour {
             for channel in 0..3 {
-                let values: Vec<i32> = block.colour.iter().map(|c| i32::from(c[channel])).collect();
-                if let Some(mut column) = group.next_column()? {
-                    column.typed::<Int32Type>().write_batch(&values, None, None)?;
-                    column.close()?;
-                }
+                bytes(&mut group, block.colour.iter().map(|c| c[channel]))?;
             }
         }
         group.close()?;
         Ok(())
     }
+}
+
+fn bytes(
+    group: &mut SerializedRowGroupWriter<'_, AtomicFile>,
+    values: impl Iterator<Item = u8>,
+) -> Result<(), ParquetError> {
+    let values: Vec<i32> = values.map(i32::from).collect();
+    if let Some(mut column) = group.next_column()? {
+        column.typed::<Int32Type>().write_batch(&values, None, None)?;
+        column.close()?;
+    }
+    Ok(())
 }
 
 fn doubles(
@@ -178,11 +193,7 @@ pub(crate) fn values<const N: usize>(
                 let own: Vec<f64> = all.into_iter().filter(|x| x.is_finite()).collect();
                 doubles(&mut group, &own, Some(&levels))?;
             }
-            let reasons: Vec<i32> = rows.map(|i| i32::from((values.reason)(i))).collect();
-            if let Some(mut column) = group.next_column()? {
-                column.typed::<Int32Type>().write_batch(&reasons, None, None)?;
-                column.close()?;
-            }
+            bytes(&mut group, rows.map(|i| (values.reason)(i)))?;
             group.close()?;
         }
         writer.into_inner()

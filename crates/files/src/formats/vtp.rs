@@ -108,7 +108,7 @@ impl PointsSink for Points {
             self.file.write_all(&bytes)?;
         }
         self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
-        self.excluded.write(block.deviation.iter().map(|d| u8::from(d.is_nan())))?;
+        self.excluded.write(block.excluded())?;
         self.colour.write(block.colour.iter().flatten().copied())?;
         self.count += block.points.len() as u64;
         Ok(())

@@ -9,8 +9,8 @@ use trueness_geom::space::Point;
 
 /// Points between two blocks of the file.
 const BLOCK: usize = 1 << 16;
-/// Bytes of a point: three coordinates and a deviation.
-const RECORD: usize = 32;
+/// Bytes of a point: three coordinates, a deviation and the number of a reason.
+const RECORD: usize = 40;
 
 /// A file of points with deviations whose colours are not known yet. Unless it is finished, nothing of it remains.
 ///
@@ -18,43 +18,61 @@ const RECORD: usize = 32;
 pub struct HeldPoints {
     file: PointsFile,
     waiting: Spool,
+    reason: bool,
 }
 
 impl HeldPoints {
-    /// Begins a file in the format of the path's extension.
+    /// Begins a file in the format of the path's extension, with reasons or without.
     ///
     /// Errors: those of [`points`](super::points).
-    pub fn create(path: &Path) -> Result<HeldPoints, WriteError> {
-        let (file, waiting) = begin(path, Layout { deviation: true, colour: true })?;
-        Ok(HeldPoints { file, waiting })
+    pub fn create(path: &Path, reason: bool) -> Result<HeldPoints, WriteError> {
+        let (file, waiting) = begin(path, Layout { deviation: true, reason, colour: true })?;
+        Ok(HeldPoints { file, waiting, reason })
     }
 
-    /// Adds points and as many deviations, millimetres; NaN for a point that has none.
-    pub fn write(&mut self, points: &[Point], deviation: &[f64]) -> Result<(), WriteError> {
-        if points.len() != deviation.len() {
-            let (points, values) = (points.len(), deviation.len());
-            return Err(WriteFault::Uneven { what: "deviations", points, values }.in_file(&self.file.path));
+    /// Adds points and as many deviations, millimetres; NaN for a point that has none. If there are reasons, as many of those,
+    /// else none.
+    pub fn write(&mut self, points: &[Point], deviation: &[f64], reason: &[u8]) -> Result<(), WriteError> {
+        let reasons = if self.reason { points.len() } else { 0 };
+        for (what, values, expected) in
+            [("deviations", deviation.len(), points.len()), ("reasons", reason.len(), reasons)]
+        {
+            if values != expected {
+                let points = points.len();
+                return Err(WriteFault::Uneven { what, points, values }.in_file(&self.file.path));
+            }
         }
-        let record = |(p, d): (&Point, &f64)| [p[0], p[1], p[2], *d].map(f64::to_le_bytes);
-        let bytes = points.iter().zip(deviation).flat_map(record).flatten();
+        let reason = |i: usize| f64::from(reason.get(i).copied().unwrap_or(0));
+        let record =
+            |(i, (p, d)): (usize, (&Point, &f64))| [p[0], p[1], p[2], *d, reason(i)].map(f64::to_le_bytes);
+        let bytes = points.iter().zip(deviation).enumerate().flat_map(record).flatten();
         self.waiting.write(bytes).map_err(|e| WriteFault::from(e).in_file(&self.file.path))
     }
 
-    /// Writes all of them, each block with the colours that `colour` has for its deviations, and puts the file in its
-    /// place.
+    /// Writes all of them, each block with the colours that `colour` has for its deviations, NaN for points that do not count,
+    /// and puts the file in its place.
     pub fn finish(self, colour: impl Fn(&[f64]) -> Vec<[u8; 3]>) -> Result<u64, WriteError> {
-        let HeldPoints { mut file, mut waiting } = self;
+        let HeldPoints { mut file, mut waiting, reason: reasons } = self;
         let (mut bytes, mut failed) = (Vec::new(), None);
         let mut pass = |bytes: &mut Vec<u8>, least: usize| {
             while bytes.len() >= least.max(RECORD) {
                 let whole = (bytes.len() / RECORD).min(BLOCK) * RECORD;
-                let numbers: Vec<[f64; 4]> = (bytes[..whole].as_chunks::<8>().0.as_chunks::<4>().0.iter())
+                let numbers: Vec<[f64; 5]> = (bytes[..whole].as_chunks::<8>().0.as_chunks::<5>().0.iter())
                     .map(|record| record.map(f64::from_le_bytes))
                     .collect();
-                let points: Vec<Point> = numbers.iter().map(|[x, y, z, _]| [*x, *y, *z]).collect();
+                let points: Vec<Point> = numbers.iter().map(|[x, y, z, ..]| [*x, *y, *z]).collect();
                 let deviation: Vec<f64> = numbers.iter().map(|n| n[3]).collect();
-                let block = Block { points: &points, deviation: &deviation, colour: &colour(&deviation) };
-                file.write(&block)?;
+                let counts: Vec<f64> =
+                    numbers.iter().map(|n| if n[4] > 0.0 { f64::NAN } else { n[3] }).collect();
+                let mut reason: Vec<u8> = numbers.iter().map(|n| n[4] as u8).collect();
+                reason.truncate(if reasons { reason.len() } else { 0 });
+                let colour = colour(&counts);
+                file.write(&Block {
+                    points: &points,
+                    deviation: &deviation,
+                    reason: &reason,
+                    colour: &colour,
+                })?;
                 bytes.drain(..whole);
             }
             Ok(())
@@ -90,21 +108,30 @@ mod tests {
         let (all, deviation): (Vec<Point>, Vec<f64>) =
             (points_of(0), (0..n).map(|i| if i % 7 == 0 { f64::NAN } else { i as f64 }).collect());
         let colour = |d: &[f64]| d.iter().map(|d| [*d as u8, 1, 2]).collect::<Vec<_>>();
-        for extension in ["ply", "vtp", "csv"] {
-            let [now, later] = ["now", "later"].map(|name| folder.path().join(format!("{name}.{extension}")));
-            let mut file = points(&now, Layout { deviation: true, colour: true }).unwrap();
-            file.write(&Block { points: &all, deviation: &deviation, colour: &colour(&deviation) }).unwrap();
+        let code = |(i, d): (usize, &f64)| if d.is_nan() { 2 } else { 4 * u8::from(i % 11 == 0) };
+        let reason: Vec<u8> = deviation.iter().enumerate().map(code).collect();
+        let counts: Vec<f64> =
+            deviation.iter().zip(&reason).map(|(d, r)| if *r > 0 { f64::NAN } else { *d }).collect();
+        for (extension, with) in [("ply", true), ("vtp", true), ("csv", true), ("ply", false)] {
+            let [now, later] =
+                ["now", "later"].map(|name| folder.path().join(format!("{name}{with}.{extension}")));
+            let mut file = points(&now, Layout { deviation: true, reason: with, colour: true }).unwrap();
+            let (reason, seen) = if with { (&reason[..], &counts) } else { (&[][..], &deviation) };
+            let colours = colour(seen);
+            file.write(&Block { points: &all, deviation: &deviation, reason, colour: &colours }).unwrap();
             file.finish().unwrap();
-            let mut held = HeldPoints::create(&later).unwrap();
-            for (p, d) in all.chunks(333_333).zip(deviation.chunks(333_333)) {
-                held.write(p, d).unwrap();
+            let mut held = HeldPoints::create(&later, with).unwrap();
+            for (n, (p, d)) in all.chunks(333_333).zip(deviation.chunks(333_333)).enumerate() {
+                let at = n * 333_333;
+                held.write(p, d, if with { &reason[at..at + p.len()] } else { &[] }).unwrap();
             }
             assert_eq!(held.finish(colour).unwrap(), n as u64);
             assert!(std::fs::read(now).unwrap() == std::fs::read(later).unwrap(), "{extension}");
         }
-        let mut none = HeldPoints::create(&folder.path().join("none.ply")).unwrap();
-        assert!(none.write(&all, &deviation[1..]).is_err());
+        let mut none = HeldPoints::create(&folder.path().join("none.ply"), true).unwrap();
+        assert!(none.write(&all, &deviation[1..], &reason).is_err());
+        assert!(none.write(&all, &deviation, &[]).is_err());
         drop(none);
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 6);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 8);
     }
 }

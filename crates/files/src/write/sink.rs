@@ -9,6 +9,8 @@ use trueness_geom::{mesh::Mesh, space::Point};
 pub struct Layout {
     /// A deviation for each point, some of them without.
     pub deviation: bool,
+    /// Beside the deviations the number of the reason why a point does not count.
+    pub reason: bool,
     /// A colour for each point.
     pub colour: bool,
 }
@@ -20,8 +22,18 @@ pub struct Block<'a> {
     pub points: &'a [Point],
     /// As many deviations, millimetres, NaN for a point that has none; nothing where the layout has none.
     pub deviation: &'a [f64],
+    /// As many numbers of reasons, 0 for a point that counts; nothing where the layout has none.
+    pub reason: &'a [u8],
     /// As many colours (red, green, blue); nothing where the layout has none.
     pub colour: &'a [[u8; 3]],
+}
+
+impl Block<'_> {
+    /// What goes under the name `excluded`: the reasons, or without them 1 for each point that has no deviation.
+    pub(crate) fn excluded(&self) -> impl Iterator<Item = u8> + '_ {
+        let alone = if self.reason.is_empty() { self.deviation } else { &[] };
+        self.reason.iter().copied().chain(alone.iter().map(|d| u8::from(d.is_nan())))
+    }
 }
 
 /// Begins the points of a format, under one of its extensions.

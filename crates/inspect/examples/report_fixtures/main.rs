@@ -328,6 +328,7 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         sign: sign(),
         max_distance: None,
         skip_boundary: false,
+        facing: None,
         verdict: comparisons[0].verdict,
         comparisons,
         paired: vec![],
@@ -410,6 +411,8 @@ fn comparison(
         } else {
             BTreeMap::new()
         },
+        outliers: None,
+        coverage: None,
         verdict: shares.as_ref().map(|s| match s.inside {
             Some(inside) if inside >= s.required => Verdict::Pass,
             _ => Verdict::Fail,

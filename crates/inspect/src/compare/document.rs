@@ -2,7 +2,7 @@
 
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
-use super::{Comparisons, Options, plausibility};
+use super::{Comparisons, Excluded, Facing, MapSurface, Options, Outliers, plausibility};
 use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
@@ -73,6 +73,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         sign: overall_sign(&comparisons, options),
         max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),
         skip_boundary: options.surface.skip_boundary,
+        facing: options.facing.as_ref().map(Facing::angle),
         paired: found.paired.iter().map(|(a, b, p)| paired(*a, *b, p)).collect(),
         scale: inputs.scale.unwrap_or_else(|| scale(found, options)),
         verdict: comparisons.iter().filter_map(|c| c.verdict).reduce(worst_verdict),
@@ -103,6 +104,8 @@ fn comparison(
         soundness: soundness(c),
         deviation: BySide::of(&c.summary),
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
+        outliers: c.outliers.map(|o| outliers(&o, c)),
+        coverage: c.map.as_ref().map(coverage),
         verdict: tolerance.as_ref().map(|t| match c.summary.all.count {
             0 => Verdict::NotMeasured,
             _ if t.inside.is_some_and(|share| share >= t.required) => Verdict::Pass,
@@ -114,6 +117,31 @@ fn comparison(
         reverse,
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
         research: None,
+    }
+}
+
+fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {
+    let limits = found.limits.ok();
+    OutliersRecord {
+        rule: found.rule.to_string(),
+        center: limits.map(|l| l.center),
+        spread: limits.map(|l| l.spread),
+        lower: limits.map(|l| l.lower),
+        upper: limits.map(|l| l.upper),
+        limits_reason: found.limits.err().map(|e| e.to_string()),
+        count: c.excluded.iter().filter(|(e, _)| *e == Excluded::Outlier).map(|(_, n)| n).sum(),
+    }
+}
+
+fn coverage(map: &MapSurface) -> CoverageRecord {
+    let share = (map.area > 0.0).then(|| map.uncovered / map.area);
+    CoverageRecord {
+        area: map.area,
+        uncovered: map.uncovered,
+        uncovered_share: share,
+        uncovered_share_reason: share.is_none().then(|| "the reference has no area".into()),
+        reach: map.reach,
+        spacing: map.spacing,
     }
 }
 

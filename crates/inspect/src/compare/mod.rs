@@ -2,9 +2,12 @@
 
 mod against;
 mod document;
+mod excluded;
+mod facing;
 mod found;
 mod map;
 mod options;
+mod outliers;
 pub mod plausibility;
 mod reference;
 mod research;
@@ -16,16 +19,19 @@ mod worst;
 
 pub use against::{Reference, ReferenceError};
 pub use document::{Inputs, document};
+pub use excluded::Excluded;
+pub use facing::{Facing, facet_normals, vertex_normals};
 pub use found::Comparisons;
 pub use map::MapSurface;
-pub use options::{Method, Options};
-pub use reference::{Compared, Values, WorstPlace};
+pub use options::{Coverage, Method, Options};
+pub use outliers::{NoLimits, OutlierLimits, OutlierRule};
+pub use reference::{Compared, Outliers, Values, WorstPlace};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;
 pub use worst::Place;
 
-use reference::Running;
+use reference::{Running, Taken};
 use trueness_geom::closest::{MeshError, QueryError, Tree};
 use trueness_geom::cloud::PointStream;
 use trueness_geom::deviation::paper::PaperError;
@@ -39,9 +45,10 @@ use trueness_geom::topology::TopologyError;
 pub struct Block<'a> {
     /// The points, in file order.
     pub points: &'a [Point],
-    /// For each reference, one deviation a point; not finite where the point is excluded
-    /// (see [`trueness_geom::deviation::surface::Exclusion`]).
+    /// For each reference, one deviation a point; not finite where the point is excluded (see [`Excluded`]).
     pub deviations: &'a [Vec<f64>],
+    /// The same, but those of outliers as they were measured.
+    pub measured: &'a [Vec<f64>],
 }
 
 /// Why there is no comparison.
@@ -64,6 +71,14 @@ pub enum CompareError<S, K> {
     /// What takes the deviations refused them.
     #[error("{0}")]
     Sink(#[source] K),
+    /// There are not as many normals as points.
+    #[error("there are {normals} normals for {points} points")]
+    Normals {
+        /// Their number.
+        normals: usize,
+        /// That of the points.
+        points: u64,
+    },
     /// There is nothing to compare.
     #[error("there are no measured points")]
     NoPoints,
@@ -72,7 +87,8 @@ pub enum CompareError<S, K> {
 /// Compares all points of `measured` with every reference and hands each block to `sink`.
 ///
 /// `progress` hears of points times references. Memory: the references with their trees, one block of points, and the
-/// kept deviations. The result depends on nothing but points, references and options.
+/// kept deviations; with a rule for outliers all points with their deviations, as the rule's limits come
+/// from all of them. The result depends on nothing but points, references and options.
 ///
 /// # Errors
 /// See [`CompareError`].
@@ -110,28 +126,34 @@ pub fn run<S: PointStream + ?Sized, K>(
         flagged: ShownPoints::new(usize::MAX, references.len()),
     };
     let mut sample = ShownPoints::new(SIGN_SAMPLE, 0);
-    let mut points = vec![];
+    let (mut points, mut start, mut waiting) = (vec![], 0, vec![]);
     loop {
         measured.next_block(&mut points).map_err(CompareError::Stream)?;
         if points.is_empty() {
             break;
         }
-        let mut deviations = vec![];
+        let mut taken = vec![];
         for (r, reference) in running.iter_mut().zip(references) {
-            let block = r.block(out.count, &points, progress);
-            deviations.push(block.map_err(|e| in_block(e, reference, out.count))?);
+            let block = r.measure(start, &points, progress);
+            taken.push(block.map_err(|e| in_block(e, reference, start))?);
         }
-        for (first, second, p) in &mut out.paired {
-            p.push(&deviations[*first], &deviations[*second]);
+        sample.add(start, &points, &[]);
+        start += points.len() as u64;
+        match options.outliers {
+            None => count(&mut out, &mut running, places, &points, taken, &mut sink)?,
+            Some(_) => waiting.push((std::mem::take(&mut points), taken)),
         }
-        if places > 0 {
-            let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
-            out.shown.add(out.count, &points, &lists);
+    }
+    if let Some(facing) = options.facing.as_ref().filter(|f| f.count() as u64 != start) {
+        return Err(CompareError::Normals { normals: facing.count(), points: start });
+    }
+    if let Some(rule) = options.outliers {
+        for (i, r) in running.iter_mut().enumerate() {
+            r.judge(rule, waiting.iter().map(|(_, taken): &(_, Vec<Taken>)| &taken[i]));
         }
-        sample.add(out.count, &points, &[]);
-        sink(&Block { points: &points, deviations: &deviations }).map_err(CompareError::Sink)?;
-        out.bounds = out.bounds.union(&Aabb::of(&points));
-        out.count += points.len() as u64;
+    }
+    for (points, taken) in waiting {
+        count(&mut out, &mut running, places, &points, taken, &mut sink)?;
     }
     if out.count == 0 {
         return Err(CompareError::NoPoints);
@@ -142,14 +164,44 @@ pub fn run<S: PointStream + ?Sized, K>(
     Ok(out)
 }
 
+/// Counts a block that has been measured against every reference, and hands it on.
+fn count<S, K>(
+    out: &mut Comparisons,
+    running: &mut [Running],
+    places: usize,
+    points: &[Point],
+    taken: Vec<Taken>,
+    sink: &mut impl FnMut(&Block) -> Result<(), K>,
+) -> Result<(), CompareError<S, K>> {
+    let mut taken = taken;
+    let all = running.iter_mut().zip(&mut taken);
+    let judged: Vec<Option<Vec<f64>>> = all.map(|(r, taken)| r.count(out.count, points, taken)).collect();
+    let deviations: Vec<Vec<f64>> = taken.into_iter().map(|t| t.deviations).collect();
+    let measured = judged.iter().any(Option::is_some).then(|| {
+        let own = judged.into_iter().zip(&deviations);
+        own.map(|(judged, d)| judged.unwrap_or_else(|| d.clone())).collect::<Vec<_>>()
+    });
+    for (first, second, p) in &mut out.paired {
+        p.push(&deviations[*first], &deviations[*second]);
+    }
+    if places > 0 {
+        let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
+        out.shown.add(out.count, points, &lists);
+    }
+    let block = Block { points, deviations: &deviations, measured: measured.as_ref().unwrap_or(&deviations) };
+    sink(&block).map_err(CompareError::Sink)?;
+    out.bounds = out.bounds.union(&Aabb::of(points));
+    out.count += points.len() as u64;
+    Ok(())
+}
+
 /// Puts the worst places that the sample has left out beside it.
 fn flag(out: &mut Comparisons, running: &[Running]) -> Result<(), PaperError> {
     let mut places: Vec<Place> = running.iter().flat_map(Running::worst_places).collect();
     places.retain(|p| out.shown.indices.binary_search(&p.index).is_err());
     places.sort_by_key(|p| p.index);
     places.dedup_by_key(|p| p.index);
-    let points: Vec<Point> = places.iter().map(|p| p.point).collect();
-    let deviations: Vec<Vec<f64>> = running.iter().map(|r| r.again(&points)).collect::<Result<_, _>>()?;
+    let deviations: Vec<Vec<f64>> = running.iter().map(|r| r.again(&places)).collect::<Result<_, _>>()?;
     for (i, place) in places.iter().enumerate() {
         let here: Vec<&[f64]> = deviations.iter().map(|d| &d[i..=i]).collect();
         out.flagged.add(place.index, &[place.point], &here);
@@ -178,3 +230,6 @@ fn in_block<S, K>(error: PaperError, reference: &Reference, start: u64) -> Compa
         other => refused(reference, other.into()),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,7 @@
 //! What is asked of a comparison.
 
+use super::facing::Facing;
+use super::outliers::OutlierRule;
 use crate::tolerance::Tolerance;
 use trueness_geom::deviation::surface::SurfaceOptions;
 
@@ -23,6 +25,16 @@ impl Method {
     }
 }
 
+/// Within what distance of its nearest place a point covers the reference.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum Coverage {
+    /// Three times as far as the points lie apart.
+    #[default]
+    Auto,
+    /// So far along the surface, millimetres.
+    Within(f64),
+}
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -30,6 +42,12 @@ pub struct Options {
     pub method: Method,
     /// Sign and exclusions.
     pub surface: SurfaceOptions,
+    /// Only points whose normals agree with the reference's.
+    pub facing: Option<Facing>,
+    /// Which points are outliers; none without a rule.
+    pub outliers: Option<OutlierRule>,
+    /// Which part of the references the points cover; with a report it is looked for in any case.
+    pub coverage: Option<Coverage>,
     /// The zone that deviations must keep.
     pub tolerance: Option<Tolerance>,
     /// Share of the points that must lie within it (0 to 1).
@@ -50,6 +68,9 @@ impl Default for Options {
         Options {
             method: Method::Exact,
             surface: SurfaceOptions::default(),
+            facing: None,
+            outliers: None,
+            coverage: None,
             tolerance: None,
             required_share: 1.0,
             shown: 0,

@@ -1,15 +1,18 @@
 //! The running comparison with one reference.
 
 use super::against::{Reference, ReferenceError};
+use super::excluded::Excluded;
+use super::facing::Facing;
 use super::map::{Flagged, Foot, MapSurface, PointMap};
-use super::options::{Method, Options};
-use super::target::{Measures, Target};
+use super::options::{Coverage, Method, Options};
+use super::outliers::{NoLimits, OutlierLimits, OutlierRule};
+use super::target::{Asked, Measures, Target};
 use super::worst::{Place, WorstPlaces, sort};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
 use trueness_geom::deviation::sign_choice::SignChoice;
-use trueness_geom::deviation::surface::{Disagreement, Exclusion};
+use trueness_geom::deviation::surface::Disagreement;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector};
@@ -35,16 +38,34 @@ pub struct Compared {
     pub histogram: Option<Histogram>,
     /// Counts against the tolerance, where there is one.
     pub limits: Option<Limits>,
-    /// Points without a deviation.
-    pub excluded: Vec<(Exclusion, u64)>,
+    /// Points that do not count. Reasons that were not asked for are left out.
+    pub excluded: Vec<(Excluded, u64)>,
+    /// What the rule for outliers gave, where there is one.
+    pub outliers: Option<Outliers>,
     /// The worst places of both signs, the farthest beyond the tolerance first, without one the greatest.
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
     /// Of B-spline surfaces.
     pub splines: Option<SplinesFound>,
-    /// The reference coloured by the points near each place, for a report.
+    /// The reference coloured by the points near each place, for a report and for what is not covered.
     pub map: Option<MapSurface>,
+}
+
+/// A rule for outliers and its limits, or why it left out nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outliers {
+    /// As asked for.
+    pub rule: OutlierRule,
+    /// What it gave.
+    pub limits: Result<OutlierLimits, NoLimits>,
+}
+
+/// A measured block that has not been counted yet.
+pub struct Taken {
+    /// One a point; not finite where it is excluded.
+    pub deviations: Vec<f64>,
+    feet: Vec<Option<Foot>>,
 }
 
 /// What is to be said of a comparison with B-spline surfaces.
@@ -92,7 +113,10 @@ pub struct Running<'a> {
     values: Values,
     keep: usize,
     limits: Option<Limits>,
-    excluded: [u64; Exclusion::ALL.len()],
+    excluded: [u64; Excluded::ALL.len()],
+    facing: Option<Facing>,
+    outliers: Option<Outliers>,
+    coverage: Coverage,
     worst: WorstPlaces,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
@@ -123,49 +147,26 @@ impl<'a> Running<'a> {
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
             excluded: Default::default(),
+            facing: options.facing.clone(),
+            outliers: None,
+            coverage: options.coverage.unwrap_or_default(),
             worst: WorstPlaces::new(&mesh.bounds()),
             paper,
-            map: (options.shown > 0).then(|| PointMap::new(mesh, options.tolerance)),
+            map: (options.shown > 0 || options.coverage.is_some())
+                .then(|| PointMap::new(mesh, options.tolerance)),
             mesh,
         })
     }
 
-    /// The deviations of the next block, whose first point has number `start`.
-    pub fn block(
+    /// Measures the next block, whose first point has number `start`; nothing is counted yet.
+    pub fn measure(
         &mut self,
         start: u64,
         points: &[Point],
         progress: &dyn Progress,
-    ) -> Result<Vec<f64>, PaperError> {
-        let (deviations, feet) = self.measure(points, progress)?;
-        for e in deviations.iter().filter_map(|&d| Exclusion::of(d)) {
-            self.excluded[e as usize] += 1;
-        }
-        if let Some(limits) = &mut self.limits {
-            limits.push(&deviations);
-            // An infinite value stands for a point that is not there, and does not lie above.
-            limits.above -= deviations.iter().filter(|d| d.is_infinite()).count() as u64;
-        }
-        if let Some(map) = &mut self.map {
-            for (foot, deviation) in feet.iter().zip(&deviations) {
-                if let Some(foot) = foot {
-                    map.add(*foot, *deviation);
-                }
-            }
-        }
-        self.worst.add(start, points, &deviations);
-        self.values.push(&deviations, self.keep);
-        Ok(deviations)
-    }
-
-    /// Deviations of points, and where their nearest places lie if there is a map.
-    fn measure(
-        &mut self,
-        points: &[Point],
-        progress: &dyn Progress,
-    ) -> Result<(Vec<f64>, Vec<Option<Foot>>), PaperError> {
-        let Measures { mut deviations, feet, uncertain } =
-            self.target.measure(points, self.map.as_ref(), progress)?;
+    ) -> Result<Taken, PaperError> {
+        let asked = Asked { start, map: self.map.as_ref(), facing: self.facing.as_ref() };
+        let Measures { mut deviations, feet, uncertain } = self.target.measure(points, &asked, progress)?;
         if let Some(splines) = &mut self.splines {
             splines.uncertain += uncertain;
         }
@@ -178,7 +179,53 @@ impl<'a> Running<'a> {
                 *d = t.distance.copysign(*d);
             }
         }
-        Ok((deviations, feet))
+        Ok(Taken { deviations, feet })
+    }
+
+    /// Finds the limits of a rule for outliers from all blocks. They hold for all that is counted afterwards.
+    pub fn judge<'t>(&mut self, rule: OutlierRule, blocks: impl Iterator<Item = &'t Taken>) {
+        let mut values = Values::All(vec![]);
+        blocks.for_each(|taken| values.push(&taken.deviations, self.keep));
+        self.outliers = Some(Outliers { rule, limits: rule.limits(&values.summary().all) });
+    }
+
+    /// Counts a block whose first point has number `start`, once for all. Outliers among its deviations become values that say
+    /// so; where there are limits for them, the deviations as they were come back.
+    pub fn count(&mut self, start: u64, points: &[Point], taken: &mut Taken) -> Option<Vec<f64>> {
+        let measured = self.limits_of_outliers().map(|_| taken.deviations.clone());
+        taken.deviations.iter_mut().for_each(|d| *d = self.judged(*d));
+        let deviations = &taken.deviations;
+        for e in deviations.iter().filter_map(|&d| Excluded::of(d)) {
+            self.excluded[e as usize - 1] += 1;
+        }
+        if let Some(limits) = &mut self.limits {
+            limits.push(deviations);
+            // An infinite value stands for a point that does not count, and lies on neither side.
+            let number = |value: f64| deviations.iter().filter(|d| **d == value).count() as u64;
+            limits.above -= number(f64::INFINITY);
+            limits.below -= number(f64::NEG_INFINITY);
+        }
+        if let Some(map) = &mut self.map {
+            for (foot, deviation) in taken.feet.iter().zip(deviations) {
+                if let Some(foot) = foot.filter(|_| deviation.is_finite()) {
+                    map.add(foot, *deviation);
+                }
+            }
+        }
+        self.worst.add(start, points, deviations);
+        self.values.push(deviations, self.keep);
+        measured
+    }
+
+    fn limits_of_outliers(&self) -> Option<OutlierLimits> {
+        self.outliers.and_then(|o| o.limits.ok())
+    }
+
+    /// The deviation, or the value that stands for an outlier.
+    fn judged(&self, deviation: f64) -> f64 {
+        let out = |l: OutlierLimits| deviation < l.lower || deviation > l.upper;
+        let outlier = deviation.is_finite() && self.limits_of_outliers().is_some_and(out);
+        if outlier { Excluded::Outlier.value() } else { deviation }
     }
 
     /// The places that the result will name.
@@ -190,14 +237,17 @@ impl<'a> Running<'a> {
     }
 
     /// Deviations of points that have been counted already.
-    pub fn again(&self, points: &[Point]) -> Result<Vec<f64>, PaperError> {
-        let mut deviations = self.target.measure(points, None, &Silent)?.deviations;
-        if let Some((paper, _)) = &self.paper {
-            for (d, t) in deviations.iter_mut().zip(paper.values(points, &Silent)?) {
-                *d = if d.is_finite() { t.distance.copysign(*d) } else { *d };
+    pub fn again(&self, places: &[Place]) -> Result<Vec<f64>, PaperError> {
+        let one = |place: &Place| {
+            let asked = Asked { start: place.index, map: None, facing: self.facing.as_ref() };
+            let points = [place.point];
+            let mut deviation = self.target.measure(&points, &asked, &Silent)?.deviations[0];
+            if let Some((paper, _)) = self.paper.as_ref().filter(|_| deviation.is_finite()) {
+                deviation = paper.values(&points, &Silent)?[0].distance.copysign(deviation);
             }
-        }
-        Ok(deviations)
+            Ok(self.judged(deviation))
+        };
+        places.iter().map(one).collect()
     }
 
     /// The end of the points; `sample` is an even sample of them.
@@ -218,10 +268,19 @@ impl<'a> Running<'a> {
             summary,
             worst,
             values: self.values,
-            excluded: Exclusion::ALL.iter().map(|&e| (e, self.excluded[e as usize])).collect(),
+            excluded: Excluded::ALL
+                .into_iter()
+                .filter(|e| match e {
+                    Excluded::MaxDistance | Excluded::FreeEdge => true,
+                    Excluded::Facing => self.facing.is_some(),
+                    Excluded::Outlier => self.outliers.is_some(),
+                })
+                .map(|e| (e, self.excluded[e as usize - 1]))
+                .collect(),
+            outliers: self.outliers,
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
             splines: self.splines,
-            map: self.map.map(|map| MapSurface::of(self.mesh, &map, &flagged)),
+            map: self.map.map(|map| MapSurface::of(self.mesh, &map, &flagged, self.coverage)),
         })
     }
 }

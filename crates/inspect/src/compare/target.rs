@@ -1,15 +1,17 @@
 //! What points are measured against: facets, or B-spline surfaces themselves.
 
 use super::against::{Reference, ReferenceError};
+use super::excluded::Excluded;
+use super::facing::{Facing, facet_normal};
 use super::map::{Foot, PointMap};
 use super::options::Options;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::deviation::surface::{Disagreement, Exclusion, Surface, SurfaceOptions};
+use trueness_geom::deviation::surface::{Disagreement, Surface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Point, Vector, cross, minus, unit};
+use trueness_geom::space::{Point, Vector, times};
 use trueness_geom::spline::surface::{FootSearch, NearestFoot};
 use trueness_geom::topology::Soundness;
 
@@ -39,6 +41,23 @@ pub struct Nearest {
     pub face: u32,
     /// Weights of the facet's corners.
     pub weights: [f64; 3],
+}
+
+/// What is asked beside the distances of points whose first has number `start`.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    pub start: u64,
+    /// Where nearest places are looked up.
+    pub map: Option<&'a PointMap>,
+    /// Only points that look the same way count.
+    pub facing: Option<&'a Facing>,
+}
+
+impl Asked<'_> {
+    /// Whether point `i` of these may count beside a place of the reference with this normal.
+    fn agrees(&self, i: usize, normal: impl Fn() -> Option<Vector>) -> bool {
+        self.facing.is_none_or(|f| f.agrees(self.start + i as u64, normal()))
+    }
 }
 
 /// Deviations of points; with a map, where their nearest places lie in it; and how many nearest places are not beyond doubt.
@@ -103,28 +122,36 @@ impl<'a> Target<'a> {
     pub fn measure(
         &self,
         points: &[Point],
-        map: Option<&PointMap>,
+        asked: &Asked,
         progress: &dyn Progress,
     ) -> Result<Measures, QueryError> {
-        match (self, map) {
-            (Target::Facets { surface, .. }, None) => {
+        let facing = Excluded::Facing.value();
+        match self {
+            Target::Facets { surface, .. } if asked.map.is_none() && asked.facing.is_none() => {
                 let deviations = surface.deviations(points, progress)?;
                 Ok(Measures { deviations, feet: vec![], uncertain: 0 })
             }
-            (Target::Facets { surface, .. }, Some(map)) => {
-                let tree = surface.tree();
+            Target::Facets { surface, mesh } => {
+                let (tree, turn) = (surface.tree(), if surface.sign().inside_out { -1.0 } else { 1.0 });
                 let found = surface.map(points, progress, |i, deviation, hit| {
-                    let place = hit.filter(|_| deviation.is_finite()).map(|h| tree.place(&points[i], h));
-                    (deviation, place.map(|p| map.foot(p.face, p.barycentric)))
+                    let Some(hit) = hit.filter(|_| deviation.is_finite()) else { return (deviation, None) };
+                    let place = tree.place(&points[i], hit);
+                    if !asked.agrees(i, || facet_normal(mesh, place.face).map(|n| times(turn, n))) {
+                        return (facing, None);
+                    }
+                    (deviation, asked.map.map(|map| map.foot(place.face, place.barycentric)))
                 })?;
                 let (deviations, feet) = found.into_iter().unzip();
                 Ok(Measures { deviations, feet, uncertain: 0 })
             }
-            (Target::Splines(s), map) => {
+            Target::Splines(s) => {
                 let found = s.search.map(points, progress, |i, foot| {
                     let deviation = s.deviation(&points[i], &foot);
-                    let place = map.filter(|_| deviation.is_finite());
-                    (deviation, place.map(|map| map.foot(foot.face, foot.weights)), foot.certain)
+                    if deviation.is_finite() && !asked.agrees(i, || foot.foot.normal) {
+                        return (facing, None, foot.certain);
+                    }
+                    let map = asked.map.filter(|_| deviation.is_finite());
+                    (deviation, map.map(|map| map.foot(foot.face, foot.weights)), foot.certain)
                 })?;
                 let uncertain = found.iter().filter(|f| !f.2).count() as u64;
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
@@ -138,10 +165,11 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, mesh } => {
                 let found = surface.tree().closest(p, f64::INFINITY)?;
-                Ok(found.map(|Closest { point, face, barycentric: weights, .. }| {
-                    let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-                    let normal = unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n);
-                    Nearest { place: point, normal, face, weights }
+                Ok(found.map(|Closest { point, face, barycentric: weights, .. }| Nearest {
+                    place: point,
+                    normal: facet_normal(mesh, face),
+                    face,
+                    weights,
                 }))
             }
             Target::Splines(s) => {
@@ -156,10 +184,10 @@ impl<'a> Target<'a> {
 impl Splines<'_> {
     fn deviation(&self, p: &Point, found: &NearestFoot) -> f64 {
         if found.foot.distance > self.options.max_distance {
-            return Exclusion::MaxDistance.value();
+            return Excluded::MaxDistance.value();
         }
         if self.options.skip_boundary && found.border {
-            return Exclusion::FreeEdge.value();
+            return Excluded::FreeEdge.value();
         }
         if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
     }

@@ -1,12 +1,11 @@
 //! What a report draws: the measured object and the references, each with its deviations.
 
-use super::{Comparisons, Reference, Values};
+use super::{Comparisons, Excluded, Reference, Values};
 use crate::check::groups;
 use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole, first_view};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison};
 use std::collections::BTreeSet;
-use trueness_geom::deviation::surface::Exclusion;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 
@@ -129,10 +128,12 @@ impl<'a> View<'a> {
 impl Field {
     /// A value that is not finite becomes NaN, and its reason is the exclusion it stands for; that of NaN is `nan`.
     fn of(values: &[f64], nan: NoValue) -> Field {
-        let reason = |d: &f64| match Exclusion::of(*d) {
+        let reason = |d: &f64| match Excluded::of(*d) {
             None => NoValue::Unknown,
-            Some(Exclusion::MaxDistance) => NoValue::MaxDistance,
-            Some(Exclusion::FreeEdge) => nan,
+            Some(Excluded::MaxDistance) => NoValue::MaxDistance,
+            Some(Excluded::FreeEdge) => nan,
+            Some(Excluded::Facing) => NoValue::Facing,
+            Some(Excluded::Outlier) => NoValue::Outlier,
         };
         Field {
             values: values.iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect(),

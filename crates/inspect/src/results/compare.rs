@@ -37,6 +37,9 @@ pub struct CompareDocument {
     pub max_distance: Option<f64>,
     /// Points whose closest place lies on a free edge are excluded.
     pub skip_boundary: bool,
+    /// Only points count whose normals are within this angle of that of the reference, radians; absent where all count.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub facing: Option<f64>,
     /// One entry a reference, in the order given.
     pub comparisons: Vec<Comparison>,
     /// Every pair of references on the same points, the better one first; empty with one reference.
@@ -101,8 +104,14 @@ pub struct Comparison {
     pub soundness: Soundness,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
-    /// Points left out, by reason: `max_distance`, `free_edge`.
+    /// Points left out, by reason: `max_distance`, `free_edge`; with `--facing` also `facing`, with `--outliers` `outlier`.
     pub excluded: BTreeMap<String, u64>,
+    /// The rule for outliers and what it gave here; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub outliers: Option<OutliersRecord>,
+    /// What part of the reference no measured point covers; with `--coverage` and with a report.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub coverage: Option<CoverageRecord>,
     /// Shares against the tolerance; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub tolerance: Option<ToleranceShares>,
@@ -123,6 +132,46 @@ pub struct Comparison {
     /// Intervals, tests and models; only with `--research`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub research: Option<Research>,
+}
+
+/// Which points were left out as outliers. The limits belong to what counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OutliersRecord {
+    /// The rule: `mad:K`, farther than K times 1.4826 MAD from the median, or `Ksigma`, farther than K standard deviations from
+    /// the mean; of the deviations that nothing else excludes.
+    pub rule: String,
+    /// Median or mean, millimetres.
+    pub center: Option<f64>,
+    /// 1.4826 MAD or standard deviation, millimetres.
+    pub spread: Option<f64>,
+    /// Least deviation that counts, millimetres.
+    pub lower: Option<f64>,
+    /// Greatest deviation that counts, millimetres.
+    pub upper: Option<f64>,
+    /// Why the rule gives no limits, and left out nothing.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub limits_reason: Option<String>,
+    /// Points left out by it.
+    pub count: u64,
+}
+
+/// What part of a reference no measured point covers. A piece of it counts as covered if all its corners have the nearest place of
+/// a point that counts within the reach.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoverageRecord {
+    /// Area of the reference, square millimetres.
+    pub area: f64,
+    /// Area that is not covered, grey in the map, square millimetres.
+    pub uncovered: f64,
+    /// Its share of the area (0 to 1).
+    pub uncovered_share: Option<f64>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncovered_share_reason: Option<String>,
+    /// Within what distance a point covers, millimetres.
+    pub reach: f64,
+    /// How far the points' nearest places lie apart, millimetres.
+    pub spacing: f64,
 }
 
 /// Something that makes the deviations doubtful, although each is computed right.

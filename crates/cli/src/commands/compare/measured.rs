@@ -3,16 +3,20 @@
 use crate::exit::Usage;
 use crate::memory;
 use crate::read::{self, Body, Opened};
+use crate::run_files::is_stream;
 use anyhow::Context;
 use std::path::Path;
-use trueness_files::{PointSource, ReadOptions, Weld};
+use trueness_files::{Columns, PointSource, ReadOptions, Weld, open_normals};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::space::Vector;
 use trueness_geom::topology::weld;
+use trueness_inspect::compare::{facet_normals, vertex_normals};
 use trueness_inspect::results::{InputRecord, Role};
 
 /// What is compared.
@@ -23,6 +27,10 @@ pub struct Measured {
     pub mesh: Option<Mesh>,
     /// `points`, `vertices` or `samples`.
     pub kind: &'static str,
+    /// Facets of the samples; empty without such.
+    faces: Vec<u32>,
+    /// How it was brought to the reference.
+    motion: Option<Rigid>,
     /// What the document says about the file.
     pub record: InputRecord,
 }
@@ -45,22 +53,28 @@ impl Measured {
                 let shown = path.display();
                 return Err(Usage(format!("--sample needs a measured mesh, but {shown} holds points")).into());
             }
-            Body::Points(points) => return Ok(Measured { points, mesh: None, kind: "points", record }),
+            Body::Points(points) => {
+                let (faces, motion) = (vec![], None);
+                return Ok(Measured { points, mesh: None, kind: "points", faces, motion, record });
+            }
             Body::Mesh(mesh) if format.starts_with("stl") => {
                 weld::mesh(&mesh.mesh).with_context(|| path.display().to_string())?.mesh
             }
             Body::Mesh(mesh) => mesh.mesh,
         };
+        let mut faces = vec![];
         let (points, kind) = match sample {
             Some(n) => {
                 check_memory(n)?;
                 let samples =
                     sample_mesh(&mesh, n as usize, seed).with_context(|| path.display().to_string())?;
+                faces.extend(samples.iter().map(|s| s.face));
                 (samples.into_iter().map(|s| s.point).collect(), "samples")
             }
             None => (mesh.positions.clone(), "vertices"),
         };
-        Ok(Measured { points: Box::new(Whole::new(points)), mesh: Some(mesh), kind, record })
+        let points = Box::new(Whole::new(points));
+        Ok(Measured { points, mesh: Some(mesh), kind, faces, motion: None, record })
     }
 }
 
@@ -90,7 +104,50 @@ impl Measured {
         let own = self.mesh.iter_mut().flat_map(|m| &mut m.positions);
         own.chain(&mut points).for_each(|p| *p = motion.point(*p));
         self.points = Box::new(Whole::new(points));
+        self.motion = Some(*motion);
         Ok(found)
+    }
+
+    /// A normal for each point, as it lies now: of a mesh by its facets, of points from their file at `path`. All are held in
+    /// memory.
+    pub fn normals(
+        &self,
+        path: &Path,
+        columns: Option<&Columns>,
+        reading: &ReadOptions,
+    ) -> anyhow::Result<Vec<Vector>> {
+        if let Some(mesh) = &self.mesh {
+            return Ok(match self.kind {
+                "samples" => facet_normals(mesh, self.faces.iter().copied()),
+                _ => vertex_normals(mesh),
+            });
+        }
+        if is_stream(path) {
+            return Err(Usage(format!(
+                "--facing: {} can be read only once, but its normals need a second reading; give a file",
+                path.display()
+            ))
+            .into());
+        }
+        let found = open_normals(path, columns, reading).map_err(anyhow::Error::from);
+        let found = found.and_then(|source| {
+            let (mut source, mut all, mut block) = (source, vec![], vec![]);
+            loop {
+                source.next_block(&mut block)?;
+                if block.is_empty() {
+                    return Ok(all);
+                }
+                all.append(&mut block);
+            }
+        });
+        let mut normals: Vec<Vector> = found.context(
+            "--facing needs the normals of the points: columns nx, ny, nz of a table (or those that --normals names), such properties \
+             of a PLY file, or a measured mesh",
+        )?;
+        if let Some(motion) = &self.motion {
+            normals.iter_mut().for_each(|n| *n = motion.vector(*n));
+        }
+        Ok(normals)
     }
 }
 

@@ -4,6 +4,7 @@ mod measured;
 mod output;
 mod references;
 mod table;
+mod words;
 
 use crate::command::Run;
 use crate::exit::{Outcome, Usage};
@@ -16,16 +17,17 @@ use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
-use trueness_files::{ReadError, ReadOptions, WriteError};
+use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::compare::{self, Inputs, Method, Options, Reference, View};
+use trueness_inspect::compare::{self, Facing, Inputs, Method, Options, Reference, View};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::{Reverse, Sampling};
 use trueness_inspect::scale::Scale;
+use words::{CoverageArg, FacingArg, OutliersArg};
 
 /// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces
 ///
@@ -39,6 +41,7 @@ Examples:
   trueness compare scan.xyz nominal.stl --tolerance -0.1,+0.2 --html report.html
   trueness compare scan.stl nominal.stl --align --tolerance 0.1
   trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
+  trueness compare scan.ply nominal.stl --outliers mad:5 --facing 60 --coverage auto
   trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5
   trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html")]
 pub struct CompareArgs {
@@ -74,6 +77,18 @@ pub struct CompareArgs {
     /// Exclude (and count) points whose nearest place is a free edge of the reference
     #[arg(long)]
     skip_boundary: bool,
+    /// Exclude (and count) points whose normals turn away from the reference's by more than this, degrees
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    facing: Option<FacingArg>,
+    /// Columns of the normals in a table of points, for --facing [default: nx,ny,nz]
+    #[arg(long, value_name = "LIST", requires = "facing", allow_hyphen_values = true)]
+    normals: Option<Columns>,
+    /// Exclude (and count) outliers: mad:5 for 5 × 1.4826 MAD from the median, 3sigma for 3 σ from the mean
+    #[arg(long, value_name = "RULE", allow_hyphen_values = true)]
+    outliers: Option<OutliersArg>,
+    /// Tell what part of the reference no point covers within a reach: auto (three spacings of the points) or mm
+    #[arg(long, value_name = "auto | MM", allow_hyphen_values = true)]
+    coverage: Option<CoverageArg>,
     /// Compare N points spread evenly over the measured mesh's area instead of its vertices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
@@ -141,6 +156,8 @@ impl CompareArgs {
                 max_distance,
                 skip_boundary: self.skip_boundary,
             },
+            outliers: self.outliers.map(|o| o.0),
+            coverage: self.coverage.map(|c| c.0),
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),
@@ -162,7 +179,7 @@ impl Run for CompareArgs {
 }
 
 fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options(common)?;
+    let mut options = args.options(common)?;
     let tolerance = options.tolerance.map(|t| [t.lower, t.upper]);
     let scale = args.output.read_scale()?.map(|s| s.for_tolerance(tolerance));
     let mut measured = Measured::open(&args.measured, &args.input.reading(), args.sample, common.seed)?;
@@ -179,11 +196,18 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         true => Some(aligned(args, &mut measured, opened[0].mesh(), &files[1].path, common)?),
         false => None,
     };
+    if let Some(FacingArg(angle)) = args.facing {
+        let normals = measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading())?;
+        options.facing = Some(Facing::new(angle.to_radians(), normals));
+    }
     let references: Vec<Reference> =
         files[1..].iter().zip(&opened).map(|(f, r)| r.reference(f.path.clone())).collect();
     let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
-        Some(path) => Some(PointFiles::create(path, references.len(), early_scale)?),
+        Some(path) => {
+            let reasons = options.facing.is_some() || options.outliers.is_some();
+            Some(PointFiles::create(path, references.len(), early_scale, reasons)?)
+        }
         None => None,
     };
     let stage = Stage::new(common.progress, "comparing", "points", total(&measured, references.len()));
@@ -251,12 +275,12 @@ fn total(measured: &Measured, references: usize) -> Option<u64> {
 
 /// A comparison that failed, with the file that it failed on.
 fn in_file(error: compare::CompareError<ReadError, WriteError>, measured: &Path) -> anyhow::Error {
-    use compare::CompareError::{NoPoints, Query, Reference, Sink, Stream};
+    use compare::CompareError::{NoPoints, Normals, Query, Reference, Sink, Stream};
     match error {
         Stream(e) => e.into(),
         Sink(e) => e.into(),
         Query(QueryError::Cancelled(e)) => e.into(),
-        e @ (Query(_) | NoPoints) => anyhow::anyhow!("{}: {e}", measured.display()),
+        e @ (Query(_) | NoPoints | Normals { .. }) => anyhow::anyhow!("{}: {e}", measured.display()),
         e @ Reference { .. } => e.into(),
     }
 }

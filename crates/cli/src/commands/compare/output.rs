@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use trueness_files::WriteError;
 use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
-use trueness_inspect::compare;
+use trueness_inspect::compare::{self, Excluded};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::compare::CompareDocument;
 use trueness_inspect::scale::Scale;
@@ -87,7 +87,11 @@ fn numbered(path: &Path, i: usize, references: usize) -> PathBuf {
 
 /// The per-point files of `--out`: one a reference. Files that are looked at, PLY and VTP, are coloured always, the others
 /// where the scale is known beforehand.
-pub struct PointFiles(Vec<PointFile>);
+pub struct PointFiles {
+    files: Vec<PointFile>,
+    /// Whether they say why a point does not count.
+    reasons: bool,
+}
 
 enum PointFile {
     /// Written as the points come, coloured if there is a scale.
@@ -98,35 +102,48 @@ enum PointFile {
 
 impl PointFiles {
     /// Begins `path`, or `name.1.ext`, `name.2.ext` … for several references; `scale` if it is known beforehand.
-    pub fn create(path: &Path, references: usize, scale: Option<Scale>) -> Result<PointFiles, WriteError> {
+    /// With `reasons` they say why a point does not count, and keep the deviations of outliers.
+    pub fn create(
+        path: &Path,
+        references: usize,
+        scale: Option<Scale>,
+        reasons: bool,
+    ) -> Result<PointFiles, WriteError> {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let looked_at = ["ply", "vtp"].iter().any(|e| extension.eq_ignore_ascii_case(e));
         let name = |i: usize| numbered(path, i, references);
         let file = |i: usize| match &scale {
-            None if looked_at => HeldPoints::create(&name(i)).map(PointFile::Later),
+            None if looked_at => HeldPoints::create(&name(i), reasons).map(PointFile::Later),
             scale => {
-                let layout = Layout { deviation: true, colour: scale.is_some() };
+                let layout = Layout { deviation: true, reason: reasons, colour: scale.is_some() };
                 Ok(PointFile::Now(write::points(&name(i), layout)?, scale.clone()))
             }
         };
-        (0..references).map(file).collect::<Result<_, _>>().map(PointFiles)
+        Ok(PointFiles { files: (0..references).map(file).collect::<Result<_, _>>()?, reasons })
     }
 
     /// Adds a block to every file.
     pub fn write(&mut self, block: &compare::Block) -> Result<(), WriteError> {
-        for (file, deviations) in self.0.iter_mut().zip(block.deviations) {
-            let deviation: Vec<f64> =
-                deviations.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect();
+        let numbers = |values: &[f64]| -> Vec<f64> {
+            values.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect()
+        };
+        let all = self.files.iter_mut().zip(block.deviations).zip(block.measured);
+        for ((file, deviations), measured) in all {
+            let deviation = numbers(measured);
+            let number = |d: &f64| Excluded::of(*d).map_or(0, Excluded::number);
+            let reason: Vec<u8> =
+                if self.reasons { deviations.par_iter().map(number).collect() } else { vec![] };
             match file {
                 PointFile::Now(file, scale) => {
-                    let colour = scale.as_ref().map_or(vec![], |scale| colours(scale, &deviation));
+                    let colour = scale.as_ref().map_or(vec![], |scale| colours(scale, &numbers(deviations)));
                     file.write(&write::Block {
                         points: block.points,
                         deviation: &deviation,
+                        reason: &reason,
                         colour: &colour,
                     })?;
                 }
-                PointFile::Later(file) => file.write(block.points, &deviation)?,
+                PointFile::Later(file) => file.write(block.points, &deviation, &reason)?,
             }
         }
         Ok(())
@@ -134,7 +151,7 @@ impl PointFiles {
 
     /// Puts the files in their places, in the colours of `scale` if they have not got any yet.
     pub fn finish(self, scale: &Scale) -> Result<(), WriteError> {
-        self.0.into_iter().try_for_each(|file| match file {
+        self.files.into_iter().try_for_each(|file| match file {
             PointFile::Now(file, _) => file.finish().map(drop),
             PointFile::Later(file) => file.finish(|deviation| colours(scale, deviation)).map(drop),
         })

@@ -2,7 +2,9 @@
 
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
-use trueness_inspect::results::compare::{CompareDocument, Comparison, Statistics, SurfacesRecord};
+use trueness_inspect::results::compare::{
+    CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
+};
 use trueness_inspect::results::research::{Finding, Research, Test};
 
 /// The whole text.
@@ -62,10 +64,16 @@ fn head(d: &CompareDocument) -> String {
             };
             rows.push((String::new(), format!("  {of}it is compared all the same; {signs}")));
         }
+        if let Some(o) = &c.outliers {
+            rows.push(("outliers".into(), format!("{of}{}", outliers(o))));
+        }
+        if let Some(covered) = &c.coverage {
+            rows.push(("uncovered".into(), format!("{of}{}", coverage(covered))));
+        }
         for (reason, n) in c.excluded.iter().filter(|(_, n)| **n > 0) {
             rows.push((
                 "excluded".into(),
-                format!("{of}{} ({})", counted(*n, POINTS), reason.replace('_', " ")),
+                format!("{of}{} ({}{})", counted(*n, POINTS), reason.replace('_', " "), limit(d, reason)),
             ));
         }
     }
@@ -78,6 +86,37 @@ fn head(d: &CompareDocument) -> String {
     }
     out.push('\n');
     out
+}
+
+/// The limit that a reason goes by, where it is not the reason's own.
+fn limit(d: &CompareDocument, reason: &str) -> String {
+    match d.facing.filter(|_| reason == "facing") {
+        // As it was asked for: what the way there and back through radians adds is far beyond these digits.
+        Some(angle) => {
+            let degrees = (1e9 * angle.to_degrees()).round() / 1e9;
+            format!(": more than {degrees}° from the reference's normal")
+        }
+        None => String::new(),
+    }
+}
+
+/// A rule for outliers, and what it gave.
+fn outliers(o: &OutliersRecord) -> String {
+    let reason = o.limits_reason.as_deref().unwrap_or_default();
+    match (o.lower, o.upper) {
+        (Some(lower), Some(upper)) => {
+            let (lower, upper) = (signed(lower), signed(upper));
+            format!("{}: {} beyond {lower} … {upper} mm", o.rule, counted(o.count, POINTS))
+        }
+        _ => format!("{}: {reason}", o.rule),
+    }
+}
+
+/// What part of a reference is not covered.
+fn coverage(c: &CoverageRecord) -> String {
+    let share = percent(c.uncovered_share);
+    let (area, all, reach) = (number(c.uncovered), number(c.area), number(c.reach));
+    format!("{share} % of the reference ({area} of {all} mm²): no point within {reach} mm")
 }
 
 /// What is said of surfaces that are measured against themselves.

@@ -68,7 +68,7 @@ impl PointsSink for Arrays {
             self.archive.write(&bytes)?;
         }
         self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
-        self.excluded.write(block.deviation.iter().map(|d| u8::from(d.is_nan())))?;
+        self.excluded.write(block.excluded())?;
         self.colour.write(block.colour.iter().flatten().copied())?;
         self.count += block.points.len() as u64;
         Ok(())
@@ -84,7 +84,8 @@ impl PointsSink for Arrays {
         };
         if self.layout.deviation {
             add("deviation.npy", "<f8", None, &mut self.deviation)?;
-            add("excluded.npy", "|b1", None, &mut self.excluded)?;
+            let kind = if self.layout.reason { "|u1" } else { "|b1" };
+            add("excluded.npy", kind, None, &mut self.excluded)?;
         }
         if self.layout.colour {
             add("colour.npy", "|u1", Some(3), &mut self.colour)?;

@@ -140,10 +140,10 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
     Ok(())
 }
 
-/// The positions of x, y and z among the properties of the vertices. No list may stand before them.
-fn coordinates(vertex: &Element, header: &Header) -> Result<[usize; 3]> {
+/// The positions of x, y and z, or what else they are called, among the properties of the vertices. No list may stand before them.
+fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[usize; 3]> {
     let mut found = [0; 3];
-    for (name, found) in ["x", "y", "z"].into_iter().zip(&mut found) {
+    for (name, found) in names.into_iter().zip(&mut found) {
         match vertex.property(name) {
             Some((i, p)) if matches!(p.kind, Kind::One(_)) => *found = i,
             _ => {
@@ -208,7 +208,8 @@ impl Points {
             let layout = Layout::of(Separator::Blanks, b'.', header.end, &[]);
             return Ok(Points::Text(TextPoints::new(feed, layout, lines, Limit::Exactly(0), 0)));
         }
-        let xyz = coordinates(vertex, header)?;
+        let names = if options.normals { ["nx", "ny", "nz"] } else { ["x", "y", "z"] };
+        let xyz = coordinates(vertex, header, names)?;
         let Encoding::Binary(order) = header.encoding else {
             let layout = Layout::of(Separator::Blanks, b'.', header.end, &xyz);
             let window = options.block.saturating_mul(12 * vertex.properties.len());

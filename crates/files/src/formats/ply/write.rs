@@ -61,7 +61,7 @@ impl PointsSink for Rows {
                 push(&mut bytes, &block.points[i]);
                 if let Some(d) = block.deviation.get(i) {
                     bytes.extend(d.to_le_bytes());
-                    bytes.push(u8::from(d.is_nan()));
+                    bytes.push(block.reason.get(i).copied().unwrap_or(u8::from(d.is_nan())));
                 }
                 bytes.extend(block.colour.get(i).into_iter().flatten());
             }

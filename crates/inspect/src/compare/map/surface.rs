@@ -1,5 +1,6 @@
 //! The reference as it is drawn: pieces as large as the points are apart, each vertex with the worst point near it.
 
+use super::super::options::Coverage;
 use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
 use super::creases;
 use super::fill::fill;
@@ -29,6 +30,12 @@ pub struct MapSurface {
     pub keep: Vec<u32>,
     /// Farthest that a shown point's nearest place can be from the vertex that shows it, millimetres.
     pub reach: f64,
+    /// How far the points' nearest places lie apart, millimetres.
+    pub spacing: f64,
+    /// Area of the surface, square millimetres.
+    pub area: f64,
+    /// Area of the facets with a corner that has no value, which are drawn grey.
+    pub uncovered: f64,
 }
 
 /// The surface under construction.
@@ -57,8 +64,14 @@ struct Piece {
 
 impl MapSurface {
     /// Draws `map` on `reference`; each of `flagged` becomes a vertex of its own.
-    pub fn of(reference: &Mesh, map: &PointMap, flagged: &[Flagged]) -> MapSurface {
-        let apart = spacing(&feet(reference, map)).min(FARTHEST * reference.bounds().diagonal());
+    ///
+    /// Deviations go over to places that are no farther away, along the surface, than `coverage` says.
+    pub fn of(reference: &Mesh, map: &PointMap, flagged: &[Flagged], coverage: Coverage) -> MapSurface {
+        let found = spacing(&feet(reference, map));
+        let apart = match coverage {
+            Coverage::Auto => found.min(FARTHEST * reference.bounds().diagonal()),
+            Coverage::Within(reach) => reach / REACH,
+        };
         let edge = map.pieces.edge.max(EDGE * apart);
         let mut drawing = Drawing::new(reference, map, edge * edge);
         let starts = drawing.starts();
@@ -75,8 +88,25 @@ impl MapSurface {
         let Drawing { positions, faces, mut values, keep, farthest, .. } = drawing;
         let mesh = Mesh { positions, faces };
         fill(&mesh, &mut values, REACH * apart);
-        MapSurface { mesh: refined.then_some(mesh), values, keep, reach: farthest + REACH * apart }
+        let [area, uncovered] = areas(&mesh, &values);
+        let reach = farthest + REACH * apart;
+        MapSurface { mesh: refined.then_some(mesh), values, keep, reach, spacing: found, area, uncovered }
     }
+}
+
+/// The area of a mesh, and that of its facets with a vertex without a value. Summed in the order of the facets.
+fn areas(mesh: &Mesh, values: &[f64]) -> [f64; 2] {
+    let (mut all, mut grey) = (0.0, 0.0);
+    for f in &mesh.faces {
+        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let area = 0.5 * norm(cross(minus(b, a), minus(c, a)));
+        // A facet with a coordinate that is not finite is no part of the reference.
+        if area.is_finite() {
+            all += area;
+            grey += if f.iter().any(|v| values[*v as usize].is_nan()) { area } else { 0.0 };
+        }
+    }
+    [all, grey]
 }
 
 impl<'a> Drawing<'a> {

@@ -1,5 +1,6 @@
 //! The map against brute force over every displayed place.
 
+use super::super::options::Coverage;
 use super::*;
 use crate::tolerance::Tolerance;
 use trueness_geom::closest::Tree;
@@ -75,7 +76,7 @@ fn drawn(
         .iter()
         .map(|i| Flagged { face: places[*i].0, weights: places[*i].1, deviation: known[*i].deviation })
         .collect();
-    let surface = MapSurface::of(mesh, &map, &flagged);
+    let surface = MapSurface::of(mesh, &map, &flagged, Coverage::Auto);
     (known, surface, flags)
 }
 

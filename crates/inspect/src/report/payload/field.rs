@@ -20,11 +20,15 @@ pub enum NoValue {
     Undetermined = 6,
     /// It lies on no surface, or not on one alone.
     NoSurface = 7,
+    /// It looks another way than the reference there.
+    Facing = 8,
+    /// It is an outlier.
+    Outlier = 9,
 }
 
 impl NoValue {
     /// All of them, in the order of their codes.
-    pub const ALL: [NoValue; 8] = [
+    pub const ALL: [NoValue; 10] = [
         NoValue::Unknown,
         NoValue::MaxDistance,
         NoValue::FreeEdge,
@@ -33,6 +37,8 @@ impl NoValue {
         NoValue::FewNeighbors,
         NoValue::Undetermined,
         NoValue::NoSurface,
+        NoValue::Facing,
+        NoValue::Outlier,
     ];
 
     /// Name in the manifest and in the text table (`reason.<name>`).
@@ -46,12 +52,14 @@ impl NoValue {
             NoValue::FewNeighbors => "few_neighbors",
             NoValue::Undetermined => "undetermined",
             NoValue::NoSurface => "no_surface",
+            NoValue::Facing => "facing",
+            NoValue::Outlier => "outlier",
         }
     }
 }
 
 /// Codes reserved at the low end for reasons.
-const RESERVED: i32 = 8;
+const RESERVED: i32 = NoValue::ALL.len() as i32;
 /// The step must be at least this much finer than the range that is looked at.
 const FINENESS: f64 = 500.0;
 
@@ -99,7 +107,7 @@ mod tests {
             for v in values {
                 let code = c.code(v, NoValue::Unknown);
                 assert!((f64::from(code) * c.step - v).abs() <= 0.5 * c.step * (1.0 + 1e-9));
-                assert!(code > c.no_value(NoValue::NotMeasured));
+                assert!(code > c.no_value(NoValue::Outlier));
             }
         }
     }
@@ -109,7 +117,7 @@ mod tests {
         let c = Codes::for_values(&[1.0], 1.0);
         assert_eq!(c.code(f64::NAN, NoValue::Unknown), -32_768);
         assert_eq!(c.code(f64::NAN, NoValue::FreeEdge), -32_766);
-        assert_eq!(c.code(-1.0, NoValue::Unknown), -32_760);
+        assert_eq!(c.code(-1.0, NoValue::Unknown), -32_758);
     }
 
     #[test]

@@ -6,7 +6,9 @@ use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::results::check::found;
-use crate::results::compare::{BySide, CompareDocument, Comparison, SignRecord, Statistics};
+use crate::results::compare::{
+    BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
+};
 
 /// Writes all sections.
 pub fn list(h: &mut Html, result: &CompareDocument) {
@@ -194,6 +196,17 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
                 h.raw(" (> ").number(d, 1, false).raw("\u{a0}mm)");
             }
         });
+        if let Some(angle) = result.facing {
+            fact(h, "facing", |h| {
+                h.raw("≤\u{a0}").number(angle.to_degrees(), 1, false).raw("°");
+            });
+        }
+        if let Some(o) = &c.outliers {
+            fact(h, "outliers", |h| outliers(h, o, result.scale.decimals as usize));
+        }
+        if let Some(covered) = &c.coverage {
+            fact(h, "uncovered", |h| uncovered(h, covered));
+        }
         for warning in &c.warnings {
             fact(h, warning_key(warning.kind), |h| {
                 h.raw("<strong class=\"warning\">⚠ ")
@@ -220,9 +233,34 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
     });
 }
 
+/// A rule for outliers, and the limits that it gave.
+fn outliers(h: &mut Html, o: &OutliersRecord, decimals: usize) {
+    h.text(&o.rule).raw(": ").count(o.count);
+    match (o.lower, o.upper) {
+        (Some(lower), Some(upper)) => {
+            h.raw(" (< ").number(lower, decimals + 1, true).raw(", > ").number(upper, decimals + 1, true);
+            h.raw("\u{a0}mm)");
+        }
+        _ => {
+            h.raw("<br><small>").text(o.limits_reason.as_deref().unwrap_or_default()).raw("</small>");
+        }
+    }
+}
+
+/// What part of the reference no point covers: grey in the map.
+fn uncovered(h: &mut Html, c: &CoverageRecord) {
+    h.optional_percent(c.uncovered_share, c.uncovered_share_reason.as_deref(), 2).raw(" (");
+    h.number(c.uncovered, 1, false).raw(" / ").number(c.area, 1, false).raw("\u{a0}mm²)<br><small>");
+    h.word("reason.not_measured").raw(" (≤\u{a0}").number(c.reach, 2, false).raw("\u{a0}mm)</small>");
+}
+
 /// The reasons that the table of words knows.
 fn known(reason: &str) -> &str {
-    if ["max_distance", "free_edge", "not_measured"].contains(&reason) { reason } else { "excluded" }
+    if ["max_distance", "free_edge", "not_measured", "facing", "outlier"].contains(&reason) {
+        reason
+    } else {
+        "excluded"
+    }
 }
 
 fn sign(h: &mut Html, s: &SignRecord) {

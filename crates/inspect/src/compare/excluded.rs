@@ -1,0 +1,70 @@
+//! Why a point does not count.
+
+use trueness_geom::deviation::surface::Exclusion;
+
+/// Why a point does not count.
+///
+/// Among deviations such a point is a value that is not finite, so that it keeps its place and needs no second list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Excluded {
+    /// Farther than the greatest distance asked for.
+    MaxDistance = 1,
+    /// The nearest place lies on a free edge.
+    FreeEdge = 2,
+    /// Its normal does not agree with that of the reference.
+    Facing = 3,
+    /// Beyond the limits that the rule for outliers gives.
+    Outlier = 4,
+}
+
+/// A NaN of its own, which is only ever copied: no arithmetic sees it.
+const OUTLIER: u64 = 0x7ff8_0000_0000_0004;
+
+impl Excluded {
+    /// All, in the order of their numbers.
+    pub const ALL: [Excluded; 4] =
+        [Excluded::MaxDistance, Excluded::FreeEdge, Excluded::Facing, Excluded::Outlier];
+
+    /// What a value among deviations stands for; `None` for a deviation.
+    ///
+    /// ```
+    /// use trueness_inspect::compare::Excluded;
+    /// assert!(Excluded::ALL.iter().all(|e| Excluded::of(e.value()) == Some(*e)));
+    /// assert_eq!(Excluded::of(-0.2), None);
+    /// ```
+    pub fn of(value: f64) -> Option<Excluded> {
+        match value {
+            d if d.is_finite() => None,
+            f64::NEG_INFINITY => Some(Excluded::Facing),
+            f64::INFINITY => Some(Excluded::MaxDistance),
+            nan if nan.to_bits() == OUTLIER => Some(Excluded::Outlier),
+            _ => Some(Excluded::FreeEdge),
+        }
+    }
+
+    /// The value that stands for it.
+    pub fn value(self) -> f64 {
+        match self {
+            Excluded::MaxDistance => Exclusion::MaxDistance.value(),
+            Excluded::FreeEdge => Exclusion::FreeEdge.value(),
+            Excluded::Facing => f64::NEG_INFINITY,
+            Excluded::Outlier => f64::from_bits(OUTLIER),
+        }
+    }
+
+    /// The word of the result document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Excluded::MaxDistance => Exclusion::MaxDistance.name(),
+            Excluded::FreeEdge => Exclusion::FreeEdge.name(),
+            Excluded::Facing => "facing",
+            Excluded::Outlier => "outlier",
+        }
+    }
+
+    /// Its number in files of points; that of a point that counts is 0.
+    pub fn number(self) -> u8 {
+        self as u8
+    }
+}
