@@ -1,6 +1,6 @@
 //! Ctrl-C ends every command, wherever it is, before a person notices.
 #![cfg(unix)]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 use common::*;
