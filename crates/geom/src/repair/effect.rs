@@ -129,6 +129,9 @@ const GAP: f64 = 1e-5;
 /// Of that, distances that are not worth asking.
 const NOTHING: f64 = 1e-3;
 
+/// Parts of facets that are asked about at a time.
+const PIECES: usize = 1 << 15;
+
 /// A place of the old surface, and a middle of what it was taken from.
 struct Asked {
     facet: u32,
@@ -162,31 +165,34 @@ fn gone(
     };
     let of_piece =
         |Piece { facet, middle, corners }: &Piece| asked_about(*facet, corners, std::slice::from_ref(middle));
-    let mut asked: Vec<Asked> = is_gone.flat_map_iter(asked_of).collect();
-    asked.extend(enclosed.pieces.iter().flat_map(of_piece));
-    if asked.is_empty() {
-        return Ok(Gone { farthest: Some(0.0), gaps: vec![] });
+    let whole: Vec<Asked> = is_gone.flat_map_iter(asked_of).collect();
+    let mut found = Gone { farthest: Some(0.0), gaps: vec![] };
+    if whole.is_empty() && enclosed.pieces.is_empty() {
+        return Ok(found);
     }
     let Ok(tree) = Tree::build(after) else { return Ok(Gone::default()) };
-    let all: Vec<Point> = asked.iter().map(|a| a.place).collect();
-    let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
-    if progress.cancelled() {
-        return Err(Cancelled);
-    }
-    let Ok(distances) = distances else { return Ok(Gone::default()) };
     let reach = GAP * before.finite_bounds().diagonal();
     let gaps = Gaps::new(before, reach);
-    let mut found = Gone { farthest: Some(0.0), gaps: vec![] };
-    for (Asked { facet, place, middle }, distance) in asked.into_iter().zip(distances) {
-        // Off the edges, where a side belongs to a neighbour, but not out of the gap: its rim is part of the new surface.
-        let inside = || {
-            let way = minus(middle, place);
-            plus(place, times((0.5 * distance / norm(way)).min(0.001), way))
-        };
-        if distance > NOTHING * reach && gaps.hold(facet, inside()) {
-            found.gaps.push(facet);
-        } else {
-            found.farthest = found.farthest.map(|most| most.max(distance));
+    // Some at a time: of bodies that cross very often there are far more pieces than facets.
+    let pieces = enclosed.pieces.chunks(PIECES).map(|some| some.iter().flat_map(of_piece).collect());
+    for asked in std::iter::once(whole).chain(pieces) {
+        let all: Vec<Point> = asked.iter().map(|a| a.place).collect();
+        let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        let Ok(distances) = distances else { return Ok(Gone::default()) };
+        for (Asked { facet, place, middle }, distance) in asked.into_iter().zip(distances) {
+            // Off the edges, where a side belongs to a neighbour, but not out of the gap: its rim is part of the new surface.
+            let inside = || {
+                let way = minus(middle, place);
+                plus(place, times((0.5 * distance / norm(way)).min(0.001), way))
+            };
+            if distance > NOTHING * reach && gaps.hold(facet, inside()) {
+                found.gaps.push(facet);
+            } else {
+                found.farthest = found.farthest.map(|most| most.max(distance));
+            }
         }
     }
     found.gaps.sort_unstable();
