@@ -45,6 +45,17 @@ pub fn unit(a: Vector) -> Option<(Vector, f64)> {
     (length > 0.0 && inverse.is_finite() && length.is_finite()).then(|| (a.map(|x| x * inverse), length))
 }
 
+/// The unit normal of a triangle, by the right hand; `None` without an area.
+///
+/// ```
+/// use trueness_geom::space::normal;
+/// assert_eq!(normal([[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]]), Some([0.0, 0.0, 1.0]));
+/// assert_eq!(normal([[0.0; 3]; 3]), None);
+/// ```
+pub fn normal([a, b, c]: [Point; 3]) -> Option<Vector> {
+    unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
+}
+
 /// The coordinate axis that stands most across `a`: the first of those along which `a` reaches least.
 pub fn least_axis(a: Vector) -> Vector {
     let least = (0..3).min_by(|&i, &j| a[i].abs().total_cmp(&a[j].abs())).unwrap_or(0);

@@ -19,7 +19,7 @@ pub use surface::Surface;
 use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
-use crate::space::{Point, cross, minus, norm, unit};
+use crate::space::{Point, cross, minus, norm, normal};
 use rules::Rules;
 use std::collections::BTreeSet;
 
@@ -70,11 +70,8 @@ pub fn in_mesh(
         let at = |v: u32| mesh.positions.get(v as usize).copied();
         Some([at(a)?, at(b)?, at(c)?])
     };
-    let belongs = |f: u32| {
-        corners(f).is_some_and(|[a, b, c]| {
-            unit(cross(minus(b, a), minus(c, a))).is_some_and(|(n, _)| rules.facet([a, b, c], n))
-        })
-    };
+    let belongs =
+        |f: u32| corners(f).is_some_and(|corners| normal(corners).is_some_and(|n| rules.facet(corners, n)));
     let starts = rules.starts();
     let nearest = starts.iter().filter_map(|p| tree.closest(p, f64::INFINITY).ok().flatten());
     let mut found: BTreeSet<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();

@@ -11,7 +11,7 @@ use super::error::RepairError;
 use super::step::Step;
 use super::work::Work;
 use crate::check::finding::area;
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Point, Vector, cross, dot, minus, norm, normal, plus, times, unit};
 use crate::topology::union::Sets;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -229,10 +229,7 @@ fn set_off(
 
 /// Unit vector out of the material between these facets, away from which their common place can be moved.
 fn outwards(work: &Work, facets: &[u32], at: Point) -> Vector {
-    let unit_normal = |f: &u32| {
-        let [a, b, c] = work.corners(*f);
-        unit(cross(minus(b, a), minus(c, a))).map_or([0.0; 3], |(n, _)| n)
-    };
+    let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
     let away = || {
         let middle = facets.iter().map(|f| work.middle(*f)).fold([0.0; 3], plus);

@@ -362,7 +362,6 @@ fn knots_are_set_as_far_as_the_points_go() {
         (0..2500).map(|k| [f64::from(k / 50), f64::from(k % 50)]).map(|[x, y]| [x, y, step(x, y)]).collect();
     let layout = Layout::Tolerance(1e-6);
     let found = fit(&points, &Options { layout, base: BaseKind::Xy, ..Options::default() }, &Silent).unwrap();
-    println!("{:?} {}", found.reached, found.support.control_points);
     assert_eq!(found.reached, Some(Reached::Points));
     assert!((1700..=2500).contains(&found.support.control_points), "{}", found.support.control_points);
 }

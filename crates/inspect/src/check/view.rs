@@ -138,21 +138,7 @@ mod tests {
 
     fn drawn(mesh: &Mesh) -> Vec<(String, Vec<[usize; 3]>)> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();
-        let file = InputRecord {
-            role: Role::Mesh,
-            path: "x".into(),
-            format: "STL".into(),
-            bytes: 0,
-            sha256: None,
-            sha256_reason: None,
-            unit_assumed: "mm".into(),
-            unit_from: "assumed".into(),
-            table: None,
-            points: 0,
-            facets: None,
-            bounds: None,
-            warnings: vec![],
-        };
+        let file = InputRecord::of_no_file(Role::Mesh);
         let document = document(&report, file, mesh.faces.len() as u64, 0, &Options::default());
         let view = View::new(&document, "x", mesh);
         let sizes = |m: &Mark| [m.triangles.len(), m.segments.len(), m.points.len()];

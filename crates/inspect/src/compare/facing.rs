@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, times, unit};
+use trueness_geom::space::{Vector, cross, dot, minus, norm, normal, plus, times, unit};
 
 /// The measured normals, and how far they may turn away from those of the reference.
 #[derive(Clone, Debug)]
@@ -47,8 +47,7 @@ fn direction(v: Vector) -> Vector {
 
 /// The outward unit normal of a facet; `None` without area.
 pub(super) fn facet_normal(mesh: &Mesh, face: u32) -> Option<Vector> {
-    let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-    unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
+    normal(mesh.faces[face as usize].map(|v| mesh.positions[v as usize]))
 }
 
 /// A normal for each of these facets, zero for one without area.

@@ -35,30 +35,12 @@ fn open_at_the_top(n: usize, side: f64) -> Vec<Point> {
     points
 }
 
-fn record(role: Role) -> InputRecord {
-    InputRecord {
-        role,
-        path: "x".into(),
-        format: "x".into(),
-        bytes: 0,
-        sha256: None,
-        sha256_reason: None,
-        unit_assumed: "mm".into(),
-        unit_from: "assumed".into(),
-        table: None,
-        points: 0,
-        facets: None,
-        bounds: None,
-        warnings: vec![],
-    }
-}
-
 /// Points against a mesh, in blocks of 1000; with the area of the facets that the view draws without a value.
 fn compared(points: &[Point], mesh: &Mesh, options: &Options) -> (Comparisons, CompareDocument, f64) {
     let references = [Reference { name: "x".into(), mesh, splines: None }];
     let mut stream = Blocks(points.chunks(1000).map(<[Point]>::to_vec).rev().collect());
     let found = run(&mut stream, &references, options, &Silent, |_| Ok::<(), Infallible>(())).unwrap();
-    let files = vec![record(Role::Measured), record(Role::Reference)];
+    let files = vec![InputRecord::of_no_file(Role::Measured), InputRecord::of_no_file(Role::Reference)];
     let inputs = Inputs { files, kind: "points", scale: None, reverse: vec![] };
     let document = document(&found, inputs, options);
     let view = View::new("x", None, &references, &found);

@@ -16,7 +16,7 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{Nearness, Nominal, Piece, in_mesh};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Point, Vector, cross, dot, minus, unit};
+use trueness_geom::space::{self, Point, Vector, dot};
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -179,8 +179,7 @@ fn nearest(
 }
 
 fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {
-    let [a, b, c] = mesh.faces.get(face as usize)?.map(|v| mesh.positions[v as usize]);
-    unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
+    space::normal(mesh.faces.get(face as usize)?.map(|v| mesh.positions[v as usize]))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::scale::palette::{Rgb, category};
 use std::collections::HashSet;
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Point, Vector, cross, minus, unit};
+use trueness_geom::space::{Point, Vector, normal};
 
 /// Facets drawn as new or gone, at most.
 const MOST: usize = 100_000;
@@ -97,8 +97,7 @@ impl Surface<'_> {
         let nearest = self.tree.as_ref()?.closest(place, f64::INFINITY).ok()??;
         let corner =
             |k: usize| self.mesh.positions.get(self.mesh.faces.get(nearest.face as usize)?[k] as usize);
-        let (a, b, c) = (*corner(0)?, *corner(1)?, *corner(2)?);
-        unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
+        normal([*corner(0)?, *corner(1)?, *corner(2)?])
     }
 }
 

@@ -78,6 +78,26 @@ pub struct ColumnRecord {
 }
 
 impl InputRecord {
+    /// Of a file that there is not.
+    #[cfg(test)]
+    pub(crate) fn of_no_file(role: Role) -> InputRecord {
+        InputRecord {
+            role,
+            path: "x".into(),
+            format: "x".into(),
+            bytes: 0,
+            sha256: None,
+            sha256_reason: None,
+            unit_assumed: "mm".into(),
+            unit_from: "assumed".into(),
+            table: None,
+            points: 0,
+            facets: None,
+            bounds: None,
+            warnings: vec![],
+        }
+    }
+
     /// What was taken for what in a table of text, as one line for people.
     pub fn reading(&self) -> Option<String> {
         let table = self.table.as_ref()?;

@@ -7,10 +7,7 @@ use crate::{
     write::{Loss, corners::corner_positions},
 };
 use std::io::Write;
-use trueness_geom::{
-    mesh::Mesh,
-    space::{cross, minus, unit},
-};
+use trueness_geom::{mesh::Mesh, space::normal};
 
 /// Facets turned into bytes at a time.
 const CHUNK: usize = 1 << 14;
@@ -30,8 +27,7 @@ pub(super) fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFaul
         bytes.clear();
         for (j, face) in faces.iter().enumerate() {
             let corners = corner_positions(mesh, i * CHUNK + j, face)?;
-            let [a, b, c] = corners;
-            let normal = unit(cross(minus(b, a), minus(c, a))).map_or([0.0; 3], |(n, _)| n);
+            let normal = normal(corners).unwrap_or([0.0; 3]);
             bytes.extend(record(normal.map(|x| x as f32), corners.map(|p| p.map(|x| x as f32))));
         }
         file.write_all(&bytes)?;

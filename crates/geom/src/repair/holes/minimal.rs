@@ -8,7 +8,7 @@ use super::patch::Patch;
 use super::ring::Ring;
 use super::site::Site;
 use crate::num::predicates;
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, unit};
+use crate::space::{Point, Vector, cross, dot, minus, norm, normal, plus, unit};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -146,10 +146,7 @@ impl<'a> Table<'a> {
 /// Cuts ears off a ring that is too long, adding their facets, and returns what is left with the normals beyond its edges.
 fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32>, Vec<Vector>)> {
     let (work, n) = (site.work, ring.vertices.len());
-    let normal = |f: &u32| {
-        let [a, b, c] = work.corners(*f);
-        unit(cross(minus(b, a), minus(c, a))).map_or([0.0; 3], |(n, _)| n)
-    };
+    let normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let mut outside: Vec<Vector> = ring.facets.iter().map(normal).collect();
     if n <= MOST {
         return Some((ring.vertices.clone(), outside));

@@ -10,7 +10,7 @@ use super::patch::{NEW, Patch};
 use super::ring::Ring;
 use super::site::Site;
 use crate::num::predicates;
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{self, Point, Vector, cross, dot, minus, norm, plus, times};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// New vertices of a patch at most; what would need more is filled plainly.
@@ -47,8 +47,8 @@ pub(super) fn patch(site: &Site, ring: &Ring) -> Option<Patch> {
     Some(patch)
 }
 
-fn normal([a, b, c]: [Point; 3]) -> Vector {
-    unit(cross(minus(b, a), minus(c, a))).map_or([0.0; 3], |(n, _)| n)
+fn normal(corners: [Point; 3]) -> Vector {
+    space::normal(corners).unwrap_or([0.0; 3])
 }
 
 /// Whether the surroundings run on smoothly into the patch, and are not simply flat.

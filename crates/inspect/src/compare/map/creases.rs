@@ -1,7 +1,7 @@
 //! Which facets go on into one another, and which meet in a crease.
 
 use trueness_geom::mesh::Mesh;
-use trueness_geom::space::{Vector, cross, dot, minus, unit};
+use trueness_geom::space::{Vector, dot, normal};
 
 /// Cosine of the angle between normals from which facets do not share their values: a point of one face says nothing about
 /// the face round the corner.
@@ -10,7 +10,8 @@ const SHARP: f64 = 0.866;
 /// One number for each corner of each facet: equal where facets share a vertex and, around it, go on smoothly into one another.
 /// The numbers are those of corners, `3 · facet + corner`.
 pub fn corners(mesh: &Mesh) -> Vec<u32> {
-    let normals: Vec<Option<Vector>> = mesh.faces.iter().map(|f| normal(mesh, f)).collect();
+    let normals: Vec<Option<Vector>> =
+        mesh.faces.iter().map(|f| normal(f.map(|v| mesh.positions[v as usize]))).collect();
     let mut edges: Vec<([u32; 2], u32)> = vec![];
     for (face, corners) in (0u32..).zip(&mesh.faces) {
         for k in 0..3 {
@@ -49,11 +50,6 @@ fn next(corner: u32) -> u32 {
 
 fn vertex(mesh: &Mesh, corner: u32) -> u32 {
     mesh.faces[corner as usize / 3][corner as usize % 3]
-}
-
-fn normal(mesh: &Mesh, face: &[u32; 3]) -> Option<Vector> {
-    let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
-    unit(cross(minus(b, a), minus(c, a))).map(|(n, _)| n)
 }
 
 fn root(sets: &mut [u32], mut a: u32) -> u32 {
