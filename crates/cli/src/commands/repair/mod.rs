@@ -46,7 +46,7 @@ pub struct RepairArgs {
     /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
     #[arg(long, value_name = "MM")]
     gap: Option<f64>,
-    /// Fill holes up to this share of the area of their shell, percent; of a shell with a larger one, up to 1 % only
+    /// Fill holes up to this share of the area of their shell, percent; of a shell with a larger one, up to 0.5 % only
     #[arg(long, value_name = "PERCENT", default_value = "25", conflicts_with = "all_holes")]
     holes: f64,
     /// Fill all holes, however large, even the rim of a sheet that is not flat
