@@ -1,5 +1,6 @@
 //! Values for vertices beside those that have one.
 
+use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{minus, norm};
 
@@ -8,18 +9,20 @@ use trueness_geom::space::{minus, norm};
 ///
 /// Ways are shortened round by round (R. Bellman, "On a routing problem", 1958): with a reach of a few edges there are few rounds.
 pub fn fill(mesh: &Mesh, values: &mut [f64], reach: f64) {
-    let (starts, neighbours) = around_empty(mesh, values);
+    let empty: Vec<bool> = values.iter().map(|v| v.is_nan()).collect();
+    let (starts, neighbours) = around_empty(mesh, &empty);
     let length = |a: u32, b: u32| norm(minus(mesh.positions[a as usize], mesh.positions[b as usize]));
     let list = |v: u32| &neighbours[starts[v as usize] as usize..starts[v as usize + 1] as usize];
-    let empty = |v: &u32| values[*v as usize].is_nan();
+    let empty = |v: &u32| empty[*v as usize];
     // The shortest way so far to a vertex with a value, and that vertex.
-    let mut nearest = vec![(f64::INFINITY, u32::MAX); values.len()];
-    let mut turn: Vec<u32> = (0..values.len() as u32).filter(empty).collect();
-    for &v in &turn {
-        let known = list(v).iter().filter(|n| !empty(n)).map(|&n| (length(n, v), n));
-        nearest[v as usize] = known.filter(|(way, _)| *way <= reach).fold(nearest[v as usize], nearer);
-    }
-    turn.retain(|v| nearest[*v as usize].1 != u32::MAX);
+    let mut nearest: Vec<(f64, u32)> = (0..values.len() as u32)
+        .into_par_iter()
+        .map(|v| {
+            let known = list(v).iter().filter(|n| !empty(n)).map(|&n| (length(n, v), n));
+            known.filter(|(way, _)| *way <= reach).fold((f64::INFINITY, u32::MAX), nearer)
+        })
+        .collect();
+    let mut turn: Vec<u32> = (0..).zip(&nearest).filter(|(_, n)| n.1 != u32::MAX).map(|(v, _)| v).collect();
     let mut waits = vec![false; values.len()];
     while !turn.is_empty() {
         let mut next = vec![];
@@ -52,19 +55,21 @@ fn nearer(a: (f64, u32), b: (f64, u32)) -> (f64, u32) {
 }
 
 /// For each vertex without a value the vertices that it shares an edge with: where each list starts, and the lists.
-fn around_empty(mesh: &Mesh, values: &[f64]) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0u32; values.len() + 1];
+fn around_empty(mesh: &Mesh, empty: &[bool]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0u32; empty.len() + 1];
+    let beside = |f: &&[u32; 3]| f.iter().any(|v| empty[*v as usize]);
+    let faces: Vec<&[u32; 3]> = mesh.faces.par_iter().filter(beside).collect();
     let ends = |f: &[u32; 3]| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]].map(|[a, b]| [[a, b], [b, a]]);
-    let wanted = |v: u32| values[v as usize].is_nan();
-    for [v, _] in mesh.faces.iter().flat_map(ends).flatten().filter(|[v, _]| wanted(*v)) {
+    let links = || faces.iter().flat_map(|f| ends(f)).flatten().filter(|[v, _]| empty[*v as usize]);
+    for [v, _] in links() {
         starts[v as usize + 1] += 1;
     }
-    for v in 0..values.len() {
+    for v in 0..empty.len() {
         starts[v + 1] += starts[v];
     }
     let mut next = starts.clone();
-    let mut lists = vec![0; starts[values.len()] as usize];
-    for [v, n] in mesh.faces.iter().flat_map(ends).flatten().filter(|[v, _]| wanted(*v)) {
+    let mut lists = vec![0; starts[empty.len()] as usize];
+    for [v, n] in links() {
         lists[next[v as usize] as usize] = n;
         next[v as usize] += 1;
     }

@@ -2,6 +2,7 @@
 
 use super::bisection::Bisection;
 use crate::tolerance::{Tolerance, badness};
+use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, norm};
 
@@ -45,8 +46,9 @@ pub struct Flagged {
 impl PointMap {
     /// An empty map on `mesh`. With a tolerance the worst point is the one farthest beyond it, else the one farthest away.
     pub fn new(mesh: &Mesh, tolerance: Option<Tolerance>) -> PointMap {
-        let corners = mesh.faces.iter().map(|f| f.map(|v| mesh.positions[v as usize]));
-        let area: f64 = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).sum();
+        let corners = mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize]));
+        let areas: Vec<f64> = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).collect();
+        let area: f64 = areas.iter().sum();
         let edge = (area / (PIECE * MOST_CUTS as f64)).sqrt();
         let edge = if edge > 0.0 { edge } else { f64::INFINITY };
         let pieces = Bisection::of(mesh, edge, MOST_CUTS);

@@ -62,6 +62,14 @@ struct Piece {
     flagged: Vec<(f64, [f64; 3])>,
 }
 
+/// A point and the vertex that may show it.
+struct Shown {
+    vertex: u32,
+    deviation: f64,
+    /// How far the point's nearest place is from the vertex.
+    away: f64,
+}
+
 impl MapSurface {
     /// Draws `map` on `reference`; each of `flagged` becomes a vertex of its own.
     ///
@@ -78,10 +86,18 @@ impl MapSurface {
         let mut flags = flagged.to_vec();
         flags.sort_by_key(|f| f.face);
         let mut rest = flags.as_slice();
-        for (face, corners) in (0u32..).zip(starts) {
+        let shown: Vec<Option<Shown>> = starts
+            .par_iter()
+            .enumerate()
+            .map(|(face, corners)| drawing.shown(face as u32, *corners, face as u32))
+            .collect();
+        for ((face, corners), shown) in (0u32..).zip(starts).zip(shown) {
             let here = rest.iter().take_while(|f| f.face == face).count();
             let (mine, others) = rest.split_at(here);
-            drawing.facet(face, corners, mine);
+            match mine.is_empty() && map.pieces.halves(face).is_none() {
+                true => drawing.whole(corners, shown),
+                false => drawing.facet(face, corners, mine),
+            }
             rest = others;
         }
         let refined = drawing.faces.len() > reference.faces.len();
@@ -145,12 +161,14 @@ impl<'a> Drawing<'a> {
         (0..mesh.faces.len()).map(|f| [0, 1, 2].map(|k| vertex(3 * f + k))).collect()
     }
 
+    /// A facet that is not cut, with the point that it shows.
+    fn whole(&mut self, corners: [u32; 3], shown: Option<Shown>) {
+        shown.into_iter().for_each(|shown| self.show(&shown));
+        self.faces.push(corners);
+    }
+
     /// Cuts a facet and gives the points on it to the vertices.
     fn facet(&mut self, face: u32, corners: [u32; 3], flagged: &[Flagged]) {
-        if flagged.is_empty() && self.map.pieces.halves(face).is_none() {
-            self.show(face, corners, face);
-            return self.faces.push(corners);
-        }
         let flagged = flagged.iter().map(|f| (f.deviation, f.weights)).collect();
         let edges = edges(corners.map(|v| self.positions[v as usize]));
         let mut open = vec![Piece { node: face, corners, edges, flagged }];
@@ -190,7 +208,8 @@ impl<'a> Drawing<'a> {
         let mut open = vec![piece.node];
         while let Some(node) = open.pop() {
             open.extend(self.map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
-            self.show(face, piece.corners, node);
+            let shown = self.shown(face, piece.corners, node);
+            shown.into_iter().for_each(|shown| self.show(&shown));
         }
         let mut parts = vec![(piece.corners, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])];
         for (deviation, weights) in piece.flagged {
@@ -199,19 +218,24 @@ impl<'a> Drawing<'a> {
         self.faces.extend(parts.into_iter().map(|(corners, _)| corners));
     }
 
-    /// Gives the point that a node holds to the nearest of the corners.
-    fn show(&mut self, face: u32, corners: [u32; 3], node: u32) {
+    /// The point that a node holds, for the nearest of the corners.
+    fn shown(&self, face: u32, corners: [u32; 3], node: u32) -> Option<Shown> {
         let kept = self.map.worst[node as usize];
         if kept.deviation.is_nan() {
-            return;
+            return None;
         }
         let foot = place(self.reference, face, kept.weights());
         let away = corners.map(|v| norm(minus(foot, self.positions[v as usize])));
         let k = (1..3).fold(0, |best, k| if away[k] < away[best] { k } else { best });
-        self.farthest = self.farthest.max(away[k]);
-        let value = &mut self.values[corners[k] as usize];
-        if worse(kept.deviation, *value, self.map.tolerance) {
-            *value = kept.deviation;
+        Some(Shown { vertex: corners[k], deviation: kept.deviation, away: away[k] })
+    }
+
+    /// Gives a point to its vertex, where it stays if it is the worst; of equally bad ones the first.
+    fn show(&mut self, shown: &Shown) {
+        self.farthest = self.farthest.max(shown.away);
+        let value = &mut self.values[shown.vertex as usize];
+        if worse(shown.deviation, *value, self.map.tolerance) {
+            *value = shown.deviation;
         }
     }
 

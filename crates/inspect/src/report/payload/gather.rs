@@ -1,6 +1,7 @@
 //! Where vertices were left out, those that stay show the worst of what the others showed.
 
 use crate::tolerance::badness;
+use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, dot, minus, norm};
 
@@ -16,10 +17,10 @@ pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
     };
     let mut offers: Vec<u32> = vec![u32::MAX; owners.len()];
     let whole = |f: &&[u32; 3]| f.iter().all(|v| (*v as usize) < mesh.positions.len());
-    let mut faces: Vec<&[u32; 3]> = mesh.faces.iter().filter(whole).collect();
+    let waits = |f: &&[u32; 3]| f.iter().any(|v| owners[*v as usize] == u32::MAX);
+    let mut faces: Vec<&[u32; 3]> = mesh.faces.par_iter().filter(whole).filter(waits).collect();
     loop {
         let mut open = vec![];
-        faces.retain(|f| f.iter().any(|v| owners[*v as usize] == u32::MAX));
         for face in &faces {
             for k in 0..3 {
                 for (from, to) in [(face[k], face[(k + 1) % 3]), (face[(k + 1) % 3], face[k])] {
@@ -41,6 +42,7 @@ pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
             return owners;
         }
         open.iter().for_each(|v| owners[*v as usize] = offers[*v as usize]);
+        faces.retain(|f| f.iter().any(|v| owners[*v as usize] == u32::MAX));
     }
 }
 
@@ -48,7 +50,7 @@ pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
 pub fn farthest(mesh: &Mesh, owners: &[u32]) -> f64 {
     let place = |v: u32| mesh.positions.get(v as usize);
     let away = |(p, owner): (&Point, &u32)| place(*owner).map_or(0.0, |q| norm(minus(*p, *q)));
-    mesh.positions.iter().zip(owners).map(away).fold(0.0, f64::max)
+    mesh.positions.par_iter().zip(owners).map(away).reduce(|| 0.0, f64::max)
 }
 
 /// The value of each vertex that is left: the worst of those it stands for, farthest beyond the zone or else greatest in size.

@@ -38,26 +38,20 @@ struct Side {
 /// Normals of the vertices, area-weighted; none on creases, and where the facets around cancel out.
 pub fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
     let mut sums = vec![[0.0; 3]; mesh.positions.len()];
-    let normal = |face: &[u32; 3]| {
-        let corner =
-            |k: usize| mesh.positions.get(face[k] as usize).filter(|p| p.iter().all(|x| x.is_finite()));
-        let (a, b, c) = (corner(0)?, corner(1)?, corner(2)?);
-        Some(cross(minus(*b, *a), minus(*c, *a)))
+    let facets: Vec<Option<Vector>> = mesh.faces.par_iter().map(|f| facet(mesh, f)).collect();
+    for (face, n) in mesh.faces.iter().zip(&facets) {
+        let Some(n) = n else { continue };
+        face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], *n));
+    }
+    let mut normals: Vec<Option<Vector>> = sums.into_par_iter().map(|n| unit(n).map(|(n, _)| n)).collect();
+    let bent = |(face, n): (&[u32; 3], &Option<Vector>)| {
+        let n = n.and_then(unit).map(|(n, _)| n);
+        let away = |v: u32, n: Vector| normals[v as usize].is_some_and(|mean| dot(mean, n) < BENT);
+        face.map(|v| n.filter(|n| away(v, *n)).map(|_| v as usize))
     };
-    for face in &mesh.faces {
-        let Some(n) = normal(face) else { continue };
-        face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], n));
-    }
-    let mut normals: Vec<Option<Vector>> = sums.into_iter().map(|n| unit(n).map(|(n, _)| n)).collect();
-    let means = normals.clone();
-    for face in &mesh.faces {
-        let Some((n, _)) = normal(face).and_then(unit) else { continue };
-        for v in face.map(|v| v as usize) {
-            if means[v].is_some_and(|mean| dot(mean, n) < BENT) {
-                normals[v] = None;
-            }
-        }
-    }
+    let creased: Vec<usize> =
+        mesh.faces.par_iter().zip(&facets).flat_map_iter(|pair| bent(pair).into_iter().flatten()).collect();
+    creased.into_iter().for_each(|v| normals[v] = None);
     normals
 }
 
@@ -65,7 +59,9 @@ pub fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
 pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera: &Camera) {
     let edges = sharp(mesh, normals);
     let length: f64 = edges.iter().map(|[a, b]| norm(minus(*b, *a))).sum();
-    let area: f64 = mesh.faces.iter().filter_map(|f| facet(mesh, f)).map(|n| 0.5 * norm(n)).sum();
+    let areas: Vec<f64> =
+        mesh.faces.par_iter().filter_map(|f| facet(mesh, f)).map(|n| 0.5 * norm(n)).collect();
+    let area: f64 = areas.iter().sum();
     let opacity = OPACITY * (SHARE * area * camera.scale / (WIDE * length)).min(1.0);
     if edges.is_empty() || opacity.is_nan() || opacity < FAINTEST {
         return;
@@ -101,19 +97,17 @@ impl Band<'_> {
 /// where a facet lies on another, nor a short row of edges that ends on the surface: such are of its roughness.
 fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
     let (place, folded) = places(mesh, normals);
-    let mut sides: Vec<Side> = vec![];
-    for (face, n) in mesh.faces.iter().zip(0..) {
-        if face.iter().any(|v| *v as usize >= place.len()) {
-            continue;
-        }
-        let corners = face.map(|v| place[v as usize]);
-        for k in 0..3 {
+    let around = |(n, face): (usize, &[u32; 3])| {
+        let whole = face.iter().all(|v| (*v as usize) < place.len());
+        let corners = face.map(|v| if whole { place[v as usize] } else { u32::MAX });
+        (0..3).filter(move |_| whole).map(move |k| {
             let [a, b, opposite] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-            if a != b && folded[a as usize] && folded[b as usize] {
-                sides.push(Side { ends: [a.min(b), a.max(b)], facet: n, opposite, turned: a > b });
-            }
-        }
-    }
+            Side { ends: [a.min(b), a.max(b)], facet: n as u32, opposite, turned: a > b }
+        })
+    };
+    let can_be_sharp = |s: &Side| s.ends[0] != s.ends[1] && s.ends.iter().all(|v| folded[*v as usize]);
+    let mut sides: Vec<Side> =
+        mesh.faces.par_iter().enumerate().flat_map_iter(around).filter(can_be_sharp).collect();
     sides.par_sort_unstable_by_key(|s| (s.ends, s.facet));
     let edges = sides.chunk_by(|a, b| a.ends == b.ends);
     let sharp = edges.filter(|sides| sides[1..].iter().any(|s| meet_sharply(mesh, &sides[0], s)));
