@@ -2,14 +2,18 @@
 
 mod surface_document;
 
+use crate::exit::Usage;
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use rayon::prelude::*;
 use std::path::Path;
 use trueness_files::cad::SplineModel;
-use trueness_files::{ColumnTaken, Input, PointSource, ReadOptions, SourceMesh, TableReading, Warning};
+use trueness_files::{
+    ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, TableReading, Warning,
+    open_normals,
+};
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
-use trueness_geom::space::{Aabb, Point};
+use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 
@@ -167,6 +171,40 @@ pub fn all_points(path: &Path, mut source: PointSource) -> anyhow::Result<Vec<Po
         }
         all.extend_from_slice(&block);
     }
+}
+
+/// The normals of the points of the file at `path`, one for each, for `what` that needs them; `or` tells how else their columns
+/// can be named.
+pub fn all_normals(
+    path: &Path,
+    columns: Option<&Columns>,
+    reading: &ReadOptions,
+    what: &str,
+    or: &str,
+) -> anyhow::Result<Vec<Vector>> {
+    if is_stream(path) {
+        let what = format!(
+            "{what}: {} can be read only once, but its normals need a second reading; give a file",
+            path.display()
+        );
+        return Err(Usage(what).into());
+    }
+    let found = || {
+        let (mut all, mut block) = (vec![], vec![]);
+        let mut source = open_normals(path, columns, reading)?;
+        loop {
+            source.next_block(&mut block)?;
+            if block.is_empty() {
+                return Ok(all);
+            }
+            all.append(&mut block);
+        }
+    };
+    found().map_err(|e: ReadError| anyhow::Error::from(e)).with_context(|| {
+        format!(
+            "{what} needs the normals of the points: columns nx, ny, nz of a table{or}, such properties of a PLY file, or a measured mesh"
+        )
+    })
 }
 
 /// Fills in number and box of the points of a file.

@@ -421,10 +421,73 @@ fn deviations_of_a_plan_are_those_of_a_comparison() {
         ),
         ("inside = 50", "line 5, column 10: `inside` says how many points must keep a `tolerance`"),
         ("tolerance = [-1, 1]\nmax_distance = -2", "max_distance is -2; it cannot be below 0"),
+        (
+            "tolerance = [-1, 1]\nfacing = 0",
+            "line 6, column 10: facing is 0; an angle between normals is above 0",
+        ),
+        ("tolerance = [-1, 1]\noutliers = \"iqr:2\"", "line 6, column 12: ‘iqr:2’ is no rule for outliers"),
+        ("tolerance = [-1, 1]\ncoverage = \"all\"", "line 6, column 12: coverage is \"auto\" or a length"),
+        ("tolerance = [-1, 1]\ncoverage = 0", "line 6, column 12: coverage is \"auto\" or a length"),
+        (
+            "tolerance = [-1, 1]\nfacing = 60",
+            "`facing` of [deviation] needs the normals of the points: columns nx, ny, nz",
+        ),
     ] {
         let (code, said, ..) = plan(text);
         assert!(code == 3 && said.contains(says), "should say {says}\nsays {said}");
     }
+}
+
+/// What a comparison leaves out by a rule, a plan leaves out, too: the same numbers, turned and moved by the alignment or not.
+#[test]
+fn rules_of_a_plan_are_those_of_a_comparison() {
+    let folder = Folder::new();
+    folder.write("nominal.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n");
+    // Over half of the square; ten points look down, one is far off.
+    let scan = |z: f64, turn: f64| {
+        let point = |k: i32| {
+            let away = z + if k == 25 { 3.0 } else { 0.01 * f64::from(k % 7) };
+            let up = if k % 5 == 0 { -turn } else { turn };
+            format!("{},{},{},0,0,{up}\n", 0.5 + f64::from(k % 10), 0.5 + f64::from(k / 10), turn * away)
+        };
+        "x,y,z,nx,ny,nz\n".to_string() + &(0..50).map(point).collect::<String>()
+    };
+    let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.csv\"\nreference = \"nominal.obj\"\n";
+    let asked = "[deviation]\ntolerance = [-0.1, 0.1]\nfacing = 60\noutliers = \"mad:5\"\ncoverage = 0.8\n";
+    let plan = |align: &str| {
+        let plan = folder.write("plan.toml", format!("{head}{align}{asked}"));
+        let json = folder.file("r.json");
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", json.to_str().unwrap()]);
+        let answer: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(&json).unwrap_or_default()).unwrap_or_default();
+        (stdout(&o) + &stderr(&o), answer["deviation"].clone())
+    };
+    folder.write("scan.csv", scan(0.0, 1.0));
+    let (table, found) = plan("");
+    let compared = folder.file("c.json");
+    let [measured, nominal] =
+        ["scan.csv", "nominal.obj"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let rules =
+        ["--facing", "60", "--outliers", "mad:5", "--coverage", "0.8", "--tolerance", "0.1", "--json"];
+    let o = trueness([&["compare", &measured, &nominal], &rules[..], &[compared.to_str().unwrap()]].concat());
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let compared: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&compared).unwrap()).unwrap();
+    for key in ["deviation", "tolerance", "worst", "excluded", "outliers", "coverage", "verdict"] {
+        assert!(!found[key].is_null() && found[key] == compared["comparisons"][0][key], "{key} {found}");
+    }
+    // The tenth point that looks down is the one far off.
+    assert_eq!((&found["excluded"]["facing"], found["excluded"]["outlier"].as_u64()), (&10.into(), Some(0)));
+    assert!(table.contains("10 points left out (10 facing)"), "{table}");
+    assert!(table.contains("outliers by mad:5: 0 points") && table.contains("not covered: "), "{table}");
+    // Turned over and moved, the normals turn with the points.
+    folder.write("scan.csv", scan(4.0, -1.0));
+    let motion = "[align]\nmethod = \"given\"\ntransform = [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]\n";
+    let (_, moved) = plan(motion);
+    assert_eq!(moved["excluded"]["facing"], 40);
+    let turn = "[align]\nmethod = \"given\"\ntransform = [[1,0,0,0],[0,-1,0,10],[0,0,-1,-4],[0,0,0,1]]\n";
+    let (_, turned) = plan(turn);
+    assert_eq!(turned["excluded"]["facing"], 10);
 }
 
 /// Lengths of a plan in inch are those of the same plan in mm.

@@ -149,6 +149,43 @@ def deviations(folder):
     assert largest < 1e-12, f"distance off by {largest}"
 
 
+def reasons(folder):
+    """The reasons of `compare --facing --outliers --max-distance --out` agree with the document, and the rule with NumPy."""
+    options = ("--facing", "40", "--outliers", "mad:4", "--max-distance", "3")
+    for ending in ("csv", "tsv", "ply", "parquet", "npz", "vtp"):
+        run("compare", REFERENCE, MEASURED, *options, "--out", folder / f"r.{ending}", "--json", folder / "r.json")
+    held = np.load(folder / "r.npz")
+    deviation, excluded = held["deviation"], held["excluded"]
+    document = json.loads((folder / "r.json").read_text())["comparisons"][0]
+    counts = [document["excluded"].get(name, 0) for name in ("max_distance", "free_edge", "facing", "outlier")]
+    assert counts == [int((excluded == code).sum()) for code in (1, 2, 3, 4)], counts
+    assert counts[0] > 0 and counts[2] > 0 and counts[3] > 0, "every reason that was asked for is there"
+    same("points without a deviation", np.isnan(deviation), np.isin(excluded, (1, 2, 3)))
+
+    # The rule belongs to what the other reasons leave.
+    left = deviation[~np.isnan(deviation)]
+    median = np.median(left)
+    reach = 4 * 1.482602218505602 * np.median(np.abs(left - median))
+    limits = document["outliers"]
+    assert max(abs(limits["lower"] - (median - reach)), abs(limits["upper"] - (median + reach))) < 1e-12, limits
+    same("outliers", excluded == 4, (deviation < limits["lower"]) | (deviation > limits["upper"]))
+
+    for ending, separator in (("csv", ","), ("tsv", "\t")):
+        with open(folder / f"r.{ending}", newline="") as file:
+            rows = list(csv.DictReader(file, delimiter=separator))
+        same(f"reasons of {ending}", excluded, np.array([int(r["excluded"]) for r in rows], np.uint8))
+        same(f"deviation of {ending}", deviation, [float(r["deviation"] or "nan") for r in rows])
+    columns = ply_columns(folder / "r.ply")
+    same("reasons of PLY", excluded, columns["excluded"])
+    same("deviation of PLY", deviation, columns["deviation"])
+    table = pyarrow.parquet.read_table(folder / "r.parquet")
+    same("reasons of Parquet", excluded, table["excluded"].to_numpy().astype(np.uint8))
+    same("deviation of Parquet", deviation, table["deviation"].to_numpy())
+    seen = vtk_read(vtk.vtkXMLPolyDataReader(), folder / "r.vtp").GetPointData()
+    same("reasons of VTP", excluded, vtk_to_numpy(seen.GetArray("excluded")))
+    same("deviation of VTP", deviation, vtk_to_numpy(seen.GetArray("deviation")))
+
+
 def meshes(folder):
     """Files of `repair --out` hold the triangles of the input, in its order; their places to the last bit."""
     given = meshio.read(REFERENCE)
@@ -344,6 +381,6 @@ def sections(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (deviations, meshes, regions, surfaces, foreign_surfaces, sections):
+    for check in (deviations, reasons, meshes, regions, surfaces, foreign_surfaces, sections):
         check(Path(scratch))
         print(f"ok    {check.__name__}: {check.__doc__}")

@@ -3,6 +3,7 @@
 use super::facing::Facing;
 use super::outliers::OutlierRule;
 use crate::tolerance::Tolerance;
+use std::str::FromStr;
 use trueness_geom::deviation::surface::SurfaceOptions;
 
 /// How distances are computed.
@@ -33,6 +34,23 @@ pub enum Coverage {
     Auto,
     /// So far along the surface, millimetres.
     Within(f64),
+}
+
+/// `auto` or millimetres.
+///
+/// # Errors
+/// A sentence that says what can be written.
+impl FromStr for Coverage {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Coverage, String> {
+        if text.trim().eq_ignore_ascii_case("auto") {
+            return Ok(Coverage::Auto);
+        }
+        match text.trim().parse::<f64>() {
+            Ok(reach) if reach > 0.0 && reach.is_finite() => Ok(Coverage::Within(reach)),
+            _ => Err(format!("‘{text}’ is no reach; write auto, or a number of mm above 0")),
+        }
+    }
 }
 
 /// What is asked.
@@ -77,6 +95,20 @@ impl Default for Options {
             kept_values: 1 << 27,
             research: false,
             seed: 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reaches() {
+        assert_eq!("auto".parse(), Ok(Coverage::Auto));
+        assert_eq!("1.5".parse(), Ok(Coverage::Within(1.5)));
+        for bad in ["", "0", "-1", "inf", "nan", "far"] {
+            assert!(bad.parse::<Coverage>().is_err(), "{bad}");
         }
     }
 }

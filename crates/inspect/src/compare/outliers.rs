@@ -1,6 +1,7 @@
 //! Outliers by a stated rule: their limits are known only when all points have been measured.
 
 use std::fmt;
+use std::str::FromStr;
 use trueness_geom::stats::statistics::{Missing, Statistics};
 
 /// Which deviations are outliers.
@@ -60,6 +61,44 @@ impl OutlierRule {
     }
 }
 
+/// `mad:K` or `Ksigma`.
+///
+/// # Errors
+/// A sentence that says what can be written.
+///
+/// ```
+/// use trueness_inspect::compare::OutlierRule;
+/// assert_eq!("mad:5".parse(), Ok(OutlierRule::Mad(5.0)));
+/// assert!("5".parse::<OutlierRule>().is_err());
+/// ```
+impl FromStr for OutlierRule {
+    type Err = String;
+    fn from_str(text: &str) -> Result<OutlierRule, String> {
+        let lower = text.trim().to_lowercase();
+        let rule: fn(f64) -> OutlierRule;
+        let number = match (lower.strip_prefix("mad:"), lower.strip_suffix("sigma")) {
+            (Some(k), _) => {
+                rule = OutlierRule::Mad;
+                k
+            }
+            (None, Some(k)) => {
+                rule = OutlierRule::Sigma;
+                k
+            }
+            (None, None) => {
+                return Err(format!(
+                    "‘{text}’ is no rule for outliers; write mad:5 (from the median, which outliers do not move) or 3sigma (from \
+                     the mean)"
+                ));
+            }
+        };
+        match number.trim().parse::<f64>() {
+            Ok(k) if k > 0.0 && k.is_finite() => Ok(rule(k)),
+            _ => Err(format!("‘{text}’: how many is a number above 0, as in mad:5 or 3sigma")),
+        }
+    }
+}
+
 impl fmt::Display for OutlierRule {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
@@ -73,6 +112,16 @@ impl fmt::Display for OutlierRule {
 mod tests {
     use super::*;
     use trueness_geom::stats::statistics::Summary;
+
+    #[test]
+    fn rules_there_and_back() {
+        for word in ["3sigma", "2.5sigma", "mad:5", "mad:3.5"] {
+            assert_eq!(word.parse::<OutlierRule>().unwrap().to_string(), word);
+        }
+        for bad in ["", "sigma", "mad", "mad:", "mad:0", "mad:-3", "3", "infsigma", "nansigma", "iqr:1.5"] {
+            assert!(bad.parse::<OutlierRule>().is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn limits_in_closed_form() {

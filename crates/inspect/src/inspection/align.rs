@@ -80,6 +80,7 @@ fn moved(data: &mut Data, motion: &Rigid) {
     for p in own.chain(mesh) {
         *p = motion.point(*p);
     }
+    data.normals.iter_mut().for_each(|n| *n = motion.vector(*n));
 }
 
 fn failed(e: AlignError) -> Stop {

@@ -2,7 +2,8 @@
 
 use super::checker::Checker;
 use super::error::PlanError;
-use super::text::PlanText;
+use super::text::{CoverageText, DeviationText, PlanText};
+use crate::compare::{Coverage, OutlierRule};
 use crate::tolerance::Tolerance;
 
 /// What is asked of the deviations. Lengths in millimetres.
@@ -16,6 +17,12 @@ pub struct Deviation {
     pub max_distance: f64,
     /// Whether points nearest to a free edge of the reference are left out.
     pub skip_boundary: bool,
+    /// Points whose normals turn away from the reference's by more than this are left out, radians.
+    pub facing: Option<f64>,
+    /// Which points are outliers, and left out.
+    pub outliers: Option<OutlierRule>,
+    /// Within what distance a point covers the reference, where that is asked.
+    pub coverage: Option<Coverage>,
 }
 
 pub(super) fn deviation(checker: &Checker, plan: &PlanText) -> Result<Option<Deviation>, PlanError> {
@@ -51,5 +58,48 @@ pub(super) fn deviation(checker: &Checker, plan: &PlanText) -> Result<Option<Dev
         None => f64::INFINITY,
         Some(d) => checker.not_negative(d, "max_distance")?,
     };
-    Ok(Some(Deviation { tolerance, required_share, max_distance, skip_boundary: written.skip_boundary }))
+    Ok(Some(Deviation {
+        tolerance,
+        required_share,
+        max_distance,
+        skip_boundary: written.skip_boundary,
+        facing: facing(checker, written)?,
+        outliers: match &written.outliers {
+            None => None,
+            Some(rule) => match rule.value.parse() {
+                Ok(parsed) => Some(parsed),
+                Err(what) => return checker.wrong(&rule.span, what),
+            },
+        },
+        coverage: coverage(checker, written)?,
+    }))
+}
+
+fn facing(checker: &Checker, written: &DeviationText) -> Result<Option<f64>, PlanError> {
+    match &written.facing {
+        None => Ok(None),
+        Some(angle) if angle.value > 0.0 && angle.value <= 180.0 => Ok(Some(angle.value.to_radians())),
+        Some(angle) => {
+            let what = format!(
+                "facing is {}; an angle between normals is above 0 and up to 180 degrees",
+                angle.value
+            );
+            checker.wrong(&angle.span, what)
+        }
+    }
+}
+
+fn coverage(checker: &Checker, written: &DeviationText) -> Result<Option<Coverage>, PlanError> {
+    let Some(at) = &written.coverage else { return Ok(None) };
+    let found = match &at.value {
+        CoverageText::Reach(reach) => {
+            let reach = reach * checker.unit;
+            (reach > 0.0 && reach.is_finite()).then_some(Coverage::Within(reach))
+        }
+        CoverageText::Word(word) => word.parse().ok().filter(|c| *c == Coverage::Auto),
+    };
+    match found {
+        None => checker.wrong(&at.span, "coverage is \"auto\" or a length above 0"),
+        found => Ok(found),
+    }
 }

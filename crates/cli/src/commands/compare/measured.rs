@@ -6,7 +6,7 @@ use crate::read::{self, Body, Opened};
 use crate::run_files::is_stream;
 use anyhow::Context;
 use std::path::Path;
-use trueness_files::{Columns, PointSource, ReadOptions, Weld, open_normals};
+use trueness_files::{Columns, PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::cloud::Whole;
@@ -122,28 +122,8 @@ impl Measured {
                 _ => vertex_normals(mesh),
             });
         }
-        if is_stream(path) {
-            return Err(Usage(format!(
-                "--facing: {} can be read only once, but its normals need a second reading; give a file",
-                path.display()
-            ))
-            .into());
-        }
-        let found = open_normals(path, columns, reading).map_err(anyhow::Error::from);
-        let found = found.and_then(|source| {
-            let (mut source, mut all, mut block) = (source, vec![], vec![]);
-            loop {
-                source.next_block(&mut block)?;
-                if block.is_empty() {
-                    return Ok(all);
-                }
-                all.append(&mut block);
-            }
-        });
-        let mut normals: Vec<Vector> = found.context(
-            "--facing needs the normals of the points: columns nx, ny, nz of a table (or those that --normals names), such properties \
-             of a PLY file, or a measured mesh",
-        )?;
+        let mut normals =
+            read::all_normals(path, columns, reading, "--facing", " (or those that --normals names)")?;
         if let Some(motion) = &self.motion {
             normals.iter_mut().for_each(|n| *n = motion.vector(*n));
         }

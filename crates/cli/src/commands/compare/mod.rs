@@ -17,17 +17,20 @@ use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
+pub use table::{coverage, outliers};
 use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::compare::{self, Facing, Inputs, Method, Options, Reference, View};
+use trueness_inspect::compare::{
+    self, Coverage, Facing, Inputs, Method, Options, OutlierRule, Reference, View,
+};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::{Reverse, Sampling};
 use trueness_inspect::scale::Scale;
-use words::{CoverageArg, FacingArg, OutliersArg};
+use words::FacingArg;
 
 /// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces
 ///
@@ -85,10 +88,10 @@ pub struct CompareArgs {
     normals: Option<Columns>,
     /// Exclude (and count) outliers: mad:5 for 5 × 1.4826 MAD from the median, 3sigma for 3 σ from the mean
     #[arg(long, value_name = "RULE", allow_hyphen_values = true)]
-    outliers: Option<OutliersArg>,
+    outliers: Option<OutlierRule>,
     /// Tell what part of the reference no point covers within a reach: auto (three spacings of the points) or mm
     #[arg(long, value_name = "auto | MM", allow_hyphen_values = true)]
-    coverage: Option<CoverageArg>,
+    coverage: Option<Coverage>,
     /// Compare N points spread evenly over the measured mesh's area instead of its vertices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
@@ -156,8 +159,8 @@ impl CompareArgs {
                 max_distance,
                 skip_boundary: self.skip_boundary,
             },
-            outliers: self.outliers.map(|o| o.0),
-            coverage: self.coverage.map(|c| c.0),
+            outliers: self.outliers,
+            coverage: self.coverage,
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),

@@ -101,7 +101,7 @@ fn limit(d: &CompareDocument, reason: &str) -> String {
 }
 
 /// A rule for outliers, and what it gave.
-fn outliers(o: &OutliersRecord) -> String {
+pub fn outliers(o: &OutliersRecord) -> String {
     let reason = o.limits_reason.as_deref().unwrap_or_default();
     match (o.lower, o.upper) {
         (Some(lower), Some(upper)) => {
@@ -113,7 +113,7 @@ fn outliers(o: &OutliersRecord) -> String {
 }
 
 /// What part of a reference is not covered.
-fn coverage(c: &CoverageRecord) -> String {
+pub fn coverage(c: &CoverageRecord) -> String {
     let share = percent(c.uncovered_share);
     let (area, all, reach) = (number(c.uncovered), number(c.area), number(c.reach));
     format!("{share} % of the reference ({area} of {all} mm²): no point within {reach} mm")

@@ -97,6 +97,9 @@ impl PlanFile {
                     self.at(own, "the measured data (--measured FILE names another file)")
                 })?,
             };
+            if mesh.faces.is_empty() && self.plan.deviation.is_some_and(|d| d.facing.is_some()) {
+                data.normals = read::all_normals(&path, None, &options, "`facing` of [deviation]", "")?;
+            }
             data.measured = Some(mesh);
             inputs.push(record);
         }

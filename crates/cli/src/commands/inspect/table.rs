@@ -1,7 +1,8 @@
 //! The document of an inspection for people.
 
+use crate::commands::compare::{coverage, outliers};
 use crate::console;
-use crate::number::{POINTS, counted, fixed, signed, six_digits};
+use crate::number::{POINTS, counted, fixed, grouped, signed, six_digits};
 use crate::read;
 use std::fmt::Write;
 use trueness_inspect::results::compare::Comparison;
@@ -68,7 +69,10 @@ fn deviation(out: &mut String, c: &Comparison) {
     );
     let excluded: u64 = c.excluded.values().sum();
     if excluded > 0 {
-        let _ = write!(out, ", {} left out", counted(excluded, POINTS));
+        let reasons = c.excluded.iter().filter(|(_, n)| **n > 0);
+        let reasons: Vec<String> =
+            reasons.map(|(reason, n)| format!("{} {}", grouped(*n), reason.replace('_', " "))).collect();
+        let _ = write!(out, ", {} left out ({})", counted(excluded, POINTS), reasons.join(", "));
     }
     if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
         let inside = t.inside.map_or_else(|| "–".into(), |s| format!("{} %", fixed(100.0 * s, 3)));
@@ -79,6 +83,12 @@ fn deviation(out: &mut String, c: &Comparison) {
         let _ = write!(out, ": {}", verdict.word());
     }
     out.push('\n');
+    if let Some(found) = &c.outliers {
+        let _ = writeln!(out, "  outliers by {}", outliers(found));
+    }
+    if let Some(covered) = &c.coverage {
+        let _ = writeln!(out, "  not covered: {}", coverage(covered));
+    }
     for warning in &c.warnings {
         let _ = writeln!(out, "! deviation: {}", warning.text);
     }

@@ -139,6 +139,22 @@ pub struct DeviationText {
     /// Whether points whose nearest place is a free edge of the reference are left out and counted.
     #[serde(default)]
     pub skip_boundary: bool,
+    /// Points whose normals turn away from the reference's by more than this are left out and counted, degrees.
+    pub facing: Option<At<f64>>,
+    /// Outliers by this rule are left out and counted: `mad:5` or `3sigma`.
+    pub outliers: Option<At<String>>,
+    /// Tells what part of the reference no point covers within this reach: `auto` or a length.
+    pub coverage: Option<At<CoverageText>>,
+}
+
+/// A reach along the reference.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum CoverageText {
+    /// A length.
+    Reach(f64),
+    /// `auto`.
+    Word(String),
 }
 
 impl AlignWord {

@@ -188,9 +188,9 @@ fn deviations(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) 
                 }
             });
         }
-        fact(h, "excluded", |h| {
-            h.count(c.excluded.values().sum());
-        });
+        let all = c.deviation.all.count + c.excluded.values().sum::<u64>();
+        fact(h, "excluded", |h| compare::excluded(h, c, all));
+        compare::rules(h, c, decimals);
         h.raw("</dl>");
         for warning in &c.warnings {
             h.raw("<p class=\"note\">⚠ ").text(&warning.text).raw("</p>");

@@ -186,12 +186,8 @@ pub fn by_side(h: &mut Html, deviation: &BySide, decimals: usize) {
 fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
     section(h, "trust", |h| {
         h.raw("<dl class=\"facts\">");
-        let total: u64 = c.excluded.values().sum();
         fact(h, "excluded", |h| {
-            h.count(total).raw(" / ").count(result.measured.count);
-            for (reason, count) in c.excluded.iter().filter(|(_, count)| **count > 0) {
-                h.raw("<br>").word(&format!("reason.{}", known(reason))).raw(": ").count(*count);
-            }
+            excluded(h, c, result.measured.count);
             if let Some(d) = result.max_distance {
                 h.raw(" (> ").number(d, 1, false).raw("\u{a0}mm)");
             }
@@ -201,12 +197,7 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
                 h.raw("≤\u{a0}").number(angle.to_degrees(), 1, false).raw("°");
             });
         }
-        if let Some(o) = &c.outliers {
-            fact(h, "outliers", |h| outliers(h, o, result.scale.decimals as usize));
-        }
-        if let Some(covered) = &c.coverage {
-            fact(h, "uncovered", |h| uncovered(h, covered));
-        }
+        rules(h, c, result.scale.decimals as usize);
         for warning in &c.warnings {
             fact(h, warning_key(warning.kind), |h| {
                 h.raw("<strong class=\"warning\">⚠ ")
@@ -231,6 +222,24 @@ fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
         }
         h.raw("</dl>");
     });
+}
+
+/// How many of `all` points are left out, by reason.
+pub fn excluded(h: &mut Html, c: &Comparison, all: u64) {
+    h.count(c.excluded.values().sum()).raw(" / ").count(all);
+    for (reason, count) in c.excluded.iter().filter(|(_, count)| **count > 0) {
+        h.raw("<br>").word(&format!("reason.{}", known(reason))).raw(": ").count(*count);
+    }
+}
+
+/// What the rules for outliers and coverage gave, where they were asked.
+pub fn rules(h: &mut Html, c: &Comparison, decimals: usize) {
+    if let Some(o) = &c.outliers {
+        fact(h, "outliers", |h| outliers(h, o, decimals));
+    }
+    if let Some(covered) = &c.coverage {
+        fact(h, "uncovered", |h| uncovered(h, covered));
+    }
 }
 
 /// A rule for outliers, and the limits that it gave.

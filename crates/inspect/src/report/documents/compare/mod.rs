@@ -3,7 +3,7 @@
 mod list;
 mod words;
 
-pub use list::{by_side, statistics, worst};
+pub use list::{by_side, excluded, rules, statistics, worst};
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, key_number};
