@@ -3,7 +3,6 @@
 use crate::exit::Usage;
 use crate::memory;
 use crate::read::{self, Body, Opened};
-use crate::run_files::is_stream;
 use anyhow::Context;
 use std::path::Path;
 use trueness_files::{Columns, PointSource, ReadOptions, Weld};
