@@ -253,6 +253,10 @@ const FAULTS: &[Fault] = &[
         "[align]\nmethod = \"given\"\ntransform = [[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]]\n[decision]",
         "the transform: it scales lengths by 2",
     ),
+    fault("[decision]", "[decision]\nnoise = -1", "the noise is -1; it cannot be below 0"),
+    fault("[decision]", "[decision]\ndraws = 100", "line 38, column 9: this belongs to `noise`"),
+    fault("[decision]", "[decision]\ncorrelation = 1", "line 38, column 15: this belongs to `noise`"),
+    fault("[decision]", "[decision]\nnoise = 0.01\ndraws = 3", "draws is 3; it is from 10 to 100000"),
 ];
 
 #[test]

@@ -197,9 +197,10 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
+    let uncertainty = found.uncertainties[n];
     let judged = |value: &Result<Value, String>| {
         value.as_ref().map_or(Verdict::NotMeasured, |v| {
-            verdict(v.value, &spec.limits.widened(v.bonus), rule, spec.uncertainty)
+            verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.expanded))
         })
     };
     let with_others = found.with_others[n].as_ref();
@@ -218,7 +219,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         upper,
         value: measured.map(|v| v.value),
         unit: spec.unit().into(),
-        uncertainty: spec.uncertainty,
+        uncertainty: uncertainty.map(|u| u.expanded),
+        uncertainty_source: uncertainty.map(|u| u.source.into()),
         decision_rule: rule.word().into(),
         verdict: told.verdict,
         reason: value.as_ref().err().cloned(),

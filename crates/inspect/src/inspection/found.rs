@@ -2,6 +2,7 @@
 
 use super::align::Alignment;
 use super::deviation::Deviations;
+use super::uncertainty::Uncertainty;
 use crate::characteristic::{Taken, Value};
 use crate::results::compare::Warning;
 use trueness_geom::mesh::Mesh;
@@ -15,6 +16,8 @@ pub struct Inspection {
     /// What each value would be with the points of its features and datums that were left out as of other surfaces; `None`
     /// where there are none.
     pub with_others: Vec<Option<Result<Value, String>>>,
+    /// The uncertainty of each value, where the plan states one or the noise of the points.
+    pub uncertainties: Vec<Option<Uncertainty>>,
     /// The measured data where they were evaluated: aligned.
     pub measured: Option<Mesh>,
     /// What took them there.

@@ -10,6 +10,7 @@ mod found;
 mod left_out;
 mod seed;
 mod take;
+mod uncertainty;
 mod view;
 
 #[cfg(test)]
@@ -20,6 +21,7 @@ pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints, Stop};
 pub use deviation::Deviations;
 pub use found::Inspection;
+pub use uncertainty::Uncertainty;
 pub use view::View;
 
 use crate::characteristic::{Measuring, Missing, Value};
@@ -74,6 +76,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
             _ => Ok(None),
         })
         .collect::<Result<Vec<_>, Stop>>()?;
+    let uncertainties = uncertainty::found(plan, &features, data.seed, progress)?;
     if progress.cancelled() {
         return Err(Stop::Cancelled);
     }
@@ -81,7 +84,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         Some(asked) => Some(deviation::deviations(asked, &mut data, progress)?),
         None => None,
     };
-    Ok(Inspection { features, values, with_others, measured: data.measured, alignment, doubts, deviations })
+    let measured = data.measured;
+    Ok(Inspection { features, values, with_others, uncertainties, measured, alignment, doubts, deviations })
 }
 
 /// The value of a characteristic, or why there is none.

@@ -70,20 +70,37 @@ pub(super) fn whole(
     if features.iter().all(|f| f.others.points.is_empty()) {
         return Ok(None);
     }
+    let with_others = |taken: &mut Taken| {
+        let any = !taken.others.points.is_empty();
+        if any {
+            taken.points.append(&mut taken.others.points);
+            taken.areas = vec![1.0; taken.points.len()];
+        }
+        any
+    };
+    again(plan, features, with_others, progress).map(Some)
+}
+
+/// The same features with points as `change` makes them; those that it says it has not changed stay as they are, as do those without
+/// points.
+pub(super) fn again(
+    plan: &Plan,
+    features: &[Taken],
+    mut change: impl FnMut(&mut Taken) -> bool,
+    progress: &dyn Progress,
+) -> Result<Vec<Taken>, Stop> {
     let mut all: Vec<Taken> = Vec::with_capacity(features.len());
     for (feature, taken) in plan.features.iter().zip(features) {
         all.push(match &feature.source {
             Source::Derived { how, of: [a, b] } => derived(feature, *how, &all[*a], &all[*b]),
-            _ if taken.others.points.is_empty() => taken.clone(),
+            _ if taken.points.is_empty() => taken.clone(),
             _ => {
                 let mut taken = taken.clone();
-                taken.points.append(&mut taken.others.points);
-                taken.areas = vec![1.0; taken.points.len()];
-                associated(taken, feature, progress)?
+                if change(&mut taken) { associated(taken, feature, progress)? } else { taken }
             }
         });
     }
-    Ok(Some(all))
+    Ok(all)
 }
 
 /// What features are sought with.

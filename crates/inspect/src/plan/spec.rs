@@ -98,9 +98,8 @@ fn spec(
             None => decision.uncertainty.filter(|_| unit == "mm"),
         },
     };
-    if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() {
-        let what =
-            "rule \"iso14253-1\" needs the expanded uncertainty: give `uncertainty` here or in [decision]";
+    if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() && decision.noise.is_none() {
+        let what = "rule \"iso14253-1\" needs the expanded uncertainty: give `uncertainty` here or in [decision], or `noise` there";
         return checker.wrong(whole, what);
     }
     let question = Question { spec: &made, features };

@@ -180,8 +180,10 @@ pub struct CharacteristicRecord {
     pub value: Option<f64>,
     /// Unit of the value: `mm`, `deg`, or `1` for a ratio.
     pub unit: String,
-    /// Expanded uncertainty of the value (k = 2); null where the plan gives none.
+    /// Expanded uncertainty of the value (k = 2); null where the plan states neither it nor the noise of the points.
     pub uncertainty: Option<f64>,
+    /// Where it comes from: `plan`, `noise`, or `plan and noise`.
+    pub uncertainty_source: Option<String>,
     /// How the verdict was reached.
     pub decision_rule: String,
     /// The verdict.

@@ -394,4 +394,11 @@ pub struct DecisionText {
     pub rule: At<RuleWord>,
     /// Expanded uncertainty (k = 2) of every value that has none of its own.
     pub uncertainty: Option<At<f64>>,
+    /// Standard deviation of each coordinate of a measured point. With it the uncertainty of each value is found by moving the
+    /// points.
+    pub noise: Option<At<f64>>,
+    /// Length within which the noise of points moves them together. Without it each point moves alone.
+    pub correlation: Option<At<f64>>,
+    /// How often the points are moved. Without it: 200.
+    pub draws: Option<At<u32>>,
 }

@@ -1,0 +1,118 @@
+//! Uncertainties that are found from the noise of the points, against closed forms and repeated measurements.
+
+use std::collections::BTreeMap;
+use trueness_geom::num::random::Random;
+use trueness_geom::progress::Silent;
+use trueness_geom::space::Point;
+use trueness_inspect::inspection::{Data, Inspection, OwnPoints, run};
+use trueness_inspect::plan::Plan;
+
+/// Two squares of 10 mm, 500 mm apart, 81 points each.
+fn squares() -> [Vec<Point>; 2] {
+    [0.0, 500.0].map(|z| (0..81).map(|k| [1.25 * f64::from(k % 9), 1.25 * f64::from(k / 9), z]).collect())
+}
+
+/// A bore of 10 mm: 8 levels of 24 points.
+fn bore() -> Vec<Point> {
+    let at = |k: i32| {
+        let turn = std::f64::consts::TAU * f64::from(k % 24) / 24.0;
+        [30.0 + 5.0 * turn.cos(), 5.0 * turn.sin(), 2.0 * f64::from(k / 24)]
+    };
+    (0..192).map(at).collect()
+}
+
+fn inspected(decision: &str, points: [Vec<Point>; 3], seed: u64) -> Inspection {
+    let text = format!(
+        r#"
+schema = "trueness/plan/1"
+feature = [{{ id = "A", shape = "plane", points = "a" }}, {{ id = "B", shape = "plane", points = "b" }},
+  {{ id = "C", shape = "cylinder", points = "c" }}]
+[[characteristic]]
+id = "1"
+kind = "distance"
+feature = "B"
+datums = ["A"]
+datum_method = "gaussian"
+nominal = 500
+upper = 1
+lower = -1
+[[characteristic]]
+id = "2"
+kind = "size"
+feature = "C"
+size = "GG"
+nominal = 10
+upper = 1
+lower = -1
+[decision]
+rule = "simple"
+{decision}
+"#
+    );
+    let plan = Plan::parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    let own = points.into_iter().map(|points| OwnPoints { points, planar: false });
+    let points: BTreeMap<usize, OwnPoints> = own.enumerate().collect();
+    run(&plan, Data { points, seed, ..Data::default() }, &Silent).unwrap()
+}
+
+fn expanded(found: &Inspection) -> Vec<f64> {
+    found.uncertainties.iter().map(|u| u.unwrap().expanded).collect()
+}
+
+/// Twice the standard deviations of means: of n points σ/√n each, so σ√(2/n) of a distance and 2σ/√n of a diameter.
+#[test]
+fn independent_noise_averages_out() {
+    let [a, b] = squares();
+    let found = inspected("noise = 0.01\ndraws = 2000", [a.clone(), b.clone(), bore()], 7);
+    let [distance, diameter] = expanded(&found)[..] else { panic!() };
+    // Of 2,000 draws the deviation is known to 1.6 %.
+    assert!((distance / (0.02 * (2.0f64 / 81.0).sqrt()) - 1.0).abs() < 0.06, "{distance}");
+    assert!((diameter / (0.04 / 192f64.sqrt()) - 1.0).abs() < 0.06, "{diameter}");
+    assert_eq!(found.uncertainties[0].unwrap().source, "noise");
+    let again = inspected("noise = 0.01\ndraws = 2000", [a, b, bore()], 7);
+    assert_eq!(again.uncertainties, found.uncertainties);
+}
+
+/// Noise that moves a square as a whole does not average out: σ√2 of a distance of two.
+#[test]
+fn noise_that_reaches_far_does_not() {
+    let [a, b] = squares();
+    let found = inspected("noise = 0.01\ncorrelation = 400\ndraws = 2000", [a, b, bore()], 7);
+    let distance = expanded(&found)[0];
+    assert!((distance / (0.02 * 2f64.sqrt()) - 1.0).abs() < 0.08, "{distance}");
+}
+
+#[test]
+fn what_is_stated_and_what_is_found_add_up_as_squares() {
+    let [a, b] = squares();
+    let all = |decision: &str| {
+        let found = inspected(decision, [a.clone(), b.clone(), bore()], 7);
+        (expanded(&found)[0], found.uncertainties[0].unwrap().source)
+    };
+    let (found, _) = all("noise = 0.01");
+    assert_eq!(all("uncertainty = 0.004"), (0.004, "plan"));
+    assert_eq!(all("uncertainty = 0.004\nnoise = 0.01"), (0.004f64.hypot(found), "plan and noise"));
+    assert_eq!(all("noise = 0"), (0.0, "noise"));
+}
+
+/// Of 200 noisy copies the true value lies within the expanded uncertainty (k = 2: 95.4 %) in about that share.
+#[test]
+fn stated_uncertainties_cover_the_truth() {
+    let sets = [squares()[0].clone(), squares()[1].clone(), bore()];
+    let (copies, mut covered) = (200, [0, 0]);
+    for copy in 0..copies {
+        let mut random = Random::new(copy);
+        // The sum of twelve uniform numbers is normal enough up to three deviations.
+        let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
+        let noisy = sets.clone().map(|set| set.iter().map(|p| p.map(|x| x + 0.01 * normal())).collect());
+        let found = inspected("noise = 0.01\ndraws = 60", noisy, copy);
+        for (n, truth) in [500.0, 10.0].into_iter().enumerate() {
+            let value = found.values[n].as_ref().unwrap().value;
+            covered[n] += u32::from((value - truth).abs() <= found.uncertainties[n].unwrap().expanded);
+        }
+    }
+    // The share of 200 has a standard deviation of 1.5 %.
+    for share in covered.map(|c| f64::from(c) / f64::from(copies as u32)) {
+        assert!((0.91..=0.99).contains(&share), "{covered:?}");
+    }
+}
