@@ -206,8 +206,8 @@ const FAULTS: &[Fault] = &[
     ),
     fault(
         "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
-        "kind = \"size\"\nfeature = \"pin\"\nsize = \"LP\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
-        "line 34, column 8: size: two-point sizes (LP) are not built yet; choose GG, GN, GX or GC",
+        "kind = \"size\"\nfeature = \"pin\"\nsize = \"XX\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
+        "line 34, column 8: unknown variant `XX`",
     ),
     fault("rule = \"simple\"", "rule = \"iso14253-1\"", "rule \"iso14253-1\" needs the expanded uncertainty"),
     fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),

@@ -208,8 +208,10 @@ fn located() -> Vec<Case> {
         case("size", std::slice::from_ref(&drum), "size = \"GG\"", 8.0),
         case("size", std::slice::from_ref(&drum), "size = \"GN\"", 8.0),
         case("size", std::slice::from_ref(&drum), "size = \"GX\"", 8.0),
-        case("size", &[drum], "size = \"GC\"", 8.0),
+        case("size", std::slice::from_ref(&drum), "size = \"GC\"", 8.0),
+        case("size", &[drum], "size = \"LP\"", 8.0),
         case("size", &[roof.clone(), floor.clone()], "#both\nsize = \"GG\"", 7.0),
+        case("size", &[roof.clone(), floor.clone()], "#both\nsize = \"LP\"", 7.0),
         case("distance", &[roof, floor], "datums = [\"A\"]", 7.0),
         case("texture", &[("F", "plane", checkered)], "parameter = \"Sa\"", H),
     ]

@@ -10,16 +10,19 @@
 //! | about a true geometry, with motions left free | [`motion`] |
 //! | frames that datums make | [`datum`] |
 //! | parameters of areal texture | [`texture`] |
+//! | two-point sizes | [`two_point_diameters`], [`two_point_distances`] |
 
 mod azimuth;
 mod circle;
 pub mod datum;
 mod error;
+mod local_size;
 pub mod motion;
 mod planes;
 pub mod texture;
 mod tubes;
 
 pub use error::ZoneError;
+pub use local_size::{TwoPoint, two_point_diameters, two_point_distances};
 pub use planes::{Slab, parallel_planes, slab, slab_at_angle};
 pub use tubes::{Tube, tube, tube_at_angle};

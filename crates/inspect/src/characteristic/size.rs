@@ -1,4 +1,4 @@
-//! Sizes: ISO 14405-1:2016, 3.7 (global linear sizes).
+//! Sizes: ISO 14405-1:2016, 3.6 and 3.7 (local and global linear sizes).
 
 use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, refuse};
 use super::value::{Missing, Value};
@@ -8,10 +8,11 @@ use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::zone::datum::mean;
-use trueness_geom::zone::parallel_planes;
+use trueness_geom::zone::{TwoPoint, parallel_planes, two_point_diameters, two_point_distances};
 
 /// The diameter of the associated cylinder, sphere or circle (of points in space, in their least-squares plane): least squares (GG), minimum circumscribed (GN), maximum
-/// inscribed (GX) or minimax (GC); of two opposite planes, the distance of the two parallel planes with least squares (GG).
+/// inscribed (GX) or minimax (GC); of two opposite planes, the distance of the two parallel planes with least squares (GG). Two-point
+/// sizes (LP) of cylinders, circles and two planes are many: the value is the one farthest from the middle of what is allowed.
 #[derive(Debug)]
 pub struct Size;
 
@@ -20,7 +21,7 @@ impl Characteristic for Size {
         "size"
     }
     fn standard(&self) -> &'static str {
-        "ISO 14405-1:2016, 3.7"
+        "ISO 14405-1:2016, 3.6, 3.7"
     }
     fn keys(&self) -> &'static [&'static str] {
         &["nominal", "upper", "lower", "size", "class"]
@@ -36,11 +37,8 @@ impl Characteristic for Size {
             None => {
                 return refuse(
                     "kind",
-                    "it needs `size`: \"GG\", \"GN\", \"GX\" or \"GC\" (two-point sizes, LP, are not built yet)",
+                    "it needs `size`: \"LP\" (two-point), \"GG\", \"GN\", \"GX\" or \"GC\"",
                 );
-            }
-            Some(SizeWord::Lp) => {
-                return refuse("size", "two-point sizes (LP) are not built yet; choose GG, GN, GX or GC");
             }
             Some(size) => size,
         };
@@ -49,13 +47,22 @@ impl Characteristic for Size {
                 return refuse("feature", "the size of two features is that of two opposite planes");
             }
             return match size {
-                SizeWord::Gg => Ok(()),
-                _ => refuse("size", "of two planes only the least-squares size (GG) is built yet"),
+                SizeWord::Gg | SizeWord::Lp => Ok(()),
+                _ => refuse(
+                    "size",
+                    "of two planes only the least-squares size (GG) and two-point sizes (LP) are built yet",
+                ),
             };
+        }
+        if size == SizeWord::Lp && q.class(&[Class::Cylinder, Class::Circle]).is_err() {
+            return refuse("size", "two-point sizes (LP) are of a cylinder, a circle or two planes");
         }
         q.class(&[Class::Cylinder, Class::Sphere, Class::Circle]).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
+        if m.spec.size == Some(SizeWord::Lp) {
+            return two_point(m);
+        }
         if let [a, b] = m.features {
             let (first, second) = (a.taken()?, b.taken()?);
             let Some((_, distance)) = parallel_planes(first, second) else {
@@ -90,4 +97,45 @@ impl Characteristic for Size {
         let witness = feature.form(&fit).witness;
         Ok(Value { value: 2.0 * radius, diametral: true, witness, ..Value::default() })
     }
+}
+
+/// The two-point size that is farthest from the middle of what is allowed, with the least, greatest and number of all.
+fn two_point(m: &Measuring) -> Result<Value, Missing> {
+    let sizes = match m.features {
+        [a, b] => {
+            let (first, second) = (a.taken()?, b.taken()?);
+            let Some((normal, _)) = parallel_planes(first, second) else {
+                let what = "the points of the two planes determine no parallel planes";
+                return Err(Missing::NotMeasured(what.into()));
+            };
+            two_point_distances([first, second], normal, m.progress)
+        }
+        _ => {
+            let feature = m.feature();
+            let kind = if feature.class == Class::Circle { Kind::Circle } else { Kind::Cylinder };
+            match feature.refitted(kind, Method::Gaussian, m.progress)?.shape {
+                Shape::Cylinder { point, direction, .. }
+                | Shape::Circle { center: point, normal: direction, .. } => {
+                    two_point_diameters(feature.taken()?, point, direction, m.progress)
+                }
+                _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
+            }
+        }
+    };
+    let sizes = sizes.map_err(|_| Missing::Cancelled)?;
+    let (lower, upper) = m.spec.limits.range();
+    let middle = lower.map_or(upper, |lower| 0.5 * (lower + upper));
+    let away = |t: &&TwoPoint| (t.size - middle).abs();
+    let Some(worst) = sizes.iter().max_by(|a, b| away(a).total_cmp(&away(b))) else {
+        return Err(Missing::NotMeasured("no place of it has a measured place opposite".into()));
+    };
+    let (least, greatest) =
+        sizes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), t| (l.min(t.size), g.max(t.size)));
+    Ok(Value {
+        value: worst.size,
+        diametral: m.features.len() == 1,
+        witness: worst.ends.to_vec(),
+        parts: vec![("least", least), ("greatest", greatest), ("count", sizes.len() as f64)],
+        ..Value::default()
+    })
 }

@@ -1,0 +1,270 @@
+//! Two-point sizes (ISO 17450-3:2016, ISO 14405-1:2016, 3.6): the distance of two opposite places of a feature of size.
+//!
+//! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets the
+//! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights. A point whose
+//! other end is not surrounded by points has no size.
+
+use crate::fit::eigen;
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use crate::spatial::neighbours::PointTree;
+use rayon::prelude::*;
+
+/// Points that the other end is interpolated among.
+const AMONG: usize = 8;
+/// Sine of the angle by which neighbours in one line may seem to leave a half-plane free.
+const ALMOST: f64 = 0.05;
+
+/// A two-point size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoPoint {
+    /// Millimetres.
+    pub size: f64,
+    /// The measured point, and the place opposite.
+    pub ends: [Point; 2],
+}
+
+/// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1): one for each of
+/// `points` whose opposite place is surrounded by others, in their order. Millimetres. Points on the axis and those that are not
+/// finite have none. Cost: `n log n`.
+///
+/// # Errors
+/// [`Cancelled`].
+///
+/// ```
+/// use trueness_geom::{progress::Silent, zone::two_point_diameters};
+/// let at = |k: u32| (std::f64::consts::TAU * f64::from(k) / 36.0).sin_cos();
+/// // An oval of 10 and 10.2 mm.
+/// let oval: Vec<[f64; 3]> = (0..36).map(|k| [5.0 * at(k).1, 5.1 * at(k).0, 0.0]).collect();
+/// let found = two_point_diameters(&oval, [0.0; 3], [0.0, 0.0, 1.0], &Silent)?;
+/// let sizes: Vec<f64> = found.iter().map(|d| d.size).collect();
+/// let (least, greatest) = sizes.iter().fold((f64::MAX, 0.0f64), |(l, g), s| (l.min(*s), g.max(*s)));
+/// assert!(sizes.len() == 36 && (least - 10.0).abs() < 0.01 && (greatest - 10.2).abs() < 0.01);
+/// # Ok::<(), trueness_geom::progress::Cancelled>(())
+/// ```
+pub fn two_point_diameters(
+    points: &[Point],
+    point: Point,
+    direction: Vector,
+    progress: &dyn Progress,
+) -> Result<Vec<TwoPoint>, Cancelled> {
+    let Some([x, y]) = across(direction) else { return Ok(vec![]) };
+    // Turn, station and radius of each point.
+    let places: Vec<[f64; 3]> = points
+        .iter()
+        .map(|p| {
+            let d = minus(*p, point);
+            let (a, b) = (dot(d, x), dot(d, y));
+            [libm::atan2(b, a), dot(d, direction), libm::hypot(a, b)]
+        })
+        .collect();
+    let (sum, count) = (places.iter().filter(|p| finite(p)))
+        .fold((0.0, 0u64), |(sum, count), [.., radius]| (sum + radius, count + 1));
+    let mean = sum / count.max(1) as f64;
+    if mean <= 0.0 {
+        return Ok(vec![]);
+    }
+    // The surface unrolled, a quarter turn beyond each end.
+    let unrolled = |[turn, along, radius]: &[f64; 3]| {
+        let near = |turn: f64| [mean * turn, *along, *radius];
+        let beyond = turn - std::f64::consts::TAU.copysign(*turn);
+        [Some(near(*turn)), (turn.abs() > std::f64::consts::FRAC_PI_2).then(|| near(beyond))]
+    };
+    let sheet = Sheet::of(places.iter().filter(|p| finite(p)).flat_map(unrolled).flatten().collect());
+    let ends = |(p, [turn, along, radius]): (&Point, &[f64; 3])| {
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        let there = turn - std::f64::consts::PI.copysign(*turn);
+        let opposite = sheet.height(mean * there, *along).filter(|_| *radius > 0.0);
+        Ok(opposite.map(|opposite| {
+            let (sine, cosine) = (libm::sin(there), libm::cos(there));
+            let out = plus(times(opposite * cosine, x), times(opposite * sine, y));
+            let end = plus(plus(point, times(*along, direction)), out);
+            TwoPoint { size: radius + opposite, ends: [*p, end] }
+        }))
+    };
+    let all: Vec<Option<TwoPoint>> = points.par_iter().zip(&places).map(ends).collect::<Result<_, _>>()?;
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// The two-point sizes of two opposite planes along their common `normal` (of length 1): of each point of either with a place
+/// opposite that is surrounded by points of the other; those of the first, then those of the second. Millimetres.
+/// Cost: `n log n`.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn two_point_distances(
+    [first, second]: [&[Point]; 2],
+    normal: Vector,
+    progress: &dyn Progress,
+) -> Result<Vec<TwoPoint>, Cancelled> {
+    let Some([x, y]) = across(normal) else { return Ok(vec![]) };
+    let flat = |p: &Point| [dot(*p, x), dot(*p, y), dot(*p, normal)];
+    let sheet = |points: &[Point]| Sheet::of(points.iter().map(flat).filter(finite).collect());
+    let mut all = vec![];
+    for (points, other) in [(first, sheet(second)), (second, sheet(first))] {
+        let ends = |p: &Point| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let [u, v, height] = flat(p);
+            let opposite = other.height(u, v).map(|there| there - height);
+            Ok(opposite.map(|way| TwoPoint { size: way.abs(), ends: [*p, plus(*p, times(way, normal))] }))
+        };
+        let found: Vec<Option<TwoPoint>> = points.par_iter().map(ends).collect::<Result<_, _>>()?;
+        all.extend(found.into_iter().flatten());
+    }
+    Ok(all)
+}
+
+fn finite(p: &[f64; 3]) -> bool {
+    p.iter().all(|x| x.is_finite())
+}
+
+/// Two unit vectors at right angles to `direction` and to each other.
+fn across(direction: Vector) -> Option<[Vector; 2]> {
+    let least = (0..3).fold(0, |k, i| if direction[i].abs() < direction[k].abs() { i } else { k });
+    let x = unit(cross(direction, [0, 1, 2].map(|k| f64::from(u8::from(k == least)))))?.0;
+    Some([x, cross(direction, x)])
+}
+
+/// Heights over places of a plane.
+struct Sheet {
+    places: Vec<[f64; 3]>,
+    tree: PointTree,
+}
+
+impl Sheet {
+    fn of(places: Vec<[f64; 3]>) -> Sheet {
+        let flat: Vec<Point> = places.iter().map(|[u, v, _]| [*u, *v, 0.0]).collect();
+        Sheet { places, tree: PointTree::new(&flat) }
+    }
+
+    /// The height at a place; `None` where it is not surrounded by points, nor between points of one line.
+    fn height(&self, u: f64, v: f64) -> Option<f64> {
+        if !(u.is_finite() && v.is_finite()) {
+            return None;
+        }
+        let near = self.tree.k_nearest(&[u, v, 0.0], AMONG, None);
+        let near: Vec<[f64; 3]> =
+            near.iter().map(|(_, n)| self.places[*n as usize]).map(|[a, b, h]| [a - u, b - v, h]).collect();
+        if let Some([.., height]) = near.iter().find(|[a, b, _]| *a == 0.0 && *b == 0.0) {
+            return Some(*height);
+        }
+        surrounded(&near).then(|| level(&near))
+    }
+}
+
+/// Whether no half-plane is free of places, seen from the origin.
+fn surrounded(places: &[[f64; 3]]) -> bool {
+    let mut turns: Vec<f64> = places.iter().map(|[a, b, _]| libm::atan2(*b, *a)).collect();
+    turns.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (turns.first(), turns.last()) else { return false };
+    let around = first + std::f64::consts::TAU - last;
+    let widest = turns.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max);
+    widest <= std::f64::consts::PI + ALMOST
+}
+
+/// The height at the origin of the plane of least squares; across a line of places it has no slope.
+fn level(places: &[[f64; 3]]) -> f64 {
+    let n = places.len() as f64;
+    let mean = [0, 1, 2].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
+    let (mut scatter, mut rise) = ([[0.0; 3]; 3], [0.0; 3]);
+    for p in places {
+        let d = minus(*p, mean);
+        for i in 0..2 {
+            (0..2).for_each(|j| scatter[i][j] += d[i] * d[j]);
+            rise[i] += d[i] * d[2];
+        }
+    }
+    let (moments, axes) = eigen(scatter);
+    let slopes = (0..3).filter(|k| moments[*k] > 1e-9 * moments[2]).map(|k| {
+        let slope = dot(axes[k], rise) / moments[k];
+        slope * dot(axes[k], [mean[0], mean[1], 0.0])
+    });
+    mean[2] - slopes.sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+
+    /// A cylinder about a slanted axis: 20 levels of 60 points, turned at random, whose radius is 8 + 0.1 cos(2 turn).
+    fn oval(turns: std::ops::Range<f64>) -> (Vec<Point>, Point, Vector, impl Fn(f64) -> f64) {
+        let direction = unit([0.3, -0.5, 1.0]).unwrap().0;
+        let [x, y] = across(direction).unwrap();
+        let radius = |turn: f64| 8.0 + 0.1 * (2.0 * turn).cos();
+        let middle = [7.0, 8.0, 9.0];
+        let mut random = Random::new(3);
+        let points = (0..1200).map(|k| {
+            let turn = turns.start + (turns.end - turns.start) * random.unit();
+            let out = plus(times(radius(turn) * turn.cos(), x), times(radius(turn) * turn.sin(), y));
+            plus(plus(middle, times(f64::from(k / 60), direction)), out)
+        });
+        (points.collect(), middle, direction, radius)
+    }
+
+    #[test]
+    fn diameters_of_an_oval_are_those_of_its_formula() {
+        let (points, middle, direction, radius) = oval(0.0..std::f64::consts::TAU);
+        let found = two_point_diameters(&points, middle, direction, &Silent).unwrap();
+        // The ends of the cylinder have neighbours on one side only.
+        assert!(found.len() > 1000, "{}", found.len());
+        let [x, y] = across(direction).unwrap();
+        for d in &found {
+            let [a, b] = d.ends.map(|p| minus(p, middle));
+            assert!((dot(minus(b, a), direction)).abs() < 1e-9, "the ends lie at one station");
+            let turn = dot(a, y).atan2(dot(a, x));
+            // A chord of neighbours 0.8 mm apart is 0.003 mm within the oval at most.
+            assert!((d.size - 2.0 * radius(turn)).abs() < 0.02, "{} {}", d.size, 2.0 * radius(turn));
+            let away = minus(b, a);
+            assert!((dot(away, away).sqrt() - d.size).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn half_a_bore_has_no_diameters() {
+        let (points, middle, direction, _) = oval(0.0..0.8 * std::f64::consts::PI);
+        assert_eq!(two_point_diameters(&points, middle, direction, &Silent).unwrap(), []);
+        let broken = [[f64::NAN; 3], middle, [1.0, 2.0, 3.0]];
+        assert_eq!(two_point_diameters(&broken, middle, direction, &Silent).unwrap(), []);
+        assert_eq!(two_point_diameters(&[], middle, [0.0; 3], &Silent).unwrap(), []);
+    }
+
+    #[test]
+    fn a_wedge_is_as_thick_as_it_is_there() {
+        let mut random = Random::new(5);
+        let mut side = |slope: f64, z: f64| -> Vec<Point> {
+            let mut at = || 10.0 * random.unit();
+            (0..400).map(|_| [at(), at()]).map(|[x, y]| [x, y, z + slope * x]).collect()
+        };
+        let (floor, roof) = (side(0.0, 0.0), side(0.01, 5.0));
+        let found = two_point_distances([&floor, &roof], [0.0, 0.0, 1.0], &Silent).unwrap();
+        assert!(found.len() > 600, "{}", found.len());
+        for t in &found {
+            assert!((t.size - (5.0 + 0.01 * t.ends[0][0])).abs() < 1e-12, "{t:?}");
+            assert!((t.ends[1][0], t.ends[1][1]) == (t.ends[0][0], t.ends[0][1]));
+        }
+    }
+
+    /// Sections of a coordinate measuring machine: places between points of one level alone.
+    #[test]
+    fn levels_far_apart_are_followed_each_on_its_own() {
+        let ring = |z: f64, radius: f64| {
+            (0..36).map(move |k| {
+                let turn = std::f64::consts::TAU * f64::from(k) / 36.0;
+                [radius * turn.cos(), radius * turn.sin(), z]
+            })
+        };
+        let points: Vec<Point> = ring(0.0, 5.0).chain(ring(20.0, 5.2)).collect();
+        let found = two_point_diameters(&points, [0.0; 3], [0.0, 0.0, 1.0], &Silent).unwrap();
+        assert_eq!(found.len(), 72);
+        for d in &found {
+            let expected = if d.ends[0][2] > 10.0 { 10.4 } else { 10.0 };
+            assert!((d.size - expected).abs() < 1e-9, "{} {expected}", d.size);
+        }
+    }
+}
