@@ -12,6 +12,8 @@ use rayon::prelude::*;
 
 /// Points that the other end is interpolated among.
 const AMONG: usize = 8;
+/// Part of a turn, radians, beyond which neighbours tell nothing of a place on a cylinder.
+const REACH: f64 = std::f64::consts::FRAC_PI_4;
 /// Sine of the angle by which neighbours in one line may seem to leave a half-plane free.
 const ALMOST: f64 = 0.05;
 
@@ -70,7 +72,8 @@ pub fn two_point_diameters(
         let beyond = turn - std::f64::consts::TAU.copysign(*turn);
         [Some(near(*turn)), (turn.abs() > std::f64::consts::FRAC_PI_2).then(|| near(beyond))]
     };
-    let sheet = Sheet::of(places.iter().filter(|p| finite(p)).flat_map(unrolled).flatten().collect());
+    let outside = places.iter().filter(|p| finite(p) && p[2] > 0.0);
+    let sheet = Sheet::of(outside.flat_map(unrolled).flatten().collect(), REACH * mean);
     let ends = |(p, [turn, along, radius]): (&Point, &[f64; 3])| {
         if progress.cancelled() {
             return Err(Cancelled);
@@ -101,7 +104,7 @@ pub fn two_point_distances(
 ) -> Result<Vec<TwoPoint>, Cancelled> {
     let Some([x, y]) = across(normal) else { return Ok(vec![]) };
     let flat = |p: &Point| [dot(*p, x), dot(*p, y), dot(*p, normal)];
-    let sheet = |points: &[Point]| Sheet::of(points.iter().map(flat).filter(finite).collect());
+    let sheet = |points: &[Point]| Sheet::of(points.iter().map(flat).filter(finite).collect(), f64::INFINITY);
     let mut all = vec![];
     for (points, other) in [(first, sheet(second)), (second, sheet(first))] {
         let ends = |p: &Point| {
@@ -133,12 +136,14 @@ fn across(direction: Vector) -> Option<[Vector; 2]> {
 struct Sheet {
     places: Vec<[f64; 3]>,
     tree: PointTree,
+    /// How far along the first axis places may be from where they are asked for.
+    reach: f64,
 }
 
 impl Sheet {
-    fn of(places: Vec<[f64; 3]>) -> Sheet {
+    fn of(places: Vec<[f64; 3]>, reach: f64) -> Sheet {
         let flat: Vec<Point> = places.iter().map(|[u, v, _]| [*u, *v, 0.0]).collect();
-        Sheet { places, tree: PointTree::new(&flat) }
+        Sheet { places, tree: PointTree::new(&flat), reach }
     }
 
     /// The height at a place; `None` where it is not surrounded by points, nor between points of one line.
@@ -147,8 +152,8 @@ impl Sheet {
             return None;
         }
         let near = self.tree.k_nearest(&[u, v, 0.0], AMONG, None);
-        let near: Vec<[f64; 3]> =
-            near.iter().map(|(_, n)| self.places[*n as usize]).map(|[a, b, h]| [a - u, b - v, h]).collect();
+        let away = near.iter().map(|(_, n)| self.places[*n as usize]).map(|[a, b, h]| [a - u, b - v, h]);
+        let near: Vec<[f64; 3]> = away.filter(|[a, ..]| a.abs() <= self.reach).collect();
         if let Some([.., height]) = near.iter().find(|[a, b, _]| *a == 0.0 && *b == 0.0) {
             return Some(*height);
         }
