@@ -141,19 +141,45 @@ pub struct Chain {
 /// ```
 pub fn cut(mesh: &Mesh, plane: &Plane, progress: &dyn Progress) -> Result<Vec<Chain>, Cancelled> {
     let above: Vec<bool> = mesh.positions.iter().map(|p| plane.side(p) >= 0).collect();
-    let sound: Vec<bool> = mesh.positions.iter().map(|p| p.iter().all(|x| x.is_finite())).collect();
+    chains(mesh, plane, mesh.faces.iter(), |v| above[v as usize], progress)
+}
+
+/// As [`cut`], of the facets with these numbers alone: those of [`facets_near`](super::facets_near), in ascending order, give the same
+/// chains. Numbers beyond the mesh are passed over. Cost: linear in their number.
+///
+/// # Errors
+/// [`Cancelled`], when asked to stop.
+pub fn cut_facets(
+    mesh: &Mesh,
+    plane: &Plane,
+    facets: &[u32],
+    progress: &dyn Progress,
+) -> Result<Vec<Chain>, Cancelled> {
+    let own = facets.iter().filter_map(|f| mesh.faces.get(*f as usize));
+    chains(mesh, plane, own, |v| plane.side(&mesh.positions[v as usize]) >= 0, progress)
+}
+
+/// The chains through some facets; `above` tells of a vertex of the mesh on which side it is.
+fn chains<'a>(
+    mesh: &Mesh,
+    plane: &Plane,
+    faces: impl Iterator<Item = &'a [u32; 3]>,
+    above: impl Fn(u32) -> bool,
+    progress: &dyn Progress,
+) -> Result<Vec<Chain>, Cancelled> {
+    let sound = |v: &u32| mesh.positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     // Each cut facet leads from the edge at which its rim goes down to the one at which it comes up.
     let mut next: HashMap<[u32; 2], Vec<[u32; 2]>> = HashMap::new();
     let mut starts: Vec<[u32; 2]> = vec![];
     let mut arrivals: HashMap<[u32; 2], u32> = HashMap::new();
-    for (n, face) in mesh.faces.iter().enumerate() {
+    for (n, face) in faces.enumerate() {
         if n % 65536 == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
-        if face.iter().any(|v| sound.get(*v as usize) != Some(&true)) {
+        if !face.iter().all(sound) {
             continue;
         }
-        let up = face.map(|v| above[v as usize]);
+        let up = face.map(&above);
         let (mut from, mut to) = (None, None);
         for k in 0..3 {
             let (a, b) = (face[k], face[(k + 1) % 3]);

@@ -12,15 +12,17 @@
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
-//! | `cut` | where a plane cuts a mesh |
+//! | `cut`, `stack` | where a plane cuts a mesh; which facets each of many planes may cut |
 //! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
+//! | `airfoil` | chord, camber, thickness and edges of a profile |
 //! | `nominal` | distances from the section of a nominal |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
+mod airfoil;
 mod chain;
 mod contour;
 mod convert;
@@ -45,19 +47,22 @@ mod search;
 mod slab;
 mod smooth;
 mod span;
+mod stack;
 mod start;
 mod tessellated;
 #[cfg(test)]
 mod tests;
 mod untangle;
 
+pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use chain::Kind;
 pub use contour::contour;
-pub use cut::{Chain, Plane, PlaneFrame, area, cut};
+pub use cut::{Chain, Plane, PlaneFrame, area, cut, cut_facets};
 pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
 pub use slab::{Order, Ordered, order, ordered_contour, slab};
+pub use stack::{AT_ONCE, facets_near};
 pub use tessellated::{chain_contour, rounding};

@@ -83,7 +83,7 @@ fn area(polygon: &[[f64; 2]]) -> f64 {
     0.5 * (0..n).map(cross).sum::<f64>()
 }
 
-fn inside(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
+pub(super) fn inside(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
     let n = polygon.len();
     let crosses = |i: &usize| {
         let (a, b) = (polygon[*i], polygon[(i + 1) % n]);

@@ -24,11 +24,55 @@ impl Search<'_> {
     pub fn best(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let Some(smooth) = self.smooth(&first) else { return self.run(first, progress) };
         let found = self.run(smooth, progress)?;
+        // Joins of several free pieces are where the start put them. One that follows the row stays, where its distances are not
+        // told from 0: then costs tell rounding, and no kinds.
+        let off = (found.state.sum / self.criterion.count).sqrt();
+        if (found.state.chain.pieces.len() > 1 || off > FINE * self.criterion.resolution)
+            && let Some(held) = self.held(&first, found.cost)
+        {
+            let other = self.run(held, progress)?;
+            if other.cost < found.cost {
+                return Ok(other);
+            }
+        }
         if self.is_near(&found) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
         Ok(if found.cost < other.cost { found } else { other })
+    }
+
+    /// One of the lines and arcs between two free pieces, where that is cheapest: the longest and those that turn most are tried. An
+    /// arc that free pieces run into takes all their coefficients where they stand for it, too.
+    fn held(&mut self, first: &Model, bar: f64) -> Option<Model> {
+        let base = Base::new(self, first.clone());
+        let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
+        let pieces = &first.state.chain.pieces;
+        let turn = |k: &usize| (pieces[*k].length * pieces[*k].curvature(0.0)).abs();
+        let length = |k: &usize| pieces[*k].length;
+        let inner = || 1..pieces.len() - 1;
+        let by_turn = inner().max_by(|a, b| turn(a).total_cmp(&turn(b)))?;
+        let by_length = inner().max_by(|a, b| length(a).total_cmp(&length(b)))?;
+        let mut most = vec![by_turn, by_length];
+        most.dedup();
+        let mut best: Option<Model> = None;
+        for k in most {
+            let own = base.plans[k];
+            for count in COUNTS {
+                let free = |from: f64, to: f64| Plan { kind: Kind::Spline, count, from, to };
+                let plans = [free(from, own.from), own, free(own.to, to)];
+                let built = self.build(&base, &plans, f64::INFINITY);
+                let mut model = self.settle(&built);
+                let least = best.as_ref().map_or(bar, |b| b.cost);
+                let dearer = model.cost > least;
+                if model.cost < least && self.follows(&mut model.state) {
+                    best = Some(model);
+                } else if dearer && best.is_some() {
+                    break;
+                }
+            }
+        }
+        best
     }
 
     /// Whether the points are no farther off than local fits tell.

@@ -1,9 +1,11 @@
 //! `trueness/section/1`: the lines, arcs and curves of sections, and where they join.
 
+mod airfoil;
 mod dimension;
 mod found;
 mod nominal;
 
+pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
 pub use nominal::{Against, NominalRecord, WorstRecord};
@@ -41,6 +43,9 @@ pub struct SectionDocument {
     pub contours: Vec<ContourRecord>,
     /// Angles, widths, distances of centers and gaps between segments; lengths and radii stand with the segments.
     pub dimensions: DimensionsRecord,
+    /// Chord, camber, thickness and edges of each contour, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub airfoils: Option<Vec<AirfoilRecord>>,
     /// How the points differ from the section of a nominal, where one was given.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub nominal: Option<NominalRecord>,
@@ -280,6 +285,7 @@ impl SectionDocument {
             planes,
             contours: contours.collect(),
             dimensions: DimensionsRecord::new(sections),
+            airfoils: None,
             nominal: None,
             methods: None,
         }

@@ -21,7 +21,7 @@ use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError
 use trueness_geom::space::Point;
 use trueness_inspect::report::{Answer, ViewObject, flat};
 use trueness_inspect::results::Role;
-use trueness_inspect::results::section::{Section, SectionDocument};
+use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -33,6 +33,7 @@ Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
   trueness section profile.csv --html report.html
+  trueness section blade.csv --airfoil
   trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
   trueness section part.stl --stack 0,0,1,0,40,5
   trueness section scan.stl --plane 0,0,1,12.5 --nominal part.stl
@@ -57,6 +58,9 @@ pub struct SectionArgs {
     /// Confidence of the intervals, percent
     #[arg(long, value_name = "PERCENT", default_value = "95")]
     level: f64,
+    /// Measure each contour as an airfoil or blade: chord, camber line, greatest thickness, radii of its edges
+    #[arg(long)]
+    airfoil: bool,
     #[command(flatten)]
     method: method::MethodArgs,
     #[command(flatten)]
@@ -152,12 +156,13 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let found = (sections, rows);
     let nominal = args.nominal.compare(&args.file, &found, &planes, &options, &stage)?;
     let (sections, rows) = found;
+    let airfoils = args.airfoil.then(|| AirfoilRecord::all(&sections, &rows, &stage)).transpose()?;
     let nominal = nominal.map(|(nominal, file)| {
         inputs.push(file);
         nominal
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
-    document.nominal = nominal;
+    (document.nominal, document.airfoils) = (nominal, airfoils);
     args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);

@@ -131,8 +131,8 @@ type WithRows = (Section, Vec<Vec<[f64; 2]>>);
 /// What a mesh's facets are where planes cut it.
 pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
     let rounding = section::rounding(mesh);
-    let of = |cut: &Cut| -> Result<WithRows, SectionError> {
-        let chains = section::cut(mesh, &cut.plane, stage)?;
+    let of = |(cut, facets): (&Cut, Vec<u32>)| -> Result<WithRows, SectionError> {
+        let chains = section::cut_facets(mesh, &cut.plane, &facets, stage)?;
         let contours = chains
             .par_iter()
             .map(|chain| section::chain_contour(chain, &cut.frame, rounding, options, stage))
@@ -145,7 +145,13 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
         let rows = chains.iter().map(|c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect());
         Ok((Section { area, ..cut.section(contours) }, rows.collect()))
     };
-    gather(planes.par_iter().map(of).collect())
+    let mut all = vec![];
+    for some in planes.chunks(section::AT_ONCE) {
+        let own: Vec<Plane> = some.iter().map(|cut| cut.plane).collect();
+        let facets = section::facets_near(mesh, &own, stage)?;
+        all.extend(some.par_iter().zip(facets).map(of).collect::<Vec<_>>());
+    }
+    gather(all)
 }
 
 /// Contours of a cloud's points near planes.

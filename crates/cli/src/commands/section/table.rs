@@ -4,8 +4,8 @@ use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::results::section::{
-    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, NominalRecord, SectionDocument,
-    SegmentRecord,
+    AirfoilMeasures, AirfoilRecord, ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord,
+    NominalRecord, SectionDocument, SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -56,6 +56,9 @@ pub fn table(document: &SectionDocument) -> String {
         let _ = writeln!(out, "… and {} more contours", document.contours.len() - CONTOURS);
     }
     out.push_str(&dimensions(&document.dimensions));
+    for found in document.airfoils.iter().flatten().take(CONTOURS) {
+        out.push_str(&airfoil(found));
+    }
     if let Some(found) = &document.nominal {
         out.push_str(&nominal(found));
     }
@@ -230,6 +233,48 @@ fn dimensions(all: &DimensionsRecord) -> String {
         let _ = writeln!(out, "… and {} more", all.count - ROWS as u64);
     }
     out
+}
+
+/// A contour as an airfoil.
+fn airfoil(found: &AirfoilRecord) -> String {
+    let Some(m) = &found.measures else {
+        let reason = found.measures_reason.as_deref().unwrap_or_default();
+        return format!("airfoil of contour {}: not measured: {reason}\n", found.contour + 1);
+    };
+    let head = [format!("airfoil of contour {}", found.contour + 1), "value".into()];
+    let rest = ["± standard uncertainty", "at share of chord", "x", "y"].map(String::from);
+    let mut rows = vec![head.into_iter().chain(rest).collect::<Vec<_>>()];
+    let mut row = |name: &str, value: String, u: Option<f64>, at: Option<f64>, place: Option<[f64; 2]>| {
+        let place = place.map_or([String::new(), String::new()], |p| p.map(|x| fixed(x, 6)));
+        let u = u.map_or(String::new(), |u| scientific(u, 2));
+        let at = at.map_or(String::new(), |s| fixed(s, 4));
+        rows.push([name.into(), value, u, at].into_iter().chain(place).collect());
+    };
+    let angle = format!("{}°", fixed(m.chord_angle.to_degrees(), 4));
+    row("chord", fixed(m.chord, 6), None, None, None);
+    row("angle of chord", angle, None, None, None);
+    let (u, center) = (Some(m.thickness_uncertainty), Some(m.thickness_center));
+    row("greatest thickness", fixed(m.thickness, 6), u, Some(m.thickness_at), center);
+    row("greatest camber", fixed(m.camber, 6), None, Some(m.camber_at), None);
+    let radius = |r: Option<f64>| r.map_or("–".into(), |r| fixed(r, 6));
+    let u = m.leading_radius_uncertainty;
+    row("leading radius", radius(m.leading_radius), u, None, Some(m.leading_edge));
+    let (name, value) = trailing(m);
+    row(&name, value, m.trailing_radius_uncertainty, None, Some(m.trailing_edge));
+    let mut out = console::columns(&rows);
+    for reason in m.leading_radius_reason.iter().chain(&m.trailing_radius_reason) {
+        let _ = writeln!(out, "no radius: {reason}");
+    }
+    out
+}
+
+/// The row of a trailing edge: its radius, or how thick it is.
+fn trailing(m: &AirfoilMeasures) -> (String, String) {
+    match (m.trailing_radius, m.trailing_thickness) {
+        (Some(radius), _) => ("trailing radius".into(), fixed(radius, 6)),
+        (None, Some(gap)) => (format!("trailing edge, {}", m.trailing_kind), fixed(gap, 6)),
+        (None, None) => (format!("trailing edge, {}", m.trailing_kind), "–".into()),
+    }
 }
 
 /// How the points differ from the nominal.

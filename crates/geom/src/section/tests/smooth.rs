@@ -62,3 +62,36 @@ fn long_waves_are_few_free_curves() {
         assert!(rounds.0.into_inner() <= 12, "{count}");
     }
 }
+
+/// The edge of a blade between two free curves is an arc, at any noise: a search that begins with free pieces alone puts their join
+/// into it and keeps it there.
+#[test]
+fn an_arc_between_free_curves_is_found() {
+    // Curvature along the length: a wave, an arc of radius 2.2 that turns by 170 degrees, another wave.
+    let turn = 170.0_f64.to_radians();
+    let (first, second) = (28.0, 28.0 + 2.2 * turn);
+    let curvature = |s: f64| match s {
+        s if s < first => 0.02 + 0.03 * libm::sin(s / 6.0),
+        s if s < second => 1.0 / 2.2,
+        s => 0.01 + 0.02 * libm::sin((s - second) / 5.0),
+    };
+    let (mut rows, mut found) = (0, 0);
+    for (n, noise) in [0.001, 0.003, 0.01].into_iter().cycle().take(9).enumerate() {
+        let random = &mut Random::new(n as u64);
+        let (mut at, mut heading, mut points) = ([0.0; 2], 0.0, vec![]);
+        let step = 0.01;
+        for k in 0..5900 {
+            let s = f64::from(k) * step;
+            if k % 10 == 0 {
+                points.push([at[0] + noise * normal(random), at[1] + noise * normal(random)]);
+            }
+            let middle = heading + 0.5 * step * curvature(s);
+            at = [at[0] + step * libm::cos(middle), at[1] + step * libm::sin(middle)];
+            heading += step * curvature(s + 0.5 * step);
+        }
+        let contour = contour(&points, &Options::default(), &Silent).unwrap();
+        rows += 1;
+        found += usize::from(kinds(&contour) == [Kind::Spline, Kind::Arc, Kind::Spline]);
+    }
+    assert!(found + 1 >= rows, "{found} of {rows}");
+}

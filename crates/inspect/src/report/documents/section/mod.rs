@@ -1,5 +1,6 @@
 //! The page of sections: the contours drawn to scale, their segments and joins with uncertainties, their residuals.
 
+mod airfoil;
 mod course;
 mod path;
 mod pieces;
@@ -66,6 +67,9 @@ impl Subject for SectionDocument {
         section(h, "contours", |h| tables::contours(h, self));
         if self.dimensions.count > 0 {
             section(h, "dimensions", |h| tables::dimensions(h, &self.dimensions));
+        }
+        if let Some(airfoils) = &self.airfoils {
+            section(h, "airfoil", |h| airfoil::airfoils(h, airfoils));
         }
         if let Some(nominal) = &self.nominal {
             section(h, "nominal.section", |h| tables::nominal(h, nominal));

@@ -1,0 +1,125 @@
+//! Measures of airfoils and blades.
+
+use super::found::Section;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::section::{Airfoil, AirfoilError, Contour, EdgeRadius, TrailingEdge, airfoil};
+
+/// The measures of a contour as a profile, or why there are none.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AirfoilRecord {
+    /// Number of the contour in `contours`, from 0.
+    pub contour: u64,
+    /// What was measured.
+    pub measures: Option<AirfoilMeasures>,
+    /// Why nothing was.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub measures_reason: Option<String>,
+}
+
+/// Measures of a profile. Lengths in millimetres; `…_at` are shares of the chord, from the leading edge.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AirfoilMeasures {
+    /// The place farthest from the trailing edge.
+    pub leading_edge: [f64; 2],
+    /// The trailing edge; of one with two corners, or of an open row, the middle between these.
+    pub trailing_edge: [f64; 2],
+    /// Distance of the two.
+    pub chord: f64,
+    /// Angle of the way from leading to trailing edge with the first axis, radians.
+    pub chord_angle: f64,
+    /// Diameter of the greatest inscribed circle.
+    pub thickness: f64,
+    /// Its standard uncertainty, from the scatter of the points.
+    pub thickness_uncertainty: f64,
+    /// Where along the chord its center is.
+    pub thickness_at: f64,
+    /// The center.
+    pub thickness_center: [f64; 2],
+    /// Greatest distance of the camber line from the chord, positive to the left of the way from leading to trailing edge.
+    pub camber: f64,
+    /// Where along the chord that is.
+    pub camber_at: f64,
+    /// Radius of curvature at the leading edge.
+    pub leading_radius: Option<f64>,
+    /// Its standard uncertainty, from the scatter of the points.
+    pub leading_radius_uncertainty: Option<f64>,
+    /// Why there is no radius.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub leading_radius_reason: Option<String>,
+    /// What the trailing edge is: `sharp` (a corner), `blunt` (two corners), `round`, `open` (the row ends there).
+    pub trailing_kind: String,
+    /// Distance of the two corners, or of the ends of an open row.
+    pub trailing_thickness: Option<f64>,
+    /// Radius of curvature at a round trailing edge.
+    pub trailing_radius: Option<f64>,
+    /// Its standard uncertainty, from the scatter of the points.
+    pub trailing_radius_uncertainty: Option<f64>,
+    /// Why there is no radius.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub trailing_radius_reason: Option<String>,
+    /// Center (x, y) and radius of circles inscribed into the profile, from the leading to the trailing edge.
+    pub camber_line: Vec<[f64; 3]>,
+}
+
+impl AirfoilRecord {
+    /// Those of all contours, whose points are `rows`.
+    ///
+    /// # Errors
+    /// [`Cancelled`], when asked to stop.
+    pub fn all(
+        sections: &[Section],
+        rows: &[Vec<[f64; 2]>],
+        progress: &dyn Progress,
+    ) -> Result<Vec<AirfoilRecord>, Cancelled> {
+        let contours = sections.iter().flat_map(|s| &s.contours);
+        let each = |(n, (contour, row)): (usize, (&Contour, &Vec<[f64; 2]>))| {
+            let (measures, reason) = match airfoil(row, contour, progress) {
+                Ok(found) => (Some(AirfoilMeasures::new(&found)), None),
+                Err(AirfoilError::Cancelled(e)) => return Err(e),
+                Err(e) => (None, Some(e.to_string())),
+            };
+            Ok(AirfoilRecord { contour: n as u64, measures, measures_reason: reason })
+        };
+        contours.zip(rows).enumerate().map(each).collect()
+    }
+}
+
+impl AirfoilMeasures {
+    fn new(found: &Airfoil) -> AirfoilMeasures {
+        let ([a, b], [c, d]) = (found.leading, found.trailing);
+        let edge = |radius: &Result<EdgeRadius, AirfoilError>| {
+            let told = radius.as_ref().ok();
+            let reason = radius.as_ref().err().map(ToString::to_string);
+            (told.map(|r| r.radius), told.map(|r| r.uncertainty), reason)
+        };
+        let (leading_radius, leading_radius_uncertainty, leading_radius_reason) = edge(&found.leading_radius);
+        let (trailing_radius, trailing_radius_uncertainty, trailing_radius_reason) =
+            edge(&found.trailing_radius);
+        AirfoilMeasures {
+            leading_edge: found.leading,
+            trailing_edge: found.trailing,
+            chord: found.chord,
+            chord_angle: libm::atan2(d - b, c - a),
+            thickness: found.thickness,
+            thickness_uncertainty: found.thickness_uncertainty,
+            thickness_at: found.thickness_at,
+            thickness_center: found.thickness_center,
+            camber: found.camber,
+            camber_at: found.camber_at,
+            leading_radius,
+            leading_radius_uncertainty,
+            leading_radius_reason,
+            trailing_kind: found.trailing_edge.name().into(),
+            trailing_thickness: match found.trailing_edge {
+                TrailingEdge::Blunt(gap) | TrailingEdge::Open(gap) => Some(gap),
+                TrailingEdge::Sharp | TrailingEdge::Round => None,
+            },
+            trailing_radius,
+            trailing_radius_uncertainty,
+            trailing_radius_reason,
+            camber_line: found.camber_line.iter().map(|([x, y], r)| [*x, *y, *r]).collect(),
+        }
+    }
+}
