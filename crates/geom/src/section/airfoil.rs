@@ -10,6 +10,7 @@
 mod circles;
 mod edge;
 mod ends;
+mod error;
 
 use super::result::Contour;
 use crate::progress::{Cancelled, Progress};
@@ -18,9 +19,9 @@ use circles::Inscribed;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 use ends::{Around, distance};
+pub use error::AirfoilError;
+use error::FEWEST;
 
-/// Least number of points around a profile.
-const FEWEST: usize = 12;
 /// Of more points than this the means of neighbors are taken.
 const MOST: usize = 2000;
 /// Distances below this share of the spacing are not told from 0.
@@ -63,46 +64,6 @@ pub struct Airfoil {
     pub trailing_edge: TrailingEdge,
     /// Radius of curvature of a round trailing edge.
     pub trailing_radius: Result<EdgeRadius, AirfoilError>,
-}
-
-/// Why a contour has no measures of an airfoil, or an edge no radius.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum AirfoilError {
-    /// Fewer points than a profile needs.
-    #[error("a profile needs at least {FEWEST} points, there are {found}")]
-    TooFewPoints {
-        /// Points there are.
-        found: usize,
-    },
-    /// The ends of an open row are not those of one trailing edge.
-    #[error(
-        "the points do not run around a profile: their ends are {gap:.4} apart, more than a fifth of the chord of \
-         {chord:.4}"
-    )]
-    Open {
-        /// Distance between the ends.
-        gap: f64,
-        /// Greatest distance of a point from the middle between the ends.
-        chord: f64,
-    },
-    /// No curve runs through the points, or no circle fits inside.
-    #[error("no circles can be inscribed: the points cross over themselves or enclose nothing")]
-    Inside,
-    /// The edge has corners, so no radius.
-    #[error("the edge has no radius: it is {0}")]
-    Cornered(&'static str),
-    /// Too few points around the edge.
-    #[error("{found} points around the edge tell no radius; 7 are needed")]
-    FewAround {
-        /// Points there are.
-        found: usize,
-    },
-    /// The points around the edge bend the other way or not at all.
-    #[error("the points around the edge do not bend")]
-    Flat,
-    /// Stopped through the progress argument.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
 }
 
 /// Measures the profile whose points are `points`, of which `contour` was found.

@@ -8,6 +8,7 @@ mod deviation;
 mod document;
 mod found;
 mod left_out;
+mod measure;
 mod seed;
 mod take;
 mod uncertainty;
@@ -24,7 +25,6 @@ pub use found::Inspection;
 pub use uncertainty::Uncertainty;
 pub use view::View;
 
-use crate::characteristic::{Measuring, Missing, Value};
 use crate::compare::plausibility;
 use crate::plan::{Plan, Spec};
 use crate::results::compare::{Bounds, Warning, WarningKind};
@@ -62,7 +62,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let mut features = take::features(plan, &data, &seeds, belonging.as_ref(), progress)?;
     left_out::tell(plan, &data, &seeds, belonging.as_ref(), &mut features, progress)?;
     drop(belonging);
-    let measured = |spec: &Spec, features: &[Taken]| measured(spec, features, progress);
+    let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
     let values = plan.specs.iter().map(|spec| measured(spec, &features)).collect::<Result<Vec<_>, Stop>>()?;
     // What the values would be with all that was left out as of other surfaces.
     let whole = take::whole(plan, &features, progress)?;
@@ -86,24 +86,6 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     };
     let measured = data.measured;
     Ok(Inspection { features, values, with_others, uncertainties, measured, alignment, doubts, deviations })
-}
-
-/// The value of a characteristic, or why there is none.
-fn measured(spec: &Spec, features: &[Taken], progress: &dyn Progress) -> Result<Result<Value, String>, Stop> {
-    let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
-    let own = of(&spec.features);
-    let datums: Vec<Vec<&Taken>> = spec.datums.iter().map(|d| of(&d.features)).collect();
-    let measuring = Measuring { spec, features: &own, datums: &datums, progress };
-    match spec.kind.measure(&measuring) {
-        Ok(value) if value.value.is_finite() => Ok(Ok(value)),
-        Ok(_) => Ok(Err("the value is not a finite number".into())),
-        Err(Missing::NotMeasured(reason)) => Ok(Err(reason)),
-        Err(Missing::Cancelled) => Err(Stop::Cancelled),
-        Err(Missing::Impossible(what)) => {
-            let what = format!("characteristic \"{}\": {what}", spec.id);
-            Err(Stop::Plan { span: spec.span.clone(), what })
-        }
-    }
 }
 
 /// Whether the aligned data lie where the reference does, or where the features should be if there is no reference. Of places

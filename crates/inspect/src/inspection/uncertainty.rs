@@ -4,6 +4,7 @@
 //! the elements, the datums, and the evaluation. What the points of a feature are, and the alignment, stay as they were found.
 
 use super::data::Stop;
+use super::measure::measured;
 use super::take::again;
 use crate::characteristic::{Taken, Value};
 use crate::plan::{Noise, Plan, Spec};
@@ -69,7 +70,7 @@ fn by_noise(
             true
         };
         let features = again(plan, features, moved, progress)?;
-        let value = |spec: &Spec| super::measured(spec, &features, progress);
+        let value = |spec: &Spec| measured(spec, &features, progress);
         let values = plan.specs.iter().map(value).collect::<Result<Vec<Result<Value, String>>, Stop>>()?;
         Ok(values.into_iter().map(|v| v.ok().map(|v| v.value)).collect())
     };

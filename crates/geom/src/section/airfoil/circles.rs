@@ -1,8 +1,8 @@
 //! Circles inscribed into a profile.
 
 use super::super::nominal::inside;
-use super::AirfoilError;
 use super::ends::distance;
+use super::error::AirfoilError;
 use crate::progress::{Cancelled, Progress};
 use crate::spline::curve::Curve;
 

@@ -1,7 +1,7 @@
 //! Radius of curvature at the edge of a profile, from the measured points around it.
 
-use super::AirfoilError;
 use super::ends::distance;
+use super::error::AirfoilError;
 
 /// What a radius of an edge is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::super::polygon::turn;
 use super::super::start::noise;
-use super::AirfoilError;
+use super::error::AirfoilError;
 
 /// A turn by more than this at one point is a corner, radians.
 const CORNER: f64 = 0.6;

@@ -1,0 +1,139 @@
+//! Deviations from the reference in a plan: the numbers, the rules and the words of `compare`.
+#![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
+
+mod common;
+
+use common::{Folder, status, stderr, stdout, trueness};
+
+/// Deviations that a plan asks for are those of `compare`, and their verdict counts.
+#[test]
+fn deviations_of_a_plan_are_those_of_a_comparison() {
+    let folder = Folder::new();
+    // A square of 10 mm and points above it, a fifth of them 0.3 mm away, one far off.
+    folder.write("nominal.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n");
+    let points = (0..100).map(|k| {
+        let z = if k == 50 {
+            7.0
+        } else if k % 5 == 0 {
+            0.3
+        } else {
+            0.05
+        };
+        format!("{} {} {z}\n", 0.5 + f64::from(k % 10), 0.5 + f64::from(k / 10))
+    });
+    folder.write("scan.xyz", points.collect::<String>());
+    let plan = |deviation: &str| {
+        let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"nominal.obj\"\n";
+        let plan = folder.write("plan.toml", format!("{head}[deviation]\n{deviation}"));
+        let paths =
+            ["r.json", "r.csv", "r.xml", "r.html"].map(|n| folder.file(n).to_str().unwrap().to_string());
+        let [json, csv, junit, html] = paths.each_ref().map(String::as_str);
+        let arguments = ["--json", json, "--csv", csv, "--junit", junit, "--html", html];
+        let o = trueness([&["inspect", plan.to_str().unwrap()], &arguments[..]].concat());
+        let read = |p: &str| std::fs::read_to_string(p).unwrap_or_default();
+        let answer = serde_json::from_str(&read(json)).unwrap_or(serde_json::Value::Null);
+        (status(&o), stdout(&o) + &stderr(&o), answer, read(csv), read(junit))
+    };
+    let (code, table, answer, csv, junit) = plan("tolerance = [-0.1, 0.1]\nmax_distance = 5\n");
+    assert_eq!((code, answer["verdict"].as_str()), (1, Some("fail")), "{table}");
+    let found = &answer["deviation"];
+    assert_eq!(found["excluded"]["max_distance"], 1);
+    // Of 99 points 19 are beyond the tolerance.
+    assert_eq!(found["tolerance"]["inside"].as_f64(), Some(80.0 / 99.0));
+    let compared = folder.file("c.json");
+    let [scan, nominal] = ["scan.xyz", "nominal.obj"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let by_compare = ["compare", &scan, &nominal, "--tolerance", "0.1", "--max-distance", "5", "--json"];
+    let o = trueness([&by_compare[..], &[compared.to_str().unwrap()]].concat());
+    assert_eq!(status(&o), 1);
+    let compared: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&compared).unwrap()).unwrap();
+    for key in ["deviation", "tolerance", "worst", "histogram", "excluded", "verdict"] {
+        assert_eq!(found[key], compared["comparisons"][0][key], "{key}");
+    }
+    assert!(table.contains("80.808 % within −0.100000/+0.100000: fail"), "{table}");
+    assert!(csv.contains(",deviation,deviation,,,,100,100,80.8"), "{csv}");
+    assert!(
+        junit.contains("tests=\"1\" failures=\"1\"") && junit.contains("% of the points within -0.1"),
+        "{junit}"
+    );
+
+    let (code, table, answer, ..) = plan("tolerance = [-0.1, 0.1]\nmax_distance = 5\ninside = 80\n");
+    assert_eq!((code, answer["verdict"].as_str()), (0, Some("pass")), "{table}");
+    for (text, says) in [
+        ("", "nothing in the plan can be judged"),
+        ("tolerance = [0.1, -0.1]", "line 5, column 13: the tolerance is [least, greatest]"),
+        ("tolerance = 0.1", "line 5, column 13: invalid type"),
+        (
+            "tolerance = [-1, 1]\ninside = 101",
+            "line 6, column 10: inside is 101; a share is from 0 to 100 percent",
+        ),
+        ("inside = 50", "line 5, column 10: `inside` says how many points must keep a `tolerance`"),
+        ("tolerance = [-1, 1]\nmax_distance = -2", "max_distance is -2; it cannot be below 0"),
+        (
+            "tolerance = [-1, 1]\nfacing = 0",
+            "line 6, column 10: facing is 0; an angle between normals is above 0",
+        ),
+        ("tolerance = [-1, 1]\noutliers = \"iqr:2\"", "line 6, column 12: ‘iqr:2’ is no rule for outliers"),
+        ("tolerance = [-1, 1]\ncoverage = \"all\"", "line 6, column 12: coverage is \"auto\" or a length"),
+        ("tolerance = [-1, 1]\ncoverage = 0", "line 6, column 12: coverage is \"auto\" or a length"),
+        (
+            "tolerance = [-1, 1]\nfacing = 60",
+            "`facing` of [deviation] needs the normals of the points: columns nx, ny, nz",
+        ),
+    ] {
+        let (code, said, ..) = plan(text);
+        assert!(code == 3 && said.contains(says), "should say {says}\nsays {said}");
+    }
+}
+
+/// What a comparison leaves out by a rule, a plan leaves out, too: the same numbers, turned and moved by the alignment or not.
+#[test]
+fn rules_of_a_plan_are_those_of_a_comparison() {
+    let folder = Folder::new();
+    folder.write("nominal.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n");
+    // Over half of the square; ten points look down, one is far off.
+    let scan = |z: f64, turn: f64| {
+        let point = |k: i32| {
+            let away = z + if k == 25 { 3.0 } else { 0.01 * f64::from(k % 7) };
+            let up = if k % 5 == 0 { -turn } else { turn };
+            format!("{},{},{},0,0,{up}\n", 0.5 + f64::from(k % 10), 0.5 + f64::from(k / 10), turn * away)
+        };
+        "x,y,z,nx,ny,nz\n".to_string() + &(0..50).map(point).collect::<String>()
+    };
+    let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.csv\"\nreference = \"nominal.obj\"\n";
+    let asked = "[deviation]\ntolerance = [-0.1, 0.1]\nfacing = 60\noutliers = \"mad:5\"\ncoverage = 0.8\n";
+    let plan = |align: &str| {
+        let plan = folder.write("plan.toml", format!("{head}{align}{asked}"));
+        let json = folder.file("r.json");
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", json.to_str().unwrap()]);
+        let answer: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(&json).unwrap_or_default()).unwrap_or_default();
+        (stdout(&o) + &stderr(&o), answer["deviation"].clone())
+    };
+    folder.write("scan.csv", scan(0.0, 1.0));
+    let (table, found) = plan("");
+    let compared = folder.file("c.json");
+    let [measured, nominal] =
+        ["scan.csv", "nominal.obj"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let rules =
+        ["--facing", "60", "--outliers", "mad:5", "--coverage", "0.8", "--tolerance", "0.1", "--json"];
+    let o = trueness([&["compare", &measured, &nominal], &rules[..], &[compared.to_str().unwrap()]].concat());
+    assert_eq!(status(&o), 0, "{}", stderr(&o));
+    let compared: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&compared).unwrap()).unwrap();
+    for key in ["deviation", "tolerance", "worst", "excluded", "outliers", "coverage", "verdict"] {
+        assert!(!found[key].is_null() && found[key] == compared["comparisons"][0][key], "{key} {found}");
+    }
+    // The tenth point that looks down is the one far off.
+    assert_eq!((&found["excluded"]["facing"], found["excluded"]["outlier"].as_u64()), (&10.into(), Some(0)));
+    assert!(table.contains("10 points left out (10 facing)"), "{table}");
+    assert!(table.contains("outliers by mad:5: 0 points") && table.contains("not covered: "), "{table}");
+    // Turned over and moved, the normals turn with the points.
+    folder.write("scan.csv", scan(4.0, -1.0));
+    let motion = "[align]\nmethod = \"given\"\ntransform = [[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]]\n";
+    let (_, moved) = plan(motion);
+    assert_eq!(moved["excluded"]["facing"], 40);
+    let turn = "[align]\nmethod = \"given\"\ntransform = [[1,0,0,0],[0,-1,0,10],[0,0,-1,-4],[0,0,0,1]]\n";
+    let (_, turned) = plan(turn);
+    assert_eq!(turned["excluded"]["facing"], 10);
+}
