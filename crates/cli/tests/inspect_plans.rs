@@ -207,7 +207,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
         "kind = \"size\"\nfeature = \"pin\"\nsize = \"XX\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
-        "line 34, column 8: unknown variant `XX`",
+        "line 34, column 8: there is no variant \"XX\"",
     ),
     fault("rule = \"simple\"", "rule = \"iso14253-1\"", "rule \"iso14253-1\" needs the expanded uncertainty"),
     fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),
