@@ -175,7 +175,9 @@ fn where_a_row_begins_and_how_it_lies_does_not_matter() {
             // Points of the trailing edge are 0.06 apart: an arc of radius 0.5 bulges 9e-4 between them.
             assert!((found.chord - first.chord).abs() < 9e-4, "{} {}", found.chord, first.chord);
             assert!((found.thickness - first.thickness).abs() < 1e-4);
-            assert!((found.camber - first.camber).abs() < 2e-3, "{} {}", found.camber, first.camber);
+            // A place z across the chord on the leading edge (radius 1.2) is nearer by z²/2.4: by as much as the bulge at z = 0.047.
+            // Half of that is what the distance from the chord in the middle may differ by.
+            assert!((found.camber - first.camber).abs() < 0.023, "{} {}", found.camber, first.camber);
             let (a, b) = (found.leading_radius.unwrap(), first.leading_radius.unwrap());
             assert!((a.radius - b.radius).abs() < 0.01);
         }
