@@ -117,3 +117,18 @@ fn stated_uncertainties_cover_the_truth() {
         assert!((0.91..=0.99).contains(&share), "{covered:?}");
     }
 }
+
+/// Two levels of four points: noise far beyond their distance leaves no place opposite in many draws.
+#[test]
+fn what_too_few_draws_give_is_not_known() {
+    let few: Vec<Point> =
+        bore().into_iter().enumerate().filter(|(k, _)| k % 6 == 0 && *k < 48).map(|(_, p)| p).collect();
+    let [a, b] = squares();
+    for (noise, known) in
+        [("noise = 1e-3", true), ("noise = 1e155", false), ("noise = 1e155\nuncertainty = 1", false)]
+    {
+        let found = inspected(noise, [a.clone(), b.clone(), few.clone()], 7);
+        assert_eq!(found.uncertainties[1].is_some(), known, "{noise}: {:?}", found.uncertainties[1]);
+        assert!(found.values[1].is_ok());
+    }
+}

@@ -7,14 +7,14 @@ use crate::results::Verdict;
 ///
 /// `simple`: the limits belong to what is allowed, the uncertainty is not looked at. `iso14253-1` (ISO 14253-1:2017, 5):
 /// conformity is proven where the value lies within the limits by at least `u`, non-conformity where it lies beyond one by
-/// more than `u`; between them nothing is decided.
+/// more than `u`; between them nothing is decided, nor is anything where `u` is not known.
 pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<f64>) -> Verdict {
     let (lower, upper) = limits.range();
     // How far the value is inside the nearest limit.
     let inside = lower.map_or(f64::INFINITY, |l| value - l).min(upper - value);
     let u = match rule {
         Rule::Simple => 0.0,
-        Rule::Iso14253 => u.unwrap_or(0.0),
+        Rule::Iso14253 => u.unwrap_or(f64::INFINITY),
     };
     if inside >= u {
         Verdict::Pass
@@ -42,6 +42,16 @@ pub fn utilisation(value: f64, limits: &Limits) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_known_decides_nothing() {
+        let limits = Limits::Greatest(0.05);
+        for value in [0.0, 0.05, 1e9] {
+            assert_eq!(verdict(value, &limits, Rule::Iso14253, None), Verdict::Undecided);
+            assert_eq!(verdict(value, &limits, Rule::Iso14253, Some(f64::INFINITY)), Verdict::Undecided);
+        }
+        assert_eq!(verdict(0.04, &limits, Rule::Iso14253, Some(0.01)), Verdict::Pass);
+    }
 
     #[test]
     fn a_limit_belongs_to_what_is_allowed() {

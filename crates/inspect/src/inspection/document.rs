@@ -178,6 +178,10 @@ fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> 
     Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }
 
+/// Told of a value whose uncertainty by noise could not be found.
+const UNKNOWN: &str =
+    "its uncertainty is not known: fewer than nine in ten draws of the noise gave a finite value";
+
 fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRecord {
     let (spec, value) = (&plan.specs[n], &found.values[n]);
     let id = |n: &usize| plan.features[*n].id.clone();
@@ -203,6 +207,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
             verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.expanded))
         })
     };
+    let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
+    let unknown = unknown.then(|| UNKNOWN.to_string());
     let with_others = found.with_others[n].as_ref();
     let told = left_out::told(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
     CharacteristicRecord {
@@ -230,7 +236,12 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         parts: measured
             .map_or(BTreeMap::new(), |v| v.parts.iter().map(|(k, x)| (k.to_string(), *x)).collect()),
         value_with_others: with_others.and_then(|v| Some(v.as_ref().ok()?.value)),
-        notes: measured.map_or(vec![], |v| v.notes.clone()).into_iter().chain(told.notes).collect(),
+        notes: measured
+            .map_or(vec![], |v| v.notes.clone())
+            .into_iter()
+            .chain(told.notes)
+            .chain(unknown)
+            .collect(),
         standard: spec.kind.standard().into(),
     }
 }

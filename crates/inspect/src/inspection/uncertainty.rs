@@ -19,6 +19,11 @@ const K: f64 = 2.0;
 /// Share of the draws that must give a value.
 const ENOUGH: f64 = 0.9;
 
+/// Cells from zero up to which places within a cell are told apart.
+const FINEST: f64 = 1e12;
+/// Corners of cells that are held in memory, about 50 bytes each.
+const MOST_CORNERS: usize = 200_000;
+
 /// The expanded uncertainty of a value (k = 2), and where it comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
@@ -28,26 +33,28 @@ pub struct Uncertainty {
     pub source: &'static str,
 }
 
-/// The uncertainty of each characteristic: what the plan states and what its noise makes, as the root of the sum of squares.
+/// The uncertainty of each characteristic: what the plan states and what its noise makes, as the root of the sum of squares. `None`
+/// where the plan says nothing of it, and where its noise leaves too few draws a value: then it is not known.
 pub(super) fn found(
     plan: &Plan,
     features: &[Taken],
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Vec<Option<Uncertainty>>, Stop> {
-    let by_noise = match &plan.decision.noise {
-        Some(noise) => by_noise(plan, features, noise, seed, progress)?,
-        None => vec![None; plan.specs.len()],
+    let Some(noise) = &plan.decision.noise else {
+        let stated = |spec: &Spec| Some(Uncertainty { expanded: spec.uncertainty?, source: "plan" });
+        return Ok(plan.specs.iter().map(stated).collect());
     };
-    let both = |(spec, noise): (&Spec, Option<f64>)| match (spec.uncertainty, noise) {
-        (None, None) => None,
-        (Some(expanded), None) => Some(Uncertainty { expanded, source: "plan" }),
-        (None, Some(u)) => Some(Uncertainty { expanded: K * u, source: "noise" }),
-        (Some(stated), Some(u)) => {
-            Some(Uncertainty { expanded: libm::hypot(stated, K * u), source: "plan and noise" })
-        }
+    let both = |(spec, found): (&Spec, Option<f64>)| {
+        let found = K * found?;
+        Some(match spec.uncertainty {
+            None => Uncertainty { expanded: found, source: "noise" },
+            Some(stated) => Uncertainty { expanded: libm::hypot(stated, found), source: "plan and noise" },
+        })
     };
-    Ok(plan.specs.iter().zip(by_noise).map(both).collect())
+    let by_noise = by_noise(plan, features, noise, seed, progress)?;
+    let finite = |u: &Uncertainty| u.expanded.is_finite();
+    Ok(plan.specs.iter().zip(by_noise).map(|pair| both(pair).filter(finite)).collect())
 }
 
 /// The standard deviation of each value over the draws.
@@ -108,10 +115,14 @@ impl Field {
     /// Three independent normal numbers of the stated deviation. With a correlation length they are interpolated between the
     /// corners of cells of that size and brought back to that deviation, so places within about half of it move together.
     fn at(&mut self, p: &Point) -> Vector {
-        if self.correlation <= 0.0 {
+        let cell = p.map(|x| (x / self.correlation).floor());
+        // Also where numbers cannot tell the places within a cell: each point moves alone there.
+        if self.correlation <= 0.0 || !cell.iter().all(|c| c.abs() < FINEST) {
             return self.vector(p.map(|x| (x + 0.0).to_bits())).map(|g| self.sigma * g);
         }
-        let cell = p.map(|x| (x / self.correlation).floor());
+        if self.corners.len() > MOST_CORNERS {
+            self.corners.clear();
+        }
         let (mut sum, mut squares) = ([0.0; 3], 0.0);
         for corner in 0..8u8 {
             let up = [0, 1, 2].map(|k| f64::from((corner >> k) & 1));
@@ -166,9 +177,14 @@ mod tests {
     #[test]
     fn the_noise_has_the_stated_deviation_and_reach() {
         // Of 4,000 numbers the deviation is known to 1.1 %, a correlation to 0.016.
-        for (correlation, apart, least, greatest) in
-            [(0.0, 0.01, -0.05, 0.05), (2.0, 0.1, 0.9, 1.0), (2.0, 0.9, 0.3, 0.9), (2.0, 4.1, -0.05, 0.05)]
-        {
+        for (correlation, apart, least, greatest) in [
+            (0.0, 0.01, -0.05, 0.05),
+            (1e-300, 0.01, -0.05, 0.05),
+            (5e-324, 0.01, -0.05, 0.05),
+            (2.0, 0.1, 0.9, 1.0),
+            (2.0, 0.9, 0.3, 0.9),
+            (2.0, 4.1, -0.05, 0.05),
+        ] {
             let [deviation, correlated] = seen(correlation, apart);
             assert!((deviation / 0.1 - 1.0).abs() < 0.04, "{correlation} {apart}: {deviation}");
             assert!((least..=greatest).contains(&correlated), "{correlation} {apart}: {correlated}");
