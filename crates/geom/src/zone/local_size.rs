@@ -5,8 +5,9 @@
 //! they lie in a row, and never beyond the heights themselves. A point whose other end is not between points has no size.
 
 use crate::fit::eigen;
+use crate::frame::Pose;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use crate::spatial::neighbours::PointTree;
 use rayon::prelude::*;
 
@@ -31,7 +32,7 @@ pub struct TwoPoint {
 }
 
 /// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1): one for each of
-/// `points` whose opposite place is surrounded by others, in their order. Millimetres. Points on the axis and those that are not
+/// `points` whose opposite place is between others, in their order. Millimetres. Points on the axis and those that are not
 /// finite have none. Cost: `n log n`.
 ///
 /// # Errors
@@ -54,16 +55,12 @@ pub fn two_point_diameters(
     direction: Vector,
     progress: &dyn Progress,
 ) -> Result<Vec<TwoPoint>, Cancelled> {
-    let Some([x, y]) = across(direction) else { return Ok(vec![]) };
+    let Some((direction, _)) = unit(direction) else { return Ok(vec![]) };
+    let frame = Pose::along(point, direction);
+    let [x, y, _] = frame.axes;
     // Turn, station and radius of each point.
-    let places: Vec<[f64; 3]> = points
-        .iter()
-        .map(|p| {
-            let d = minus(*p, point);
-            let (a, b) = (dot(d, x), dot(d, y));
-            [libm::atan2(b, a), dot(d, direction), libm::hypot(a, b)]
-        })
-        .collect();
+    let polar = |[a, b, along]: [f64; 3]| [libm::atan2(b, a), along, libm::hypot(a, b)];
+    let places: Vec<[f64; 3]> = points.iter().map(|p| polar(frame.local(*p))).collect();
     let (sum, count) = (places.iter().filter(|p| finite(p)))
         .fold((0.0, 0u64), |(sum, count), [.., radius]| (sum + radius, count + 1));
     let mean = sum / count.max(1) as f64;
@@ -96,7 +93,7 @@ pub fn two_point_diameters(
 }
 
 /// The two-point sizes of two opposite planes along their common `normal` (of length 1): of each point of either with a place
-/// opposite that is surrounded by points of the other; those of the first, then those of the second. Millimetres.
+/// opposite that is between points of the other; those of the first, then those of the second. Millimetres.
 /// Cost: `n log n`.
 ///
 /// # Errors
@@ -106,8 +103,9 @@ pub fn two_point_distances(
     normal: Vector,
     progress: &dyn Progress,
 ) -> Result<Vec<TwoPoint>, Cancelled> {
-    let Some([x, y]) = across(normal) else { return Ok(vec![]) };
-    let flat = |p: &Point| [dot(*p, x), dot(*p, y), dot(*p, normal)];
+    let Some((normal, _)) = unit(normal) else { return Ok(vec![]) };
+    let frame = Pose::along([0.0; 3], normal);
+    let flat = |p: &Point| frame.local(*p);
     let sheet = |points: &[Point]| Sheet::of(points.iter().map(flat).filter(finite).collect(), f64::INFINITY);
     let mut all = vec![];
     for (points, other) in [(first, sheet(second)), (second, sheet(first))] {
@@ -127,13 +125,6 @@ pub fn two_point_distances(
 
 fn finite(p: &[f64; 3]) -> bool {
     p.iter().all(|x| x.is_finite())
-}
-
-/// Two unit vectors at right angles to `direction` and to each other.
-fn across(direction: Vector) -> Option<[Vector; 2]> {
-    let least = (0..3).fold(0, |k, i| if direction[i].abs() < direction[k].abs() { i } else { k });
-    let x = unit(cross(direction, [0, 1, 2].map(|k| f64::from(u8::from(k == least)))))?.0;
-    Some([x, cross(direction, x)])
 }
 
 /// Heights over places of a plane.
@@ -219,7 +210,7 @@ mod tests {
     /// A cylinder about a slanted axis: 20 levels of 60 points, turned at random, whose radius is 8 + 0.1 cos(2 turn).
     fn oval(turns: std::ops::Range<f64>) -> (Vec<Point>, Point, Vector, impl Fn(f64) -> f64) {
         let direction = unit([0.3, -0.5, 1.0]).unwrap().0;
-        let [x, y] = across(direction).unwrap();
+        let [x, y, _] = Pose::along([0.0; 3], direction).axes;
         let radius = |turn: f64| 8.0 + 0.1 * (2.0 * turn).cos();
         let middle = [7.0, 8.0, 9.0];
         let mut random = Random::new(3);
@@ -237,7 +228,7 @@ mod tests {
         let found = two_point_diameters(&points, middle, direction, &Silent).unwrap();
         // The ends of the cylinder have neighbours on one side only.
         assert!(found.len() > 1000, "{}", found.len());
-        let [x, y] = across(direction).unwrap();
+        let [x, y, _] = Pose::along([0.0; 3], direction).axes;
         for d in &found {
             let [a, b] = d.ends.map(|p| minus(p, middle));
             assert!((dot(minus(b, a), direction)).abs() < 1e-9, "the ends lie at one station");

@@ -18,7 +18,6 @@ use trueness_geom::space::{Point, Vector};
 const K: f64 = 2.0;
 /// Share of the draws that must give a value.
 const ENOUGH: f64 = 0.9;
-
 /// Cells from zero up to which places within a cell are told apart.
 const FINEST: f64 = 1e12;
 /// Corners of cells that are held in memory, about 50 bytes each.
