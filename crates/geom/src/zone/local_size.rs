@@ -1,8 +1,8 @@
 //! Two-point sizes (ISO 17450-3:2016, ISO 14405-1:2016, 3.6): the distance of two opposite places of a feature of size.
 //!
 //! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets the
-//! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights, or a line where
-//! they lie in a row, and never beyond the heights themselves. A point whose other end is not between points has no size.
+//! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights, never beyond the
+//! heights themselves, or where they lie in a row the line between its two neighbors. A point whose other end is not between points has no size.
 
 use crate::fit::eigen;
 use crate::frame::Pose;
@@ -156,8 +156,8 @@ impl Sheet {
     }
 }
 
-/// The height at the origin of the plane of least squares through heights at places around it, or of the line where they lie in a row;
-/// `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
+/// The height at the origin of the plane of least squares through heights at places around it, or between its neighbors where they lie in
+/// a row; `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
 fn between(places: &[[f64; 3]]) -> Option<f64> {
     let n = places.len() as f64;
     let mean = [0, 1, 2].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -175,21 +175,24 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     // The second axis is any one where all lie in a row exactly.
     let (middle, on) = (libm::hypot(mean[0], mean[1]), along(2, &mean));
     let beside = (middle * middle - on * on).max(0.0).sqrt();
-    let inside = if row {
-        let (before, behind) = places
-            .iter()
-            .map(|p| along(2, p))
-            .fold((false, false), |(a, b), t| (a || t <= 0.0, b || t >= 0.0));
-        before && behind && beside <= BESIDE * (moments[2] / n).sqrt()
-    } else {
-        surrounded(places)
-    };
-    let slopes =
-        (1..3).filter(|k| !(row && *k == 1)).map(|k| dot(axes[k], rise) / moments[k] * along(k, &mean));
+    if row {
+        return (beside <= BESIDE * (moments[2] / n).sqrt())
+            .then(|| in_row(places.iter().map(|p| [along(2, p), p[2]])))
+            .flatten();
+    }
+    let slopes = (1..3).map(|k| dot(axes[k], rise) / moments[k] * along(k, &mean));
     let height = mean[2] - slopes.sum::<f64>();
     let (least, greatest) =
         places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), p| (l.min(p[2]), g.max(p[2])));
-    (inside && height.is_finite()).then(|| height.clamp(least, greatest))
+    (surrounded(places) && height.is_finite()).then(|| height.clamp(least, greatest))
+}
+
+/// The height at zero between the nearest place of a row before it and that behind it; `None` where one is missing.
+fn in_row(places: impl Iterator<Item = [f64; 2]> + Clone) -> Option<f64> {
+    let [before, first] = places.clone().filter(|p| p[0] <= 0.0).max_by(|a, b| a[0].total_cmp(&b[0]))?;
+    let [behind, second] = places.filter(|p| p[0] >= 0.0).min_by(|a, b| a[0].total_cmp(&b[0]))?;
+    let way = behind - before;
+    Some(if way > 0.0 { first - before / way * (second - first) } else { first })
 }
 
 /// Whether no half-plane is free of places, seen from the origin.
@@ -304,9 +307,23 @@ mod tests {
             let found = sizes(&points);
             assert!(found.len() > 450, "{noise}: {}", found.len());
             for d in &found {
-                // The lobes of the rims are opposite to valleys: the size is 15 all around. A line through eight places of 0.2 rad leaves
-                // 0.09 · 0.2² / 24 = 1.5e-4 of their bend.
-                assert!((d.size - 15.0).abs() < 2.0 * noise + 2e-4, "{noise}: {}", d.size);
+                // The lobes of the rims are opposite to valleys: the size is 15 all around.
+                assert!((d.size - 15.0).abs() < 2.0 * noise + 1e-4, "{noise}: {}", d.size);
+            }
+        }
+    }
+
+    /// Places opposite each other but for rounding have the distance of the points themselves, however the axis lies.
+    #[test]
+    fn points_opposite_each_other_are_the_ends() {
+        let turned = |t: f64| (0..36).map(move |k| std::f64::consts::TAU * f64::from(k) / 36.0 + t);
+        for start in [0.0, 0.1, 1.0, 2.0] {
+            let ring = turned(start).map(|t| [5.0 * t.cos(), 5.1 * t.sin(), 0.0]).collect::<Vec<Point>>();
+            let found = two_point_diameters(&ring, [0.0; 3], [0.0, 0.0, -1.0], &Silent).unwrap();
+            assert_eq!(found.len(), 36);
+            for (k, d) in found.iter().enumerate() {
+                let away = minus(ring[(k + 18) % 36], ring[k]);
+                assert!((d.size - dot(away, away).sqrt()).abs() < 1e-9, "{start} {k}: {}", d.size);
             }
         }
     }
