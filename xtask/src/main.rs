@@ -103,9 +103,7 @@ fn main() -> ExitCode {
         Some("test") => test(),
         Some("tidy") => run(&TIDY),
         Some("readback") => readback::run(&root()),
-        Some("schema") => {
-            run(&cargo("schema", &["run", "--quiet", "--package", "trueness-inspect", "--example", "schema"]))
-        }
+        Some("schema") => run(&cargo("schema", &["run", "--quiet", "--locked", "--example", "schema"])),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::from(2);

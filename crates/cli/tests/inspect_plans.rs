@@ -118,7 +118,11 @@ const FAULTS: &[Fault] = &[
         "kind = \"flatnes\"",
         "line 26, column 8: there is no kind \"flatnes\"; did you mean \"flatness\"?",
     ),
-    fault("kind = \"flatness\"", "kind = \"line-profile\"", "line 26, column 8: line profiles are not built"),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"line-profile\"",
+        "line 26, column 8: line-profile: it needs `intersection`",
+    ),
     fault(
         "shape = \"cylinder\"",
         "shape = \"cilinder\"",

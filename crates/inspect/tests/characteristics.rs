@@ -35,6 +35,24 @@ fn lobes(k: usize) -> f64 {
     if k.is_multiple_of(2) { 8.0 + H } else { 8.0 - H }
 }
 
+/// A pin whose axis is off by `H` halfway: the thinnest cylinder around its three centers has that diameter.
+fn bent() -> Vec<Point> {
+    let ring = |x: f64, z: f64| round([x, 0.0], &[z], 8, |_| 5.0);
+    [ring(0.0, 0.0), ring(H, 10.0), ring(0.0, 20.0)].concat()
+}
+
+/// Rows of points up and down in turn, each with a height and a slope of its own: each lies in a zone of its own.
+fn rows() -> Vec<Point> {
+    let row = |k: usize| {
+        let way = Rigid::rotation_about([0.0; 3], [0.0, 1e-3 * k as f64, 0.0]);
+        let zigzag = move |i: usize| [i as f64, 0.0, if i.is_multiple_of(2) { H } else { -H }];
+        (0..7)
+            .map(move |i| way.point(zigzag(i)))
+            .map(move |[x, y, z]| [x, y + 6.0 * k as f64, z + 0.02 * k as f64])
+    };
+    (0..4).flat_map(row).collect()
+}
+
 fn case(
     kind: &'static str,
     features: &[(&'static str, &'static str, Vec<Point>)],
@@ -50,15 +68,17 @@ fn forms() -> Vec<Case> {
     let nominal = "nominal = { point = [0, 0, 0], normal = [0, 0, 1], boundary = [[-9, -9, 0], [9, -9, 0], [9, 9, 0]] }";
     vec![
         case("straightness", &[("F", "line", round([0.0; 2], &LEVELS, 3, |_| H))], "", 2.0 * H),
+        case("straightness", &[("F", "cylinder", bent())], "", H),
         case("flatness", &[("F", "plane", twist.clone())], "", 2.0 * H),
         case("roundness", &[("F", "circle", round([0.0; 2], &[3.0], 8, lobes))], "", 2.0 * H),
         case("cylindricity", &[("F", "cylinder", round([0.0; 2], &LEVELS, 8, lobes))], "", 2.0 * H),
-        Case {
-            kind: "surface-profile",
-            features: vec![("F", "plane", twist)],
-            more: format!("#feature {nominal}"),
-            value: 2.0 * H,
-        },
+        case("surface-profile", &[("F", "plane", twist)], &format!("#feature {nominal}"), 2.0 * H),
+        case(
+            "line-profile",
+            &[("F", "plane", rows())],
+            &format!("#feature {nominal}\nintersection = [0, 1, 0]"),
+            2.0 * H,
+        ),
     ]
 }
 
@@ -197,6 +217,8 @@ fn located() -> Vec<Case> {
         grid(|x, y| [x, y, if (x as u32 / 10 + y as u32 / 10).is_multiple_of(2) { H } else { -H }]);
     let checkered: Vec<Point> = checkered.into_iter().filter(|p| p[0] < 40.0 && p[1] < 40.0).collect();
     let two = "datums = [\"A\", \"B\"]\nbasic = { x = 20 }";
+    let above = checkered.iter().map(|[x, y, z]| [*x, *y, z + 7.0]).collect();
+    let rough = [("F", "plane", above), ("A", "plane", checkered.clone())];
     vec![
         case("position", &[pin.clone(), floor.clone(), wall.clone(), front], place, 0.1),
         // Free along the edge of A and B: the place along it does not count, and x alone holds it.
@@ -212,6 +234,10 @@ fn located() -> Vec<Case> {
         case("size", &[drum], "size = \"LP\"", 8.0),
         case("size", &[roof.clone(), floor.clone()], "#both\nsize = \"GG\"", 7.0),
         case("size", &[roof.clone(), floor.clone()], "#both\nsize = \"LP\"", 7.0),
+        // Both faces up and down by the same: the pair around them, the pair between them, the pair in the middle.
+        case("size", &rough, "#both\nsize = \"GN\"", 7.0 + 2.0 * H),
+        case("size", &rough, "#both\nsize = \"GX\"", 7.0 - 2.0 * H),
+        case("size", &rough, "#both\nsize = \"GC\"", 7.0),
         case("distance", &[roof, floor], "datums = [\"A\"]", 7.0),
         case("texture", &[("F", "plane", checkered)], "parameter = \"Sa\"", H),
     ]
@@ -222,8 +248,8 @@ impl Case {
         let mut text = String::from("schema = \"trueness/plan/1\"\n");
         for (id, shape, _) in &self.features {
             text += &format!("[[feature]]\nid = \"{id}\"\nshape = \"{shape}\"\npoints = \"{id}\"\n");
-            if let (Some(nominal), "F") = (self.more.strip_prefix("#feature "), *id) {
-                text += &format!("{nominal}\n");
+            if let (Some(line), "F") = (self.more.lines().next(), *id) {
+                text += &format!("{}\n", line.strip_prefix("#feature ").unwrap_or_default());
             }
         }
         let (mut feature, mut lines) = ("\"F\"".to_string(), self.more.clone());
@@ -283,7 +309,7 @@ fn values_do_not_depend_on_the_frame() {
     // A nominal surface does not move with the data: it is found again after a small motion.
     let small = Rigid::rotation_about([1.0, 2.0, 3.0], [1e-3, 2e-3, -1e-3]);
     for c in cases() {
-        let motion = if c.kind == "surface-profile" { small } else { far };
+        let motion = if c.kind.ends_with("profile") { small } else { far };
         let value = c.value("", |points| points.iter().map(|p| motion.point(*p)).collect());
         assert!((value - c.value).abs() < 1e-8, "{} {}: {value} instead of {}", c.kind, c.more, c.value);
     }
@@ -343,7 +369,7 @@ fn too_few_points_are_not_measured() {
 
 #[test]
 fn no_zone_is_wider_than_that_of_least_squares() {
-    for c in forms().iter().filter(|c| c.kind != "surface-profile") {
+    for c in forms().iter().filter(|c| !c.kind.ends_with("profile")) {
         for seed in 0..10 {
             let noise = |points: &[Point]| -> Vec<Point> {
                 let mut random = Random::new(seed);

@@ -263,3 +263,27 @@ fn too_few_points_have_no_gauge() {
         assert!(c.reason.unwrap().contains("points"));
     }
 }
+
+/// A shaft of perfect sections that is bent by `h` has a mating size of its diameter and `h`: what lies between value and limit is
+/// what lies between that and the virtual condition.
+#[test]
+fn a_bent_shaft_keeps_its_virtual_condition_or_not() {
+    for (diameter, h) in [(10.0, 0.05), (10.08, 0.2), (10.08, 0.23), (9.9, 0.35), (9.9, 0.42)] {
+        let ring = |x: f64, z: f64| round([x, 0.0], &[z], 360, |_| 0.5 * diameter);
+        let points = [ring(0.0, 0.0), ring(h, 20.0), ring(0.0, 40.0)].concat();
+        let case = Case::new(false, points.clone(), "kind = \"straightness\"\nmaterial = \"M\"");
+        let (value, upper) = case.values(1e-6);
+        assert!((value - upper - (diameter + h - 10.3)).abs() < 1e-6, "{diameter} {h}: {value} {upper}");
+        // The sections are shifted, not tilted: the least-squares size is a little above theirs.
+        assert!(
+            (value - h).abs() < h * h && (upper - (0.2 + 10.1 - diameter)).abs() < h * h,
+            "{value} {upper}"
+        );
+        let (_, c) = case.inspected(&Rigid::IDENTITY);
+        assert_eq!(c.verdict == Verdict::Pass, diameter + h <= 10.3, "{diameter} {h}");
+        // Without the requirement: the zone of its median line, no bonus.
+        let (_, c) = Case::new(false, points, "kind = \"straightness\"").inspected(&Rigid::IDENTITY);
+        near((c.value.unwrap(), c.upper), (h, 0.2), 1e-9);
+        assert_eq!(c.parts["sections"], 3.0);
+    }
+}

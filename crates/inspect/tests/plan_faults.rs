@@ -105,7 +105,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "points = \"floor.xyz\"",
         "points = \"floor.xyz\"\ninternal = true",
-        "line 8, column 12: `internal` is for cylinders: bores and shafts",
+        "line 8, column 12: `internal` is for cylinders, cones and spheres: bores and shafts",
     ),
     fault(
         "points = \"pin.xyz\"\n",

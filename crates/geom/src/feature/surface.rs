@@ -57,7 +57,38 @@ impl Surface {
         };
         distance.is_finite().then_some((distance, gradient))
     }
+
+    /// Signed distance (mm) of `p` from the line in which the plane through it across `normal` (of length 1) meets the surface,
+    /// and its gradient in that plane, a unit vector. Signs as of [`Surface::distance`].
+    ///
+    /// The foot is sought along the line's own normal, again and again: right for places that are nearer to the line than its
+    /// radius of curvature. `None` where that does not settle, where the surface lies along the plane, and where `p` is no
+    /// number.
+    pub fn distance_within(&self, p: Point, normal: Vector) -> Option<(f64, Vector)> {
+        let within = |gradient: Vector| unit(minus(gradient, times(dot(gradient, normal), normal)));
+        let (mut away, _) = within(self.distance(p)?.1)?;
+        let mut distance = 0.0;
+        for _ in 0..ROUNDS {
+            let foot = minus(p, times(distance, away));
+            let (off, gradient) = self.distance(foot)?;
+            let (next, slope) = within(gradient)?;
+            // Along the old normal onto the surface, then the normal there.
+            let step = off / (slope * dot(next, away));
+            distance += step;
+            let turned = norm(minus(next, away));
+            away = next;
+            if step.abs() <= SETTLED * (1.0 + distance.abs()) && turned <= SETTLED {
+                return distance.is_finite().then_some((distance, away));
+            }
+        }
+        None
+    }
 }
+
+/// Most rounds of the search for a foot: each gains as many digits as the distance is smaller than the radius of curvature.
+const ROUNDS: usize = 200;
+/// A step, and a turn, that are rounding.
+const SETTLED: f64 = 1e-14;
 
 /// Unit vector away from an axis, and the distance from it.
 fn radial(p: Point, point: Point, direction: Vector) -> Option<(Vector, f64)> {
@@ -97,5 +128,43 @@ mod tests {
             }
         }
         assert!(surfaces[1].distance([1.0, 2.0, 3.0]).is_none());
+    }
+
+    /// In a plane across the axis a cone is a circle, in one along it two lines, a sphere a circle anywhere; a cylinder cut
+    /// aslant is an ellipse, whose nearest point is sought among many.
+    #[test]
+    fn distances_within_a_plane_are_those_of_its_curve() {
+        let z = [0.0, 0.0, 1.0];
+        let near = |found: Option<(f64, Vector)>, wanted: f64| {
+            assert!((found.unwrap().0 - wanted).abs() < 1e-12, "{found:?} {wanted}");
+        };
+        let cone = Surface::Cone([0.0; 3], z, 0.4);
+        near(cone.distance_within([3.0, 4.0, 10.0], z), 5.0 - 10.0 * libm::tan(0.4));
+        // Along the axis the distance is that of the cone.
+        near(
+            cone.distance_within([4.0, 0.0, 10.0], [0.0, 1.0, 0.0]),
+            cone.distance([4.0, 0.0, 10.0]).unwrap().0,
+        );
+        let sphere = Surface::Sphere([1.0, 0.0, 0.0], 5.0);
+        near(sphere.distance_within([1.0, 4.2, 3.0], z), 0.2);
+        let slant = Surface::Plane([0.0; 3], unit([3.0, 0.0, 4.0]).unwrap().0);
+        near(slant.distance_within([1.0, 7.0, 2.0], z), 1.0 + 8.0 / 3.0);
+        assert!(slant.distance_within([1.0, 7.0, 2.0], unit([3.0, 0.0, 4.0]).unwrap().0).is_none());
+        // x² / 18 + y² / 9 = 1 in the plane's coordinates (x along the slope).
+        let (cylinder, slope) = (Surface::Cylinder([0.0; 3], z, 3.0), unit([1.0, 0.0, 1.0]).unwrap().0);
+        let across = unit([1.0, 0.0, -1.0]).unwrap().0;
+        for [a, b] in [[4.0, 1.2], [1.0, 3.2], [-3.5, -2.0], [4.3, 0.0]] {
+            let p = plus(times(a, slope), [0.0, b, 0.0]);
+            let far = |t: f64| libm::hypot(a - 18f64.sqrt() * libm::cos(t), b - 3.0 * libm::sin(t));
+            let least = (0..200_000)
+                .map(|k| far(f64::from(k) * 2e-4 * std::f64::consts::PI / 20.0))
+                .fold(9.0, f64::min);
+            let (found, gradient) = cylinder.distance_within(p, across).unwrap();
+            assert!(
+                (found.abs() - least).abs() < 1e-8 && dot(gradient, across).abs() < 1e-12,
+                "{found} {least}"
+            );
+            assert_eq!(found > 0.0, a * a / 18.0 + b * b / 9.0 > 1.0);
+        }
     }
 }

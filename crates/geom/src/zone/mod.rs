@@ -10,6 +10,9 @@
 //! | about a true geometry, with motions left free | [`motion`] |
 //! | frames that datums make | [`datum`] |
 //! | parameters of areal texture | [`texture`] |
+//! | global sizes of two opposite planes | [`opposite_planes`] |
+//! | the centers of a cylinder's sections | [`median_line`] |
+//! | points by sections across a direction | [`sections`] |
 //! | two-point sizes | [`two_point_diameters`], [`two_point_distances`] |
 
 mod azimuth;
@@ -17,12 +20,18 @@ mod circle;
 pub mod datum;
 mod error;
 mod local_size;
+mod median_line;
 pub mod motion;
+mod opposite;
 mod planes;
+mod sections;
 pub mod texture;
 mod tubes;
 
 pub use error::ZoneError;
 pub use local_size::{TwoPoint, two_point_diameters, two_point_distances};
+pub use median_line::{MedianLine, median_line};
+pub use opposite::{Opposite, opposite_planes};
 pub use planes::{Slab, parallel_planes, slab, slab_at_angle};
+pub use sections::sections;
 pub use tubes::{Tube, tube, tube_at_angle};

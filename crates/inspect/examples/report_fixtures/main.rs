@@ -1,7 +1,7 @@
 //! Writes the reports that the browser tests open: bodies whose deviations are known in closed form.
 //!
 //! ```text
-//! cargo run -p trueness-inspect --example report_fixtures -- FOLDER
+//! cargo run --example report_fixtures -- FOLDER
 //! ```
 
 #![allow(

@@ -5,13 +5,14 @@
 use super::taken::Taken;
 use super::value::{Missing, Value};
 use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
-use crate::plan::{Basic, Boundary, Class, DatumSpec, Feature, Limits, Source};
+use crate::plan::{Basic, Boundary, Class, DatumSpec, Feature, Limits, Source, ZoneOffset};
 use crate::tolerance_class::Table;
 use std::fmt::Debug;
 use std::ops::Range;
 use trueness_geom::fit::Method;
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
+use trueness_geom::space::Vector;
 use trueness_geom::zone::datum;
 
 /// One kind of characteristic.
@@ -76,6 +77,10 @@ pub struct Spec {
     pub basic: Basic,
     /// Whether the zone is a cylinder or sphere, where the plan says so.
     pub diametral: Option<bool>,
+    /// Where the zone of a profile lies.
+    pub offset: ZoneOffset,
+    /// Unit normal of the planes that the lines of a line profile lie in.
+    pub intersection: Option<Vector>,
     /// How a form is evaluated.
     pub form: Method,
     /// Which size.

@@ -14,6 +14,10 @@
 //! The value keeps the limit exactly when the surface keeps the virtual condition. What some programs evaluate instead, the
 //! axis of the mating cylinder against the tolerance and the bonus, differs where the form is not perfect.
 //!
+//! The straightness of an axis has no place and no attitude to keep: its virtual condition is that of the mating size alone. Told
+//! are the difference of the mating size and the least-squares one (GG), which for a bent cylinder of perfect sections is the
+//! diameter of the zone of its axis, and as bonus what the least-squares size leaves of the maximum (least) material size.
+//!
 //! A datum with a requirement is no longer the axis of its feature: the part may shift and lean as far as the datum's surface
 //! keeps its own virtual condition, and the value is the least over all these motions.
 
@@ -133,6 +137,23 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
     Ok(value)
 }
 
+/// The straightness of a cylinder's axis with the requirement of its tolerance.
+pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
+    let Some(boundary) = m.spec.boundary else {
+        return Err(Missing::Impossible("it has no material requirement".into()));
+    };
+    let mating = mating(m.feature(), boundary.around, m)?;
+    let global = diameter(m.feature(), Method::Gaussian, m)?;
+    // The bonus goes by the size that the value goes by: the limit is kept exactly when the virtual condition is.
+    let (global, spare) = match boundary.around {
+        true => (global.min(mating), boundary.size - global.min(mating)),
+        false => (global.max(mating), global.max(mating) - boundary.size),
+    };
+    let parts = vec![("global_size", global), ("mating_size", mating)];
+    let value = Value { value: (mating - global).abs(), diametral: true, parts, ..Value::default() };
+    Ok(with_bonus(value, spare, boundary, m))
+}
+
 /// The value and its bonus where the points came to lie.
 fn told(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> {
     let far = asked.points().get(found.max.1).copied();
@@ -152,22 +173,28 @@ fn told(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> 
         false => (mating.max(related), mating.max(related) - boundary.size),
     };
     value.value = (mating - related).abs();
+    value.parts = vec![("mating_size", mating), ("related_size", related)];
+    Ok(with_bonus(value, spare, *boundary, m))
+}
+
+/// A value with its bonus, and the sizes that it comes from.
+fn with_bonus(mut value: Value, spare: f64, boundary: Boundary, m: &Measuring) -> Value {
     value.bonus = spare;
-    value.parts = vec![
-        ("bonus", spare),
-        ("mating_size", mating),
-        ("related_size", related),
-        ("material_size", boundary.size),
-    ];
+    value.parts.insert(0, ("bonus", spare));
+    value.parts.push(("material_size", boundary.size));
     if let crate::plan::Limits::Greatest(t) = m.spec.limits {
         value.parts.push(("virtual_size", boundary.virtual_size(t)));
     }
-    Ok(value)
+    value
 }
 
 /// Diameter of the smallest cylinder around a feature, or of the largest within it.
 fn mating(feature: &Taken, around: bool, m: &Measuring) -> Result<f64, Missing> {
-    let method = if around { Method::MinimumCircumscribed } else { Method::MaximumInscribed };
+    diameter(feature, if around { Method::MinimumCircumscribed } else { Method::MaximumInscribed }, m)
+}
+
+/// Diameter of the cylinder associated with a feature.
+fn diameter(feature: &Taken, method: Method, m: &Measuring) -> Result<f64, Missing> {
     match feature.refitted(Kind::Cylinder, method, m.progress)?.shape {
         Shape::Cylinder { radius, .. } => Ok(2.0 * radius),
         _ => Err(Missing::NotMeasured("the element has no diameter".into())),

@@ -11,12 +11,14 @@ mod cylindricity;
 mod distance;
 mod flatness;
 pub(crate) mod kind;
+mod line_profile;
 mod located;
 mod material;
 mod orientation;
 mod parallelism;
 mod perpendicularity;
 mod position;
+mod profile;
 mod roundness;
 mod size;
 mod straightness;
@@ -33,11 +35,12 @@ pub use taken::{Element, LeftOut, Others, Taken};
 pub use value::{Missing, Value};
 
 /// All of them, in the order of ISO 1101, then dimensions, then texture.
-pub static ALL: [&dyn Characteristic; 17] = [
+pub static ALL: [&dyn Characteristic; 18] = [
     &straightness::Straightness,
     &flatness::Flatness,
     &roundness::Roundness,
     &cylindricity::Cylindricity,
+    &line_profile::LineProfile,
     &surface_profile::SurfaceProfile,
     &parallelism::Parallelism,
     &perpendicularity::Perpendicularity,

@@ -8,10 +8,12 @@ use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::zone::datum::mean;
-use trueness_geom::zone::{TwoPoint, parallel_planes, two_point_diameters, two_point_distances};
+use trueness_geom::zone::{
+    TwoPoint, opposite_planes, parallel_planes, two_point_diameters, two_point_distances,
+};
 
 /// The diameter of the associated cylinder, sphere or circle (of points in space, in their least-squares plane): least squares (GG), minimum circumscribed (GN), maximum
-/// inscribed (GX) or minimax (GC); of two opposite planes, the distance of the two parallel planes with least squares (GG). Two-point
+/// inscribed (GX) or minimax (GC); of two opposite planes, the distance of the two parallel planes that are so. Two-point
 /// sizes (LP) of cylinders, circles and two planes are many: the value is the one farthest from the middle of what is allowed.
 #[derive(Debug)]
 pub struct Size;
@@ -33,26 +35,14 @@ impl Characteristic for Size {
         Some(Table::Size)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
-        let size = match q.spec.size {
-            None => {
-                return refuse(
-                    "kind",
-                    "it needs `size`: \"LP\" (two-point), \"GG\", \"GN\", \"GX\" or \"GC\"",
-                );
-            }
-            Some(size) => size,
+        let Some(size) = q.spec.size else {
+            return refuse("kind", "it needs `size`: \"LP\" (two-point), \"GG\", \"GN\", \"GX\" or \"GC\"");
         };
         if let [a, b] = q.spec.features.as_slice() {
             if [a, b].iter().any(|f| q.features[**f].class != Class::Plane) {
                 return refuse("feature", "the size of two features is that of two opposite planes");
             }
-            return match size {
-                SizeWord::Gg | SizeWord::Lp => Ok(()),
-                _ => refuse(
-                    "size",
-                    "of two planes only the least-squares size (GG) and two-point sizes (LP) are built yet",
-                ),
-            };
+            return Ok(());
         }
         if size == SizeWord::Lp && q.class(&[Class::Cylinder, Class::Circle]).is_err() {
             return refuse("size", "two-point sizes (LP) are of a cylinder, a circle or two planes");
@@ -63,25 +53,18 @@ impl Characteristic for Size {
         if m.spec.size == Some(SizeWord::Lp) {
             return two_point(m);
         }
-        if let [a, b] = m.features {
-            let (first, second) = (a.taken()?, b.taken()?);
-            let Some((_, distance)) = parallel_planes(first, second) else {
-                return Err(Missing::NotMeasured(
-                    "the points of the two planes determine no parallel planes".into(),
-                ));
-            };
-            return Ok(Value {
-                value: distance,
-                witness: vec![mean(first), mean(second)],
-                ..Value::default()
-            });
-        }
         let method = match m.spec.size {
             Some(SizeWord::Gn) => Method::MinimumCircumscribed,
             Some(SizeWord::Gx) => Method::MaximumInscribed,
             Some(SizeWord::Gc) => Method::MinimumZone,
             _ => Method::Gaussian,
         };
+        if let [a, b] = m.features {
+            let (first, second) = (a.taken()?, b.taken()?);
+            let pair = opposite_planes(first, second, method, m.progress)?;
+            let witness = vec![mean(first), mean(second)];
+            return Ok(Value { value: pair.distance, witness, ..Value::default() });
+        }
         let feature = m.feature();
         let fit = match feature.class {
             Class::Sphere => feature.refitted(Kind::Sphere, method, m.progress)?,

@@ -29,6 +29,8 @@ pub struct Taken {
     pub edge: bool,
     /// A direction out of the material, where it is known.
     pub outward: Option<Vector>,
+    /// Of a cylinder, cone or sphere, whether the material is around it, where the plan says so.
+    pub internal: Option<bool>,
     /// As the model has it.
     pub nominal: Option<Nominal>,
     /// Share of the nominal area that was measured.
@@ -147,12 +149,7 @@ impl Taken {
 
     /// The form of its points against an element: value, and where it is reached.
     pub fn form(&self, fit: &Fit) -> Value {
-        let mut at: Vec<usize> = fit.touching.iter().map(|t| t.point).collect();
-        if at.is_empty() {
-            at = vec![fit.residuals.max.1, fit.residuals.min.1];
-        }
-        let witness = at.into_iter().filter_map(|i| self.points.get(i).copied()).collect();
-        Value { value: fit.residuals.form_error, witness, ..Value::default() }
+        form(&self.points, fit)
     }
 
     /// Its element as a datum, if it is made of others.
@@ -222,4 +219,14 @@ impl Taken {
         };
         found.ok_or_else(|| self.missing("it has no direction"))
     }
+}
+
+/// The form of points against the element fitted to them: value, and where it is reached.
+pub(super) fn form(points: &[Point], fit: &Fit) -> Value {
+    let mut at: Vec<usize> = fit.touching.iter().map(|t| t.point).collect();
+    if at.is_empty() {
+        at = vec![fit.residuals.max.1, fit.residuals.min.1];
+    }
+    let witness = at.into_iter().filter_map(|i| points.get(i).copied()).collect();
+    Value { value: fit.residuals.form_error, witness, ..Value::default() }
 }

@@ -5,7 +5,7 @@ use super::left_out;
 use super::{Element, Found, Inspection, Taken};
 use crate::characteristic::Value;
 use crate::compare;
-use crate::plan::{Limits, Plan, Source, Spec};
+use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
 use crate::results::align::AlignNote;
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
@@ -252,6 +252,11 @@ fn modifiers(spec: &Spec) -> Vec<String> {
     all.extend(spec.class.clone());
     if let Some(size) = spec.size {
         all.push(size.word().to_string());
+    }
+    match spec.offset {
+        ZoneOffset::None => {}
+        ZoneOffset::By(offset) => all.push(format!("UZ {offset:+}")),
+        ZoneOffset::Free => all.push("OZ".into()),
     }
     all.extend(spec.material.map(|m| m.symbol().to_string()));
     if spec.kind.word() == "texture" {

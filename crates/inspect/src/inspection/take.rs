@@ -160,6 +160,7 @@ fn bare(feature: &Feature) -> Taken {
         planar: false,
         edge,
         outward: feature.outward.or(normal),
+        internal: feature.internal,
         nominal: feature.nominal.clone(),
         coverage: None,
         left_out: None,

@@ -49,6 +49,9 @@ impl Class {
     }
 }
 
+/// Classes of which it may have to be said whether the material is around them or within.
+const ROUND: [Class; 3] = [Class::Cylinder, Class::Cone, Class::Sphere];
+
 /// A feature that can be taken.
 #[derive(Clone, Debug)]
 pub struct Feature {
@@ -68,7 +71,7 @@ pub struct Feature {
     pub method: Method,
     /// A direction out of the material.
     pub outward: Option<Vector>,
-    /// Of a cylinder, whether the material is around it.
+    /// Of a cylinder, cone or sphere, whether the material is around it.
     pub internal: Option<bool>,
 }
 
@@ -167,7 +170,8 @@ fn feature(
                 .wrong(&shape.span, "a derived feature takes no shape; it follows from its features");
         }
         if let Some(internal) = &written.internal {
-            return checker.wrong(&internal.span, "`internal` is for cylinders: bores and shafts");
+            return checker
+                .wrong(&internal.span, "`internal` is for cylinders, cones and spheres: bores and shafts");
         }
         (made.class, made.source) = self::derived(checker, derived, written.of.as_ref(), before)?;
         return Ok(made);
@@ -176,8 +180,9 @@ fn feature(
         return checker.wrong(whole, format!("feature \"{id}\" needs `shape`, or `derived` with `of`"));
     };
     made.class = class(checker, shape)?;
-    if let Some(internal) = written.internal.as_ref().filter(|_| made.class != Class::Cylinder) {
-        return checker.wrong(&internal.span, "`internal` is for cylinders: bores and shafts");
+    if let Some(internal) = written.internal.as_ref().filter(|_| !ROUND.contains(&made.class)) {
+        return checker
+            .wrong(&internal.span, "`internal` is for cylinders, cones and spheres: bores and shafts");
     }
     if let Some(nominal) = &written.nominal {
         made.nominal = Some(self::nominal(checker, shape.value, nominal)?);

@@ -11,6 +11,18 @@ pub struct Basic {
     pub turn: Option<f64>,
 }
 
+/// Where the zone of a profile lies, seen from the theoretically exact geometry (ISO 1101:2017, 8.2.2.2).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ZoneOffset {
+    /// Evenly about it.
+    #[default]
+    None,
+    /// About its offset by this many millimetres out of the material (UZ).
+    By(f64),
+    /// About the offset that makes it narrowest (OZ).
+    Free,
+}
+
 /// What is allowed; the limits belong to it. Millimetres; degrees for angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limits {

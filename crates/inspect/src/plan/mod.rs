@@ -28,7 +28,7 @@ pub use decision::{Decision, Noise, Rule};
 pub use deviation::Deviation;
 pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};
-pub use limits::{Basic, Limits};
+pub use limits::{Basic, Limits, ZoneOffset};
 pub use proposal::proposal;
 
 use crate::characteristic;

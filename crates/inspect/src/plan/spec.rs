@@ -6,17 +6,18 @@ use super::datum as datums;
 use super::decision::{Decision, Rule};
 use super::error::{PlanError, unknown};
 use super::feature::{Feature, named};
-use super::limits::{Basic, Limits};
+use super::limits::{Basic, Limits, ZoneOffset};
 use super::material;
 use super::text::{
-    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OneOrTwo, PlanText, RunoutWord,
-    TextureWord,
+    BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OffsetText, OneOrTwo, PlanText,
+    RunoutWord, TextureWord,
 };
 use crate::characteristic;
 use crate::characteristic::kind::{Allowed, Characteristic, Question, Spec};
 use std::ops::Range;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
+use trueness_geom::space::{Vector, unit};
 use trueness_geom::zone::datum;
 
 pub(super) fn specs(
@@ -46,9 +47,6 @@ fn spec(
 ) -> Result<Spec, PlanError> {
     let word = &written.kind.value.0;
     let Some(kind) = characteristic::ALL.into_iter().find(|c| c.word() == word) else {
-        if word == "line-profile" {
-            return checker.wrong(&written.kind.span, "line profiles are not built into `inspect` yet");
-        }
         let known: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
         return checker.wrong(&written.kind.span, unknown("kind", word, &known));
     };
@@ -80,6 +78,8 @@ fn spec(
         },
         frame: frame(checker, written)?,
         basic: basic(checker, written.basic.as_ref())?,
+        offset: offset(checker, written)?,
+        intersection: intersection(checker, written)?,
         diametral: written.diametral.as_ref().map(|d| d.value),
         form: match written.method.as_ref().map(|m| m.value) {
             Some(FormMethodWord::Gaussian) => Method::Gaussian,
@@ -126,6 +126,8 @@ fn keys(w: &CharacteristicText) -> Vec<(&'static str, Range<usize>)> {
         of("datum_method", &w.datum_method),
         of("frame", &w.frame),
         of("basic", &w.basic),
+        of("offset", &w.offset),
+        of("intersection", &w.intersection),
         of("diametral", &w.diametral),
         of("method", &w.method),
         of("size", &w.size),
@@ -187,6 +189,24 @@ fn basic(checker: &Checker, at: Option<&At<BasicText>>) -> Result<Basic, PlanErr
     }
     let [angle, turn] = angles.map(|a| a.1.map(f64::to_radians));
     Ok(Basic { place, angle, turn })
+}
+
+fn offset(checker: &Checker, written: &CharacteristicText) -> Result<ZoneOffset, PlanError> {
+    let Some(At { value, span }) = &written.offset else { return Ok(ZoneOffset::None) };
+    Ok(match value {
+        OffsetText::Free(_) => ZoneOffset::Free,
+        OffsetText::Length(x) => {
+            ZoneOffset::By(checker.length(&At { value: *x, span: span.clone() }, "the offset")?)
+        }
+    })
+}
+
+fn intersection(checker: &Checker, written: &CharacteristicText) -> Result<Option<Vector>, PlanError> {
+    let Some(At { value, span }) = &written.intersection else { return Ok(None) };
+    match unit(*value) {
+        Some((normal, _)) => Ok(Some(normal)),
+        None => checker.wrong(span, "the normal of the intersection planes has no length"),
+    }
 }
 
 /// A number in the unit of the kind's values: angles and ratios are not lengths.

@@ -3,7 +3,8 @@
 mod words;
 
 pub use words::{
-    DatumMethodWord, FormMethodWord, KindWord, MaterialWord, RuleWord, RunoutWord, SizeWord, TextureWord,
+    DatumMethodWord, FormMethodWord, KindWord, MaterialWord, OffsetText, RuleWord, RunoutWord, SizeWord,
+    TextureWord,
 };
 
 use super::at::At;
@@ -338,6 +339,11 @@ pub struct CharacteristicText {
     pub frame: Option<At<FrameText>>,
     /// Theoretically exact coordinates in the datum system, or the angle in degrees.
     pub basic: Option<At<BasicText>>,
+    /// Where the zone of a profile lies: by this length out of the material (UZ), or `free`, where it is narrowest (OZ); without it
+    /// evenly about the theoretically exact geometry.
+    pub offset: Option<At<OffsetText>>,
+    /// Of a line profile: the normal of the planes that its lines lie in.
+    pub intersection: Option<At<[f64; 3]>>,
     /// Whether the zone is a cylinder or sphere (with the sign ∅).
     pub diametral: Option<At<bool>>,
     /// Of a form: minimum-zone (without it) or gaussian.

@@ -41,6 +41,24 @@ impl MaterialWord {
     }
 }
 
+/// Where the zone of a profile lies.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OffsetText {
+    /// About the offset by this length out of the material (UZ).
+    Length(f64),
+    /// About the offset that makes it narrowest (OZ).
+    Free(FreeWord),
+}
+
+/// The word for what is not held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FreeWord {
+    /// Not held.
+    Free,
+}
+
 /// How a form is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -9,6 +9,7 @@ pub fn path(kind: &str) -> Option<&'static str> {
         "flatness" => "M1 13 5 3h10l-4 10z",
         "roundness" => "M14 8a6 6 0 1 1-12 0 6 6 0 0 1 12 0",
         "cylindricity" => "M12 8a4 4 0 1 1-8 0 4 4 0 0 1 8 0M1 14 5.5 2M10.5 14 15 2",
+        "line-profile" => "M1.5 12a6.5 6.5 0 0 1 13 0",
         "surface-profile" => "M1.5 12h13a6.5 6.5 0 0 0-13 0z",
         "parallelism" => "M2.5 14 7.5 2M8.5 14l5-12",
         "perpendicularity" => "M1 14h14M8 14V2",

@@ -1,4 +1,4 @@
-// Every check of the page: a name and what it does in a browser session.
+// Every check of the page: a name and what it does in a browser session. `alone` are those that ask when something is drawn.
 import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { curvature } from './curvature.mjs'
@@ -19,4 +19,5 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...pace, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...words, ...layout]
+export const alone = pace
