@@ -17,11 +17,13 @@ mod clouds;
 mod numbers;
 mod plan;
 mod sections;
+mod trends;
 
 pub use answers::{check_document, check_page, curvature_page, defects, fit_page, lobed_cylinder};
 pub use answers::{repair_page, surface_page, torus};
 pub use clouds::page as cloud_page;
 use numbers::{histogram, quantile, sorted, statistics};
+pub use trends::{Found, page as trend_page, parts as trend_parts, spoken, trend};
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -56,6 +58,7 @@ fn main() {
     answers::write_all(folder);
     clouds::write_all(folder);
     sections::write_all(folder);
+    trends::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 
