@@ -23,7 +23,6 @@ pub use answers::{check_document, check_page, curvature_page, defects, fit_page,
 pub use answers::{repair_page, surface_page, torus};
 pub use clouds::page as cloud_page;
 use numbers::{histogram, quantile, sorted, statistics};
-pub use trends::{Found, page as trend_page, parts as trend_parts, spoken, trend};
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use trueness_geom::num::random::Random;
-use trueness_inspect::report::{Answer, Language, ReportInput, ReportOptions};
+use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::inspect::{
     AlignmentRecord, CharacteristicRecord, Counts, InspectDocument, PlanRecord, SCHEMA,
 };
@@ -18,17 +18,12 @@ pub fn write_all(folder: &Path) {
 }
 
 /// The report of a trend.
-pub fn page(document: &TrendDocument, options: &ReportOptions) -> Vec<u8> {
+fn page(document: &TrendDocument, options: &ReportOptions) -> Vec<u8> {
     super::bytes(&ReportInput { result: Answer::Trend(document), objects: &[], marks: &[], options })
 }
 
-/// The same page in another language.
-pub fn spoken(document: &TrendDocument, language: Language) -> Vec<u8> {
-    page(document, &ReportOptions { language, ..ReportOptions::default() })
-}
-
 /// What was found of a characteristic on a part.
-pub struct Found {
+struct Found {
     id: &'static str,
     kind: &'static str,
     limits: (Option<f64>, f64),
@@ -37,7 +32,7 @@ pub struct Found {
 }
 
 /// One result a part.
-pub fn trend(parts: &[Vec<Found>]) -> TrendDocument {
+fn trend(parts: &[Vec<Found>]) -> TrendDocument {
     let input = |n: usize| ResultInput {
         path: format!("results/part-{n:03}.json"),
         format: SCHEMA.into(),
@@ -51,7 +46,7 @@ pub fn trend(parts: &[Vec<Found>]) -> TrendDocument {
 
 /// Fourteen parts: one too high, one undecided, one not measured, a drift; values that are all alike; a limit that is far off;
 /// limits of a material requirement; an angle; a name that would be markup.
-pub fn parts() -> Vec<Vec<Found>> {
+fn parts() -> Vec<Vec<Found>> {
     let heights =
         [10.02, 10.05, 9.98, 10.01, 10.11, 10.03, 9.96, 10.0, 10.02, 10.05, 10.21, 10.04, 10.0, 10.01];
     let one = |(n, height): (usize, &f64)| {

@@ -68,7 +68,9 @@ fn geometry(x: &mut Xml, f: &FeatureRecord) {
             leaf(x, "Form", form);
         }
         "cone" => {
-            axis(x, "apex");
+            // The diameter is that at the axis point.
+            axis(x, "point");
+            leaf(x, "Diameter", twice("radius"));
             leaf(x, "HalfAngle", one(f, "half_angle").map(|a| decimal(a.to_degrees())));
             leaf(x, "Form", form);
         }

@@ -78,7 +78,8 @@ impl Axes {
 
     /// Round values that are written beside it, with the digits that they need.
     pub fn ticks(&self) -> (Vec<f64>, usize) {
-        let rough = (self.to - self.from) / 5.0;
+        // Steps grow by at most 2.5: three ticks at least, eight at most.
+        let rough = (self.to - self.from) / 7.5;
         let power = libm::pow(10.0, libm::log10(rough).floor());
         let step =
             [1.0, 2.0, 5.0, 10.0].into_iter().map(|s| s * power).find(|s| *s >= rough).unwrap_or(rough);
