@@ -50,8 +50,8 @@ const RUNS: &[(&str, &str)] = &[
     ("surface", "surface franke_400_noise.txt --spans 6x6 --json ….json --step ….step --iges ….igs"),
     ("surface_tolerance", "surface franke_400_noise.txt --tolerance 0.5 --json ….json"),
     ("curvature", "curvature zipper_res3.ply --json ….json --out ….npz"),
-    ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml"),
-    ("trend", "trend inspect.json inspect.json --json ….json --csv ….csv"),
+    ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml --qif ….qif"),
+    ("trend", "trend inspect.json inspect.json --json ….json --csv ….csv --html ….html"),
 ];
 
 /// All that is written, by file: its hash.

@@ -87,6 +87,29 @@ fn a_course_is_told() {
     assert!(table.contains("pass: 6 parts, 6 of them pass; in control"), "{table}");
 }
 
+/// The page holds the same document, and its charts without any script.
+#[test]
+fn a_report_is_written() {
+    let folder = Folder::new();
+    let files = results(&folder, &[10.0, 10.1, 9.9, 11.0]);
+    let [html, json] = ["trend.html", "trend.json"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let mut words = vec!["trend", "--html", &html, "--json", &json, "--lang", "de"];
+    words.extend(files.iter().map(String::as_str));
+    let o = trueness(words);
+    assert_eq!(status(&o), 1, "{}", stderr(&o));
+    let page = std::fs::read_to_string(&html).unwrap();
+    let manifest = page.split_once("id=\"manifest\">").unwrap().1.split_once("</script>").unwrap().0;
+    let manifest: Value = serde_json::from_str(manifest).unwrap();
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    assert_eq!(manifest["result"], document);
+    assert_eq!(document["characteristics"][0]["verdicts"][3], "fail");
+    assert_eq!(page.matches("<figure class=\"chart\"").count(), 2);
+    assert!(page.contains("Eingriff") && page.contains("Nicht in Ordnung"));
+    // A result is never written over.
+    let over = trueness(["trend", &files[0], &files[1], "--html", &files[1]]);
+    assert_eq!(status(&over), 2, "{}", stderr(&over));
+}
+
 #[test]
 fn parts_out_of_control_are_named() {
     let folder = Folder::new();

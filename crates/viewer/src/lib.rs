@@ -13,6 +13,7 @@ pub const STYLE: &str = concat!(
     include_str!("../web/style/page.css"),
     include_str!("../web/style/stage.css"),
     include_str!("../web/style/plan.css"),
+    include_str!("../web/style/charts.css"),
     include_str!("../web/style/print.css"),
 );
 /// The words of the page: lines of `key`, English, German, Russian and Chinese, parted by tabs.

@@ -6,12 +6,14 @@ use crate::exit::Outcome;
 use crate::number::{counted, fixed, six_digits};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
+use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use trueness_inspect::report::Answer;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
@@ -27,7 +29,7 @@ const LONGEST: u64 = 256 << 20;
 #[command(after_help = "\
 Examples:
   trueness trend part-01.json part-02.json part-03.json
-  trueness trend results/*.json --json trend.json --csv trend.csv")]
+  trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html")]
 pub struct TrendArgs {
     /// Results of `trueness inspect --json`, one part each, in their order
     #[arg(required = true)]
@@ -37,13 +39,18 @@ pub struct TrendArgs {
     /// Write the characteristics as a table, one line each
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 impl Run for TrendArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of(&self.results).document(self.document.json.as_ref()).also("--csv", self.csv.as_ref()))
+        Ok(RunFiles::of(&self.results)
+            .document(self.document.json.as_ref())
+            .report(self.report.html.as_ref())
+            .also("--csv", self.csv.as_ref()))
     }
-    fn run(&self, _: &Common) -> anyhow::Result<Outcome> {
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let read = self.results.iter().map(|path| read(path));
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
@@ -55,6 +62,7 @@ impl Run for TrendArgs {
             let text = csv(&document);
             whole_file(path, |file| file.write_all(text.as_bytes()))?;
         }
+        self.report.write(Answer::Trend(&document), &[], &[], common.progress)?;
         self.document.write(&document)?;
         self.document.table(|| table(&document))?;
         let well = document.verdict == Verdict::Pass && document.in_control;

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import meshio
 import numpy as np
@@ -329,6 +330,51 @@ def along(segment, shares):
     return np.array([basis(knots, segment["degree"], knots[0] + t * (knots[-1] - knots[0])) @ control for t in shares])
 
 
+def qif(folder):
+    """The characteristics of `inspect --qif` by Python's XML reader: what refers to what, values and verdicts as in the document."""
+    plan = CORPUS / "examples" / "plate" / "plate.toml"
+    run("inspect", plan, "--qif", folder / "r.qif", "--json", folder / "r.json")
+    document = json.loads((folder / "r.json").read_text())
+    root = ElementTree.parse(folder / "r.qif").getroot()
+    space = "{http://qifstandards.org/xsd/qif3}"
+    named = {e.get("id"): e for e in root.iter() if e.get("id")}
+    assert len(named) == sum(1 for e in root.iter() if e.get("id")), "every number stands once"
+    assert max(map(int, named)) == int(root.get("idMax"))
+    for e in root.iter():
+        if e.get("n"):
+            # Attributes and lists count what they hold.
+            assert int(e.get("n")) == len(e), e.tag
+    text = lambda e, name: e.findtext(space + name)
+    found = [e for e in root.iter() if e.tag.endswith("CharacteristicMeasurement")]
+    status = {"pass": "PASS", "fail": "FAIL", "undecided": "INDETERMINATE", "not_measured": "NOT_ANALYZED"}
+    for c, e in zip(document["characteristics"], found):
+        item = named[text(e, "CharacteristicItemId")]
+        nominal = named[text(item, "CharacteristicNominalId")]
+        definition = named[text(nominal, "CharacteristicDefinitionId")]
+        kinds = {x.tag.removeprefix(space).split("Characteristic")[0] for x in (e, item, nominal, definition)}
+        assert len(kinds) == 1 and text(item, "Name") == c["id"], (c["id"], kinds)
+        value = text(e, "Value")
+        assert (None if value is None else float(value)) == c["value"], c["id"]
+        assert e.findtext(f"{space}Status/{space}CharacteristicStatusEnum") == status[c["verdict"]], c["id"]
+        limit = definition.find(f"{space}Tolerance")
+        if limit is not None:
+            bounds = [text(limit, k) for k in ("MaxValue", "MinValue")]
+            assert [x and float(x) for x in bounds] == [c["upper"], c["lower"]], c["id"]
+        elif kinds != {"UserDefinedAttribute"}:
+            assert float(text(definition, "ToleranceValue")) == (c["tolerance"] or c["upper"]), c["id"]
+        features = [text(named[i.text], "FeatureName") for i in e.find(f"{space}FeatureMeasurementIds")]
+        assert features[0] in c["feature"], (c["id"], features)
+    held = [e for e in root.iter() if e.tag.endswith("FeatureMeasurement")]
+    assert [text(e, "FeatureName") for e in held] == [f["id"] for f in document["features"]]
+    for f, e in zip(document["features"], held):
+        radius = (f["parameters"] or {}).get("radius")
+        if radius is not None:
+            assert float(text(e, "Diameter")) == 2 * radius, f["id"]
+    files = [e.text for e in root.iter(space + "Description") if "SHA-256" in (e.text or "")]
+    assert document["plan"]["sha256"] in files[0], files
+    print(f"QIF: {len(document['characteristics'])} characteristics, {len(held)} features")
+
+
 def sections(folder):
     """STEP and IGES files of `section` are the same lines, arcs and B-splines at the same places in space for Open CASCADE."""
     random = np.random.default_rng(8)
@@ -381,6 +427,6 @@ def sections(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for check in (deviations, reasons, meshes, regions, surfaces, foreign_surfaces, sections):
+    for check in (deviations, reasons, meshes, regions, surfaces, foreign_surfaces, sections, qif):
         check(Path(scratch))
         print(f"ok    {check.__name__}: {check.__doc__}")

@@ -17,6 +17,7 @@ mod clouds;
 mod numbers;
 mod plan;
 mod sections;
+mod trends;
 
 pub use answers::{check_document, check_page, curvature_page, defects, fit_page, lobed_cylinder};
 pub use answers::{repair_page, surface_page, torus};
@@ -56,6 +57,7 @@ fn main() {
     answers::write_all(folder);
     clouds::write_all(folder);
     sections::write_all(folder);
+    trends::write_all(folder);
     write(folder, "million", &sphere(1000), tolerance, "sphere.stl", "nominal.stl");
 }
 

@@ -208,6 +208,11 @@ pub struct CharacteristicRecord {
 }
 
 impl CharacteristicRecord {
+    /// The toleranced features: one, or two planes of a size.
+    pub fn features(&self) -> Vec<&str> {
+        self.feature.split(JOINED).collect()
+    }
+
     /// Tolerance and sign of a material requirement, where the greatest allowed value is not the tolerance alone.
     pub fn requirement(&self) -> Option<(f64, &str)> {
         let signs = [MaterialWord::M, MaterialWord::L].map(MaterialWord::symbol);

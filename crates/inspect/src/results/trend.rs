@@ -1,8 +1,8 @@
 //! `trueness/trend/1`: one plan over many parts.
 
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
-use super::overall;
-use super::{UNITS, VERSION, Verdict};
+use super::verdict::rank;
+use super::{UNITS, VERSION, Verdict, overall};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::stats::process::{Course, Index, Rule};
@@ -61,6 +61,9 @@ pub struct PartRecord {
     pub name: String,
     /// Its verdict.
     pub verdict: Verdict,
+    /// That on its deviations from the reference; absent where they were not judged.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub deviation: Option<Verdict>,
 }
 
 /// A characteristic over all parts.
@@ -86,6 +89,14 @@ pub struct TrendRecord {
     pub upper: Option<f64>,
     /// Its value of each part; null where it was not measured.
     pub values: Vec<Option<f64>>,
+    /// Its verdict on each part.
+    pub verdicts: Vec<Verdict>,
+    /// Expanded uncertainty (k = 2) of each value; absent where no value has one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncertainties: Option<Vec<Option<f64>>>,
+    /// Greatest allowed value of each part, where a material requirement allows each its own; else absent.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub own_upper: Option<Vec<f64>>,
     /// Number of parts by verdict.
     pub counts: Counts,
     /// Number of values.
@@ -233,7 +244,8 @@ impl TrendDocument {
         }
         let name = |(n, d): (usize, &InspectDocument)| {
             let of_result = inputs.get(n).map_or_else(String::new, |i| i.path.clone());
-            PartRecord { name: d.inputs.first().map_or(of_result, |i| i.path.clone()), verdict: d.verdict }
+            let name = d.inputs.first().map_or(of_result, |i| i.path.clone());
+            PartRecord { name, verdict: d.verdict, deviation: d.deviation.as_ref().and_then(|c| c.verdict) }
         };
         let parts: Vec<PartRecord> = results.iter().enumerate().map(name).collect();
         let records = (0..first.characteristics.len()).map(|n| {
@@ -254,6 +266,43 @@ impl TrendDocument {
             confidence: CONFIDENCE,
             characteristics,
         })
+    }
+
+    /// Numbers of the characteristics in the order in which people look at them: by their worst verdict, then by how many
+    /// parts have it, then what is out of control, then the least of Ppk.
+    pub fn rows(&self) -> Vec<usize> {
+        let of = |n: &usize| {
+            let c = &self.characteristics[*n];
+            let worst = c.verdict();
+            let have = c.verdicts.iter().filter(|v| **v == worst && worst != Verdict::Pass).count();
+            let last = (c.out_of_control.is_empty(), c.ppk.map_or(f64::INFINITY, |i| i.value));
+            (std::cmp::Reverse((rank(worst), have)), last)
+        };
+        let mut rows: Vec<usize> = (0..self.characteristics.len()).collect();
+        rows.sort_by(|a, b| {
+            let (a, b) = (of(a), of(b));
+            a.0.cmp(&b.0).then(a.1.0.cmp(&b.1.0)).then(a.1.1.total_cmp(&b.1.1))
+        });
+        rows
+    }
+
+    /// Numbers of the parts in the order in which people look at them: by verdict, then by how many characteristics have it.
+    pub fn worst_parts(&self) -> Vec<usize> {
+        let of = |n: &usize| {
+            let worst = self.parts[*n].verdict;
+            let have = self.characteristics.iter().filter(|c| c.verdicts.get(*n) == Some(&worst)).count();
+            std::cmp::Reverse((rank(worst), if worst == Verdict::Pass { 0 } else { have }))
+        };
+        let mut parts: Vec<usize> = (0..self.parts.len()).collect();
+        parts.sort_by_cached_key(of);
+        parts
+    }
+}
+
+impl TrendRecord {
+    /// The worst verdict of all parts.
+    pub fn verdict(&self) -> Verdict {
+        overall(self.verdicts.iter().copied())
     }
 }
 
@@ -314,6 +363,7 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
     };
     let number = |f: fn(&Course) -> f64| course.as_ref().map(f);
     let least = |pick: fn(f64, f64) -> f64| there.iter().copied().reduce(pick);
+    let uncertainties: Vec<Option<f64>> = of.iter().map(|c| c.uncertainty).collect();
     TrendRecord {
         id: first.id.clone(),
         kind: first.kind.clone(),
@@ -324,6 +374,9 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
         nominal: first.nominal,
         lower: first.lower,
         upper,
+        verdicts: of.iter().map(|c| c.verdict).collect(),
+        uncertainties: Some(uncertainties).filter(|all| all.iter().any(Option::is_some)),
+        own_upper: own_limits.then(|| of.iter().map(|c| c.upper).collect()),
         counts: Counts {
             pass: count(Verdict::Pass),
             fail: count(Verdict::Fail),

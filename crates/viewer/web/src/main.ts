@@ -1,6 +1,7 @@
 import { el, need } from './dom'
 import { readManifest } from './manifest'
 import { announcer } from './page/announce'
+import { openCharts } from './page/charts'
 import { keys } from './page/keys'
 import { keepView, restoreView } from './page/link'
 import { list } from './page/list'
@@ -24,7 +25,8 @@ headerTools(words, state)
 if (manifest.scale) scaleColumn(state, words)
 const rows = list(state)
 announcer(state)
-if (state.planar) openPlan(state, words, rows.step)
+if (state.charted) openCharts(state, words, rows.step)
+else if (state.planar) openPlan(state, words, rows.step)
 else void openStage()
 
 /** Puts the 3D stage over the stored picture; where that fails the picture stays, with the reason. */

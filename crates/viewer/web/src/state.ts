@@ -67,6 +67,11 @@ export class State {
     return this.manifest.first === null
   }
 
+  /** The page has charts, and nothing to move. */
+  get charted(): boolean {
+    return document.getElementById('charts') !== null
+  }
+
   /** There are surfaces, whose inner side can be shown. */
   get meshes(): boolean {
     return this.manifest.objects.some((o) => o.kind === 'mesh' && o.role !== 'element')

@@ -6,15 +6,15 @@ use trueness_inspect::results::compare::ToleranceShares;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
 /// What distinguishes the part: its measured file, or the plan's.
-fn part(document: &InspectDocument) -> &str {
+pub(super) fn part(document: &InspectDocument) -> &str {
     document.inputs.first().map_or(&document.plan.path, |i| &i.path)
 }
 
 /// What the deviations from the reference are called beside the characteristics.
-const DEVIATION: &str = "deviation";
+pub(super) const DEVIATION: &str = "deviation";
 
 /// The deviations from the reference, where they are judged: the share of points within the tolerance.
-fn judged(document: &InspectDocument) -> Option<(&ToleranceShares, Verdict)> {
+pub(super) fn judged(document: &InspectDocument) -> Option<(&ToleranceShares, Verdict)> {
     let deviation = document.deviation.as_ref()?;
     Some((deviation.tolerance.as_ref()?, deviation.verdict?))
 }
@@ -147,7 +147,7 @@ fn case(class: &str, name: &str, verdict: Verdict, said: &str) -> String {
 }
 
 /// Text for an attribute of XML 1.0; characters that it cannot hold become U+FFFD.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

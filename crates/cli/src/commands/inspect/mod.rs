@@ -2,6 +2,7 @@
 
 mod files;
 mod lists;
+mod qif;
 mod table;
 
 use crate::command::Run;
@@ -32,7 +33,8 @@ use trueness_inspect::results::inspect::InspectDocument;
 Examples:
   trueness inspect bracket.toml
   trueness inspect bracket.toml --measured scan-0815.stl --json result.json --html report.html
-  trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml")]
+  trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml
+  trueness inspect bracket.toml --qif results.qif")]
 pub struct InspectArgs {
     /// The plan; paths in it are relative to it
     plan: PathBuf,
@@ -47,6 +49,9 @@ pub struct InspectArgs {
     /// Write the verdicts as JUnit XML, for continuous integration
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+    /// Write characteristics, features, values and verdicts as QIF 3.0 results (ISO 23952)
+    #[arg(long, value_name = "FILE")]
+    qif: Option<PathBuf>,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -73,7 +78,8 @@ impl Run for InspectArgs {
             .document(self.document.json.as_ref())
             .report(self.report.html.as_ref())
             .also("--csv", self.csv.as_ref())
-            .also("--junit", self.junit.as_ref()))
+            .also("--junit", self.junit.as_ref())
+            .also("--qif", self.qif.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         run(self, common)
@@ -82,7 +88,8 @@ impl Run for InspectArgs {
 
 fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
     if args.measured.len() > 1 && (args.document.json.is_some() || args.report.html.is_some()) {
-        let what = "--json and --html hold one part; give one --measured, or --csv and --junit for all";
+        let what =
+            "--json and --html hold one part; give one --measured, or --csv, --junit and --qif for all";
         return Err(Usage(what.into()).into());
     }
     let plan = PlanFile::read(&args.plan)?;
@@ -103,6 +110,10 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     if let Some(path) = &args.junit {
         let text = lists::junit(&documents);
+        whole_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    if let Some(path) = &args.qif {
+        let text = qif::qif(&documents);
         whole_file(path, |file| file.write_all(text.as_bytes()))?;
     }
     let pass = documents.iter().all(|d| d.verdict == Verdict::Pass);

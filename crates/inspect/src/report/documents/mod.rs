@@ -11,6 +11,7 @@ mod section;
 mod segment;
 mod subject;
 mod surface;
+mod trend;
 
 pub use section::flat;
 pub use subject::{Drawn, Frame, Head, Map, Pick, Subject};
@@ -24,6 +25,7 @@ use crate::results::repair::RepairDocument;
 use crate::results::section::SectionDocument;
 use crate::results::segment::SegmentDocument;
 use crate::results::surface::SurfaceDocument;
+use crate::results::trend::TrendDocument;
 
 /// The document that a report is of; every number on the page is from it.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +48,8 @@ pub enum Answer<'a> {
     Segment(&'a SegmentDocument),
     /// Which surface lies through these points?
     Surface(&'a SurfaceDocument),
+    /// Does this process keep its tolerances, part by part?
+    Trend(&'a TrendDocument),
 }
 
 impl Answer<'_> {
@@ -61,6 +65,7 @@ impl Answer<'_> {
             Answer::Section(d) => *d,
             Answer::Segment(d) => *d,
             Answer::Surface(d) => *d,
+            Answer::Trend(d) => *d,
         }
     }
 }

@@ -97,6 +97,10 @@ pub trait Subject {
 
 /// A document that draws itself, in the plane.
 pub trait Drawn {
+    /// Classes of the page and of its stage.
+    fn classes(&self) -> [&'static str; 2] {
+        ["drawn", "flat"]
+    }
     /// Of the places of the objects how many are drawn in so many bytes, and how many there are.
     fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize);
     /// Writes the drawing, with as many places of the objects as `room` bytes hold.

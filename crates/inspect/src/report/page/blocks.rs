@@ -41,7 +41,8 @@ impl Tone {
         }
     }
 
-    fn icon(self) -> &'static str {
+    /// Its sign, beside which the word stands.
+    pub fn icon(self) -> &'static str {
         match self {
             Tone::Pass => "✓",
             Tone::Fail => "✕",
@@ -148,8 +149,11 @@ pub fn role_key(role: Role) -> &'static str {
     }
 }
 
-/// The files read.
+/// The files read; nothing where the document lists them itself.
 pub fn files(h: &mut Html, inputs: &[InputRecord]) {
+    if inputs.is_empty() {
+        return;
+    }
     section(h, "files", |h| inputs.iter().for_each(|input| file(h, input)));
 }
 

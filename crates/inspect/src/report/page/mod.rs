@@ -53,11 +53,11 @@ pub fn page(input: &ReportInput, payload: &Payload, on: &Stage, maps: &Value) ->
     h.raw("</title>\n<style>").raw(trueness_viewer::STYLE).raw("</style>\n");
     h.raw("<style>").raw(&running).raw("</style>\n</head>\n");
     let scale = subject.scale();
-    h.raw(match on {
-        Stage::Drawing(..) => "<body class=\"no-scale drawn\">\n",
-        Stage::Part(picture) if !picture.view.mapped => "<body class=\"no-scale\">\n",
-        Stage::Part(_) => "<body>\n",
-    });
+    match on {
+        Stage::Drawing(drawing, _) => h.raw(&format!("<body class=\"no-scale {}\">\n", drawing.classes()[0])),
+        Stage::Part(picture) if !picture.view.mapped => h.raw("<body class=\"no-scale\">\n"),
+        Stage::Part(_) => h.raw("<body>\n"),
+    };
     header::header(&mut h, input);
     h.raw("<main>\n<aside id=\"list\" class=\"list\">\n");
     subject.list(&mut h);
@@ -75,7 +75,7 @@ pub fn page(input: &ReportInput, payload: &Payload, on: &Stage, maps: &Value) ->
     match on {
         Stage::Part(picture) => stage(&mut h, input, picture),
         Stage::Drawing(drawing, room) => {
-            h.raw("<section id=\"stage\" class=\"stage flat\">\n");
+            h.raw(&format!("<section id=\"stage\" class=\"stage {}\">\n", drawing.classes()[1]));
             drawing.draw(&mut h, input.objects, *room);
             h.raw("</section>\n");
         }

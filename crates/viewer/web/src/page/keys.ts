@@ -55,16 +55,18 @@ export function keys(stage: Stage, state: State, words: Words, step: (by: number
 
 /** The list of all keys. */
 export function showKeys(words: Words, state: State): void {
-  const moves: [string, string][] = state.planar
+  const { charted } = state
+  const moves: [string, string][] = charted
+    ? [['← →', 'keys.parts']]
+    : state.planar
     ? [['← → ↑ ↓', 'keys.pan']]
     : [['← → ↑ ↓', 'keys.turn'], ['Shift ← → ↑ ↓', 'keys.pan'], ['1 … 7', 'tool.views']]
-  const own: [string, string][] = state.planar
+  const own: [string, string][] = charted ? [] : state.planar
     ? LAYERS.map(([, key, word]) => [key, word])
     : pageKeys(state).map((k) => [k.key, k.word])
   const rows: [string, string][] = [
     ...moves,
-    ['+ −', 'keys.zoom'],
-    ['F', 'tool.fit'],
+    ...(charted ? [] : ([['+ −', 'keys.zoom'], ['F', 'tool.fit']] as [string, string][])),
     ['J K', 'keys.next'],
     ...own,
     ['Esc', 'keys.escape'],
@@ -72,7 +74,7 @@ export function showKeys(words: Words, state: State): void {
   ]
   const list = el('dl', {}, ...rows.flatMap(([key, word]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, words.of(word))]))
   const close = el('button', { type: 'button' }, words.of('tool.close'))
-  const dialog = el('dialog', { class: 'keys' }, el('h2', {}, words.of('keys.title')), list, el('p', {}, words.of(state.planar ? 'keys.mouse.flat' : 'keys.mouse')), close)
+  const dialog = el('dialog', { class: 'keys' }, el('h2', {}, words.of('keys.title')), list, el('p', {}, words.of(charted ? 'keys.mouse.charts' : state.planar ? 'keys.mouse.flat' : 'keys.mouse')), close)
   close.addEventListener('click', () => dialog.close())
   dialog.addEventListener('close', () => dialog.remove())
   document.body.append(dialog)

@@ -15,9 +15,10 @@ import { reading } from './reading.mjs'
 import { repair } from './repair.mjs'
 import { scale } from './scale.mjs'
 import { segment } from './segment.mjs'
+import { trend } from './trend.mjs'
 import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...views, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...trend, ...views, ...words, ...layout]
 export const alone = pace

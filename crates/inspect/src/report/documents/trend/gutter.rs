@@ -1,0 +1,92 @@
+//! What the lines of a chart are: words and values beside it, each with a stroke to its line.
+
+use super::super::super::html::Html;
+use super::super::super::text::word;
+use super::axes::{Axes, HEIGHT, needed};
+use crate::results::trend::TrendRecord;
+
+/// Width, and height of a label, in pixels.
+const WIDTH: f64 = 132.0;
+const LABEL: f64 = 14.0;
+/// Length of the strokes.
+const STROKE: f64 = 16.0;
+
+/// A line of the chart and what it is called.
+pub struct Line {
+    /// Its class, and what its word begins with.
+    pub name: &'static str,
+    /// Key of its word.
+    key: &'static str,
+    /// Its value.
+    pub value: f64,
+    decimals: usize,
+}
+
+/// The lines of a chart; those of limits that are too far off are not in it, but named.
+pub fn lines(c: &TrendRecord, axes: &Axes) -> Vec<Line> {
+    let line = |name, key, value: Option<f64>, trim: bool| {
+        let decimals = |v| if trim { needed(v, axes.decimals) } else { axes.decimals };
+        value.map(|value| Line { name, key, value, decimals: decimals(value) })
+    };
+    let control = c.control.as_ref();
+    let course = control.is_some();
+    let all = [
+        line("limit", "chart.limit", c.upper, true),
+        line("limit", "chart.limit", c.lower, true),
+        line("nominal", "chart.nominal", c.nominal, true),
+        line("mean", "chart.mean", c.mean.filter(|_| course), false),
+        line("control", "chart.control", control.map(|k| k.upper), false),
+        line("control", "chart.control", control.map(|k| k.lower), false),
+    ];
+    let mut all: Vec<Line> = all.into_iter().flatten().collect();
+    // Nothing varies: one line, one label.
+    if control.is_some_and(|k| k.lower == k.upper) {
+        all.retain(|l| l.name != "control");
+    }
+    all
+}
+
+/// Writes the labels, each as near to its line as the others let it.
+pub fn gutter(h: &mut Html, axes: &Axes, lines: &[Line]) {
+    h.raw(&format!(
+        "<svg class=\"gutter\" width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\">"
+    ));
+    let mut order: Vec<(&Line, f64)> =
+        lines.iter().map(|l| (l, axes.y(l.value, HEIGHT).clamp(0.0, HEIGHT))).collect();
+    order.sort_by(|a, b| b.0.value.total_cmp(&a.0.value));
+    let mut middles: Vec<f64> = Vec::new();
+    let mut free = 0.0;
+    for (_, y) in &order {
+        let top = f64::max(free, y - 0.5 * LABEL);
+        middles.push(top + 0.5 * LABEL);
+        free = top + LABEL;
+    }
+    let mut limit = HEIGHT;
+    for middle in middles.iter_mut().rev() {
+        *middle = middle.min(limit - 0.5 * LABEL);
+        limit = *middle - 0.5 * LABEL;
+    }
+    for ((line, y), middle) in order.iter().zip(middles) {
+        let arrow = match axes.holds(line.value) {
+            true => {
+                h.raw(&format!("<path class=\"{}\" d=\"M0 {y:.2}L{STROKE} {middle:.2}\"/>", line.name));
+                ""
+            }
+            false if line.value > axes.to => "↑ ",
+            false => "↓ ",
+        };
+        let x = STROKE + 3.0;
+        h.raw(&format!("<text class=\"{}\" x=\"{x}\" y=\"{middle:.2}\">{arrow}", line.name));
+        h.raw(&format!("<tspan data-t=\"{}\">", line.key));
+        h.text(word(line.key, h.language())).raw("</tspan> ");
+        number(h, "tspan", "", line.value, line.decimals);
+        h.raw("</text>");
+    }
+    h.raw("</svg>");
+}
+
+/// A number in a drawing, which the script can write in another language's way.
+pub fn number(h: &mut Html, element: &str, attributes: &str, value: f64, decimals: usize) {
+    let text = h.style.fixed(value, decimals);
+    h.raw(&format!("<{element}{attributes} data-n=\"{value}\" data-d=\"{decimals}\">{text}</{element}>"));
+}
