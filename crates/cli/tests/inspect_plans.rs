@@ -121,7 +121,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "kind = \"flatness\"",
         "kind = \"line-profile\"",
-        "line 26, column 8: line-profile: it needs `intersection`",
+        "line 27, column 11: line-profile: its feature needs `nominal`, the theoretically exact surface",
     ),
     fault(
         "shape = \"cylinder\"",

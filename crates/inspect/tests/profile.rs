@@ -94,24 +94,24 @@ fn what_a_profile_needs_is_asked_for() {
         let e = Plan::parse(&text(feature, lines)).unwrap_err().to_string();
         assert!(e.contains(told), "{e}");
     };
-    fault(FLOOR, "kind = \"line-profile\"\n", "line 10, column 8: line-profile: it needs `intersection`");
+    fault(FLOOR, "kind = \"line-profile\"\n", "line 11, column 8: line-profile: it needs `intersection`");
     fault(
         FLOOR,
         "kind = \"line-profile\"\nintersection = [0, 0, 1]\n",
-        "line 11, column 16: line-profile: the intersection planes lie along",
+        "line 12, column 16: line-profile: the intersection planes lie along",
     );
     fault(
         FLOOR,
         "kind = \"line-profile\"\nintersection = [0, 0, 0]\n",
-        "line 11, column 16: the normal of the intersection planes",
+        "line 12, column 16: the normal of the intersection planes",
     );
     fault(
         BORE,
         "kind = \"surface-profile\"\noffset = 0.05\n",
         "an offset is counted out of the material; give its feature `internal",
     );
-    fault(FLOOR, "kind = \"surface-profile\"\noffset = \"fre\"\n", "line 11, column 10");
-    fault(FLOOR, "kind = \"surface-profile\"\noffset = nan\n", "line 11, column 10: the offset is NaN");
-    fault(FLOOR, "kind = \"flatness\"\noffset = 0.1\n", "line 11, column 10: flatness takes no `offset`");
+    fault(FLOOR, "kind = \"surface-profile\"\noffset = \"fre\"\n", "line 12, column 10");
+    fault(FLOOR, "kind = \"surface-profile\"\noffset = nan\n", "line 12, column 10: the offset is NaN");
+    fault(FLOOR, "kind = \"flatness\"\noffset = 0.1\n", "line 12, column 10: flatness takes no `offset`");
     fault("shape = \"cylinder\"\n", "kind = \"surface-profile\"\n", "needs `nominal`");
 }
