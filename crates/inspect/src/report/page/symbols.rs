@@ -38,6 +38,14 @@ mod tests {
     use crate::characteristic::ALL;
 
     #[test]
+    fn every_kind_has_its_words() {
+        for kind in ALL {
+            let key = format!("\nkind.{}\t", kind.word());
+            assert!(trueness_viewer::TEXTS.contains(&key), "{}", kind.word());
+        }
+    }
+
+    #[test]
     fn every_sign_of_a_drawing_can_be_drawn() {
         for kind in ALL {
             assert_eq!(path(kind.word()).is_some(), !kind.symbol().is_empty(), "{}", kind.word());
