@@ -25,7 +25,8 @@ fn plan() -> String {
          [[characteristic]]\nid = \"4\"\nkind = \"texture\"\nfeature = \"A\"\nparameter = \"Sku\"\ntolerance = 9\n\
          [[characteristic]]\nid = \"5\"\nkind = \"flatness\"\nfeature = \"none\"\ntolerance = 0.02\n\
          [[characteristic]]\nid = \"6\"\nkind = \"size\"\nfeature = \"bore\"\nsize = \"GG\"\nnominal = 8\nupper = 0.1\nlower = -0.1\n\
-         [[characteristic]]\nid = \"7\"\nkind = \"perpendicularity\"\nfeature = \"bore\"\ndatums = [\"A\"]\ntolerance = 0.05\nmaterial = \"M\"\n"
+         [[characteristic]]\nid = \"7\"\nkind = \"perpendicularity\"\nfeature = \"bore\"\ndatums = [\"A\"]\ntolerance = 0.05\nmaterial = \"M\"\n\
+         [[characteristic]]\nid = \"8\"\nkind = \"straightness\"\nfeature = \"bore\"\ntolerance = 0.05\nmaterial = \"M\"\n"
     )
 }
 
@@ -68,6 +69,7 @@ fn every_characteristic_is_there_with_its_value_status_and_kind() {
         "Flatness",
         "Diameter",
         "Perpendicularity",
+        "Straightness",
     ];
     let all = json["characteristics"].as_array().unwrap();
     assert_eq!(all.len(), kinds.len());
@@ -103,10 +105,10 @@ fn every_characteristic_is_there_with_its_value_status_and_kind() {
     }
     // The standard uncertainty is half the expanded one.
     assert!(qif.contains("<Value combinedUncertainty=\"0.01\">"), "{qif}");
-    assert!(
-        qif.contains("<MaterialCondition>MAXIMUM</MaterialCondition>") && qif.contains("<Bonus>"),
-        "{qif}"
-    );
+    // Both tolerances with a material requirement say so, and have their bonus.
+    for start in ["<MaterialCondition>MAXIMUM<", "<Bonus>"] {
+        assert_eq!(between(&qif, start, "/").len(), 2, "{start} {qif}");
+    }
     assert!(qif.contains("name=\"reason\""), "{qif}");
 }
 

@@ -83,6 +83,7 @@ fn sections_are_held_or_free() {
     close(value(FLOOR, &slanted, points()), 0.062 / (PI / 3.0).sin());
     let found = measured(FLOOR, &lines(""), points());
     assert_eq!((found.parts["sections"], found.symbol.as_str()), (3.0, "⌒"));
+    assert!(found.modifiers.contains(&"planes across (0, 1, 0)".to_string()), "{:?}", found.modifiers);
     // Too few points of any section.
     let few = measured(FLOOR, &lines(""), row(0.0, 0.0).take(3).collect());
     assert!(few.value.is_none() && few.reason.unwrap().contains("points"));

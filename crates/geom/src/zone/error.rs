@@ -17,6 +17,9 @@ pub enum ZoneError {
     /// The direction of the zone or of the datum has no length.
     #[error("a direction has no length")]
     NoDirection,
+    /// Points of two planes that are too few, or all in one line.
+    #[error("the points of the two planes determine no parallel planes")]
+    NoPlanes,
     /// The search did not settle.
     #[error("the zone was not found: the search did not settle")]
     NotSettled,

@@ -20,7 +20,7 @@ pub struct Opposite {
 
 /// The size of two opposite planes from their points (mm), by ISO 14405-1:2016, 3.7: the distance of the two parallel planes
 ///
-/// - with the least sum of squares (`Gaussian`, GG);
+/// - with the least sum of squares (`Gaussian`, GG; also for `Robust`, of which there is no size);
 /// - that are the nearest with all points between them (`MinimumCircumscribed`, GN);
 /// - that are the farthest with all points outside of them (`MaximumInscribed`, GX): the first plane's points on one side, the
 ///   second's on the other;
@@ -30,7 +30,7 @@ pub struct Opposite {
 /// two to five passes.
 ///
 /// # Errors
-/// Points that determine no direction (see [`parallel_planes`]), a coordinate that is no number, a search that does not
+/// [`ZoneError::NoPlanes`] where the points determine no direction (see [`parallel_planes`]), a coordinate that is no number, a search that does not
 /// settle, [`ZoneError::Cancelled`].
 ///
 /// ```
@@ -51,13 +51,13 @@ pub fn opposite_planes(
     progress: &dyn Progress,
 ) -> Result<Opposite, ZoneError> {
     let Some((normal, distance)) = parallel_planes(first, second) else {
-        return Err(ZoneError::NoDirection);
+        return Err(ZoneError::NoPlanes);
     };
-    if method == Method::Gaussian {
+    if matches!(method, Method::Gaussian | Method::Robust) {
         return Ok(Opposite { normal, distance });
     }
     let points: Vec<Point> = first.iter().chain(second).copied().collect();
-    let start = Rigid::into_frame(points[0], normal, least_axis(normal)).ok_or(ZoneError::NoDirection)?;
+    let start = Rigid::into_frame(points[0], normal, least_axis(normal)).ok_or(ZoneError::NoPlanes)?;
     // Out of the space between the planes is above 0, for the inscribed pair into it.
     let inscribed = method == Method::MaximumInscribed;
     let height = |i: usize, p: Point| {

@@ -8,12 +8,12 @@ const SECTIONS: usize = 24;
 const POINTS: usize = 24;
 /// Fewest points of a ring.
 pub(super) const FEWEST: usize = 6;
-/// Share of the extent along the direction that separates two rings.
+/// Share of the extent along the direction that separates two rings, and that none is higher than.
 const APART: f64 = 0.01;
 
 /// The sections of points (mm) across a direction (of length 1), each by the indices of its points, in the order along it.
 ///
-/// Points that were taken in rings or rows across the direction, at least three with six points each, have a section for each;
+/// Points that were taken in thin rings or rows across the direction, at least three with six points each, have a section for each;
 /// others are sorted into up to 24 sections of equal height with 24 points or more on average. A point that is not finite
 /// belongs to none. Cost: `n log n`.
 ///
@@ -42,7 +42,9 @@ type Heights = [(f64, usize)];
 fn rings(sorted: &Heights) -> Option<Vec<&Heights>> {
     let extent = sorted.last()?.0 - sorted.first()?.0;
     let found: Vec<&Heights> = sorted.chunk_by(|a, b| b.0 - a.0 <= APART * extent).collect();
-    (found.len() >= 3 && found.iter().all(|ring| ring.len() >= FEWEST)).then_some(found)
+    // What is between two gaps of a scan is no ring.
+    let thin = |ring: &Heights| ring[ring.len() - 1].0 - ring[0].0 <= APART * extent;
+    (found.len() >= 3 && found.iter().all(|ring| ring.len() >= FEWEST && thin(ring))).then_some(found)
 }
 
 /// Sections of equal height; some may have no points.
@@ -71,6 +73,10 @@ mod tests {
             assert!(below.iter().all(|b| above.iter().all(|a| b < a)));
             assert!((41..=42).contains(&below.len()));
         }
+        // Two grooves without points make no three rings of a scan.
+        let grooved: Vec<Point> =
+            points.iter().copied().filter(|p| !(300..340).contains(&(p[2] as i64 % 1000 % 600))).collect();
+        assert_eq!(sections(&grooved, [0.0, 0.0, 1.0]).len(), 24);
         assert_eq!(sections(&[[f64::NAN, 0.0, 0.0]], [0.0, 0.0, 1.0]), Vec::<Vec<usize>>::new());
     }
 }

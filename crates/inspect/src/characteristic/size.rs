@@ -9,7 +9,7 @@ use trueness_geom::fit::Method;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::zone::datum::mean;
 use trueness_geom::zone::{
-    TwoPoint, opposite_planes, parallel_planes, two_point_diameters, two_point_distances,
+    TwoPoint, ZoneError, opposite_planes, parallel_planes, two_point_diameters, two_point_distances,
 };
 
 /// The diameter of the associated cylinder, sphere or circle (of points in space, in their least-squares plane): least squares (GG), minimum circumscribed (GN), maximum
@@ -88,8 +88,7 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
         [a, b] => {
             let (first, second) = (a.taken()?, b.taken()?);
             let Some((normal, _)) = parallel_planes(first, second) else {
-                let what = "the points of the two planes determine no parallel planes";
-                return Err(Missing::NotMeasured(what.into()));
+                return Err(ZoneError::NoPlanes.into());
             };
             two_point_distances([first, second], normal, m.progress)
         }

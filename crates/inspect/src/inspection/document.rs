@@ -258,6 +258,9 @@ fn modifiers(spec: &Spec) -> Vec<String> {
         ZoneOffset::By(offset) => all.push(format!("UZ {offset:+}")),
         ZoneOffset::Free => all.push("OZ".into()),
     }
+    if let Some([x, y, z]) = spec.intersection {
+        all.push(format!("planes across ({x}, {y}, {z})"));
+    }
     all.extend(spec.material.map(|m| m.symbol().to_string()));
     if spec.kind.word() == "texture" {
         all.push(spec.parameter.word().to_string());

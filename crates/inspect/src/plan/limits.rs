@@ -11,7 +11,7 @@ pub struct Basic {
     pub turn: Option<f64>,
 }
 
-/// Where the zone of a profile lies, seen from the theoretically exact geometry (ISO 1101:2017, 8.2.2.2).
+/// Where the zone of a profile lies, seen from the theoretically exact geometry (UZ and OZ of ISO 1101:2017).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ZoneOffset {
     /// Evenly about it.

@@ -5,7 +5,7 @@ use super::compare::Comparison;
 use super::fit::Number;
 use super::verdict::rank;
 use super::{InputRecord, Verdict};
-use crate::plan::text::MaterialWord;
+use crate::plan::text::{MaterialWord, SizeWord};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -164,7 +164,8 @@ pub struct CharacteristicRecord {
     pub feature: String,
     /// The datums, the first one first: `A`, a common datum `A-B`, with a material requirement `A(M)`.
     pub datums: Vec<String>,
-    /// What modifies it: the tolerance class, the size, the material requirement, the datums' association, the parameter.
+    /// What modifies it: the tolerance class, the size, the offset of the zone, the intersection planes, the material requirement, the
+    /// datums' association, the parameter.
     pub modifiers: Vec<String>,
     /// Form of the zone: `width`, `diameter` or `value` (a dimension or parameter).
     pub zone: String,
@@ -211,6 +212,12 @@ impl CharacteristicRecord {
     /// The toleranced features: one, or two planes of a size.
     pub fn features(&self) -> Vec<&str> {
         self.feature.split(JOINED).collect()
+    }
+
+    /// Which size (`GG`) and where the zone of a profile lies (`UZ`, `OZ`), by the letters of drawings.
+    pub fn letters(&self) -> impl Iterator<Item = &str> {
+        let of = |m: &&str| matches!(*m, "UZ" | "OZ") || SizeWord::ALL.iter().any(|s| s.word() == *m);
+        self.modifiers.iter().filter_map(|m| m.split(' ').next()).filter(of)
     }
 
     /// Tolerance and sign of a material requirement, where the greatest allowed value is not the tolerance alone.

@@ -86,6 +86,9 @@ pub enum SizeWord {
 }
 
 impl SizeWord {
+    /// All of them.
+    pub const ALL: [SizeWord; 5] = [SizeWord::Lp, SizeWord::Gg, SizeWord::Gn, SizeWord::Gx, SizeWord::Gc];
+
     /// Its letters.
     pub fn word(self) -> &'static str {
         match self {

@@ -151,7 +151,11 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
     for (n, c) in d.rows().into_iter().enumerate() {
         h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" ");
         symbol(h, &c.kind);
-        h.word(&format!("kind.{}", c.kind)).raw("<br><small>").name(&c.feature);
+        h.word(&format!("kind.{}", c.kind));
+        for letters in c.letters() {
+            h.raw(" ").text(letters);
+        }
+        h.raw("<br><small>").name(&c.feature);
         for datum in &c.datums {
             h.raw(" | ").name(datum);
         }

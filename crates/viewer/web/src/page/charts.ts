@@ -1,7 +1,7 @@
 import { need, svg } from '../dom'
 import type { State } from '../state'
 import type { Words } from '../words'
-import { showKeys } from './keys'
+import { onKeys, showKeys } from './keys'
 
 /** The document as far as the charts need it. */
 interface Trend {
@@ -63,13 +63,7 @@ export function openCharts(state: State, words: Words, step: (by: number) => voi
     for (const chart of [...plots, ...small]) line(chart, state.picked, 'at')
   })
   const acts: Record<string, () => void> = { j: () => step(1), k: () => step(-1), '?': () => showKeys(words, state), escape: () => state.pick(-1) }
-  document.addEventListener('keydown', (e) => {
-    const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement
-    const act = acts[e.key.toLowerCase()]
-    if (!act || typing || e.ctrlKey || e.metaKey || e.altKey || document.querySelector('dialog[open]')) return
-    e.preventDefault()
-    act()
-  })
+  onKeys((key) => acts[key])
   words.onChange(label)
   label()
   need('stage').classList.add('live')

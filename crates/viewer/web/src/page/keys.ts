@@ -31,25 +31,32 @@ function pageKeys(state: State): Key[] {
   ]
 }
 
+/** Acts on keys of the page, whatever has the focus, but not where one types, with a dialog open, or with a modifier. */
+export function onKeys(act: (key: string) => (() => void) | undefined): void {
+  document.addEventListener('keydown', (e) => {
+    const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement
+    if (typing || e.ctrlKey || e.metaKey || e.altKey || document.querySelector('dialog[open]')) return
+    const run = act(e.key.toLowerCase())
+    if (!run) return
+    e.preventDefault()
+    run()
+  })
+}
+
 /** Keys of the page; those that move the eye belong to the stage itself. */
 export function keys(stage: Stage, state: State, words: Words, step: (by: number) => void): void {
   const own = Object.fromEntries(pageKeys(state).map((k) => [k.key.toLowerCase(), k.act]))
-  document.addEventListener('keydown', (e) => {
-    const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement
-    if (typing || e.ctrlKey || e.metaKey || e.altKey) return
-    const view = STANDARD[Number(e.key) - 1]
-    const acts: Record<string, () => void> = {
-      ...own,
-      f: () => stage.fit(),
-      j: () => step(1),
-      k: () => step(-1),
-      '?': () => showKeys(words, state),
-      escape: () => (state.picked >= 0 ? state.pick(-1) : state.setOnly(null)),
-    }
-    const act = view ? () => stage.look(view) : acts[e.key.toLowerCase()]
-    if (!act || document.querySelector('dialog[open]')) return
-    e.preventDefault()
-    act()
+  const acts: Record<string, () => void> = {
+    ...own,
+    f: () => stage.fit(),
+    j: () => step(1),
+    k: () => step(-1),
+    '?': () => showKeys(words, state),
+    escape: () => (state.picked >= 0 ? state.pick(-1) : state.setOnly(null)),
+  }
+  onKeys((key) => {
+    const view = STANDARD[Number(key) - 1]
+    return view ? () => stage.look(view) : acts[key]
   })
 }
 

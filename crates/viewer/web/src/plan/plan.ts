@@ -1,5 +1,5 @@
 import { el, need } from '../dom'
-import { showKeys } from '../page/keys'
+import { onKeys, showKeys } from '../page/keys'
 import type { State } from '../state'
 import type { Words } from '../words'
 import { control } from './controls'
@@ -71,13 +71,7 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
     escape: () => (state.picked >= 0 ? state.pick(-1) : views[current]?.fit()),
     ...Object.fromEntries(LAYERS.map(([name, key]) => [key.toLowerCase(), () => toggle(name)])),
   }
-  document.addEventListener('keydown', (e) => {
-    const typing = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement
-    const act = acts[e.key.toLowerCase()]
-    if (!act || typing || e.ctrlKey || e.metaKey || e.altKey || document.querySelector('dialog[open]')) return
-    e.preventDefault()
-    act()
-  })
+  onKeys((key) => acts[key])
   words.onChange(() => {
     fill()
     views[current]?.apply()

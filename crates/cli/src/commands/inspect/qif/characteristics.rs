@@ -20,7 +20,8 @@ impl Ids {
     }
 }
 
-/// What QIF calls a kind; user defined is what it does not know: areal texture.
+/// What QIF calls a kind. User defined is what it does not know, areal texture, and what it wants more of than a result has: of the
+/// profile of a line the normal of its plane as numbers.
 fn name(document: &InspectDocument, c: &CharacteristicRecord) -> &'static str {
     let shape = document.features.iter().find(|f| f.id == c.feature).map(|f| f.shape.as_str());
     match c.kind.as_str() {
@@ -74,7 +75,10 @@ pub fn definition(
             x.leaf("DatumReferenceFrameId", &frame.to_string());
         }
         match name {
-            "Straightness" => zone(x, if diametral { "DiametricalZone" } else { "NonDiametricalZone" }),
+            "Straightness" => {
+                x.leaf("MaterialCondition", material(c));
+                zone(x, if diametral { "DiametricalZone" } else { "NonDiametricalZone" });
+            }
             "Parallelism" | "Perpendicularity" | "Angularity" => {
                 x.leaf("MaterialCondition", material(c));
                 zone(x, if diametral { "DiametricalZone" } else { "PlanarZone" });
@@ -188,7 +192,7 @@ pub fn measured(
 }
 
 fn bonus(name: &str) -> bool {
-    ["Parallelism", "Perpendicularity", "Angularity", "Position"].contains(&name)
+    ["Straightness", "Parallelism", "Perpendicularity", "Angularity", "Position"].contains(&name)
 }
 
 /// The verdict as QIF has it.
