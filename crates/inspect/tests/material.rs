@@ -11,6 +11,7 @@ use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
 use trueness_inspect::inspection::{Data, Inspection, OwnPoints, run};
 use trueness_inspect::plan::Plan;
+use trueness_inspect::plan::text::MaterialWord;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument, PlanRecord};
 
@@ -120,7 +121,12 @@ fn perfect_cylinders_have_the_bonus_of_their_size() {
             false => part("related_size") >= part("virtual_size"),
         };
         assert_eq!(kept, c.verdict == Verdict::Pass);
-        assert_eq!(c.requirement(), Some((0.2, if letter == "M" { "Ⓜ" } else { "Ⓛ" })), "{:?}", c.modifiers);
+        assert_eq!(
+            c.requirement(),
+            Some((0.2, if letter == "M" { MaterialWord::M } else { MaterialWord::L })),
+            "{:?}",
+            c.modifiers
+        );
         // Without the requirement the same part has the same value and no bonus.
         let (_, c) =
             Case::new(internal, pin(0.15, diameter), &format!("{PLACE}{HERE}")).inspected(&Rigid::IDENTITY);

@@ -42,7 +42,8 @@ pub fn write_all(folder: &Path) {
     let few: Vec<Point> = lobed_cylinder().into_iter().step_by(49).take(100).collect();
     written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
-    written(folder, "plan", super::plan::page(&options));
+    written(folder, "plan", super::plan::page(false, &options));
+    written(folder, "plan_material", super::plan::page(true, &options));
     written(folder, "curvature", curvature_page(&torus(), &options));
     let points = Mesh { faces: vec![], ..torus() };
     written(folder, "curvature_cloud", curvature_page(&points, &options));

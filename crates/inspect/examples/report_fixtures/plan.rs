@@ -80,8 +80,9 @@ fn block(raised: f64) -> Mesh {
     mesh
 }
 
-/// Its top 0.08 mm too high: flat, but too far from the bottom, and out of the tolerance of the deviations.
-pub fn page(options: &ReportOptions) -> Vec<u8> {
+/// Its top 0.08 mm too high: flat, but too far from the bottom, and out of the tolerance of the deviations. With `material`, the
+/// perpendicularity is written as one with material requirements and a bonus of 0.02 mm.
+pub fn page(material: bool, options: &ReportOptions) -> Vec<u8> {
     let plan = Plan::parse(PLAN).unwrap();
     let (scan, nominal) = (block(0.08), block(0.0));
     let files = [(Role::Measured, "scan.stl", &scan), (Role::Reference, "nominal.stl", &nominal)];
@@ -89,7 +90,12 @@ pub fn page(options: &ReportOptions) -> Vec<u8> {
     let data = Data { measured: Some(scan), reference: Some(nominal), shown: 100_000, ..Data::default() };
     let found = inspection::run(&plan, data, &Silent).unwrap();
     let record = PlanRecord { path: "block.toml".into(), sha256: None };
-    let document = InspectDocument::new(&plan, record, &found, inputs);
+    let mut document = InspectDocument::new(&plan, record, &found, inputs);
+    if material {
+        let c = document.characteristics.last_mut().unwrap();
+        (c.zone, c.upper) = ("diameter".into(), 0.07);
+        (c.modifiers, c.datums) = (vec!["Ⓜ".into()], vec!["A(L)".into()]);
+    }
     let deviations = found.deviations.as_ref().unwrap();
     let references = deviations.references("nominal.stl");
     let map = compare::View::new("scan.stl", found.measured.as_ref(), &references, &deviations.found);

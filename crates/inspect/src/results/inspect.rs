@@ -220,11 +220,10 @@ impl CharacteristicRecord {
         self.modifiers.iter().filter_map(|m| m.split(' ').next()).filter(of)
     }
 
-    /// Tolerance and sign of a material requirement, where the greatest allowed value is not the tolerance alone.
-    pub fn requirement(&self) -> Option<(f64, &str)> {
-        let signs = [MaterialWord::M, MaterialWord::L].map(MaterialWord::symbol);
-        let sign = self.modifiers.iter().map(String::as_str).find(|m| signs.contains(m));
-        self.tolerance.zip(sign)
+    /// Tolerance and material requirement, where the greatest allowed value is not the tolerance alone.
+    pub fn requirement(&self) -> Option<(f64, MaterialWord)> {
+        let stands = |word: &MaterialWord| self.modifiers.iter().any(|m| m == word.symbol());
+        self.tolerance.zip([MaterialWord::M, MaterialWord::L].into_iter().find(stands))
     }
 }
 

@@ -143,6 +143,9 @@ export interface Frame {
   diametral: boolean
   lower: number | null
   upper: number
+  /** The letter of a material requirement of the feature. */
+  material: string | null
+  /** `A`, `A-B`, with a material requirement `A(M)`. */
   datums: string[]
   value: number | null
   decimals: number

@@ -103,7 +103,9 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
             format!("{} {}/{}", six_digits(nominal), deviation(lower), deviation(c.upper))
         }
         _ => match c.requirement() {
-            Some((t, letter)) => format!("{sign}{} ({} {letter})", six_digits(c.upper), six_digits(t)),
+            Some((t, material)) => {
+                format!("{sign}{} ({} {})", six_digits(c.upper), six_digits(t), material.symbol())
+            }
             None => format!("{sign}{}", six_digits(c.upper)),
         },
     };

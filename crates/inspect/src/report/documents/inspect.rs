@@ -2,7 +2,7 @@
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, badge, fact, key_number, section};
-use super::super::page::symbols::{path, symbol};
+use super::super::page::symbols::{datum_name, path, requirement, symbol};
 use super::alignment::{Facts, alignment};
 use super::{Frame, Head, Map, Pick, Subject, compare};
 use crate::results::Verdict;
@@ -134,7 +134,8 @@ fn frame(c: &CharacteristicRecord) -> Frame {
         sign: path(&c.kind),
         diametral: c.zone == "diameter",
         lower: c.lower,
-        upper: c.upper,
+        upper: c.requirement().map_or(c.upper, |(tolerance, _)| tolerance),
+        material: c.requirement().map(|(_, material)| material.word()),
         datums: c.datums.clone(),
         value: c.value,
         decimals: digits(c),
@@ -157,7 +158,8 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
         }
         h.raw("<br><small>").name(&c.feature);
         for datum in &c.datums {
-            h.raw(" | ").name(datum);
+            h.raw(" | ");
+            datum_name(h, datum);
         }
         h.raw("</small></td><td class=\"r\">");
         h.optional(c.value, c.reason.as_deref(), digits(c), false);
@@ -219,8 +221,10 @@ fn allowed(h: &mut Html, c: &CharacteristicRecord) {
                 digits(c),
                 false,
             );
-            if let Some((t, sign)) = c.requirement() {
-                h.raw(" (").number(t, digits(c), false).raw(&format!("\u{a0}{sign})"));
+            if let Some((t, material)) = c.requirement() {
+                h.raw(" (").number(t, digits(c), false).raw("\u{a0}");
+                requirement(h, material.word());
+                h.raw(")");
             }
         }
     }

@@ -160,8 +160,10 @@ pub struct Frame {
     pub diametral: bool,
     /// Least allowed value.
     pub lower: Option<f64>,
-    /// Greatest allowed value.
+    /// Greatest allowed value; with a material requirement, the tolerance without its bonus.
     pub upper: f64,
+    /// The letter of a material requirement of the feature.
+    pub material: Option<&'static str>,
     /// Datums, the first one first.
     pub datums: Vec<String>,
     /// The value found.

@@ -87,6 +87,9 @@ fn framed(style: Style, frame: &Frame) -> (String, f64) {
         text += &format!("{}\u{2009}…\u{2009}", allowed(lower));
     }
     text += &allowed(frame.upper);
+    if let Some(letter) = frame.material {
+        text += &format!("\u{a0}({letter})");
+    }
     for datum in &frame.datums {
         text += &format!(" | {datum}");
     }

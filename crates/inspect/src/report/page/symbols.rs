@@ -1,6 +1,7 @@
 //! Signs of characteristics as on drawings (ISO 1101:2017, table 3), drawn as paths: few fonts have them.
 
 use super::super::html::Html;
+use crate::plan::text::MaterialWord;
 
 /// The sign of a kind of characteristic in a square of 16; none for what has no sign.
 pub fn path(kind: &str) -> Option<&'static str> {
@@ -29,6 +30,25 @@ pub fn symbol(h: &mut Html, kind: &str) {
         h.raw(&format!(
             "<svg class=\"gdt\" viewBox=\"0 0 16 16\" aria-hidden=\"true\"><path d=\"{path}\"/></svg> "
         ));
+    }
+}
+
+/// Writes the letter of a material requirement in its circle (ISO 2692): few fonts have Ⓜ and Ⓛ.
+pub fn requirement(h: &mut Html, letter: &str) {
+    h.raw("<span class=\"circled\">").text(letter).raw("</span>");
+}
+
+/// Writes a datum as results name it (`A`, `A-B`, `A(M)`), its material requirement as a sign.
+pub fn datum_name(h: &mut Html, datum: &str) {
+    let end = |word: MaterialWord| Some((datum.strip_suffix(&format!("({})", word.word()))?, word));
+    match [MaterialWord::M, MaterialWord::L].into_iter().find_map(end) {
+        Some((name, word)) => {
+            h.name(name).raw("\u{a0}");
+            requirement(h, word.word());
+        }
+        None => {
+            h.name(datum);
+        }
     }
 }
 

@@ -18,14 +18,25 @@ function found(frame: Frame, words: Words): string {
 
 /** The frame in a line of text, without its sign. */
 export function frameText(frame: Frame, words: Words): string {
-  return `${[allowed(frame, words), ...frame.datums].join(' | ')}\u2002${found(frame, words)}`
+  const material = frame.material === null ? '' : `\u00a0(${frame.material})`
+  return `${[allowed(frame, words) + material, ...frame.datums].join(' | ')}\u2002${found(frame, words)}`
 }
 
 /** The frame as cells: sign, what is allowed, datums; then the value. */
 export function frameCells(frame: Frame, words: Words): HTMLElement[] {
   const cell = (...content: (string | Node)[]) => el('span', { class: 'cell' }, ...content)
   const sign = frame.sign ? [cell(signOf(frame.sign, {}))] : []
-  return [el('span', { class: 'cells' }, ...sign, cell(allowed(frame, words)), ...frame.datums.map((d) => cell(d))), el('strong', {}, found(frame, words))]
+  const material = frame.material === null ? [] : [circled(frame.material)]
+  const datums = frame.datums.map((datum) => {
+    const [, name = datum, letter] = /^(.*)\(([ML])\)$/.exec(datum) ?? []
+    return cell(name, ...(letter === undefined ? [] : [circled(letter)]))
+  })
+  return [el('span', { class: 'cells' }, ...sign, cell(allowed(frame, words), ...material), ...datums), el('strong', {}, found(frame, words))]
+}
+
+/** The letter of a material requirement in its circle: few fonts have that sign. */
+function circled(letter: string): HTMLElement {
+  return el('span', { class: 'circled' }, letter)
 }
 
 /** A sign of a drawing in a square of 16. */

@@ -118,6 +118,20 @@ export const inspect = [
     },
   ],
   [
+    'material requirements stand in circles, and a frame has its tolerance without the bonus',
+    async (session) => {
+      const page = await session.report('plan_material', STILL)
+      const cells = (await shown(page)).map((f) => f.cells)
+      assert.ok(cells.some((c) => c.join('|') === '|⌀0.05M|AL'), JSON.stringify(cells))
+      const round = await page.evaluate(() => [...document.querySelectorAll('.circled')].map((e) => [e.textContent, e.getBoundingClientRect(), getComputedStyle(e)]).map(([text, box, style]) => [text, box.width / box.height, style.borderRadius, style.borderStyle]))
+      // In its frame and in the list: the letters of the datum and of the tolerance.
+      assert.deepEqual(round.map(([text]) => text).toSorted(), ['L', 'L', 'M', 'M'])
+      for (const [text, ratio, radius, style] of round) assert.ok(Math.abs(ratio - 1) < 0.15 && radius === '50%' && style === 'solid', `${text} ${ratio} ${radius} ${style}`)
+      const row = await page.locator('#list tr', { hasText: 'Perpendicularity' }).textContent()
+      assert.ok(row.includes('⌀0.0700 (0.0500\u00a0M)'), row)
+    },
+  ],
+  [
     'without scripts the stored picture has the frames and no scale of what it does not show',
     async (session) => {
       const page = await session.report('plan', { ...STILL, scripts: false })

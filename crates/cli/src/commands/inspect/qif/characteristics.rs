@@ -2,6 +2,7 @@
 
 use super::datums::{Datums, parted};
 use super::xml::{Value, Xml, decimal};
+use trueness_inspect::plan::text::MaterialWord;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
@@ -121,10 +122,10 @@ fn limits(x: &mut Xml, c: &CharacteristicRecord) {
 }
 
 fn material(c: &CharacteristicRecord) -> &'static str {
-    match c.requirement().map(|(_, sign)| sign) {
-        Some("Ⓜ") => "MAXIMUM",
-        Some("Ⓛ") => "LEAST",
-        _ => "NONE",
+    match c.requirement().map(|(_, material)| material) {
+        Some(MaterialWord::M) => "MAXIMUM",
+        Some(MaterialWord::L) => "LEAST",
+        None => "NONE",
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::super::super::html::Html;
 use super::super::super::page::blocks::{Headline, badge};
-use super::super::super::page::symbols::symbol;
+use super::super::super::page::symbols::{datum_name, symbol};
 use super::super::super::text::word;
 use super::axes::{Axes, HEIGHT, WIDTH};
 use super::gutter::{Line, gutter, lines, number};
@@ -28,7 +28,8 @@ pub fn chart(h: &mut Html, document: &TrendDocument, n: usize, below: impl FnOnc
     symbol(h, &c.kind);
     h.word(&format!("kind.{}", c.kind)).raw(" <small>").name(&c.feature);
     for datum in &c.datums {
-        h.raw(" | ").name(datum);
+        h.raw(" | ");
+        datum_name(h, datum);
     }
     h.raw("</small></span><span class=\"unit\">").text(unit(c)).raw("</span>");
     badge(h, Headline::from(c.verdict()));
