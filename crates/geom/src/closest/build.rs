@@ -12,7 +12,7 @@
 use crate::closest::frame;
 use crate::closest::layout::Node;
 use crate::closest::limits::{self, MeshError};
-use crate::closest::tree::Tree;
+use crate::closest::tree::{Arrays, Tree};
 use crate::memory::large_pages;
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress, Silent};
@@ -391,7 +391,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    Ok(Tree { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face })
+    Ok(Tree::new(Arrays { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }))
 }
 
 /// Box of all vertices that faces use.

@@ -21,8 +21,8 @@ use rayon::prelude::*;
 /// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
 /// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to
 /// those of its edges and corners.
-pub struct Signs<'a> {
-    tree: &'a Tree,
+pub struct Signs {
+    tree: Tree,
     /// What lies across edge `i` (corner `i` to `i + 1`) of each slot.
     across: Vec<[Across; 3]>,
     /// Angle-weighted normal of each vertex of the tree (not of unit length).
@@ -56,9 +56,9 @@ fn angle(t: &[Point; 3], i: usize) -> f64 {
     libm::atan2(norm(cross(u, v)), dot(u, v))
 }
 
-impl<'a> Signs<'a> {
+impl Signs {
     /// Finds neighbours and corner normals, in linear time where no two vertices with more than 64 faces are neighbours. The result does not depend on the number of threads.
-    pub fn new(tree: &'a Tree) -> Self {
+    pub fn new(tree: &Tree) -> Self {
         Signs::found(tree, &Silent)
     }
 
@@ -66,13 +66,13 @@ impl<'a> Signs<'a> {
     ///
     /// # Errors
     /// [`Cancelled`].
-    pub fn watched(tree: &'a Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
+    pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let signs = Signs::found(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(signs) }
     }
 
     /// Worth nothing where `progress` says that it is cancelled.
-    fn found(tree: &'a Tree, progress: &dyn Progress) -> Self {
+    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
         let fans = Fans::new(tree);
         let of_vertex = |v: u32| {
             if v.is_multiple_of(ASK) && progress.cancelled() {
@@ -88,7 +88,7 @@ impl<'a> Signs<'a> {
         let across = fans.across(progress);
         let bounds = Aabb::of(&tree.corners);
         let outer = if volume(tree, bounds.min) < 0.0 { -1.0 } else { 1.0 };
-        let mut signs = Signs { tree, across, corner, far: f64::INFINITY, outer };
+        let mut signs = Signs { tree: tree.clone(), across, corner, far: f64::INFINITY, outer };
         if signs.loose_edges() == 0 {
             signs.far = FAR * bounds.diagonal();
         }

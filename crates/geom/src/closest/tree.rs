@@ -18,11 +18,24 @@ use crate::closest::hit::Hit;
 use crate::closest::layout::{Leaf, Node};
 use crate::closest::triangle::{self, Feature};
 use crate::space::{Point, minus, norm};
+use std::ops::Deref;
+use std::sync::Arc;
 
 /// A mesh prepared for closest-point queries: build once, ask often, from any number of threads.
 ///
-/// Holds its own copy of the triangles, about 120 bytes a face; the mesh may be dropped.
-pub struct Tree {
+/// Holds its own copy of the triangles, about 120 bytes a face; the mesh may be dropped. Clones share it.
+#[derive(Clone)]
+pub struct Tree(Arc<Arrays>);
+
+impl Deref for Tree {
+    type Target = Arrays;
+    fn deref(&self) -> &Arrays {
+        &self.0
+    }
+}
+
+/// What a tree holds.
+pub struct Arrays {
     pub(super) nodes: Vec<Node>,
     pub(super) leaves: Vec<Leaf>,
     /// Root: a node, or `!0` when all triangles fit one leaf.
@@ -53,6 +66,10 @@ pub struct Closest {
 }
 
 impl Tree {
+    pub(super) fn new(arrays: Arrays) -> Tree {
+        Tree(Arc::new(arrays))
+    }
+
     /// Length of the longest edge of the face that was hit.
     pub(crate) fn longest_edge(&self, hit: &Hit) -> f64 {
         let [a, b, c] = self.triangle(hit.slot);

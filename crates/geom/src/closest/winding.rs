@@ -44,14 +44,14 @@ struct Dipole {
 }
 
 /// A tree with the dipoles of its groups: ready for winding numbers. 11 bytes a face.
-pub struct Winding<'a> {
-    pub(super) tree: &'a Tree,
+pub struct Winding {
+    pub(super) tree: Tree,
     pub(super) groups: Vec<Group>,
 }
 
-impl<'a> Winding<'a> {
+impl Winding {
     /// One pass over the triangles and nodes.
-    pub fn new(tree: &'a Tree) -> Self {
+    pub fn new(tree: &Tree) -> Self {
         let leaves = tree.leaves.len();
         let of_leaf: Vec<Dipole> = (0..leaves).into_par_iter().map(|l| leaf_dipole(tree, l)).collect();
         let mut of_node = vec![Dipole::default(); tree.nodes.len()];
@@ -72,7 +72,7 @@ impl<'a> Winding<'a> {
             }
             of_node[n] = join(&children[..count]);
         }
-        Winding { tree, groups }
+        Winding { tree: tree.clone(), groups }
     }
 
     /// Winding number of each point, in the order of `points`. It depends on nothing but mesh and point; the last digits
@@ -159,7 +159,7 @@ impl<'a> Winding<'a> {
             #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
             fn avx2(w: &Winding, p: &[Point; BLOCK], who: u32, opening: f32, s: &mut Stack) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<A16>(w.tree, &w.groups, p, who, opening, s) }
+                unsafe { solid_angle::numbers::<A16>(&w.tree, &w.groups, p, who, opening, s) }
             }
             #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
             fn avx512(
@@ -170,7 +170,7 @@ impl<'a> Winding<'a> {
                 s: &mut Stack,
             ) -> [f64; BLOCK] {
                 // SAFETY: the features above are those of the type.
-                unsafe { solid_angle::numbers::<Z16>(w.tree, &w.groups, p, who, opening, s) }
+                unsafe { solid_angle::numbers::<Z16>(&w.tree, &w.groups, p, who, opening, s) }
             }
             // No more than there is, whatever is asked for.
             match level.min(Level::detect()) {
@@ -183,7 +183,7 @@ impl<'a> Winding<'a> {
         }
         let _ = level; // other processors have one way only
         // SAFETY: plain Rust needs no special instructions.
-        unsafe { solid_angle::numbers::<Plain<16>>(self.tree, &self.groups, points, who, opening, stack) }
+        unsafe { solid_angle::numbers::<Plain<16>>(&self.tree, &self.groups, points, who, opening, stack) }
     }
 }
 

@@ -68,12 +68,12 @@ impl Exclusion {
     }
 }
 
-/// A reference mesh with all that its deviations need: built once, asked often.
-pub struct Surface<'t> {
-    tree: &'t Tree,
+/// A reference mesh with all that its deviations need: built once, asked often, from any number of threads.
+pub struct Surface {
+    tree: Tree,
     choice: SignChoice,
     precondition: Precondition,
-    side: Side<'t>,
+    side: Side,
     free_edges: Option<FreeEdges>,
     max_distance: f64,
 }
@@ -81,23 +81,23 @@ pub struct Surface<'t> {
 /// Flaws of each kind that are listed; all are counted.
 const FLAWS: usize = 100;
 
-enum Side<'t> {
-    Pseudonormal(Signs<'t>),
-    Winding(Winding<'t>),
+enum Side {
+    Pseudonormal(Signs),
+    Winding(Winding),
     None,
 }
 
-impl<'t> Surface<'t> {
+impl Surface {
     /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
     ///
     /// # Errors
     /// Those of [`Precondition::of`].
     pub fn new(
-        tree: &'t Tree,
+        tree: &Tree,
         mesh: &Mesh,
         options: &SurfaceOptions,
         progress: &dyn Progress,
-    ) -> Result<Surface<'t>, TopologyError> {
+    ) -> Result<Surface, TopologyError> {
         let precondition = Precondition::of(mesh, FLAWS, progress)?;
         let soundness = &precondition.soundness;
         let choice = SignChoice::new(options.sign, &precondition, mesh);
@@ -109,12 +109,19 @@ impl<'t> Surface<'t> {
         let free_edges = (options.skip_boundary && !soundness.closed)
             .then(|| FreeEdges::watched(tree, progress))
             .transpose()?;
-        Ok(Surface { tree, choice, precondition, side, free_edges, max_distance: options.max_distance })
+        Ok(Surface {
+            tree: tree.clone(),
+            choice,
+            precondition,
+            side,
+            free_edges,
+            max_distance: options.max_distance,
+        })
     }
 
     /// The search tree.
-    pub fn tree(&self) -> &'t Tree {
-        self.tree
+    pub fn tree(&self) -> &Tree {
+        &self.tree
     }
     /// The sign method and why.
     pub fn sign(&self) -> &SignChoice {
@@ -199,7 +206,7 @@ pub struct Disagreement {
 /// Points nearer to a facet than this share of its longest edge have no side that winding numbers could tell.
 const ON_SURFACE: f64 = 1e-6;
 
-impl Surface<'_> {
+impl Surface {
     /// Asks both sign methods about `points`, whichever is in use. Points on the surface are left out: they have no side.
     /// Cost: that of preparing the other method, and of the points.
     ///
@@ -213,11 +220,11 @@ impl Surface<'_> {
         let (outward, other) = (self.outward(), OnlyCancels(progress));
         let sides = match &self.side {
             Side::Pseudonormal(s) => self.sides(s, points, &other)?,
-            _ => self.sides(&Signs::watched(self.tree, progress)?, points, &other)?,
+            _ => self.sides(&Signs::watched(&self.tree, progress)?, points, &other)?,
         };
         let inside = match &self.side {
             Side::Winding(w) => self.inside(w, points, progress)?,
-            _ => self.inside(&Winding::new(self.tree), points, progress)?,
+            _ => self.inside(&Winding::new(&self.tree), points, progress)?,
         };
         let told = || sides.iter().zip(&inside).filter(|(side, _)| **side != 0.0);
         let differing = told().filter(|(side, inside)| (outward * **side < 0.0) != **inside).count();

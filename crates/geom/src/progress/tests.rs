@@ -37,7 +37,7 @@ fn broken() -> Mesh {
 /// A name, and whether the work was stopped.
 type Job<'a> = (&'a str, Box<dyn Fn(&dyn Progress) -> bool + Sync + 'a>);
 
-fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a Surface<'a>) -> Vec<Job<'a>> {
+fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a Surface) -> Vec<Job<'a>> {
     let surface = SurfaceOptions { skip_boundary: true, ..SurfaceOptions::default() };
     let topology = Topology::of(mesh).unwrap();
     let few = topology.shell_of.iter().map(|_| true).collect::<Vec<bool>>();

@@ -18,7 +18,7 @@ use trueness_geom::topology::Soundness;
 /// A reference ready to be measured against.
 pub enum Target<'a> {
     /// The nearest facet counts.
-    Facets { surface: Box<Surface<'a>>, mesh: &'a Mesh },
+    Facets { surface: Box<Surface>, mesh: &'a Mesh },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
 }

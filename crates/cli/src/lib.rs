@@ -1,0 +1,60 @@
+//! 3D inspection as a library: what the program `trueness` does, with data in place of files.
+//!
+//! Lengths are millimetres, angles radians, deviations positive outside of the material. Answers are the same for any number of threads.
+//!
+//! | task | where |
+//! |---|---|
+//! | read a file of any kind; write a mesh | [`read`], [`write_mesh`] |
+//! | signed deviations of points from a mesh, their statistics | [`Reference`], [`Deviations`] |
+//! | bring a scan onto its reference | [`Reference::align`] |
+//! | is a mesh sound? | [`check`] |
+//! | mend it | [`repair`] |
+//! | planes, circles, cylinders … of least squares | [`fit`] |
+//! | planes, cylinders … found in a scan | [`segment`] |
+//! | lines, arcs and curves of a profile | [`contour`] |
+//! | a B-spline surface through points | [`surface`] |
+//! | curvatures of a mesh | [`curvature`] |
+//! | an inspection plan: features, characteristics, verdicts | [`inspection::inspection::run`] |
+//! | everything else, with all options | [`geom`], [`files`], [`inspection`] |
+//!
+//! The functions here take the defaults and tell nobody how far they are. The functions of the same names in [`geom`] take options, and a
+//! [`Progress`](geom::progress::Progress) that is told and may stop them.
+//!
+//! ```
+//! use trueness::{Reference, read};
+//! let reference = Reference::read("../../corpus/bunny/zipper_res4.ply")?;
+//! let scan = read("../../corpus/bunny/zipper_res3.ply")?;
+//! let deviations = reference.deviations(scan.points())?;
+//! let statistics = deviations.statistics();
+//! assert_eq!(statistics.all.count, 1887);
+//! assert!((statistics.all.rms? - 1.376).abs() < 0.001);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Without the feature `cli` (`default-features = false`) the program and what it alone needs are left out.
+
+mod library;
+
+pub use library::deviations::{Deviation, Deviations};
+pub use library::error::Error;
+pub use library::part::{Part, read, write_mesh};
+pub use library::reference::Reference;
+pub use library::tasks::{check, contour, curvature, fit, repair, segment, surface};
+
+pub use trueness_files as files;
+pub use trueness_geom as geom;
+pub use trueness_inspect as inspection;
+
+pub use trueness_geom::align::Alignment;
+pub use trueness_geom::check::Report;
+pub use trueness_geom::closest::Closest;
+pub use trueness_geom::deviation::surface::{Exclusion, SurfaceOptions};
+pub use trueness_geom::fit::Fit;
+pub use trueness_geom::mesh::Mesh;
+pub use trueness_geom::repair::Repaired;
+pub use trueness_geom::section::Contour;
+pub use trueness_geom::segment::Segmentation;
+pub use trueness_geom::shape::{Kind, Shape};
+pub use trueness_geom::space::{Point, Vector};
+pub use trueness_geom::stats::statistics::{Statistics, Summary};
+pub use trueness_geom::surface::SurfaceFit;

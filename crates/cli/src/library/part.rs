@@ -1,0 +1,86 @@
+//! What is read from a file and written to one.
+
+use super::error::Error;
+use std::path::Path;
+use trueness_files::write::{self, Loss};
+use trueness_files::{Body, Provenance, ReadOptions, Warning, open};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::Point;
+
+/// A file that was read: a mesh, or points.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The mesh, millimetres, vertices at the same place made one. Of points the places alone, without faces.
+    pub mesh: Mesh,
+    /// Where it came from, and the unit in which its numbers were taken.
+    pub provenance: Provenance,
+    /// What was odd about the file.
+    pub warnings: Vec<Warning>,
+}
+
+impl Part {
+    /// Whether it has points alone.
+    pub fn is_cloud(&self) -> bool {
+        self.mesh.faces.is_empty()
+    }
+
+    /// The points, or the vertices of the mesh. (`trueness compare` counts the vertices of a file that shares them as they stand there,
+    /// copies and unused ones too.)
+    pub fn points(&self) -> &[Point] {
+        &self.mesh.positions
+    }
+}
+
+/// Reads a mesh or points of any format and whatever is packed with gzip; `-` is standard input. The format is told by the
+/// content, units are millimetres unless the file says otherwise. For options see [`files::open`](trueness_files::open).
+///
+/// Memory: the file and several times that; points are read as a whole.
+///
+/// # Errors
+/// [`Error::Read`] names file, place and remedy; [`Error::Splines`] for CAD files with nothing but splines.
+///
+/// ```
+/// let part = trueness::read("../../corpus/bunny/zipper_res4.ply")?;
+/// assert!(!part.is_cloud());
+/// assert_eq!((part.points().len(), part.mesh.faces.len()), (453, 948));
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
+    let input = open(path.as_ref(), &ReadOptions::default())?;
+    let mesh = match input.body {
+        Body::Mesh(source) => source.mesh,
+        Body::Points(mut stream) => {
+            let (mut positions, mut block) = (vec![], vec![]);
+            loop {
+                stream.next_block(&mut block)?;
+                if block.is_empty() {
+                    break;
+                }
+                positions.append(&mut block);
+            }
+            Mesh { positions, faces: vec![] }
+        }
+        Body::Splines(_) => return Err(Error::Splines { path: input.provenance.path }),
+    };
+    Ok(Part { mesh, provenance: input.provenance, warnings: input.warnings })
+}
+
+/// Writes a mesh in the format of the path's extension; the file appears whole or not at all, in place of one that is there. Gives
+/// what the format could not hold.
+///
+/// # Errors
+/// [`Error::Write`]: an extension that no writer of meshes has, a face that names no vertex, what the system says.
+///
+/// ```
+/// # let folder = std::env::temp_dir().join(format!("trueness-write-mesh-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// let part = trueness::read("../../corpus/bunny/zipper_res4.ply")?;
+/// let file = folder.join("bunny.ply");
+/// trueness::write_mesh(&file, &part.mesh)?;
+/// assert_eq!(trueness::read(&file)?.mesh, part.mesh);
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_mesh(path: impl AsRef<Path>, mesh: &Mesh) -> Result<Loss, Error> {
+    Ok(write::mesh(path.as_ref(), mesh)?)
+}

@@ -1,0 +1,137 @@
+//! The tasks, with their defaults.
+
+use super::error::Error;
+use trueness_geom::check::{self, Report};
+use trueness_geom::curvature::{self, Curvatures};
+use trueness_geom::fit::{self, Fit};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Silent;
+use trueness_geom::repair::{self, Repaired};
+use trueness_geom::section::{self, Contour};
+use trueness_geom::segment::{self, Segmentation};
+use trueness_geom::shape::Kind;
+use trueness_geom::space::Point;
+use trueness_geom::surface::{self, SurfaceFit};
+
+/// Every defect of a mesh with its place. Any mesh will do. Options: [`geom::check::check`](check::check).
+///
+/// # Errors
+/// [`Error::Check`]: a facet that names no vertex.
+///
+/// ```
+/// let part = trueness::read("../../corpus/broken/hole_one_triangle.stl")?;
+/// let report = trueness::check(&part.mesh)?;
+/// assert!(!report.sound);
+/// assert_eq!(report.found("boundary_edges").map(|found| found.count), Some(3));
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn check(mesh: &Mesh) -> Result<Report, Error> {
+    Ok(check::check(mesh, None, &check::Options::default(), &Silent)?)
+}
+
+/// The mesh mended, with all changes; no vertex that stays is moved. Any mesh will do. Options: [`geom::repair::repair`](repair::repair).
+///
+/// # Errors
+/// [`Error::Repair`]: a facet that names no vertex, coordinates out of range.
+///
+/// ```
+/// let part = trueness::read("../../corpus/broken/hole_one_triangle.stl")?;
+/// let mended = trueness::repair(&part.mesh)?;
+/// assert!(!mended.before.sound && mended.after.sound);
+/// assert_eq!(mended.mesh.faces.len(), part.mesh.faces.len() + 1);
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn repair(mesh: &Mesh) -> Result<Repaired, Error> {
+    Ok(repair::repair(mesh, &repair::Options::default(), &Silent)?)
+}
+
+/// The element of least squares (orthogonal distances). Kinds in the plane read x and y only. Other methods and options:
+/// [`geom::fit::fit`](fit::fit).
+///
+/// # Errors
+/// [`Error::Fit`]: too few points, a coordinate that is no number, points that determine no such element.
+///
+/// ```
+/// use trueness::{Kind, Shape, fit};
+/// let points = [[5.0, 0.0, 1.0], [-5.0, 0.0, 1.0], [0.0, 5.0, 1.0], [0.0, 0.0, 6.0], [0.0, 0.0, -4.0]];
+/// let found = fit(&points, Kind::Sphere)?;
+/// let Shape::Sphere { center, radius } = found.shape else { panic!("it is a sphere") };
+/// assert!((radius - 5.0).abs() < 1e-12 && (center[2] - 1.0).abs() < 1e-12);
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn fit(points: &[Point], kind: Kind) -> Result<Fit, Error> {
+    Ok(fit::fit(points, kind, &fit::Options::default(), &Silent)?)
+}
+
+/// The planes, cylinders, cones, spheres and tori of a mesh; of one without faces, those of its points. Options:
+/// [`geom::segment::mesh`](segment::mesh), [`geom::segment::cloud`](segment::cloud).
+///
+/// # Errors
+/// [`Error::Segment`]: nothing there, a coordinate that is no number.
+///
+/// ```
+/// let part = trueness::read("../../corpus/shapes/trimesh__unit_cube.STL")?;
+/// assert_eq!(trueness::segment(&part.mesh)?.regions.len(), 6);
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn segment(mesh: &Mesh) -> Result<Segmentation, Error> {
+    let options = segment::Options::default();
+    Ok(match mesh.faces.is_empty() {
+        true => segment::cloud(&mesh.positions, &options, &Silent)?,
+        false => segment::mesh(mesh, &options, &Silent)?,
+    })
+}
+
+/// The lines, arcs and curves of a row of points in order, and the joins between them, with their uncertainties. Options:
+/// [`geom::section::contour`](section::contour()).
+///
+/// # Errors
+/// [`Error::Section`]: too few points, numbers that are none, points out of order.
+///
+/// ```
+/// let line = (0..30).map(|i| [f64::from(i) - 30.0, 0.0]);
+/// let rise = (0..30).map(|i| [f64::from(i), f64::from(i)]);
+/// let points: Vec<[f64; 2]> = line.chain(rise).collect();
+/// let found = trueness::contour(&points)?;
+/// assert_eq!((found.segments.len(), found.joins.len()), (2, 1));
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn contour(points: &[[f64; 2]]) -> Result<Contour, Error> {
+    Ok(section::contour(points, &section::Options::default(), &Silent)?)
+}
+
+/// The B-spline surface of least squares through scattered points. Options: [`geom::surface::fit`](surface::fit).
+///
+/// # Errors
+/// [`Error::Surface`]: points that allow no surface.
+///
+/// ```
+/// let place = |k: u32| (f64::from(k % 30), f64::from(k / 30));
+/// let points: Vec<[f64; 3]> = (0..900).map(place).map(|(x, y)| [x, y, 0.01 * x * y]).collect();
+/// let found = trueness::surface(&points)?;
+/// assert!(found.deviations.iter().all(|d| d.abs() < 1e-3));
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn surface(points: &[Point]) -> Result<SurfaceFit, Error> {
+    Ok(surface::fit(points, &surface::Options::default(), &Silent)?)
+}
+
+/// Curvatures at the vertices of a mesh; of one without faces, at its points. Options: [`geom::curvature::mesh`](curvature::mesh()),
+/// [`geom::curvature::cloud`](curvature::cloud).
+///
+/// # Errors
+/// [`Error::Curvature`]: a facet that names no vertex. Single places have their own reasons.
+///
+/// ```
+/// let part = trueness::read("../../corpus/bunny/zipper_res4.ply")?;
+/// let found = trueness::curvature(&part.mesh)?;
+/// assert_eq!(found.places.len(), part.points().len());
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn curvature(mesh: &Mesh) -> Result<Curvatures, Error> {
+    let options = curvature::Options::default();
+    Ok(match mesh.faces.is_empty() {
+        true => curvature::cloud(&mesh.positions, &options, &Silent)?,
+        false => curvature::mesh(mesh, &options, &Silent)?,
+    })
+}
