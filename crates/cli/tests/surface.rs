@@ -36,8 +36,23 @@ fn nine_points_have_the_surface_of_the_paper() {
     }
     let middle = &answer["curvature"]["middle"];
     let number = |name: &str| middle[name].as_f64().unwrap();
-    assert!((number("k1").abs() - 0.6).abs() < 1e-7 && (number("k2").abs() - 0.6).abs() < 1e-7);
-    assert!((number("gaussian") - 0.36).abs() < 1e-12 && (number("mean").abs() - 0.6).abs() < 1e-12);
+    let side = number("mean").signum();
+    for (name, expected) in [("k1", 0.6), ("k2", 0.6), ("mean", 0.6), ("gaussian", 0.36 * side)] {
+        assert!((side * number(name) - expected).abs() < 1e-10, "{name} {middle}");
+    }
+    // At all nine, by the closed form of a height: in the middle, at the four corners and between those.
+    let steep = 0.6 / 1.36f64.powf(1.5);
+    let ones = [[-0.6, -0.6], [1.2, -1.2], [0.0, -steep]];
+    let all =
+        [0, 1, 1, 1, 1, 2, 2, 2, 2].map(|k| if side < 0.0 { ones[k] } else { [-ones[k][1], -ones[k][0]] });
+    for (n, name) in ["k1", "k2", "mean", "gaussian"].into_iter().enumerate() {
+        let mut sorted = all.map(|[a, b]| [a, b, 0.5 * (a + b), a * b][n]);
+        sorted.sort_unstable_by(f64::total_cmp);
+        for (which, expected) in [("min", sorted[0]), ("median", sorted[4]), ("max", sorted[8])] {
+            let found = answer["curvature"][name][which].as_f64().unwrap();
+            assert!((found - expected).abs() < 1e-10, "{name} {which}: {found} {expected}");
+        }
+    }
     assert_eq!(answer["unsupported_share"], 0.0);
     assert_eq!(answer["knots"]["u"].as_array().unwrap().len(), 6);
     assert!(answer["deviation"]["max"].as_f64().unwrap() < 1e-12);
