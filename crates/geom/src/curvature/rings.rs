@@ -3,11 +3,11 @@
 use super::jet::{Fitter, Jet};
 use super::terms::{NoCurvature, Taken, Terms};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Vector, cross, dot, minus, norm, plus, unit};
 use crate::spatial::lists::lists;
 use crate::topology::{Topology, TopologyError};
-use rayon::prelude::*;
 
 /// Rings do not grow through vertices with more neighbours: those around the middle of a disc of many facets would each take
 /// in all others.
