@@ -34,6 +34,10 @@ pub trait Parallel<T> {
     fn par_sort_by<F: Fn(&T, &T) -> Ordering + Sync>(&mut self, compare: F)
     where
         T: Send;
+    /// Sorts; equal items may change places, and end the same way on any number of threads only where they do not differ.
+    fn par_sort_unstable_by<F: Fn(&T, &T) -> Ordering + Sync>(&mut self, compare: F)
+    where
+        T: Send;
     /// Sorts by a key; items with equal keys may change places, and end the same way on any number of threads only where
     /// they are equal.
     fn par_sort_unstable_by_key<K: Ord, F: Fn(&T) -> K + Sync>(&mut self, key: F)
@@ -65,6 +69,12 @@ impl<T> Parallel<T> for [T] {
         T: Send,
     {
         ParallelSliceMut::par_sort_by(self, compare);
+    }
+    fn par_sort_unstable_by<F: Fn(&T, &T) -> Ordering + Sync>(&mut self, compare: F)
+    where
+        T: Send,
+    {
+        ParallelSliceMut::par_sort_unstable_by(self, compare);
     }
     fn par_sort_unstable_by_key<K: Ord, F: Fn(&T) -> K + Sync>(&mut self, key: F)
     where
@@ -270,6 +280,14 @@ impl<S: Source> Loop<S> {
         S::Item: Send + Ord,
     {
         self.max_by(Ord::cmp)
+    }
+    /// The least item.
+    pub fn min(self) -> Option<S::Item>
+    where
+        S::Item: Send + Ord,
+    {
+        let source = &self.source;
+        parts(source.len(), self.least, &|_, range| source.items(range).min()).into_iter().flatten().min()
     }
     /// What `function` makes of the first item of which it makes something.
     pub fn find_map_first<U: Send, F: Fn(S::Item) -> Option<U> + Sync>(self, function: F) -> Option<U> {

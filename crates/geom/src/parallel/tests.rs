@@ -83,7 +83,10 @@ fn what_is_made_of_all_is_that_of_one_thread() {
         // Joined in order.
         let text = items.par_iter().map(u32::to_string).reduce(String::new, |a, b| a + &b);
         assert_eq!(text, items.iter().map(u32::to_string).collect::<String>());
-        assert_eq!(items.par_iter().max(), items.iter().max());
+        assert_eq!(
+            (items.par_iter().min(), items.par_iter().max()),
+            (items.iter().min(), items.iter().max())
+        );
         assert_eq!(
             items.par_iter().max_by(|a, b| (**a % 8).cmp(&(**b % 8))),
             items.iter().max_by_key(|x| **x % 8)

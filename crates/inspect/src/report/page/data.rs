@@ -6,8 +6,8 @@ use super::super::picture::{FirstView, others};
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale, slot};
-use rayon::prelude::*;
 use serde_json::{Map, Value, json};
+use trueness_geom::parallel::prelude::*;
 
 /// Values of the distribution that the script tells shares of a range from: exactly where these are all, else about.
 const QUANTILES: usize = 2000;
