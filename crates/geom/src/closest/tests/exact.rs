@@ -191,7 +191,7 @@ fn same_bytes_whatever_the_threads_and_the_order() {
     let one = ask(1, &points);
     assert_eq!(one, ask(2, &points));
     assert_eq!(one, ask(5, &points));
-    // Another cloud: other blocks, other warm starts.
+    // Another cloud: other blocks, other places to begin at.
     let backwards: Vec<Point> = points.iter().rev().copied().collect();
     let mut other = ask(3, &backwards[..40_000]);
     other.extend(ask(2, &backwards[40_000..]));
