@@ -50,11 +50,14 @@ pub unsafe fn decide<D: Real>(tree: &Tree, b: &PointBlock, undecided: &[Undecide
         d.store(&mut distances);
         height.store(&mut heights);
         is_thin.store(&mut slow);
-        for (j, &Undecided { point: i, slot }) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0) {
+        for (j, &Undecided { point: i, slot }) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0)
+        {
             let (p, rim) = (&b.points[i as usize], distances[j & 7]);
             (distances[j & 7], heights[j & 7]) = thin::squared(p, &tree.triangle(slot), rim);
         }
-        for ((&distance_squared, &height), &Undecided { point: i, slot }) in distances.iter().zip(&heights).zip(part) {
+        for ((&distance_squared, &height), &Undecided { point: i, slot }) in
+            distances.iter().zip(&heights).zip(part)
+        {
             let h = &mut hits[i as usize];
             if distance_squared <= h.distance_squared {
                 let face = tree.face[slot as usize];

@@ -96,8 +96,10 @@ pub fn closest_point(p: &Point, t: &[Point; 3]) -> PointOfTriangle {
     let [a, b, c] = *t;
     let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
     let (ap, bp) = (sub(*p, a), sub(*p, b));
-    let (mut least, mut place) =
-        (f64::INFINITY, PointOfTriangle { point: a, barycentric: [1.0, 0.0, 0.0], feature: Feature::Vertex(0) });
+    let (mut least, mut place) = (
+        f64::INFINITY,
+        PointOfTriangle { point: a, barycentric: [1.0, 0.0, 0.0], feature: Feature::Vertex(0) },
+    );
     // Edge 2 is measured from corner 0 to corner 2, as in `squared`.
     for (i, from, to, v, w) in [(0, 0, 1, ab, ap), (2, 0, 2, ac, ap), (1, 1, 2, bc, bp)] {
         let s = along(w, v, dot(v, v), 0.0, 1.0);
@@ -106,7 +108,9 @@ pub fn closest_point(p: &Point, t: &[Point; 3]) -> PointOfTriangle {
             let mut barycentric = [0.0; 3];
             (barycentric[from], barycentric[to]) = (1.0 - s, s);
             (least, place) = match s {
-                0.0 => (d, PointOfTriangle { point: t[from], barycentric, feature: Feature::Vertex(from as u8) }),
+                0.0 => {
+                    (d, PointOfTriangle { point: t[from], barycentric, feature: Feature::Vertex(from as u8) })
+                }
                 1.0 => (d, PointOfTriangle { point: t[to], barycentric, feature: Feature::Vertex(to as u8) }),
                 _ => {
                     let point = std::array::from_fn(|k| t[from][k] + s * v[k]);
