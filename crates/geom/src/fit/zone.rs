@@ -24,7 +24,7 @@ const ROUNDS: usize = 60;
 const TOUCHES: f64 = 1e-15;
 /// An optimum whose distances range this many times as far as those of the least-squares element is another
 /// one: a flat ring also fits through a cylinder that lies on its side.
-const ASTRAY: f64 = 6.0;
+const OTHER_OPTIMUM: f64 = 6.0;
 /// Further starts about the first optimum.
 const STARTS: u64 = 12;
 
@@ -181,7 +181,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
     /// Whether the optimum belongs to the feature: it has not left through a gap between the points, and its
     /// distances range not much farther than those of the first element.
     fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
-        let most = ASTRAY * self.range.max(TOUCHES);
+        let most = OTHER_OPTIMUM * self.range.max(TOUCHES);
         self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))
     }
 

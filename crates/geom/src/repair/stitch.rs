@@ -37,8 +37,8 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         let mut groups = work.find(kind)?;
         let known = work.known()?;
         let sets = Sets::new(work.mesh().positions.len());
-        let parted = |v: &u32| work.parted.contains(v);
-        groups.retain(|g| !g.vertices.iter().any(parted));
+        let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
+        groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
         groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
         let members = groups.into_iter().flat_map(|g| g.vertices).collect();
         merge(work, &known, &sets, members);
@@ -130,11 +130,11 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
         .collect::<Vec<_>>()
         .concat();
     found.sort_unstable_by(nearer);
-    let parted = |v: &u32| work.parted.contains(v);
+    let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
     let mut used = vec![false; edges.len()];
     let mut pairs = vec![];
     for (distance, e, f, joined) in found {
-        let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(parted);
+        let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(is_kept_apart);
         let apart = |[a, b]: &[u32; 2]| a == b || !known.topology.has_edge(work.mesh(), [*a, *b]);
         if free && joined.iter().all(apart) {
             (used[e as usize], used[f as usize]) = (true, true);

@@ -215,9 +215,10 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     around_hubs(&walk, &hubs, some, &mut pairs);
     if !tree.leaves.is_empty() && !walk.is_over() {
         let top = tree.levels.len() - 1;
-        match level {
+        match level.min(Level::detect()) {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => avx2(&walk, top, 0, &[0], &mut pairs),
+            // SAFETY: `Level::detect` found these instructions.
+            Level::Avx2 | Level::Avx512 => unsafe { avx2(&walk, top, 0, &[0], &mut pairs) },
             _ => plain(&walk, top, 0, &[0], &mut pairs),
         }
     }
@@ -284,22 +285,24 @@ struct Walk<'a> {
     found: AtomicUsize,
 }
 
-type Deeper = for<'a> fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
+/// [`Walk::descend`] for one level of instructions.
+///
+/// # Safety
+/// The processor has these instructions.
+type Deeper = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
 fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
     unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
 }
 
+/// # Safety
+/// The processor has the instructions named here.
 #[cfg(target_arch = "x86_64")]
-fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
-    fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-        // SAFETY: the instructions are those of this function.
-        unsafe { walk.descend::<A8>(level, i, list, out, avx2) }
-    }
-    // SAFETY: reached from `with` only, for a level that the processor has.
-    unsafe { run(walk, level, i, list, out) }
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
+unsafe fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+    // SAFETY: the instructions are those of this function.
+    unsafe { walk.descend::<A8>(level, i, list, out, avx2) }
 }
 
 #[inline(always)]
@@ -315,7 +318,7 @@ impl Walk<'_> {
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
     ///
     /// # Safety
-    /// The processor has the instructions of `L`.
+    /// The processor has the instructions of `L` and of `deeper`.
     #[inline(always)]
     unsafe fn descend<L: Masks>(
         &self,
@@ -336,7 +339,8 @@ impl Walk<'_> {
                 next.clear();
                 // SAFETY: handed on.
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-                deeper(self, level - 1, i * W + a, &next, out);
+                // SAFETY: the instructions of `deeper` are those of `L`.
+                unsafe { deeper(self, level - 1, i * W + a, &next, out) };
             }
             if level == 1 {
                 self.progress.advance((children.len() * W) as u64);
@@ -351,12 +355,16 @@ impl Walk<'_> {
             lists.push((i * W + a, next));
         }
         if self.alone {
-            return lists.into_iter().for_each(|(child, next)| deeper(self, level - 1, child, &next, out));
+            // SAFETY: as above.
+            let one =
+                |(child, next): (usize, Vec<u32>)| unsafe { deeper(self, level - 1, child, &next, out) };
+            return lists.into_iter().for_each(one);
         }
         let wanted = out.wanted;
         let parts = lists.into_par_iter().map(|(child, next)| {
             let mut part = Pairs::new(wanted);
-            deeper(self, level - 1, child, &next, &mut part);
+            // SAFETY: as above.
+            unsafe { deeper(self, level - 1, child, &next, &mut part) };
             part
         });
         parts.collect::<Vec<_>>().into_iter().for_each(|part| out.append(part));
