@@ -1,8 +1,11 @@
 //! Minimum zone, minimum circumscribed and maximum inscribed elements of any number of points.
 //!
-//! Few points touch the best element. A small working set is solved to the end; one pass over all points finds
-//! those that still stick out; the worst of every stretch of the list join the working set, until none sticks
-//! out. The answer is then optimal for all points, with the multipliers of the touching ones as certificate.
+//! Few points touch the best element, so the problem is solved by exchange:
+//! 1. the element is optimized for a small working set of points;
+//! 2. one pass over all points finds those farther off than the zone of the working set allows;
+//! 3. if there are any, the worst of each part of the list join the working set, and it goes on with 1.
+//!
+//! At the end no point is outside, so the element is optimal for all points. The multipliers of the touching points certify it.
 
 use super::family::{Element, Family};
 use super::minimax::{Aim, Low, minimax};

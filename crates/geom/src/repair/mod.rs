@@ -1,8 +1,12 @@
-//! Mending what [`check`] finds, without moving a vertex.
+//! Repair of what [`check`] finds, without moving a vertex.
 //!
-//! [`repair`] goes through the steps of [`STEPS`], one file and one line each, again and again until nothing is left to
-//! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
-//! listed. The result of a step is decided exactly where [`check`] decides exactly.
+//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes nothing. A step
+//! makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers facets, but never writes
+//! a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step decides exactly what [`check`]
+//! decides exactly.
+//!
+//! Where the steps together make the mesh worse, they are gone through again without one of them, from the state before that
+//! step first changed something (`rounds`).
 
 mod change;
 mod degenerate;
@@ -89,7 +93,7 @@ impl Default for Options {
     }
 }
 
-/// What came of it.
+/// The result of a repair.
 #[derive(Clone, Debug)]
 pub struct Repaired {
     /// The mended mesh. Vertices that stayed keep their bits and their order; new ones follow.
@@ -222,7 +226,7 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     let mut taken_back = vec![];
     let mut lost = done.did(&LOSING);
     if !done.after.sound && !lost.is_empty() {
-        // Surface was removed in vain: it shall stay.
+        // Surface was removed, and the rest is not sound all the same: once more without removing any.
         done = attempt(&lost, None)?;
         taken_back.append(&mut lost);
     }
@@ -260,8 +264,8 @@ fn names_but(name: &str) -> Vec<&'static str> {
     STEPS.iter().map(|s| s.name).filter(|n| *n != name).collect()
 }
 
-/// The steps without one of those that changed something in `done`, or without the last ones of these, so that nothing is worse than
-/// `least`; and all that were left out, with those left out before.
+/// The first attempt after which no defect is more frequent than in `least`, and the steps that it leaves out: each step that changed
+/// something in `done` is left out by itself; then the last two of them, the last three, and so on. Always without `left_out` too.
 fn without_some(
     attempt: &impl Fn(&[&'static str], Option<&Kept>) -> Result<Attempt, RepairError>,
     done: &Attempt,
@@ -296,7 +300,7 @@ fn worse(before: &Report, after: &Report) -> bool {
     errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))
 }
 
-/// What some steps came to.
+/// What one attempt came to.
 struct Attempt {
     mesh: Mesh,
     known: Arc<Known>,
@@ -332,7 +336,7 @@ impl Attempt {
     }
 }
 
-/// Goes through the steps of `options`, from the start or from a state on the way to which these steps have not differed.
+/// Goes through the steps of `options`, from the start, or from a state up to which they did the same as in an earlier attempt.
 fn attempt(
     (start, from): (&Work, Option<&Kept>),
     options: &Options,

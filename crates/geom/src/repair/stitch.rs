@@ -1,8 +1,9 @@
 //! Gaps between edges that were meant as one.
 //!
-//! First vertices on the boundary within the gap of one another become one. Then boundary edges look for a partner whose two
-//! ends lie near their own, at distances that grow fourfold up to the limit, but never beyond a quarter of the edges
-//! themselves: so neighbouring vertices cannot collapse, and the nearest partner wins.
+//! 1. Vertices on the boundary within the gap of one another become one.
+//! 2. Each boundary edge is joined with a partner whose two ends lie near its own. The distance allowed grows fourfold from pass
+//!    to pass up to the limit, so that the nearest partner is taken first. It is never more than a quarter of the length of either
+//!    edge, so that the ends of an edge cannot become one.
 
 use super::error::RepairError;
 use super::step::Step;

@@ -130,7 +130,8 @@ impl Topology {
         if progress.cancelled() { Err(Cancelled.into()) } else { Ok(topology) }
     }
 
-    /// After vertices that no facet uses have gone from the mesh; `None` where facets do not count, which might use some.
+    /// The topology after the vertices that no facet uses have been removed from the mesh. `None` where some facets do not count: these
+    /// might use such vertices.
     pub(crate) fn compacted(&self) -> Option<Topology> {
         if self.counting_facets < self.shell_of.len() {
             return None;

@@ -1,11 +1,15 @@
 //! All pairs of facets that cross, touch or overlap where they should not.
 //!
-//! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
-//! that overlap its children; eight boxes in one comparison. No walk ever starts at the root. At the bottom the
-//! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
-//! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: facets at vertices with very many, whose boxes
-//! all overlap, are not in the tree; they are searched in a way of their own (see `hub`), among each other and against
-//! the facets of the tree. *Copies*: of facets with the same three corners only the first is searched (see `pairs`).
+//! The search has four parts:
+//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box, and keeps
+//!    those that overlap its own; eight boxes in one comparison. So no search begins at the root. The children of the lowest
+//!    nodes are triangles.
+//! 2. *Filter.* Most of the pairs left are excluded in single precision, whether the triangles share corners or not (`filter`).
+//! 3. *Exact.* The rest is decided by `meet`.
+//! 4. *Hubs.* The boxes of all facets at a vertex overlap there. Facets at a vertex with very many are therefore not in the
+//!    tree. They are searched separately, among each other and against the facets of the tree (`hub`).
+//!
+//! Of several facets with the same three corners only the first is searched (`pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod book;
@@ -99,7 +103,8 @@ pub fn first_self_intersections(
     if found.count <= search.most {
         return Ok(found);
     }
-    // Which were found by then hangs on the threads: once more with one, for as many as are listed.
+    // Which pairs were found before the end depends on the threads. So it is searched once more, on one thread and in a fixed order, for
+    // as many pairs as are listed.
     let few = Search { most: limit.saturating_sub(1), alone: true, ..search };
     let first = with(&few, progress, Level::detect())?.first;
     Ok(Crossings { count: search.most, at_least: true, first })
@@ -195,7 +200,7 @@ struct Search<'a> {
     limit: usize,
     /// Beyond so many pairs there is no need to find more.
     most: usize,
-    /// On one thread, in an order of its own: what was found when there is no need for more is always the same.
+    /// On one thread, in a fixed order: where the search ends early, it has found the same pairs every time.
     alone: bool,
 }
 
