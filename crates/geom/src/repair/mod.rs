@@ -51,7 +51,6 @@ use crate::check::{self, Known, Report};
 use crate::closest::sane_vertex;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};

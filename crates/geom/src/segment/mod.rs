@@ -36,7 +36,6 @@ mod tests;
 use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
