@@ -22,7 +22,11 @@ fn over(h: impl Fn(usize) -> f64) -> Vec<[f64; 6]> {
         let side = if x < 0.0 { -1.0 } else { 1.0 };
         [x, 4.0 + (k / 10) as f64 * 4.0, 30.0 - 0.75 * x.abs() + h(k), 0.6 * side, 0.0, 0.8]
     };
-    let beside = [[41.0, 25.0, 2.0, 0.0, 0.0, 1.0], [0.5, 51.0, 29.0, 0.0, 1.0, 0.0], [5.0, 25.0, 28.0, 0.0, 0.0, 0.0]];
+    let beside = [
+        [41.0, 25.0, 2.0, 0.0, 0.0, 1.0],
+        [0.5, 51.0, 29.0, 0.0, 1.0, 0.0],
+        [5.0, 25.0, 28.0, 0.0, 0.0, 0.0],
+    ];
     (0..100).map(point).chain(beside).collect()
 }
 
@@ -32,7 +36,7 @@ fn csv(points: &[[f64; 6]]) -> String {
 }
 
 fn height(k: usize) -> f64 {
-    if k % 3 == 0 { -0.5 } else { 0.25 }
+    if k.is_multiple_of(3) { -0.5 } else { 0.25 }
 }
 
 fn numbers(c: &Value) -> [f64; 3] {
@@ -58,14 +62,19 @@ fn along_a_direction_and_along_normals_in_closed_form() {
     assert_eq!(up["along"], serde_json::json!({"kind": "direction", "direction": [0.0, 0.0, 1.0]}));
     // Across the faces they are 0.8 of that, by the normals of either; the scan's ends where it has none.
     let own = ask("measured", &[]);
-    for (found, want) in numbers(&own).into_iter().zip([-0.4, 0.2, 0.8 * (0..100).map(height).sum::<f64>() / 100.0]) {
+    for (found, want) in
+        numbers(&own).into_iter().zip([-0.4, 0.2, 0.8 * (0..100).map(height).sum::<f64>() / 100.0])
+    {
         assert!((found - want).abs() < 1e-12, "{found} {want}");
     }
     assert_eq!(excluded(&own)["no_direction"], 1);
     assert_eq!(excluded(&own)["no_crossing"], 2);
     let reference = ask("reference", &[]);
     assert!((numbers(&reference)[0] + 0.4).abs() < 1e-12);
-    assert_eq!((&reference["along"]["kind"], &reference["excluded"]["no_direction"]), (&"reference".into(), &0.into()));
+    assert_eq!(
+        (&reference["along"]["kind"], &reference["excluded"]["no_direction"]),
+        (&"reference".into(), &0.into())
+    );
     // Along x the one beside it that looks up meets a face that does not, and so does the one without a normal.
     assert_eq!(ask("1,0,0", &["--facing", "1"])["excluded"]["facing"], 2);
     // The worst place lies along the line, not at the nearest place.
@@ -111,21 +120,37 @@ fn a_plan_measures_along_lines_as_a_comparison_does() {
     let folder = Folder::new();
     let roof = folder.write("roof.off", ROOF);
     let scan = folder.write("scan.csv", csv(&over(height)));
-    let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.csv\"\nreference = \"roof.off\"\n[deviation]\n";
+    let head =
+        "schema = \"trueness/plan/1\"\nmeasured = \"scan.csv\"\nreference = \"roof.off\"\n[deviation]\n";
     let plan = |rest: &str| {
-        let plan = folder.write("plan.toml", format!("{head}tolerance = [-0.45, 0.45]\nmax_distance = 5\n{rest}"));
+        let plan =
+            folder.write("plan.toml", format!("{head}tolerance = [-0.45, 0.45]\nmax_distance = 5\n{rest}"));
         let json = folder.file("r.json");
         let o = trueness(["inspect", word(&plan), "--json", word(&json)]);
         let text = std::fs::read_to_string(&json).unwrap_or_default();
         (status(&o), stdout(&o) + &stderr(&o), serde_json::from_str::<Value>(&text).unwrap_or_default())
     };
-    for (in_plan, word_of) in [("[0, 0, 1]", "0,0,1"), ("\"reference\"", "reference"), ("\"measured\"", "measured")] {
+    for (in_plan, word_of) in
+        [("[0, 0, 1]", "0,0,1"), ("\"reference\"", "reference"), ("\"measured\"", "measured")]
+    {
         let (_, table, found) = plan(&format!("along = {in_plan}\n"));
-        let words =
-            ["compare", word(&scan), word(&roof), "--along", word_of, "--max-distance", "5", "--tolerance", "0.45"];
+        let words = [
+            "compare",
+            word(&scan),
+            word(&roof),
+            "--along",
+            word_of,
+            "--max-distance",
+            "5",
+            "--tolerance",
+            "0.45",
+        ];
         let compared = &document(words)["comparisons"][0];
         for key in ["deviation", "along", "excluded", "tolerance", "worst", "verdict"] {
-            assert!(!found["deviation"][key].is_null() && found["deviation"][key] == compared[key], "{word_of} {key}");
+            assert!(
+                !found["deviation"][key].is_null() && found["deviation"][key] == compared[key],
+                "{word_of} {key}"
+            );
         }
         assert!(table.contains("  along ") && table.contains("no crossing"), "{table}");
     }

@@ -56,7 +56,8 @@ struct Scaled {
 impl Scaled {
     fn of(tree: &Tree, line: &Line) -> Scaled {
         let origin = std::array::from_fn(|k| (line.point[k] - tree.centre[k]) * tree.scale);
-        let far = origin.iter().chain(&tree.centre.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
+        let far =
+            origin.iter().chain(&tree.centre.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
         Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: SLACK * far }
     }
 

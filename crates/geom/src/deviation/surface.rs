@@ -8,10 +8,6 @@ use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
-mod along;
-
-pub use along::Along;
-
 /// What is asked of a [`Surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceOptions {
@@ -140,6 +136,10 @@ impl Surface {
     pub fn tree(&self) -> &Tree {
         &self.tree
     }
+    /// The greatest distance that counts.
+    pub(super) fn max_distance(&self) -> f64 {
+        self.max_distance
+    }
     /// The sign method and why.
     pub fn sign(&self) -> &SignChoice {
         &self.choice
@@ -264,7 +264,7 @@ impl Surface {
 }
 
 /// Hands on whether to stop, but not what is done: points count once, by their distances.
-struct OnlyCancels<'a>(&'a dyn Progress);
+pub(super) struct OnlyCancels<'a>(pub &'a dyn Progress);
 
 impl Progress for OnlyCancels<'_> {
     fn cancelled(&self) -> bool {

@@ -9,8 +9,9 @@ use super::options::Options;
 use super::worst::Place;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
+use trueness_geom::deviation::along::Along;
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::deviation::surface::{Along, Disagreement, Surface, SurfaceOptions};
+use trueness_geom::deviation::surface::{Disagreement, Surface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, times};
@@ -80,7 +81,8 @@ impl<'a> Target<'a> {
         match (reference.splines, tree) {
             (None, Some(tree)) => {
                 let surface = Surface::new(tree, reference.mesh, &options.surface, progress)?;
-                let along = options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
+                let along =
+                    options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
                 Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh, along })
             }
             (Some(search), _) => Ok(Target::Splines(Splines {
@@ -132,13 +134,14 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, mesh, along: Some(along) } => {
                 let turn = if surface.sign().inside_out { -1.0 } else { 1.0 };
-                let found = surface.map_along(asked.start, points, along, progress, |i, deviation, met| {
-                    let Some(met) = met else { return (deviation, None) };
-                    if !asked.agrees(i, || facet_normal(mesh, met.face).map(|n| times(turn, n))) {
-                        return (facing, None);
-                    }
-                    (deviation, asked.map.map(|map| map.foot(met.face, met.barycentric)))
-                })?;
+                let found =
+                    surface.map_along(asked.start, points, along, progress, |i, deviation, met| {
+                        let Some(met) = met else { return (deviation, None) };
+                        if !asked.agrees(i, || facet_normal(mesh, met.face).map(|n| times(turn, n))) {
+                            return (facing, None);
+                        }
+                        (deviation, asked.map.map(|map| map.foot(met.face, met.barycentric)))
+                    })?;
                 let (deviations, feet) = found.into_iter().unzip();
                 Ok(Measures { deviations, feet, uncertain: 0 })
             }

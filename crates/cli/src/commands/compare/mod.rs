@@ -188,9 +188,9 @@ impl CompareArgs {
             (Some(_), MethodArg::Paper) => {
                 Err(Usage("--along measures along lines, --method paper to vertices; choose one".into()))
             }
-            (Some(_), _) if self.both => {
-                Err(Usage("--both measures to the nearest place in both directions; leave out --along".into()))
-            }
+            (Some(_), _) if self.both => Err(Usage(
+                "--both measures to the nearest place in both directions; leave out --along".into(),
+            )),
             _ => Ok(()),
         }
     }
@@ -282,9 +282,8 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
 
 /// Reads the measured normals for what asks for them.
 fn normals(args: &CompareArgs, measured: &Measured, options: &mut Options) -> anyhow::Result<()> {
-    let read = |what: &str| {
-        measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what)
-    };
+    let read =
+        |what: &str| measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what);
     if args.along == Some(AlongRule::Measured) {
         options.along = Some(Lines::new(AlongRule::Measured, read("--along measured")?));
     }

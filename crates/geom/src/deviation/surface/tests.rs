@@ -4,6 +4,7 @@ use super::super::sign_choice::SignReason;
 use super::*;
 use crate::check::tests::{add, inverted};
 use crate::closest::tests::{Dice, cube, sphere};
+use crate::deviation::along::Along;
 use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::tests::block;
@@ -176,7 +177,8 @@ fn deviations_along_lines() {
     // Over the top; beside it; inside, nearest to the bottom; too far from everything; in reach, but not along the line.
     let points = [[0.5, 0.5, 1.25], [1.5, 0.25, 0.5], [0.5, 0.5, 0.25], [0.5, 0.5, 4.0], [0.5, 0.5, 3.0]];
     let ask = |start, along: &Along| {
-        let got = surface.map_along(start, &points, along, &Silent, |_, d, c| (d, c.map(|c| c.point))).unwrap();
+        let got =
+            surface.map_along(start, &points, along, &Silent, |_, d, c| (d, c.map(|c| c.point))).unwrap();
         got.into_iter().map(|(d, at)| Exclusion::of(d).map_or(Ok((d, at.unwrap())), Err)).collect::<Vec<_>>()
     };
     use Exclusion::{MaxDistance, NoCrossing, NoDirection};
@@ -215,8 +217,12 @@ fn normals_of_the_reference_are_those_of_the_nearest_place() {
     let (mesh, beside) = (cube(1.0), [[1.3, 0.4, 1.1]]);
     let tree = Tree::build(&mesh).unwrap();
     let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
-    let found = surface.map_along(0, &beside, &surface.normals(&Silent).unwrap(), &Silent, |_, d, c| (d, *c.unwrap()));
+    let found = surface
+        .map_along(0, &beside, &surface.normals(&Silent).unwrap(), &Silent, |_, d, c| (d, *c.unwrap()));
     let (d, crossing) = found.unwrap()[0];
     // Along (1, 0, 1) from there the side x = 1 is met at z = 0.8.
-    assert!((d - 0.3 * 2f64.sqrt()).abs() < 1e-14 && (crossing.point[2] - 0.8).abs() < 1e-14, "{d} {crossing:?}");
+    assert!(
+        (d - 0.3 * 2f64.sqrt()).abs() < 1e-14 && (crossing.point[2] - 0.8).abs() < 1e-14,
+        "{d} {crossing:?}"
+    );
 }

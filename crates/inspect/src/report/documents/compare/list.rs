@@ -287,11 +287,7 @@ const REASONS: [&str; 7] =
 
 /// The reasons that the table of words knows.
 fn known(reason: &str) -> &str {
-    if REASONS.contains(&reason) {
-        reason
-    } else {
-        "excluded"
-    }
+    if REASONS.contains(&reason) { reason } else { "excluded" }
 }
 
 fn sign(h: &mut Html, s: &SignRecord) {

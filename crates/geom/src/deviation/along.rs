@@ -3,7 +3,7 @@
 //! The size is the distance to the nearest crossing of that line with the mesh, ahead or behind; the sign is that of the nearest
 //! place, since the side of a surface that a point is on does not hang on where one looks.
 
-use super::{Exclusion, Surface};
+use super::surface::{Exclusion, OnlyCancels, Surface};
 use crate::closest::{Crossing, QueryError, Signs};
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector};
@@ -36,7 +36,7 @@ impl Surface {
     /// # Errors
     /// [`Cancelled`].
     pub fn normals(&self, progress: &dyn Progress) -> Result<Along, Cancelled> {
-        Ok(Along::Reference(Arc::new(Signs::watched(&self.tree, progress)?)))
+        Ok(Along::Reference(Arc::new(Signs::watched(self.tree(), progress)?)))
     }
 
     /// `f(index, deviation, crossing)` of each point, in the order of `points`: the deviation along a line, millimetres, + outside,
@@ -51,7 +51,8 @@ impl Surface {
     ///
     /// ```
     /// use trueness_geom::closest::Tree;
-    /// use trueness_geom::deviation::surface::{Along, Surface, SurfaceOptions};
+    /// use trueness_geom::deviation::along::Along;
+    /// use trueness_geom::deviation::surface::{Surface, SurfaceOptions};
     /// use trueness_geom::{mesh::Mesh, progress::Silent};
     /// // A plane at 45°: the point 1 above it along z lies √½ away from it.
     /// let positions = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 4.0, 0.0]];
@@ -84,15 +85,21 @@ impl Surface {
             let some = |d: &Vector| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite());
             (deviation, direction.filter(|d| deviation.is_finite() && some(d)))
         })?;
-        let other = super::OnlyCancels(progress);
-        self.tree.map_crossings(points, |i| lines[i].1, self.max_distance, &other, |i, crossing| {
-            let (nearest, line) = lines[i];
-            match (line, &crossing) {
-                _ if !nearest.is_finite() => f(i, nearest, None),
-                (None, _) => f(i, Exclusion::NoDirection.value(), None),
-                (_, None) => f(i, Exclusion::NoCrossing.value(), None),
-                (_, Some(c)) => f(i, c.along.abs().copysign(nearest), crossing.as_ref()),
-            }
-        })
+        let other = OnlyCancels(progress);
+        self.tree().map_crossings(
+            points,
+            |i| lines[i].1,
+            self.max_distance(),
+            &other,
+            |i, crossing| {
+                let (nearest, line) = lines[i];
+                match (line, &crossing) {
+                    _ if !nearest.is_finite() => f(i, nearest, None),
+                    (None, _) => f(i, Exclusion::NoDirection.value(), None),
+                    (_, None) => f(i, Exclusion::NoCrossing.value(), None),
+                    (_, Some(c)) => f(i, c.along.abs().copysign(nearest), crossing.as_ref()),
+                }
+            },
+        )
     }
 }
