@@ -106,7 +106,7 @@ fn add(
 
 /// How far each basis function is from being held by its points: 0 of enough, 1 of none.
 fn needs(data: &Binned, normal: &Stencil) -> Vec<f64> {
-    let squares = data.spans.each_ref().map(|s| squares(s));
+    let squares = data.spans.each_ref().map(squares);
     let density = data.density();
     let need = |k: usize| {
         let [i, j] = [k / data.counts[1], k % data.counts[1]];
