@@ -80,7 +80,10 @@ impl<'a> Target<'a> {
     ) -> Result<Target<'a>, ReferenceError> {
         match (reference.splines, tree) {
             (None, Some(tree)) => {
-    Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh, along: Option<Along> },
+                let surface = ReferenceSurface::new(tree, reference.mesh, &options.surface, progress)?;
+                let along =
+                    options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
+                Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh, along })
             }
             (Some(search), _) => Ok(Target::Splines(Splines {
                 search,
@@ -219,7 +222,11 @@ impl Splines<'_> {
 }
 
 /// The lines that are asked for, ready to be measured along.
-fn along(lines: &Lines, surface: &ReferenceSurface, progress: &dyn Progress) -> Result<Along, ReferenceError> {
+fn along(
+    lines: &Lines,
+    surface: &ReferenceSurface,
+    progress: &dyn Progress,
+) -> Result<Along, ReferenceError> {
     Ok(match lines.rule() {
         AlongRule::Direction(d) => Along::Direction(d),
         AlongRule::Measured => Along::Measured(lines.normals()),
