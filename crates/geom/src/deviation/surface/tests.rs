@@ -173,7 +173,7 @@ fn deviations_along_lines() {
     let mesh = cube(1.0);
     let tree = Tree::build(&mesh).unwrap();
     let options = SurfaceOptions { max_distance: 2.5, ..SurfaceOptions::default() };
-    let surface = Surface::new(&tree, &mesh, &options, &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &options, &Silent).unwrap();
     // Over the top; beside it; inside, nearest to the bottom; too far from everything; in reach, but not along the line.
     let points = [[0.5, 0.5, 1.25], [1.5, 0.25, 0.5], [0.5, 0.5, 0.25], [0.5, 0.5, 4.0], [0.5, 0.5, 3.0]];
     let ask = |start, along: &Along| {
@@ -203,7 +203,7 @@ fn normals_of_the_reference_are_those_of_the_nearest_place() {
     let center = [1.0, 2.0, 3.0];
     let mesh = sphere(60, 5.0, center);
     let tree = Tree::build(&mesh).unwrap();
-    let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let d = &mut TestRandom(7);
     let points: Vec<Point> = (0..500).map(|_| plus(center, d.point(6.0))).collect();
     let normals = surface.normals(&Silent).unwrap();
@@ -216,7 +216,7 @@ fn normals_of_the_reference_are_those_of_the_nearest_place() {
     }
     let (mesh, beside) = (cube(1.0), [[1.3, 0.4, 1.1]]);
     let tree = Tree::build(&mesh).unwrap();
-    let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let found = surface
         .map_along(0, &beside, &surface.normals(&Silent).unwrap(), &Silent, |_, d, c| (d, *c.unwrap()));
     let (d, crossing) = found.unwrap()[0];
