@@ -3,6 +3,7 @@
 use super::Language;
 use super::number::Style;
 use super::text::word;
+use super::values::percent;
 
 /// A page, or a part of one, under construction.
 pub struct Html {
@@ -15,6 +16,13 @@ impl Html {
     /// Nothing yet.
     pub fn new(style: Style) -> Html {
         Html { text: String::new(), style }
+    }
+
+    /// A part that is written piece by piece.
+    pub fn part(style: Style, write: impl FnOnce(&mut Html)) -> maud::Markup {
+        let mut h = Html::new(style);
+        write(&mut h);
+        maud::PreEscaped(h.finish())
     }
 
     /// The text so far.
@@ -30,6 +38,12 @@ impl Html {
     /// Markup of our own.
     pub fn raw(&mut self, markup: &str) -> &mut Html {
         self.text.push_str(markup);
+        self
+    }
+
+    /// A part made by a template.
+    pub fn add(&mut self, part: impl maud::Render) -> &mut Html {
+        part.render_to(&mut self.text);
         self
     }
 
@@ -61,7 +75,7 @@ impl Html {
 
     /// A number above zero that is too small for digits after the point.
     pub fn scientific(&mut self, value: f64, decimals: usize) -> &mut Html {
-        let text = self.style.scientific(value, decimals);
+        let text = self.style.exponent(value, decimals);
         self.raw(&format!("<span class=\"n\" data-e=\"{value}\" data-d=\"{decimals}\">{text}</span>"))
     }
 
@@ -106,19 +120,6 @@ impl Html {
     }
 }
 
-/// A share in percent that rounds to 100 or to 0 only where it is that: 99.9996 % in tolerance is not 100.00 %.
-pub fn percent(share: f64, decimals: usize) -> f64 {
-    let unit = 10f64.powi(-(decimals as i32));
-    let p = 100.0 * share;
-    if share < 1.0 && p > 100.0 - unit {
-        100.0 - unit
-    } else if share > 0.0 && p < unit {
-        unit
-    } else {
-        p
-    }
-}
-
 /// Text with the five characters that mean something in HTML replaced, and control characters dropped.
 pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -134,44 +135,4 @@ pub fn escaped(text: &str) -> String {
         }
     }
     safe
-}
-
-/// JSON to stand inside a `<script>` element: nothing in it can end the element.
-pub fn json(value: &serde_json::Value) -> String {
-    value.to_string().replace('<', "\\u003c")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn html() -> Html {
-        Html::new(Style { language: Language::De, decimal: None })
-    }
-
-    #[test]
-    fn no_text_becomes_markup() {
-        let mut h = html();
-        h.text("<img src=x onerror=\"alert('&')\">\u{0}");
-        assert_eq!(h.finish(), "&lt;img src=x onerror=&quot;alert(&#39;&amp;&#39;)&quot;&gt;\u{fffd}");
-        let value = serde_json::json!({"name": "</script><!--"});
-        assert_eq!(json(&value), r#"{"name":"\u003c/script>\u003c!--"}"#);
-        assert_eq!(serde_json::from_str::<serde_json::Value>(&json(&value)).unwrap(), value);
-    }
-
-    #[test]
-    fn numbers_keep_all_digits_for_the_script() {
-        let mut h = html();
-        h.number(1234.56789, 2, true);
-        assert_eq!(
-            h.finish(),
-            "<span class=\"n\" data-n=\"1234.56789\" data-d=\"2\" data-s>+1.234,57</span>"
-        );
-    }
-
-    #[test]
-    fn all_is_all_and_none_is_none() {
-        assert_eq!([1.0, 0.0, 0.5].map(|s| percent(s, 2)), [100.0, 0.0, 50.0]);
-        assert_eq!([0.999_999, 0.000_001].map(|s| percent(s, 2)), [99.99, 0.01]);
-    }
 }

@@ -19,6 +19,7 @@ mod payload;
 mod picture;
 mod text;
 mod up;
+mod values;
 
 pub use documents::{Answer, flat};
 pub use error::ReportError;

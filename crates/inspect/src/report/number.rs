@@ -47,7 +47,7 @@ impl Style {
     }
 
     /// A number as 1.5e−7, with `decimals` digits after the decimal sign.
-    pub fn scientific(self, value: f64, decimals: usize) -> String {
+    pub fn exponent(self, value: f64, decimals: usize) -> String {
         let text = format!("{value:.decimals$e}");
         text.replace('.', &self.decimal().to_string()).replace('-', "\u{2212}")
     }

@@ -151,7 +151,7 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
     h.raw("</th></tr></thead><tbody>");
     for (n, c) in d.rows().into_iter().enumerate() {
         h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" ");
-        symbol(h, &c.kind);
+        h.add(symbol(&c.kind));
         h.word(&format!("kind.{}", c.kind));
         for letters in c.letters() {
             h.raw(" ").text(letters);
@@ -159,7 +159,7 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
         h.raw("<br><small>").name(&c.feature);
         for datum in &c.datums {
             h.raw(" | ");
-            datum_name(h, datum);
+            h.add(datum_name(datum));
         }
         h.raw("</small></td><td class=\"r\">");
         h.optional(c.value, c.reason.as_deref(), digits(c), false);
@@ -223,7 +223,7 @@ fn allowed(h: &mut Html, c: &CharacteristicRecord) {
             );
             if let Some((t, material)) = c.requirement() {
                 h.raw(" (").number(t, digits(c), false).raw("\u{a0}");
-                requirement(h, material.word());
+                h.add(requirement(material.word()));
                 h.raw(")");
             }
         }

@@ -2,7 +2,7 @@
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
-use super::curvature::{choose_head, choose_row, words};
+use super::curvature::{Choice, choices, words};
 use super::{Head, Map, Pick, Subject};
 use crate::curvature::Kind;
 use crate::results::Verdict;
@@ -181,15 +181,14 @@ fn deviations(h: &mut Html, d: &SurfaceDocument) {
 
 /// Deviation and curvatures, each in a row that shows its map.
 fn quantities(h: &mut Html, d: &SurfaceDocument) {
-    choose_head(h, ["min", "median", "max"]);
     let (all, digits) = (&d.deviation, d.map.scale.decimals as usize);
-    choose_row(h, 0, "deviation", [all.min, all.median, all.max], digits, "mm");
-    for (n, (kind, map)) in curvatures(d).enumerate() {
+    let first = Choice { key: "deviation", values: [all.min, all.median, all.max], digits, unit: "mm" };
+    let rest = curvatures(d).map(|(kind, map)| {
         let range = range(d, kind);
         let values = [range.map(|r| r.min), range.map(|r| r.median), range.map(|r| r.max)];
-        choose_row(h, n + 1, words(kind)[0], values, map.scale.decimals as usize, kind.unit());
-    }
-    h.raw("</tbody></table>");
+        Choice { key: words(kind)[0], values, digits: map.scale.decimals as usize, unit: kind.unit() }
+    });
+    h.add(choices(h.style, ["min", "median", "max"], std::iter::once(first).chain(rest)));
     if d.curvature.reason.is_some() {
         h.raw("<p class=\"note\">").word("surface.no_normal").raw("</p>");
     }

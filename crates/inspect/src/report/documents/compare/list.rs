@@ -32,7 +32,9 @@ pub fn list(h: &mut Html, result: &CompareDocument) {
         trust(h, result, c);
         let found = found(&c.soundness.findings);
         if !found.is_empty() {
-            section(h, "reference.defects", |h| check::kinds(h, &found, first_pick));
+            section(h, "reference.defects", |h| {
+                h.add(check::kinds(h.style, &found, first_pick));
+            });
             first_pick += check::picks(&found, 0).len();
         }
         h.raw("</div>\n");

@@ -25,11 +25,11 @@ pub fn chart(h: &mut Html, document: &TrendDocument, n: usize, below: impl FnOnc
     let axes = Axes::of(c);
     h.raw(&format!("<figure class=\"chart\" id=\"course-{n}\" data-of=\"{n}\" data-decimals=\"{}\"><figcaption><span class=\"of-what\">", axes.decimals));
     h.name(&c.id).raw(" ");
-    symbol(h, &c.kind);
+    h.add(symbol(&c.kind));
     h.word(&format!("kind.{}", c.kind)).raw(" <small>").name(&c.feature);
     for datum in &c.datums {
         h.raw(" | ");
-        datum_name(h, datum);
+        h.add(datum_name(datum));
     }
     h.raw("</small></span><span class=\"unit\">").text(unit(c)).raw("</span>");
     badge(h, Headline::from(c.verdict()));

@@ -21,7 +21,7 @@ pub fn overview(h: &mut Html, document: &TrendDocument, rows: &[usize]) {
     for n in rows {
         let c = &document.characteristics[*n];
         h.raw(&format!("<tr data-of=\"{n}\"><td><a href=\"#course-{n}\">")).name(&c.id).raw("</a> ");
-        symbol(h, &c.kind);
+        h.add(symbol(&c.kind));
         h.raw("<small>").word(&format!("kind.{}", c.kind)).raw("</small></td><td class=\"small\">");
         small(h, c);
         h.raw("</td>");
