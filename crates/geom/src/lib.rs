@@ -42,6 +42,7 @@ mod frame;
 mod memory;
 pub mod mesh;
 pub mod num;
+pub mod parallel;
 pub mod progress;
 pub mod repair;
 pub mod rigid;

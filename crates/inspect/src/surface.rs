@@ -12,7 +12,7 @@ use crate::results::surface::{
 };
 use crate::results::{self, InputRecord, UNITS, VERSION};
 use crate::scale::Scale;
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};

@@ -5,7 +5,7 @@ use crate::{
     feed::Feed,
     scalar::{Order, Scalar},
 };
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// Points of one task.

@@ -6,10 +6,10 @@ use super::error::ArrangeError;
 use super::meetings::{Edge, Meeting, Name, meeting};
 use super::points::{Place, Points};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::Topology;
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The pieces of a mesh.

@@ -7,8 +7,8 @@ use super::cut::Piece;
 use super::points::{Place, Points, orient};
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Point, times};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// The facets of closed shells, to be asked about by rays.

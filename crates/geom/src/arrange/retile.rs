@@ -11,9 +11,9 @@ use super::triangulate::{self, Triangles, next, triangulate};
 use crate::check::finding::area;
 use crate::mesh::Mesh;
 use crate::num::predicates::side_of_line;
+use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 

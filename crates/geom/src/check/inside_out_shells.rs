@@ -6,8 +6,8 @@ use super::nesting::Container;
 use super::{Finding, Inspected, Kind, Severity};
 use crate::mesh::Mesh;
 use crate::num::exact::Exact;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, times};
-use rayon::prelude::*;
 use std::sync::LazyLock;
 
 pub(super) const KIND: Kind = Kind {

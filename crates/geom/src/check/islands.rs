@@ -1,8 +1,8 @@
 //! Shells so small that they are likely dust.
 
 use super::{Inspected, Kind, Severity};
+use crate::parallel::prelude::*;
 use crate::space::Aabb;
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "islands",

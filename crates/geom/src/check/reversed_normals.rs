@@ -2,8 +2,8 @@
 
 use super::finding::area;
 use super::{Kind, Severity};
+use crate::parallel::prelude::*;
 use crate::space::{cross, dot, minus};
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "reversed_normals",

@@ -1,8 +1,8 @@
 //! Facets too thin to have a normal worth the name.
 
 use super::{Inspected, Kind, Severity, spacing};
+use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "sliver_facets",

@@ -2,9 +2,9 @@
 
 use super::near::{farthest, segment_reaches};
 use super::{Found, Inspected, Kind, Severity};
+use crate::parallel::prelude::*;
 use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
-use rayon::prelude::*;
 
 /// Edges of one task.
 const PART: usize = 1 << 9;

@@ -2,9 +2,9 @@
 
 use super::near::{Look, farthest};
 use super::{Kind, Severity};
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, minus, norm};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "unshared_vertices",

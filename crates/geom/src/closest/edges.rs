@@ -2,8 +2,8 @@
 
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::triangle::Feature;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
-use rayon::prelude::*;
 
 /// From so many triangles at both ends of an edge on, it is looked up in a sorted list.
 const MANY: usize = 64;

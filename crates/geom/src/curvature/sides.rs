@@ -3,11 +3,11 @@
 use super::jet::Jet;
 use super::terms::NoCurvature;
 use crate::num::sum::Sum;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm};
 use crate::spatial::lists::lists;
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 /// A part is a body where the mean of n · (p − c), over the mean distance |p − c| from its middle c, is at least this share of the
 /// length of its mean normal: of a closed body the former is above 0 (three times volume over area) and the latter 0, however

@@ -9,9 +9,9 @@ use super::step::Step;
 use super::work::Work;
 use crate::check::Known;
 use crate::check::{self, near::Near};
+use crate::parallel::prelude::*;
 use crate::space::{minus, norm, plus, times};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "stitch",

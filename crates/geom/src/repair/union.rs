@@ -11,11 +11,11 @@ use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, bound
 use crate::check;
 use crate::check::finding::area;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::union::Sets;
 use crate::topology::weld::{self, Welded};
-use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "union",

@@ -2,9 +2,9 @@
 
 use super::surface::{Pieces, Surface};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, minus, norm, plus, times, unit};
 use crate::spatial::lists::lists;
-use rayon::prelude::*;
 
 /// The facets of a mesh whose corners exist and are finite.
 pub(super) fn surface(mesh: &Mesh) -> Surface<'_> {

@@ -32,13 +32,13 @@ mod tests;
 
 use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use grow::{Grown, Terms, fewest_points};
 use noise::Noise;
-use rayon::prelude::*;
 use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;

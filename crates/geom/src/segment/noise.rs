@@ -6,9 +6,9 @@ use super::probe::Probe;
 use super::surface::Surface;
 use crate::fit::improved;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// Patches looked at.
 const PATCHES: u64 = 400;
@@ -49,7 +49,7 @@ fn of_patches(
     seed: u64,
     pick: &(impl Fn(&mut Random) -> u32 + Sync),
 ) -> Noise {
-    let mut found: Vec<(f64, f64)> = (0..PATCHES)
+    let found: Vec<Option<(f64, f64)>> = (0..PATCHES)
         .into_par_iter()
         .map_init(
             || Marks::new(surface),
@@ -58,8 +58,8 @@ fn of_patches(
                 best(surface, &patch(surface, piece, size, crease, marks, |_| true))
             },
         )
-        .flatten()
         .collect();
+    let mut found: Vec<(f64, f64)> = found.into_iter().flatten().collect();
     // Of the clean half, the median: a quarter of all.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.truncate(found.len().div_ceil(2));

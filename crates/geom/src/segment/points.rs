@@ -2,10 +2,10 @@
 
 use super::surface::{Pieces, Surface};
 use crate::fit::eigen;
+use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use crate::spatial::lists::lists;
 use crate::spatial::neighbours::{Neighbour, PointTree};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Neighbours that make a normal, and that make one where so few lie along a line, as on a scanner's row.

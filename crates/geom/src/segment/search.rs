@@ -9,8 +9,8 @@ use super::grow::{Grown, Terms, fewest_points};
 use super::seeds::Seeds;
 use super::surface::NONE;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 /// Seeds tried against the same state: the answer depends on it, not on the number of threads.
 const BATCH: u64 = 32;

@@ -3,7 +3,7 @@
 use super::grow::{Grown, Terms};
 use super::probe::Probe;
 use super::surface::{Band, NONE};
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Rings by which a border may move.
 const SWEEPS: usize = 4;

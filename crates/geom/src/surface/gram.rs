@@ -7,12 +7,12 @@
 
 use super::stencil::Stencil;
 use crate::num::banded::dot;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
 use crate::spline::spans::Spans;
 use crate::spline::surface::Patches;
-use rayon::prelude::*;
 
 /// Points that are summed in one go by a thread.
 const ITEM: usize = 2048;

@@ -2,11 +2,11 @@
 
 use super::gram::Binned;
 use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, plus, times};
 use crate::spline::basis::Knots;
 use crate::spline::surface::{Patches, Surface, SurfaceFoot};
-use rayon::prelude::*;
 
 /// Corrections go on while they take away this share of the root mean square.
 const GAIN: f64 = 0.01;

@@ -12,12 +12,12 @@ use super::same::{Row, Same, W};
 use super::union::Sets;
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::lanes_x86::{A16, Z16};
-use rayon::prelude::*;
 
 /// Where a mesh is not a surface, in the order of the lower vertex of the edge, and the parts it falls into.
 #[derive(Default)]

@@ -7,9 +7,9 @@ use super::union::Sets;
 use super::weld::{self, WeldError};
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::simd::Level;
-use rayon::prelude::*;
 
 /// How the facets of a welded mesh hang together.
 ///

@@ -3,8 +3,8 @@
 use super::connected::Topology;
 use super::fans::{CHUNK, Fans, Spoke};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Silent;
-use rayon::prelude::*;
 
 /// A facet at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

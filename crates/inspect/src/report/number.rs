@@ -60,6 +60,12 @@ impl Style {
     }
 }
 
+/// Digits after the point that show two digits of an uncertainty.
+pub fn decimals(uncertainty: Option<f64>, without: usize) -> usize {
+    let u = uncertainty.filter(|u| *u > 0.0 && u.is_finite());
+    u.map_or(without, |u| (1.0 - libm::log10(u).floor()).clamp(1.0, 9.0) as usize)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

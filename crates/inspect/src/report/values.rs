@@ -6,7 +6,7 @@
 //!
 //! A text from outside stands as [`Text`] or [`Name`], never bare: bare strings are our own.
 
-use super::number::Style;
+use super::number::{Style, decimals};
 use super::text::word;
 use maud::{Escaper, Markup, Render, html};
 use std::fmt::Write;
@@ -147,6 +147,15 @@ impl Style {
     /// A number above zero that is too small for digits after the point.
     pub fn scientific(self, value: f64, decimals: usize) -> Scientific {
         Scientific { value, decimals, style: self }
+    }
+
+    /// A small length: two digits of it, as 1.5e−7 where it would need many zeros.
+    pub fn small(self, x: f64) -> Markup {
+        match x {
+            0.0 => html! { "0" },
+            x if x < 1e-5 => self.scientific(x, 1).render(),
+            x => self.number(x, decimals(Some(x), 4)).render(),
+        }
     }
 
     /// A count.

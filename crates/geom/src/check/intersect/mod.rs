@@ -21,6 +21,7 @@ mod tree;
 pub(crate) mod views;
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
@@ -31,7 +32,6 @@ use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
 use pairs::{Copies, Pairs, Wanted};
-use rayon::prelude::*;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use tree::{Boxes, Leaf, Tree, W};

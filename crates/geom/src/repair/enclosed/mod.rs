@@ -16,13 +16,13 @@ use crate::check::Known;
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
 use crate::num::sum::Sums;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm, plus, times};
 use crate::topology::union::Sets;
 use crate::topology::{EdgeAt, Properties, Topology};
 use cells::{Cell, Place, cells};
 use meeting::{Facet, Meeting, meeting};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 

@@ -13,9 +13,9 @@ use super::patches::Jet;
 use super::tree::{Boxes, CellId};
 use crate::closest::{Place, QueryError, check_points, closest_point, squared_distance};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
-use rayon::prelude::*;
 
 /// Places nearer by less than this share of the surfaces' size are not looked for once a minimum is found.
 pub const SHARE: f64 = 1e-9;

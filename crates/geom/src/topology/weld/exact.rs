@@ -12,8 +12,8 @@ use super::bits::Bits;
 use super::error::{MOST_FACETS, WeldError};
 use crate::memory::{atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::Point;
-use rayon::prelude::*;
 use std::sync::atomic::{
     AtomicU32, AtomicUsize,
     Ordering::{AcqRel, Acquire, Relaxed},

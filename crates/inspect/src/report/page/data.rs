@@ -9,9 +9,9 @@ use crate::results::compare::{Histogram, ToleranceShares};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale, slot};
 use maud::{PreEscaped, Render, html};
-use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, Vector};
 
 /// Values of the distribution that the script tells shares of a range from: exactly where these are all, else about.

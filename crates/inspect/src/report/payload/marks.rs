@@ -6,8 +6,8 @@ use super::contents::Payload;
 use super::grid::Grid;
 use super::planes::pack;
 use crate::scale::palette::hex;
-use rayon::prelude::*;
 use serde_json::{Value, json};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Aabb;
 
 /// Packs marks; their numbers begin at `first`.

@@ -29,8 +29,8 @@ use super::picture::first_view;
 use super::{ReportError, ViewObject};
 use blob::Kind;
 use packed::{Packed, Quality, coarse_grid_is_fine, pack_object};
-use rayon::prelude::*;
 use serde_json::{Value, json};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Of what would just fit, so that it does.

@@ -8,9 +8,9 @@ use super::grid::Grid;
 use super::mesh::{self, MeshBytes, Ordered, Wanted};
 use super::{gather, planes, points};
 use crate::scale::palette::hex;
-use rayon::prelude::*;
 use serde_json::{Value, json};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 

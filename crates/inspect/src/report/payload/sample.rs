@@ -7,8 +7,8 @@ use super::super::{Geometry, ReportError, ViewField, ViewObject};
 use super::field::NoValue;
 use super::mesh;
 use super::packed::{LEVEL_BYTES, MOST_POINTS, Purpose, Quality, coarse_grid_is_fine, pack_object};
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Places of an object up to which it is packed whole.

@@ -1,8 +1,9 @@
 //! The block of measures of airfoils.
 
 use super::super::super::html::Html;
+use super::super::super::number::decimals;
 use super::super::super::page::blocks::fact;
-use super::tables::{decimals, small};
+use super::tables::small;
 use crate::results::section::{AirfoilMeasures, AirfoilRecord};
 
 /// Profiles that are shown.

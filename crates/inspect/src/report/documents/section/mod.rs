@@ -9,8 +9,6 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use tables::{decimals, small};
-
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, Tone, fact, key_number, section};
 use super::{Drawn, Head, Pick, Subject};

@@ -1,6 +1,7 @@
 //! The tables of sections.
 
 use super::super::super::html::Html;
+use super::super::super::number::decimals;
 use super::super::super::page::blocks::{fact, file_name, not_printed, pick_row};
 use super::super::compare::by_side;
 use super::pieces::{kind, pick_numbers};
@@ -12,19 +13,9 @@ use crate::results::section::{
 /// Contours that are listed open.
 const OPEN: usize = 3;
 
-/// A small length: two digits of it, as 1.5e−7 where it would need many zeros.
+/// A small length.
 pub fn small(h: &mut Html, x: f64) -> &mut Html {
-    match x {
-        0.0 => h.raw("0"),
-        x if x < 1e-5 => h.scientific(x, 1),
-        x => h.number(x, decimals(Some(x), 4), false),
-    }
-}
-
-/// Digits after the point that show two digits of an uncertainty.
-pub fn decimals(uncertainty: Option<f64>, without: usize) -> usize {
-    let u = uncertainty.filter(|u| *u > 0.0 && u.is_finite());
-    u.map_or(without, |u| (1.0 - libm::log10(u).floor()).clamp(1.0, 9.0) as usize)
+    h.add(h.style.small(x))
 }
 
 /// Every contour with its segments and joins.

@@ -1,9 +1,8 @@
 //! The numbers under a chart, and the parts that are out of control.
 
-use super::super::super::number::Style;
+use super::super::super::number::{Style, decimals};
 use super::super::super::page::parts::file_name;
 use super::super::super::values::{Name, Number, Optional};
-use super::super::section::{decimals, small};
 use super::axes::Axes;
 use crate::results::trend::{IndexRecord, RuleRecord, TrendDocument, TrendRecord};
 use maud::{Markup, Render, html};
@@ -56,7 +55,7 @@ fn fact(s: Style, key: &str, value: impl Render) -> Markup {
 /// A standard deviation, however small.
 fn deviation(s: Style, sigma: Option<f64>, axes: &Axes) -> Markup {
     match sigma {
-        Some(tiny) if tiny > 0.0 && tiny < 1e-5 => small(s, tiny),
+        Some(tiny) if tiny > 0.0 && tiny < 1e-5 => s.small(tiny),
         sigma => s.optional(sigma, decimals(sigma, 0).max(axes.decimals.min(6))).render(),
     }
 }
