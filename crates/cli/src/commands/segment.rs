@@ -9,12 +9,14 @@ use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
+use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
@@ -38,12 +40,12 @@ pub struct SegmentArgs {
     /// What is looked for
     #[arg(
         long,
-        value_enum,
+        value_parser = PossibleValuesParser::new(names()),
         value_delimiter = ',',
         value_name = "LIST",
-        default_value = "plane,cylinder,cone,sphere,torus"
+        default_value = ALL.as_str()
     )]
-    shapes: Vec<ShapeArg>,
+    shapes: Vec<String>,
     /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
@@ -70,31 +72,18 @@ pub struct SegmentArgs {
     report: ReportArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShapeArg {
-    Plane,
-    Cylinder,
-    Cone,
-    Sphere,
-    Torus,
-}
+/// What is looked for unless something else is asked for.
+static ALL: LazyLock<String> = LazyLock::new(|| names().join(","));
 
-impl From<ShapeArg> for Kind {
-    fn from(shape: ShapeArg) -> Kind {
-        match shape {
-            ShapeArg::Plane => Kind::Plane,
-            ShapeArg::Cylinder => Kind::Cylinder,
-            ShapeArg::Cone => Kind::Cone,
-            ShapeArg::Sphere => Kind::Sphere,
-            ShapeArg::Torus => Kind::Torus,
-        }
-    }
+/// The names of the shapes that can be found.
+fn names() -> [&'static str; KINDS.len()] {
+    KINDS.map(Kind::name)
 }
 
 impl SegmentArgs {
     fn options(&self, seed: u64) -> Options {
         Options {
-            kinds: self.shapes.iter().map(|&shape| shape.into()).collect(),
+            kinds: self.shapes.iter().filter_map(|name| Kind::named(name, false)).collect(),
             tolerance: self.tolerance,
             crease: self.crease.to_radians(),
             min_share: self.min_share / 100.0,
@@ -191,7 +180,7 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
     for region in document.regions.iter().take(ROWS) {
         rows.push(vec![
             region.number.to_string(),
-            region.shape.clone(),
+            region.shape.to_string(),
             size(region),
             format!("{:.2} %", 100.0 * region.share),
             grouped(region.points),
@@ -226,7 +215,7 @@ fn size(region: &RegionRecord) -> String {
     let mut words = Vec::new();
     for (name, short) in names {
         // The radius of a cone is that at some place.
-        let told = name != "radius" || region.shape != "cone";
+        let told = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
         let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));

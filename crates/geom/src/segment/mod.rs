@@ -37,15 +37,13 @@ use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
+pub use estimate::KINDS;
 use grow::{Grown, Terms, fewest_points};
 use noise::Noise;
 use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;
 use surface::{Band, NONE, Pieces, Surface};
-
-/// The kinds that can be found, the order in which they are tried.
-pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
 /// What to look for.
 #[derive(Clone, Debug)]

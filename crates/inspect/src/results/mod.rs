@@ -19,11 +19,13 @@ mod statistics;
 pub mod surface;
 pub mod trend;
 mod verdict;
+mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::Verdict;
+pub use word::{Named, Word};
 pub(crate) use verdict::overall;
 
 /// Name and JSON schema of every result document, as kept under `docs/schema/`.

@@ -12,6 +12,7 @@ use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::{Rgb, category};
 use maud::{Markup, Render, html};
 use serde_json::Value;
+use trueness_geom::check::{Kind, Measure, Severity};
 
 /// Rows of a kind at most, the worst first.
 const LISTED: usize = 100;
@@ -22,7 +23,7 @@ impl Subject for CheckDocument {
     }
 
     fn headline(&self) -> Headline {
-        let warned = self.found().iter().any(|(_, d)| d.severity == "warning");
+        let warned = self.found().iter().any(|(_, d)| *d.severity == Severity::Warning);
         match (self.sound, warned) {
             (true, false) => Headline { key: "sound", tone: Tone::Pass },
             (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
@@ -38,8 +39,8 @@ impl Subject for CheckDocument {
         let s = h.style;
         h.add(html! {
             dl.key-numbers {
-                (severity(s, self, "errors", "error", "lead"))
-                (severity(s, self, "warnings", "warning", "warn"))
+                (severity(s, self, "errors", Severity::Error, "lead"))
+                (severity(s, self, "warnings", Severity::Warning, "warn"))
                 (key_number(s, "facets.title", "", s.count(self.facets)))
                 (key_number(s, "shells", "", s.count(self.shells)))
                 @if let Some(size) = self.dimensions { (key_number(s, "size", "", dimensions(s, size))) }
@@ -76,8 +77,8 @@ impl Subject for CheckDocument {
     /// Errors before warnings, the largest first.
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
         let kinds = self.found();
-        let errors = |(kind, d): &(&str, &Defects)| {
-            std::iter::repeat_n(d.severity == "error", rows(kind, d).len()).collect::<Vec<_>>()
+        let errors = |(_, d): &(&Kind, &Defects)| {
+            std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(LISTED))
         };
         let errors: Vec<bool> = kinds.iter().flat_map(errors).collect();
         let size = |n: usize| picks[n].reach.unwrap_or(0.0);
@@ -92,7 +93,7 @@ impl Subject for CheckDocument {
 }
 
 /// The places of all rows of [`kinds`]; their marks are numbered from `first_mark`.
-pub fn picks(found: &[(&str, &Defects)], first_mark: usize) -> Vec<Pick> {
+pub fn picks(found: &[(&Kind, &Defects)], first_mark: usize) -> Vec<Pick> {
     let mut first = first_mark;
     let mut picks = vec![];
     for (kind, defects) in found {
@@ -103,12 +104,12 @@ pub fn picks(found: &[(&str, &Defects)], first_mark: usize) -> Vec<Pick> {
 }
 
 /// The items with a row, worst first, and their numbers in the document.
-fn rows<'a>(kind: &str, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
+fn rows<'a>(kind: &Kind, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
     let mut items: Vec<(usize, &Item)> = defects.items.iter().enumerate().collect();
-    match kind {
-        // The thinner, the worse.
-        "sliver_facets" => items.sort_by(|a, b| a.1.size.total_cmp(&b.1.size)),
-        _ => items.sort_by(|a, b| b.1.size.total_cmp(&a.1.size)),
+    let by_size = |a: &(usize, &Item), b: &(usize, &Item)| a.1.size.total_cmp(&b.1.size);
+    match kind.measure.less_is_worse() {
+        true => items.sort_by(by_size),
+        false => items.sort_by(|a, b| by_size(b, a)),
     }
     items.truncate(LISTED);
     items
@@ -127,24 +128,24 @@ fn pick(item: &Item, mark: usize) -> Pick {
 }
 
 /// What the size of an item is: key of its word, and unit.
-fn measure(kind: &str) -> (&'static str, &'static str) {
-    match kind {
-        "holes" => ("perimeter", "mm"),
-        "dangling_facets" => ("missing", ""),
-        "non_manifold_vertices" => ("facets", ""),
-        "duplicate_facets" | "reversed_normals" => ("area", "mm²"),
-        "sliver_facets" => ("height", "mm"),
-        "inside_out_shells" => ("volume", "mm³"),
-        "t_junctions" => ("distance", "mm"),
-        "self_intersections" | "unshared_vertices" | "islands" => ("diagonal", "mm"),
-        _ => ("length", "mm"),
+fn measure(measure: Measure) -> (&'static str, &'static str) {
+    match measure {
+        Measure::Length => ("length", "mm"),
+        Measure::Perimeter => ("perimeter", "mm"),
+        Measure::Height => ("height", "mm"),
+        Measure::Distance => ("distance", "mm"),
+        Measure::Diagonal => ("diagonal", "mm"),
+        Measure::Area => ("area", "mm²"),
+        Measure::Volume => ("volume", "mm³"),
+        Measure::Facets => ("facets", ""),
+        Measure::Missing => ("missing", ""),
     }
 }
 
 /// How many kinds of defects of a severity there are, at how many places.
-fn severity(s: Style, d: &CheckDocument, key: &str, severity: &str, class: &str) -> Markup {
-    let kinds = d.found().iter().filter(|(_, d)| d.severity == severity).count() as u64;
-    let of = d.defects.values().filter(|d| d.severity == severity);
+fn severity(s: Style, d: &CheckDocument, key: &str, severity: Severity, class: &str) -> Markup {
+    let kinds = d.found().iter().filter(|(_, d)| *d.severity == severity).count() as u64;
+    let of = d.defects.values().filter(|d| *d.severity == severity);
     let places: u64 = of.filter_map(|d| d.count).sum();
     let value = html! {
         (s.count(kinds))
@@ -159,42 +160,42 @@ fn severity(s: Style, d: &CheckDocument, key: &str, severity: &str, class: &str)
 }
 
 /// The kinds found, each with its places; the rows' numbers begin at `first_pick`.
-pub fn kinds(s: Style, found: &[(&str, &Defects)], first_pick: usize) -> Markup {
+pub fn kinds(s: Style, found: &[(&Kind, &Defects)], first_pick: usize) -> Markup {
     let mut first = first_pick;
-    let parts = found.iter().enumerate().map(|(n, (name, defects))| {
+    let parts = found.iter().enumerate().map(|(n, (found, defects))| {
         let from = first;
         first += defects.items.len().min(LISTED);
         // All kinds are seen at once; a single one needs no click.
-        kind(s, (name, defects), category(n), from, found.len() == 1)
+        kind(s, (found, defects), category(n), from, found.len() == 1)
     });
     html! { @for part in parts { (part) } }
 }
 
 /// A kind with its places, whose rows begin at `first`.
-fn kind(s: Style, (name, defects): (&str, &Defects), color: Rgb, first: usize, open: bool) -> Markup {
-    let rows = rows(name, defects);
+fn kind(s: Style, (kind, defects): (&Kind, &Defects), color: Rgb, first: usize, open: bool) -> Markup {
+    let rows = rows(kind, defects);
     let count = defects.count.unwrap_or(0);
     html! {
         details class={ "kind k-" (defects.severity) } open[open] {
             summary {
-                (swatch(color)) span.kind-name { (s.word(format!("defect.{name}"))) }
+                (swatch(color)) span.kind-name { (s.word(format!("defect.{}", kind.name))) }
                 span.severity {
-                    (s.word(if defects.severity == "error" { "severity.error" } else { "severity.warning" }))
+                    (s.word(format!("severity.{}", defects.severity)))
                 }
                 strong { @if defects.at_least { "≥ " } (s.count(count)) }
             }
-            "\n" p.note { (s.word(format!("about.{name}"))) }
-            (table(s, name, &rows, first)) (listed(s, "listed", rows.len(), count))
+            "\n" p.note { (s.word(format!("about.{}", kind.name))) }
+            (table(s, kind, &rows, first)) (listed(s, "listed", rows.len(), count))
         }
         "\n"
     }
 }
 
-fn table(s: Style, kind: &str, rows: &[(usize, &Item)], first: usize) -> Markup {
+fn table(s: Style, kind: &Kind, rows: &[(usize, &Item)], first: usize) -> Markup {
     if rows.is_empty() {
         return Markup::default();
     }
-    let (word, unit) = measure(kind);
+    let (word, unit) = measure(kind.measure);
     let decimals = |size: f64| match unit {
         "" => 0,
         _ if size > 0.0 && size < 0.1 => 6,

@@ -5,10 +5,11 @@ use super::super::number::Style;
 use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use super::{Head, Map, Pick, Subject};
 use crate::curvature::Kind;
-use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Range};
+use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Range};
 use crate::scale::Scale;
 use maud::{Markup, Render, html};
 use serde_json::Value;
+use trueness_geom::curvature::NoCurvature;
 
 impl Subject for CurvatureDocument {
     fn head(&self) -> Head<'_> {
@@ -40,7 +41,7 @@ impl Subject for CurvatureDocument {
         if !self.without.is_empty() {
             h.add(section(s, "without", html! {
                 dl.facts.pairs {
-                    @for (reason, count) in &self.without { (fact(s, reason_key(reason), s.count(*count))) }
+                    @for (reason, count) in &self.without { (fact(s, reason_key(**reason), s.count(*count))) }
                 }
             }));
         }
@@ -48,7 +49,7 @@ impl Subject for CurvatureDocument {
 
     fn method(&self, h: &mut Html) {
         let s = h.style;
-        let facets = self.normals == "facets";
+        let facets = *self.normals == NormalSource::Facets;
         h.add(html! {
             p { (s.word("method.curvature.text")) }
             p { (s.word(if facets { "method.curvature.facets" } else { "method.curvature.cloud" })) }
@@ -63,7 +64,7 @@ impl Subject for CurvatureDocument {
     }
 
     fn points(&self) -> Option<u64> {
-        (self.places == "points").then_some(self.total)
+        (*self.places == PlaceKind::Points).then_some(self.total)
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -110,7 +111,10 @@ impl Subject for CurvatureDocument {
 
 impl CurvatureDocument {
     fn word(&self) -> &'static str {
-        if self.places == "vertices" { "vertices.title" } else { "points" }
+        match *self.places {
+            PlaceKind::Vertices => "vertices.title",
+            PlaceKind::Points => "points",
+        }
     }
 }
 
@@ -124,15 +128,15 @@ pub fn words(kind: Kind) -> [&'static str; 3] {
     }
 }
 
-fn reason_key(reason: &str) -> &'static str {
+fn reason_key(reason: NoCurvature) -> &'static str {
     match reason {
-        "not_finite" => "reason.not_finite",
-        "unused" => "reason.unused",
-        "not_a_surface" => "reason.no_surface",
-        "boundary" => "reason.boundary",
-        "few_neighbors" => "reason.few_neighbors",
-        "folded" => "reason.folded",
-        _ => "reason.undetermined",
+        NoCurvature::NotFinite => "reason.not_finite",
+        NoCurvature::Unused => "reason.unused",
+        NoCurvature::NotASurface => "reason.no_surface",
+        NoCurvature::Boundary => "reason.boundary",
+        NoCurvature::FewNeighbors => "reason.few_neighbors",
+        NoCurvature::Folded => "reason.folded",
+        NoCurvature::Undetermined => "reason.undetermined",
     }
 }
 

@@ -13,6 +13,8 @@ use crate::scale::Scale;
 use maud::{Markup, html};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use trueness_geom::fit::Method;
+use trueness_geom::shape::{Coordinate, Sides};
 use trueness_geom::space::{Vector, plus, times};
 
 impl Subject for FitDocument {
@@ -21,30 +23,29 @@ impl Subject for FitDocument {
     }
 
     fn headline(&self) -> Headline {
-        let key = SHAPES.into_iter().find(|s| *s == self.shape).unwrap_or("element");
-        Headline { key, tone: if self.converged { Tone::Neutral } else { Tone::Undecided } }
+        Headline { key: self.shape.name(), tone: if self.converged { Tone::Neutral } else { Tone::Undecided } }
     }
 
     fn convention(&self) -> Option<&'static str> {
-        Some(match (self.signed(), self.shape.as_str()) {
-            (false, _) => "sign.none",
-            (true, "plane" | "line") => "sign.plane",
-            _ => "sign.fit",
+        Some(match self.kind().sides() {
+            Sides::None => "sign.none",
+            Sides::OfNormal => "sign.plane",
+            Sides::InAndOut => "sign.fit",
         })
     }
 
     fn facing(&self) -> Option<Vector> {
         let Extent { axes: [a, b, w], u, v, .. } = *self.extent.as_ref()?;
         let middle = 0.5 * (u[0] + u[1]);
-        match self.shape.as_str() {
-            "plane" | "circle" | "ellipse" => Some(w),
-            "line" if self.planar => Some([0.0, 0.0, 1.0]),
-            "sphere" if v[0] > -FRAC_PI_2 => Some(w),
+        use Coordinate::{Latitude, Length, None as Nothing, Turn};
+        match self.kind().coordinates() {
+            [Length, Length] | [Turn, Nothing] => Some(w),
+            [Nothing, _] => self.planar.then_some([0.0, 0.0, 1.0]),
+            [_, Latitude] => (v[0] > -FRAC_PI_2).then_some(w),
             // The outer side of a part of the turn.
-            "cylinder" | "cone" if u[1] - u[0] < TAU => {
-                Some(plus(times(libm::cos(middle), a), times(libm::sin(middle), b)))
-            }
-            _ => None,
+            [Turn, Length] => (u[1] - u[0] < TAU)
+                .then(|| plus(times(libm::cos(middle), a), times(libm::sin(middle), b))),
+            [Turn, Turn] | [Length | Latitude, _] => None,
         }
     }
 
@@ -62,7 +63,7 @@ impl Subject for FitDocument {
                 (key_number(s, "std_dev", "", std_dev(s, self)))
                 (key_number(s, "points", "", s.count(self.count)))
                 @if self.outliers > 0 { (key_number(s, "outliers", "warn", s.count(self.outliers))) }
-                (key_number(s, "fit.method", "", s.word(method(&self.method))))
+                (key_number(s, "fit.method", "", s.word(method(*self.method))))
                 @if !self.converged {
                     (key_number(s, "converged", "warn", html! { "⚠\u{a0}" (s.word("converged.no")) }))
                 }
@@ -82,7 +83,7 @@ impl Subject for FitDocument {
     fn method(&self, h: &mut Html) {
         let s = h.style;
         h.add(html! {
-            p { (s.word(format!("{}.text", method(&self.method)))) }
+            p { (s.word(format!("{}.text", method(*self.method)))) }
             p { (s.word("method.fit.text")) }
             p { (s.word("method.map.text")) }
         });
@@ -90,7 +91,7 @@ impl Subject for FitDocument {
 
     fn how(&self, h: &mut Html) {
         let s = h.style;
-        h.add(html! { (s.word(method(&self.method))) " · " (s.word("orthogonal")) });
+        h.add(html! { (s.word(method(*self.method))) " · " (s.word("orthogonal")) });
     }
 
     fn points(&self) -> Option<u64> {
@@ -106,16 +107,16 @@ impl Subject for FitDocument {
     }
 
     fn quantity(&self) -> [&'static str; 3] {
-        match (self.signed(), self.shape.as_str()) {
-            (false, _) => ["distance.title", "ends.unsigned.high", "ends.unsigned.low"],
-            (true, "plane" | "line") => ["distance.title", "ends.plane.high", "ends.plane.low"],
-            _ => ["distance.title", "ends.fit.high", "ends.fit.low"],
+        match self.kind().sides() {
+            Sides::None => ["distance.title", "ends.unsigned.high", "ends.unsigned.low"],
+            Sides::OfNormal => ["distance.title", "ends.plane.high", "ends.plane.low"],
+            Sides::InAndOut => ["distance.title", "ends.fit.high", "ends.fit.low"],
         }
     }
 
     fn maps(&self) -> Vec<Map<'_>> {
         let (count, histogram) = (self.count + self.outliers, self.histogram.as_ref());
-        vec![Map { name: &self.shape, count, histogram, ..Map::default() }]
+        vec![Map { name: self.shape.name(), count, histogram, ..Map::default() }]
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -135,15 +136,7 @@ impl Subject for FitDocument {
     }
 }
 
-/// Shapes with a word of their own.
-const SHAPES: [&str; 8] = ["line", "plane", "circle", "ellipse", "sphere", "cylinder", "cone", "torus"];
-
 impl FitDocument {
-    /// Distances from a curve in space have no sign.
-    fn signed(&self) -> bool {
-        self.planar || !matches!(self.shape.as_str(), "line" | "circle")
-    }
-
     /// Digits after the point that show the form error.
     fn digits(&self) -> usize {
         self.scale.as_ref().map_or(4, |s| s.decimals as usize)
@@ -154,13 +147,14 @@ impl FitDocument {
     }
 }
 
-fn method(name: &str) -> &'static str {
-    match name {
-        "minimum-zone" => "fit.minimum_zone",
-        "minimum-circumscribed" => "fit.minimum_circumscribed",
-        "maximum-inscribed" => "fit.maximum_inscribed",
-        "robust" => "fit.robust",
-        _ => "fit.gaussian",
+/// Key of a method's word.
+fn method(method: Method) -> &'static str {
+    match method {
+        Method::Gaussian => "fit.gaussian",
+        Method::MinimumZone => "fit.minimum_zone",
+        Method::MinimumCircumscribed => "fit.minimum_circumscribed",
+        Method::MaximumInscribed => "fit.maximum_inscribed",
+        Method::Robust => "fit.robust",
     }
 }
 
@@ -235,7 +229,7 @@ fn residuals(s: Style, d: &FitDocument) -> Markup {
             (fact(s, "rms", html! { (s.optional(Some(d.rms), digits + 1)) "\u{a0}mm" }))
             (fact(s, "std_dev", html! { (std_dev(s, d)) @if d.std_dev.is_some() { "\u{a0}mm" } }))
             (fact(s, "points", s.count(d.count)))
-            @if d.method == "robust" { (fact(s, "outliers", s.count(d.outliers))) }
+            @if *d.method == Method::Robust { (fact(s, "outliers", s.count(d.outliers))) }
             (fact(s, "iterations", s.count(d.iterations)))
         }
         table.pick {

@@ -132,7 +132,7 @@ fn frame(c: &CharacteristicRecord) -> Frame {
     Frame {
         id: c.id.clone(),
         sign: path(&c.kind),
-        diametral: c.zone == "diameter",
+        diametral: c.diametral(),
         lower: c.lower,
         upper: c.requirement().map_or(c.upper, |(tolerance, _)| tolerance),
         material: c.requirement().map(|(_, material)| material.word()),
@@ -216,7 +216,7 @@ fn allowed(h: &mut Html, c: &CharacteristicRecord) {
             h.number(lower, digits(c), false).raw(" … ").number(c.upper, digits(c), false);
         }
         _ => {
-            h.raw(if c.zone == "diameter" { "≤\u{a0}⌀" } else { "≤\u{a0}" }).number(
+            h.raw(if c.diametral() { "≤\u{a0}⌀" } else { "≤\u{a0}" }).number(
                 c.upper,
                 digits(c),
                 false,

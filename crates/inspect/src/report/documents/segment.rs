@@ -116,19 +116,23 @@ fn elements(s: Style, d: &SegmentDocument) -> Markup {
     }
 }
 
-/// Radii and angle of an element; of a cone, whose radius is that at some place, the angle alone.
+/// Radii and angle of an element; of a cone, whose radius is that at some place, the angle alone; of what has neither, its area.
 fn sizes(s: Style, region: &RegionRecord) -> Markup {
     let number = |name: &str| match region.parameters.get(name) {
         Some(Number::One(x)) => Some(*x),
         _ => None,
     };
-    let radius = |name: &str| s.optional(number(name), 3);
+    let (angle, radius) = (number("half_angle"), number("radius"));
+    let radii = number("major_radius").zip(number("minor_radius"));
     html! {
-        @match region.shape.as_str() {
-            "cone" => { (s.optional(number("half_angle").map(f64::to_degrees), 2)) "°" }
-            "torus" => { "R " (radius("major_radius")) ", r " (radius("minor_radius")) }
-            "plane" => { @if region.area.is_some() { (s.optional(region.area, 1)) "\u{a0}mm²" } }
-            _ => { "r " (radius("radius")) }
+        @if let Some(angle) = angle {
+            (s.number(angle.to_degrees(), 2)) "°"
+        } @else if let Some((major, minor)) = radii {
+            "R " (s.number(major, 3)) ", r " (s.number(minor, 3))
+        } @else if let Some(radius) = radius {
+            "r " (s.number(radius, 3))
+        } @else if let Some(area) = region.area {
+            (s.number(area, 1)) "\u{a0}mm²"
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::results::surface::{MapRecord, SurfaceDocument};
 use crate::scale::Scale;
 use crate::surface::FOLDED;
 use serde_json::Value;
+use trueness_geom::surface::BaseKind;
 
 impl Subject for SurfaceDocument {
     fn head(&self) -> Head<'_> {
@@ -213,11 +214,11 @@ fn facts(h: &mut Html, d: &SurfaceDocument) {
     let (m, n) = (d.control_points.len(), d.control_points.first().map_or(0, Vec::len));
     fact(h, "control_points", |h| by(h, [m as u64, n as u64]));
     fact(h, "surface.base", |h| {
-        h.word(match d.base.kind.as_str() {
-            "cylinder" => "verdict.cylinder",
-            "sphere" => "verdict.sphere",
-            "xy" => "base.xy",
-            _ => "verdict.plane",
+        h.word(match *d.base.kind {
+            BaseKind::Cylinder => "verdict.cylinder",
+            BaseKind::Sphere => "verdict.sphere",
+            BaseKind::Xy => "base.xy",
+            BaseKind::Plane => "verdict.plane",
         });
     });
     fact(h, "fairness", |h| {

@@ -11,6 +11,7 @@ use super::pieces::{kind, pick_numbers};
 use crate::report::ViewObject;
 use crate::results::section::{ContourRecord, SectionDocument};
 use std::fmt::Write;
+use trueness_geom::section::Continuity;
 
 /// Length of the longest tooth of the comb, in sizes of the drawing.
 const COMB: f64 = 0.1;
@@ -216,9 +217,9 @@ fn joins(h: &mut Html, plan: &Plan, contour: &ContourRecord, first: usize, numbe
             first + n,
             plan.pixel()
         ));
-        h.raw(match join.continuity.as_str() {
-            "g0" => "<path d=\"M0 -5 L5 0 L0 5 L-5 0 Z\"/>",
-            _ => "<circle r=\"4.5\"/>",
+        h.raw(match *join.continuity {
+            Continuity::G0 => "<path d=\"M0 -5 L5 0 L0 5 L-5 0 Z\"/>",
+            Continuity::G1 | Continuity::G2 => "<circle r=\"4.5\"/>",
         });
         let hidden = if numbered { "" } else { " visibility=\"hidden\"" };
         h.raw(&format!("<text x=\"8\" y=\"-7\"{hidden}>{}</text></g>\n", n + 1));
