@@ -52,11 +52,19 @@ pub struct FitArgs {
 fn shapes() -> PossibleValuesParser {
     let mut names: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
     names.dedup();
-    names.into_iter().map(|name| {
-        let only_flat = Kind::named(name, false).is_none();
-        let value = PossibleValue::new(name);
-        if only_flat { value.help("In the plane: of points of two columns, or of x and y") } else { value }
-    }).collect::<Vec<_>>().into()
+    names
+        .into_iter()
+        .map(|name| {
+            let only_flat = Kind::named(name, false).is_none();
+            let value = PossibleValue::new(name);
+            if only_flat {
+                value.help("In the plane: of points of two columns, or of x and y")
+            } else {
+                value
+            }
+        })
+        .collect::<Vec<_>>()
+        .into()
 }
 
 /// The shape of a name, in the plane where the points are and there is such, else as there is one.

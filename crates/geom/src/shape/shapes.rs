@@ -281,7 +281,12 @@ mod tests {
             Shape::Plane { point: c, normal: w },
             Shape::Circle2 { center: [1.0, 2.0, 0.0], radius: 4.0 },
             Shape::Circle { center: c, normal: w, radius: 4.0 },
-            Shape::Ellipse2 { center: [1.0, 2.0, 0.0], direction: flat, major_radius: 5.0, minor_radius: 2.0 },
+            Shape::Ellipse2 {
+                center: [1.0, 2.0, 0.0],
+                direction: flat,
+                major_radius: 5.0,
+                minor_radius: 2.0,
+            },
             Shape::Sphere { center: c, radius: 4.0 },
             Shape::Cylinder { point: c, direction: w, radius: 4.0 },
             cone,
@@ -303,7 +308,8 @@ mod tests {
                     p[2] = 0.0;
                 }
                 let gradient: Vector = std::array::from_fn(|k| {
-                    let at = |h: f64| shape.distance(std::array::from_fn(|j| p[j] + if j == k { h } else { 0.0 }));
+                    let at =
+                        |h: f64| shape.distance(std::array::from_fn(|j| p[j] + if j == k { h } else { 0.0 }));
                     (at(1e-5) - at(-1e-5)) / 2e-5
                 });
                 let (found, _) = unit(shape.normal(p)).unwrap();

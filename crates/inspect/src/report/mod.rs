@@ -9,7 +9,6 @@
 
 mod documents;
 mod error;
-mod html;
 mod input;
 mod marks;
 mod number;

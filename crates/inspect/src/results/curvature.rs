@@ -1,8 +1,8 @@
 //! `trueness/curvature/1`: curvatures of a mesh or cloud, place by place.
 
 use super::word::named;
-use super::{InputRecord, Word};
 use super::{Histogram, Statistics};
+use super::{InputRecord, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -88,9 +88,11 @@ pub enum NormalSource {
     Neighbors,
 }
 
-named!(NormalSource, "source of normals", [NormalSource::Facets, NormalSource::Neighbors], |source| match source {
-    NormalSource::Facets => "facets",
-    NormalSource::Neighbors => "neighbors",
+named!(NormalSource, "source of normals", [NormalSource::Facets, NormalSource::Neighbors], |source| {
+    match source {
+        NormalSource::Facets => "facets",
+        NormalSource::Neighbors => "neighbors",
+    }
 });
 
 /// What was taken into a neighbourhood.

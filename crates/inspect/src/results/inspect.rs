@@ -222,11 +222,16 @@ pub enum ZoneForm {
     Value,
 }
 
-named!(ZoneForm, "form of a zone", [ZoneForm::Width, ZoneForm::Diameter, ZoneForm::Value], |form| match form {
-    ZoneForm::Width => "width",
-    ZoneForm::Diameter => "diameter",
-    ZoneForm::Value => "value",
-});
+named!(
+    ZoneForm,
+    "form of a zone",
+    [ZoneForm::Width, ZoneForm::Diameter, ZoneForm::Value],
+    |form| match form {
+        ZoneForm::Width => "width",
+        ZoneForm::Diameter => "diameter",
+        ZoneForm::Value => "value",
+    }
+);
 
 impl CharacteristicRecord {
     /// Whether the zone is a diameter.

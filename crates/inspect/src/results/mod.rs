@@ -25,8 +25,8 @@ pub use bounds::Bounds;
 pub use input::{ColumnRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::Verdict;
-pub use word::{Named, Word};
 pub(crate) use verdict::overall;
+pub use word::{Named, Word};
 
 /// Name and JSON schema of every result document, as kept under `docs/schema/`.
 pub fn schemas() -> Vec<(&'static str, String)> {

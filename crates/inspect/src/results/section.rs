@@ -13,7 +13,9 @@ pub use nominal::{Against, NominalRecord, Positive, WorstRecord};
 use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Continuity, Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty};
+use trueness_geom::section::{
+    Continuity, Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty,
+};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";

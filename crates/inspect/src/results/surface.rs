@@ -1,8 +1,8 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
-use super::{InputRecord, Word};
 use super::curvature::{BendRecord, Range};
 use super::{Histogram, Statistics};
+use super::{InputRecord, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -123,7 +123,10 @@ mod tests {
         }
         let error = serde_json::from_str::<Word<Method>>("\"best\"").unwrap_err().to_string();
         assert!(error.contains("is no method of a fit: gaussian, minimum-zone,"), "{error}");
-        assert_eq!(schemars::schema_for!(Word<Method>).get("type"), schemars::schema_for!(String).get("type"));
+        assert_eq!(
+            schemars::schema_for!(Word<Method>).get("type"),
+            schemars::schema_for!(String).get("type")
+        );
     }
 
     #[test]

@@ -171,8 +171,10 @@ fn nothing(found: &Curvatures, of_mesh: bool) -> String {
         | NoCurvature::NotASurface
         | NoCurvature::Folded => "`trueness check` tells what is wrong with a mesh",
     };
-    let told: Vec<String> =
-        reasons.iter().map(|(reason, count)| format!("{count} {}", reason.name().replace('_', " "))).collect();
+    let told: Vec<String> = reasons
+        .iter()
+        .map(|(reason, count)| format!("{count} {}", reason.name().replace('_', " ")))
+        .collect();
     format!("no place has a curvature ({}); {remedy}", told.join(", "))
 }
 

@@ -47,7 +47,8 @@ pub fn table(document: &CurvatureDocument) -> String {
         let _ = writeln!(out, "{}", spread(name, range, unit));
     }
     for (reason, count) in &document.without {
-        let _ = writeln!(out, "! {} without a value: {}", counted(*count, what), reason.name().replace('_', " "));
+        let _ =
+            writeln!(out, "! {} without a value: {}", counted(*count, what), reason.name().replace('_', " "));
     }
     out.push_str("positive where the surface bends towards its normal; normals by the ");
     match document.parts {

@@ -1,6 +1,5 @@
 //! The page of a check: sound or not, what the mesh is, and every kind of defect with its places.
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{
     Headline, Tone, fact, key_number, listed, not_printed, place_cells, place_heads, row_class, section,
@@ -35,9 +34,8 @@ impl Subject for CheckDocument {
         "picture.check"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn numbers(&self, s: Style) -> Markup {
+        html! {
             dl.key-numbers {
                 (severity(s, self, "errors", Severity::Error, "lead"))
                 (severity(s, self, "warnings", Severity::Warning, "warn"))
@@ -51,23 +49,22 @@ impl Subject for CheckDocument {
                     (key_number(s, "precondition", "warn", html! { "⚠\u{a0}" (s.word("fails")) }))
                 }
             }
-        });
+        }
     }
 
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(section(s, "defects", html! { (kinds(s, &self.found(), 0)) (absent(s, self)) }));
-        h.add(section(s, "model", model(s, self)));
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "defects", html! { (kinds(s, &self.found(), 0)) (absent(s, self)) }))
+            (section(s, "model", model(s, self)))
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! { p { (s.word("method.check.text")) } p { (s.word("method.check.precondition")) } });
+    fn method(&self, s: Style) -> Markup {
+        html! { p { (s.word("method.check.text")) } p { (s.word("method.check.precondition")) } }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(s.word("method.check"));
+    fn how(&self, s: Style) -> Markup {
+        s.word("method.check").render()
     }
 
     fn picks(&self) -> Vec<Pick> {

@@ -1,6 +1,5 @@
 //! The page of curvatures: a map for each of them, where they are greatest and least, how well they are known.
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use super::{Head, Map, Pick, Subject};
@@ -28,39 +27,35 @@ impl Subject for CurvatureDocument {
         "picture.curvature"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! { @for (n, kind) in Kind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } });
+    fn numbers(&self, s: Style) -> Markup {
+        html! { @for (n, kind) in Kind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } }
     }
 
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(section(s, "quantities", quantities(s, self)));
-        h.add(section(s, "extremes", extremes(s, self)));
-        h.add(section(s, "known", known(s, self)));
-        if !self.without.is_empty() {
-            h.add(section(s, "without", html! {
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "quantities", quantities(s, self)))
+            (section(s, "extremes", extremes(s, self)))
+            (section(s, "known", known(s, self)))
+            @if !self.without.is_empty() { (section(s, "without", html! {
                 dl.facts.pairs {
                     @for (reason, count) in &self.without { (fact(s, reason_key(**reason), s.count(*count))) }
                 }
-            }));
+            })) }
         }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
+    fn method(&self, s: Style) -> Markup {
         let facets = *self.normals == NormalSource::Facets;
-        h.add(html! {
+        html! {
             p { (s.word("method.curvature.text")) }
             p { (s.word(if facets { "method.curvature.facets" } else { "method.curvature.cloud" })) }
-        });
+        }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn how(&self, s: Style) -> Markup {
+        html! {
             (s.word("method.curvature")) " · " (s.word("degree")) "\u{a0}" (s.count(self.degree))
-        });
+        }
     }
 
     fn points(&self) -> Option<u64> {

@@ -1,6 +1,5 @@
 //! The page of a fit: the element's parameters with their uncertainties, how well the points keep to it, what holds it.
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{
     Headline, Tone, fact, key_number, place_cells, place_heads, section, swatch,
@@ -23,7 +22,10 @@ impl Subject for FitDocument {
     }
 
     fn headline(&self) -> Headline {
-        Headline { key: self.shape.name(), tone: if self.converged { Tone::Neutral } else { Tone::Undecided } }
+        Headline {
+            key: self.shape.name(),
+            tone: if self.converged { Tone::Neutral } else { Tone::Undecided },
+        }
     }
 
     fn convention(&self) -> Option<&'static str> {
@@ -43,8 +45,9 @@ impl Subject for FitDocument {
             [Nothing, _] => self.planar.then_some([0.0, 0.0, 1.0]),
             [_, Latitude] => (v[0] > -FRAC_PI_2).then_some(w),
             // The outer side of a part of the turn.
-            [Turn, Length] => (u[1] - u[0] < TAU)
-                .then(|| plus(times(libm::cos(middle), a), times(libm::sin(middle), b))),
+            [Turn, Length] => {
+                (u[1] - u[0] < TAU).then(|| plus(times(libm::cos(middle), a), times(libm::sin(middle), b)))
+            }
             [Turn, Turn] | [Length | Latitude, _] => None,
         }
     }
@@ -53,10 +56,9 @@ impl Subject for FitDocument {
         "picture.fit"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
+    fn numbers(&self, s: Style) -> Markup {
         let digits = self.digits();
-        h.add(html! {
+        html! {
             dl.key-numbers {
                 (key_number(s, "form_error", "lead", s.optional(Some(self.form_error), digits)))
                 (key_number(s, "rms", "", s.optional(Some(self.rms), digits + 1)))
@@ -68,30 +70,27 @@ impl Subject for FitDocument {
                     (key_number(s, "converged", "warn", html! { "⚠\u{a0}" (s.word("converged.no")) }))
                 }
             }
-        });
-    }
-
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(section(s, "parameters", parameters(s, self)));
-        h.add(section(s, "residuals", residuals(s, self)));
-        if !self.touching.is_empty() {
-            h.add(section(s, "touching", touching(s, self)));
         }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "parameters", parameters(s, self)))
+            (section(s, "residuals", residuals(s, self)))
+            @if !self.touching.is_empty() { (section(s, "touching", touching(s, self))) }
+        }
+    }
+
+    fn method(&self, s: Style) -> Markup {
+        html! {
             p { (s.word(format!("{}.text", method(*self.method)))) }
             p { (s.word("method.fit.text")) }
             p { (s.word("method.map.text")) }
-        });
+        }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! { (s.word(method(*self.method))) " · " (s.word("orthogonal")) });
+    fn how(&self, s: Style) -> Markup {
+        html! { (s.word(method(*self.method))) " · " (s.word("orthogonal")) }
     }
 
     fn points(&self) -> Option<u64> {

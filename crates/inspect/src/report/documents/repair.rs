@@ -1,6 +1,5 @@
 //! The page of a repair: what was changed and where, the mesh before and after, and what it cost.
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{
     Headline, Tone, fact, key_number, listed, not_printed, place_cells, place_heads, row_class, section,
@@ -41,12 +40,11 @@ impl Subject for RepairDocument {
         "picture.repair"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
+    fn numbers(&self, s: Style) -> Markup {
         // Of the surface that bounds: what goes inside of a body changes no part. The list has both.
         let introduced = self.deviation.as_ref().map(|d| d.added.max.max(d.removed.max));
         let warn = |warn: bool| if warn { "warn" } else { "" };
-        h.add(html! {
+        html! {
             dl.key-numbers {
                 (key_number(s, "changes", "lead", s.count(self.change_count)))
                 (key_number(s, "facets.added", "", s.count(self.facets.added)))
@@ -68,27 +66,26 @@ impl Subject for RepairDocument {
                     }
                 }))
             }
-        });
+        }
     }
 
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(section(s, "changes", changes(s, self)));
-        h.add(section(s, "before_after", states(s, self)));
-        h.add(section(s, "deviation.introduced", deviation(s, self)));
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "changes", changes(s, self)))
+            (section(s, "before_after", states(s, self)))
+            (section(s, "deviation.introduced", deviation(s, self)))
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn method(&self, s: Style) -> Markup {
+        html! {
             p { (s.word("method.repair.text")) }
             p { (s.word("method.repair.file")) " " (Name(&self.output.path)) }
-        });
+        }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(s.word("method.repair"));
+    fn how(&self, s: Style) -> Markup {
+        s.word("method.repair").render()
     }
 
     fn picks(&self) -> Vec<Pick> {

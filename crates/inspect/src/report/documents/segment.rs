@@ -1,6 +1,5 @@
 //! The page of a segmentation: the elements found, each with its size and how well its points keep to it.
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{Headline, Tone, fact, key_number, section, swatch};
 use super::{Head, Pick, Subject};
@@ -23,25 +22,24 @@ impl Subject for SegmentDocument {
         "picture.segment"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
+    fn numbers(&self, s: Style) -> Markup {
         // The same shares as in the list: of the area, or of the points of a cloud.
         let assigned = self.regions.iter().map(|r| r.share).sum();
-        h.add(html! {
+        html! {
             dl.key-numbers {
                 (key_number(s, "elements", "lead", s.len(&self.regions)))
                 (key_number(s, "assigned", "", s.percent(assigned, 1)))
                 (key_number(s, "noise", "", html! { (micro(s, self.noise)) "\u{a0}mm" }))
                 (key_number(s, "tolerance.used", "", html! { (micro(s, self.tolerance)) "\u{a0}mm" }))
             }
-        });
+        }
     }
 
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
+    fn list(&self, s: Style) -> Markup {
         let mesh = self.inputs.iter().any(|i| i.facets.is_some());
-        h.add(section(s, "elements", elements(s, self)));
-        h.add(section(
+        html! {
+            (section(s, "elements", elements(s, self)))
+            (section(
             s,
             "model",
             html! {
@@ -51,17 +49,16 @@ impl Subject for SegmentDocument {
                     (fact(s, "crease", html! { (s.number(self.crease.to_degrees(), 1)) "°" }))
                 }
             },
-        ));
+        ))
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! { p { (s.word("method.segment.text")) } });
+    fn method(&self, s: Style) -> Markup {
+        html! { p { (s.word("method.segment.text")) } }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(s.word("fit.gaussian"));
+    fn how(&self, s: Style) -> Markup {
+        s.word("fit.gaussian").render()
     }
 
     fn seed(&self) -> Option<u64> {

@@ -1,7 +1,6 @@
 //! First sight: the verdict, what was looked at, the key numbers; and the line at the foot.
 
 use super::super::ReportInput;
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::payload::Payload;
 use super::super::values::{Name, Text};
@@ -35,7 +34,7 @@ pub fn header(s: Style, input: &ReportInput) -> Markup {
                 div id="tools" class="tools" {}
             }
             "\n" (identification(s, input))
-            div id="numbers" class="numbers" { (Html::part(s, |h| subject.numbers(h))) }
+            div id="numbers" class="numbers" { (subject.numbers(s)) }
             "\n"
         }
         "\n"
@@ -96,7 +95,7 @@ pub fn status(s: Style, input: &ReportInput, payload: &Payload) -> Markup {
                 @if payload.simplified {
                     (s.word("simplified")) " ≤ " (s.number(1000.0 * payload.display_error, 1)) " µm · "
                 }
-                (Html::part(s, |h| subject.how(h))) " · trueness " (Text(subject.head().version))
+                (subject.how(s)) " · trueness " (Text(subject.head().version))
             }
         }
         "\n"

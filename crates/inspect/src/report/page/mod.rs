@@ -1,6 +1,5 @@
 //! The whole HTML page. All of it but the 3D stage can be read with scripts off.
 
-pub mod blocks;
 mod data;
 mod figure;
 mod flags;
@@ -13,7 +12,6 @@ pub mod symbols;
 pub use data::maps;
 
 use super::documents::Drawn;
-use super::html::Html;
 use super::number::Style;
 use super::payload::Payload;
 use super::picture::FirstView;
@@ -65,7 +63,7 @@ pub fn page(
                         Stage::Part(picture) => { (stage(s, input, picture)) }
                         Stage::Drawing(drawing, room) => {
                             section id="stage" class={ "stage " (drawing.classes()[1]) } {
-                                "\n" (Html::part(s, |h| drawing.draw(h, input.objects, *room)))
+                                "\n" (drawing.draw(s, input.objects, *room))
                             }
                             "\n"
                         }
@@ -110,7 +108,7 @@ fn list(s: Style, input: &ReportInput) -> Markup {
     let subject = input.result.subject();
     let head = subject.head();
     let method = html! {
-        (Html::part(s, |h| subject.method(h)))
+        (subject.method(s))
         p.note {
             "trueness " (Text(head.version)) " · " (Text(head.schema))
             @if let Some(seed) = subject.seed() { " · " (s.word("seed")) "\u{a0}" (seed) }
@@ -118,7 +116,7 @@ fn list(s: Style, input: &ReportInput) -> Markup {
     };
     html! {
         aside id="list" class="list" {
-            "\n" (Html::part(s, |h| subject.list(h)))
+            "\n" (subject.list(s))
             (parts::files(s, head.inputs)) (parts::section(s, "method", method))
         }
     }

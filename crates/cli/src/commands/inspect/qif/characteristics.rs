@@ -4,8 +4,8 @@ use super::datums::{Datums, parted};
 use super::xml::{Value, Xml, decimal};
 use trueness_inspect::plan::Class;
 use trueness_inspect::plan::text::MaterialWord;
-use trueness_inspect::results::{Named, Verdict};
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_inspect::results::{Named, Verdict};
 
 /// Numbers of what is said of a characteristic for all parts.
 #[derive(Clone, Copy)]

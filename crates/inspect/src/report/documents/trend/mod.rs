@@ -9,7 +9,6 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::page::parts::{Headline, Tone, key_number, section};
 use super::super::values::{Name, Text, leaf};
@@ -42,13 +41,12 @@ impl Subject for TrendDocument {
         "chart.title"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let s = h.style;
+    fn numbers(&self, s: Style) -> Markup {
         let (all, number) = (self.parts.len() as u64, self.characteristics.len() as u64);
         let astray = self.characteristics.iter().filter(|c| !c.out_of_control.is_empty()).count() as u64;
         let known = self.characteristics.iter().filter_map(|c| Some((c.ppk?.value, &c.id)));
         let least = known.min_by(|a, b| a.0.total_cmp(&b.0));
-        h.add(html! {
+        html! {
             dl.key-numbers {
                 @for (key, class, count) in counts(self) {
                     (key_number(s, key, class, html! {
@@ -66,29 +64,26 @@ impl Subject for TrendDocument {
                     (key_number(s, "chart.least", "", html! { (s.number(least, 2)) " " small { (Name(id)) } }))
                 }
             }
-        });
+        }
     }
 
-    fn list(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn list(&self, s: Style) -> Markup {
+        html! {
             @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
             (section(s, "parts", parts::parts(s, self)))
             (section(s, "files", parts::results(s, &self.inputs)))
-        });
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        let s = h.style;
+    fn method(&self, s: Style) -> Markup {
         let keys = ["method.trend.text", "method.trend.rules", "method.trend.index"];
-        h.add(html! { @for key in keys { p { (s.word(key)) } } });
+        html! { @for key in keys { p { (s.word(key)) } } }
     }
 
-    fn how(&self, h: &mut Html) {
-        let s = h.style;
-        h.add(html! {
+    fn how(&self, s: Style) -> Markup {
+        html! {
             "ISO 7870-2 · ISO 22514-2 · " (s.word("level")) " " (s.percent(self.confidence, 0))
-        });
+        }
     }
 
     /// One for each part: a row leads to its place in all charts.
@@ -114,10 +109,9 @@ impl Drawn for TrendDocument {
         (0, 0)
     }
 
-    fn draw(&self, h: &mut Html, _: &[ViewObject], _: usize) {
-        let s = h.style;
+    fn draw(&self, s: Style, _: &[ViewObject], _: usize) -> Markup {
         let rows = self.rows();
-        h.add(html! {
+        html! {
             div id="charts" {
                 "\n" (legend(s, self))
                 @if rows.len() > 1 { (overview::overview(s, self, &rows)) }
@@ -127,7 +121,7 @@ impl Drawn for TrendDocument {
                 }
             }
             "\n"
-        });
+        }
     }
 }
 
