@@ -1,7 +1,7 @@
 //! What the script reads: manifest, words, blobs.
 
 use super::super::documents::{Frame, Map, Pick};
-use super::super::payload::Payload;
+use super::super::payload::{Entry, Payload};
 use super::super::picture::{FirstView, others};
 use super::super::values::json;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
@@ -30,7 +30,7 @@ struct Manifest<'a> {
     palettes: Option<Palettes>,
     maps: &'a [MapEntry<'a>],
     picks: Vec<PickEntry>,
-    objects: &'a [Value],
+    objects: &'a [Entry],
     simplified: bool,
     display_error: f64,
     result: Value,

@@ -226,7 +226,7 @@ mod tests {
                 let purpose = Purpose { ranges: &[0.2], zone: None, progress: &Silent };
                 for budget in [300_000, 700_000] {
                     let quality = quality(Quality::all(&objects), &objects, &purpose, budget).unwrap();
-                    let packed = pack_object(&objects[0], &purpose, quality).unwrap();
+                    let packed = pack_object(&objects[0], (0, true), &purpose, quality).unwrap();
                     let share = packed.expected() as f64 / budget as f64;
                     let all = quality.points.max(quality.triangles) >= Quality::all(&objects).points;
                     assert!(share <= 1.0 && (all || share > 0.88), "{share} of {budget}, noise {noise}");
