@@ -22,7 +22,7 @@ use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
-use trueness_inspect::segment::View;
+use trueness_inspect::segment::{View, color};
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -144,7 +144,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     if let Some(path) = &args.out {
         let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
-        regions(path, &mesh.positions, pieces, &labels, colour)?;
+        regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
     let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
     if args.report.html.is_some() {
@@ -154,20 +154,6 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table(&document, &found))?;
     Ok(Outcome::Conforming)
-}
-
-/// Colour of a region: neighbouring numbers far apart on the colour circle, grey for none.
-fn colour(label: i32) -> [u8; 3] {
-    if label < 0 {
-        return [150; 3];
-    }
-    let golden = (5f64.sqrt() - 1.0) / 2.0;
-    let hue = 6.0 * (f64::from(label) * golden).fract();
-    [5.0, 3.0, 1.0].map(|shift: f64| {
-        let k = (shift + hue).rem_euclid(6.0);
-        let value = 0.9 - 0.7 * k.min(4.0 - k).clamp(0.0, 1.0);
-        (255.0 * value).round() as u8
-    })
 }
 
 /// Rows of the table.

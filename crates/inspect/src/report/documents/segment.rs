@@ -5,7 +5,7 @@ use super::super::page::parts::{Headline, Tone, fact, key_number, section, swatc
 use super::{Head, Pick, Subject};
 use crate::results::fit::Number;
 use crate::results::segment::{RegionRecord, SegmentDocument};
-use crate::scale::palette::category;
+use crate::segment::color;
 use maud::{Markup, Render, html};
 use serde_json::Value;
 
@@ -102,7 +102,7 @@ fn elements(s: Style, d: &SegmentDocument) -> Markup {
             tbody {
                 @for (n, region) in d.regions.iter().enumerate() {
                     tr data-pick=(n) {
-                        td { (swatch(category(n))) " " (s.word(format!("verdict.{}", region.shape))) }
+                        td { (swatch(color(Some(n)))) " " (s.word(format!("verdict.{}", region.shape))) }
                         td.r { (sizes(s, region)) }
                         td.r { (s.percent(region.share, 1)) }
                         td.r { (micro(s, region.rms)) }
