@@ -159,11 +159,11 @@ fn severity(s: Style, d: &CheckDocument, key: &str, severity: Severity, class: &
 /// The kinds found, each with its places; the rows' numbers begin at `first_pick`.
 pub fn kinds(s: Style, found: &[(&Kind, &Defects)], first_pick: usize) -> Markup {
     let mut first = first_pick;
-    let parts = found.iter().enumerate().map(|(n, (found, defects))| {
+    let parts = found.iter().enumerate().map(|(n, (of, defects))| {
         let from = first;
         first += defects.items.len().min(LISTED);
         // All kinds are seen at once; a single one needs no click.
-        kind(s, (found, defects), category(n), from, found.len() == 1)
+        kind(s, (of, defects), category(n), from, found.len() == 1)
     });
     html! { @for part in parts { (part) } }
 }

@@ -39,7 +39,8 @@ pub fn quality(
     let room = SAFELY * budget as f64;
     let packed = |quality: Quality| -> Result<Vec<f64>, ReportError> {
         let bytes = |(object, sample): (&ViewObject, &Sample)| {
-            let packed = pack_object(&sample.object(object), purpose, quality.times(sample.share))?;
+            let packed =
+                pack_object(&sample.object(object), (0, true), purpose, quality.times(sample.share))?;
             let rims = if sample.share < 1.0 { RIMS } else { 1.0 };
             Ok(packed.part.len() as f64 / (rims * sample.share))
         };
