@@ -13,8 +13,8 @@ pub(super) struct Sample<'a> {
     pub points: Cow<'a, [Point]>,
     pub center: Point,
     pub scale: f64,
-    /// Mean of all points, in the unit frame: elements that reach on and on are told at its foot. Of some of the points, it
-    /// is that of all.
+    /// Mean of all points, in the unit frame: elements without an end are reported with their origin at its foot. A part of the sample
+    /// keeps the mean of the whole.
     pub station: Point,
 }
 

@@ -2,7 +2,7 @@
 #![expect(unsafe_code, reason = "results are written where they stay, without a copy of all of them")]
 
 use super::source::Source;
-use super::{count_parts, each_part, range};
+use super::split::{count_parts, each_part, range};
 use std::mem::MaybeUninit;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

@@ -2,7 +2,7 @@
 
 use super::collect::{FromParts, in_place, parts};
 use super::source::{Chunks, Filtered, Flattened, Mapped, Numbered, Numbers, Owned, Slice, Source, Zipped};
-use super::{count_parts, each_part, range};
+use super::split::{count_parts, each_part, range};
 use rayon::slice::ParallelSliceMut;
 use std::cmp::Ordering;
 use std::ops::Range;

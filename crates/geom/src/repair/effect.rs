@@ -48,7 +48,7 @@ impl Effect {
         let turn = report.soundness.inconsistent_edges > 0;
         let mut base = turned(before, turn, options)?;
         let known = base.known()?;
-        let enclosed = match report.sound && base.changes.is_empty() {
+        let enclosed = match report.sound && base.state.changes.is_empty() {
             true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
             false => enclosed_by(&mut base)?,
         };

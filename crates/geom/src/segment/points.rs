@@ -1,6 +1,6 @@
 //! The surface of a cloud: points, normals by local planes, neighbours by nearness.
 
-use super::surface::{Pieces, Surface};
+use super::pieces::{PieceGraph, Pieces};
 use crate::fit::eigen;
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
@@ -16,7 +16,7 @@ const LINE: f64 = 0.03;
 const NEAR: usize = 8;
 
 /// The points of a finite cloud.
-pub(super) fn surface(points: &[Point]) -> Surface<'_> {
+pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
     let tree = PointTree::new(points);
     let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
         .map(|(i, p)| {
@@ -33,7 +33,7 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
         pairs.extend(near);
     }
     let (first, others) = lists(points.len(), pairs);
-    Surface {
+    PieceGraph {
         points,
         pieces: Pieces::Points,
         places: points.to_vec(),

@@ -8,7 +8,7 @@ use super::options::Options;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::deviation::surface::{Disagreement, Surface, SurfaceOptions};
+use trueness_geom::deviation::surface::{Disagreement, ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector, times};
@@ -18,7 +18,7 @@ use trueness_geom::topology::Soundness;
 /// A reference ready to be measured against.
 pub enum Target<'a> {
     /// The nearest facet counts.
-    Facets { surface: Box<Surface>, mesh: &'a Mesh },
+    Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
 }
@@ -77,7 +77,7 @@ impl<'a> Target<'a> {
     ) -> Result<Target<'a>, ReferenceError> {
         match (reference.splines, tree) {
             (None, Some(tree)) => {
-                let surface = Surface::new(tree, reference.mesh, &options.surface, progress)?;
+                let surface = ReferenceSurface::new(tree, reference.mesh, &options.surface, progress)?;
                 Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh })
             }
             (Some(search), _) => Ok(Target::Splines(Splines {

@@ -210,7 +210,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
     let unknown = unknown.then(|| UNKNOWN.to_string());
     let with_others = found.with_others[n].as_ref();
-    let told = left_out::told(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
+    let judged_with =
+        left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
     CharacteristicRecord {
         id: spec.id.clone(),
         kind: spec.kind.word().into(),
@@ -228,7 +229,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         uncertainty: uncertainty.map(|u| u.expanded),
         uncertainty_source: uncertainty.map(|u| u.source.into()),
         decision_rule: rule.word().into(),
-        verdict: told.verdict,
+        verdict: judged_with.verdict,
         reason: value.as_ref().err().cloned(),
         utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
@@ -239,7 +240,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         notes: measured
             .map_or(vec![], |v| v.notes.clone())
             .into_iter()
-            .chain(told.notes)
+            .chain(judged_with.notes)
             .chain(unknown)
             .collect(),
         standard: spec.kind.standard().into(),

@@ -3,14 +3,14 @@
 use super::super::sign_choice::SignReason;
 use super::*;
 use crate::check::tests::{add, inverted};
-use crate::closest::tests::{Dice, cube, sphere};
+use crate::closest::tests::{TestRandom, cube, sphere};
 use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::tests::block;
 
 fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, Vec<f64>, Disagreement) {
     let tree = Tree::build(mesh).unwrap();
-    let surface = Surface::new(&tree, mesh, &options, &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, mesh, &options, &Silent).unwrap();
     let deviations = surface.deviations(points, &Silent).unwrap();
     (*surface.sign(), deviations, surface.disagreement(points, &Silent).unwrap())
 }
@@ -94,7 +94,7 @@ fn on_the_wrong_side(mesh: &Mesh, points: &[Point]) -> (SignChoice, usize) {
 
 #[test]
 fn overlapping_shells_are_signed_by_what_winds_around_a_point() {
-    let d = &mut Dice(21);
+    let d = &mut TestRandom(21);
     let mut overlapping = 0;
     for case in 0..12 {
         let mut mesh = Mesh::default();
@@ -115,7 +115,7 @@ fn overlapping_shells_are_signed_by_what_winds_around_a_point() {
 /// Shells in shells, each one either way round; and apart from each other, where boxes overlap or not.
 #[test]
 fn nested_shells_are_material_or_cavities() {
-    let d = &mut Dice(22);
+    let d = &mut TestRandom(22);
     for inwards in 0..8 {
         let mut mesh = Mesh::default();
         for (i, radius) in [3.0, 2.0, 1.0].into_iter().enumerate() {
@@ -143,7 +143,7 @@ fn nested_shells_are_material_or_cavities() {
 /// Two cubes that share a wall: of the two facets there, each looks away from one of them.
 #[test]
 fn shells_that_touch_are_signed_by_winding_number() {
-    let d = &mut Dice(23);
+    let d = &mut TestRandom(23);
     let mut mesh = block(3, 1.0);
     add(&mut mesh, &block(2, 1.0), [1.0, 0.0, 0.0]);
     let points: Vec<Point> = (0..3000).map(|_| plus([1.0, 0.5, 0.5], d.point(1.2))).collect();

@@ -1,10 +1,11 @@
-//! Many leaves: the sixteen points walk the tree independently but in step.
+//! Second stage where many leaves are left: each point of the block searches on its own, all in lockstep.
 //!
-//! A single walk waits most of the time for its own last result; sixteen independent ones, level by level and without
-//! branches that depend on data, keep the processor busy. All begin at the front that the block has gathered. First every
-//! point descends greedily to one leaf, which gives it a bound. Then a queue of (point, node) pairs is worked off, level
-//! by level; surviving children are appended by a vector compress, inner nodes to the queue, leaves to a list. The leaves
-//! of a level are tested before the next level is entered, with the bounds they have tightened.
+//! One search alone waits most of the time for its own last result. Sixteen independent ones, level by level and without
+//! branches that depend on data, keep the processor busy. All begin at what pruning has left.
+//! 1. Every point descends to the nearest child, down to one leaf, which gives it a bound.
+//! 2. A queue of (point, node) pairs is worked off level by level. Children within the bound are appended by a vector
+//!    compress: inner nodes to the queue, leaves to a list.
+//! 3. The leaves of a level are tested before the next level is entered, with the bounds they have tightened.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(
@@ -12,38 +13,70 @@
     reason = "loads of vector types need their instructions; growing lists without a branch"
 )]
 
-use crate::closest::block::{BLOCK, Block, FRONT, Near, ROUNDING, Row, Scratch};
+use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SurfacePoint};
+use crate::closest::decide::Undecided;
 use crate::closest::kernel;
 use crate::closest::layout::Node;
+use crate::closest::prune::{MOST, Survivors};
 use crate::closest::tree::Tree;
 use crate::memory::prefetch;
 use crate::simd::lanes::Lanes;
 
 /// What is known of a point's distance.
 #[derive(Clone, Copy, Default)]
-struct Known {
+struct Best {
     /// Square of the least distance found.
-    best2: f32,
+    distance2: f32,
     /// Bound of the rounding error of the distances found.
     error: f32,
 }
 
-/// Lists in `s.pairs` the triangles worth settling for each point. `near` is a point of the surface; `limit` the greatest
-/// (scaled) distance that matters.
+/// A leaf tested against one point.
+#[derive(Clone, Copy)]
+struct LeafDistances {
+    distance2: [f32; 8],
+    /// First slot of the leaf.
+    first: u32,
+    /// Number of the point in the block.
+    point: u32,
+}
+
+/// Memory of this stage, kept from block to block.
+#[derive(Default)]
+pub struct Buffers {
+    /// What pruning has left, as children of nodes of their own.
+    start: Vec<Node>,
+    /// (point, node) and (point, leaf) pairs.
+    queue: Vec<[i32; 2]>,
+    found: Vec<[i32; 2]>,
+    tested: Vec<LeafDistances>,
+}
+
+/// Lists in `undecided` the triangles that may be the closest of each point. `near` is a point of the surface; `limit` the
+/// greatest (scaled) distance that matters.
 #[inline(always)]
-pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32, s: &mut Scratch) {
+pub unsafe fn search<V: Lanes<8>>(
+    tree: &Tree,
+    b: &PointBlock,
+    near: &SurfacePoint,
+    limit: f32,
+    survivors: &Survivors,
+    s: &mut Buffers,
+    undecided: &mut Vec<Undecided>,
+) {
+    gather_start(tree, survivors, &mut s.start);
     unsafe {
         let mut place = [[0f32; 3]; BLOCK];
         for (i, q) in place.iter_mut().enumerate() {
             *q = b.place(i);
         }
-        // Distances to the boxes of the front, and the nearest of its children.
-        let mut boxes = [[[0f32; 8]; FRONT / 8]; BLOCK];
+        // Distances to the boxes it begins with, and the nearest child.
+        let mut boxes = [[[0f32; 8]; MOST / 8]; BLOCK];
         let mut here = [0; BLOCK];
         for i in 0..b.len {
             let q = kernel::splat::<V>(place[i]);
             let mut least = f32::INFINITY;
-            for (node, out) in s.front.iter().zip(&mut boxes[i]) {
+            for (node, out) in s.start.iter().zip(&mut boxes[i]) {
                 let d = kernel::box_distance2::<V>(node, q);
                 d.store(out);
                 let l = d.least();
@@ -54,19 +87,19 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32,
         }
         descend::<V>(tree, &place[..b.len], &mut here);
         let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.centre[k]) * tree.scale) as f32);
-        s.rows.clear();
-        let (mut known, mut bound) = ([Known::default(); BLOCK], [0f32; BLOCK]);
+        s.tested.clear();
+        let (mut best, mut bound) = ([Best::default(); BLOCK], [0f32; BLOCK]);
         for i in 0..b.len {
             let to_x: [f32; 3] = std::array::from_fn(|k| b.offset[k][i] - x[k]);
-            known[i].best2 = to_x.iter().map(|e| e * e).sum::<f32>() * 1.00001;
-            known[i].error = near.off;
-            probe::<V>(tree, b, i, !here[i] as u32, s, &mut known[i]);
-            bound[i] = b.bound(i, known[i].best2.sqrt().min(limit), known[i].error);
+            best[i].distance2 = to_x.iter().map(|e| e * e).sum::<f32>() * 1.00001;
+            best[i].error = near.off;
+            test_leaf::<V>(tree, b, i, !here[i] as u32, &mut s.tested, &mut best[i]);
+            bound[i] = b.bound(i, best[i].distance2.sqrt().min(limit), best[i].error);
         }
         s.queue.clear();
         s.found.clear();
         for i in 0..b.len {
-            for (node, d) in s.front.iter().zip(&boxes[i]) {
+            for (node, d) in s.start.iter().zip(&boxes[i]) {
                 let mask = V::load(d).le(V::splat(bound[i]));
                 let leaf = V::negative(&node.child);
                 push::<V>(mask & !leaf, i as i32, node, &mut s.queue);
@@ -91,7 +124,7 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32,
                 at += 1;
                 let i = i as usize % BLOCK;
                 if c != here[i] {
-                    probe::<V>(tree, b, i, !c as u32, s, &mut known[i]);
+                    test_leaf::<V>(tree, b, i, !c as u32, &mut s.tested, &mut best[i]);
                 }
             }
             if next == s.queue.len() {
@@ -99,13 +132,37 @@ pub unsafe fn wave<V: Lanes<8>>(tree: &Tree, b: &Block, near: &Near, limit: f32,
             }
             if tested < at {
                 for i in 0..b.len {
-                    bound[i] = b.bound(i, known[i].best2.sqrt().min(limit), known[i].error);
+                    bound[i] = b.bound(i, best[i].distance2.sqrt().min(limit), best[i].error);
                 }
             }
         }
-        settle_rows::<V>(&known, s);
+        list_undecided::<V>(&best, &s.tested, undecided);
     }
 }
+
+/// Makes what is left the children of nodes of their own, unused ones empty.
+#[inline(always)]
+fn gather_start(tree: &Tree, survivors: &Survivors, start: &mut Vec<Node>) {
+    start.clear();
+    let mut all = survivors.leaves.iter().chain(&survivors.open);
+    loop {
+        let mut node = Node::EMPTY;
+        let mut n = 0;
+        for (j, found) in all.by_ref().take(8).enumerate() {
+            let parent = &tree.nodes[found.parent as usize];
+            for side in 0..6 {
+                node.bounds[side][j] = parent.bounds[side][found.lane as usize & 7];
+            }
+            node.child[j] = found.child;
+            n += 1;
+        }
+        if n == 0 {
+            break;
+        }
+        start.push(node);
+    }
+}
+
 /// Replaces each point's node by the leaf (as a child number) that a greedy walk down from it ends in.
 #[inline(always)]
 unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], here: &mut [i32; BLOCK]) {
@@ -141,9 +198,16 @@ unsafe fn push<V: Lanes<8>>(mask: u32, i: i32, node: &Node, list: &mut Vec<[i32;
     }
 }
 
-/// Tests leaf `l` against point `i`: notes the eight squared distances in `s.rows`, and what is `known` of the point.
+/// Tests leaf `l` against point `i`: keeps the eight squared distances, and the least of them in `best`.
 #[inline(always)]
-unsafe fn probe<V: Lanes<8>>(tree: &Tree, b: &Block, i: usize, l: u32, s: &mut Scratch, known: &mut Known) {
+unsafe fn test_leaf<V: Lanes<8>>(
+    tree: &Tree,
+    b: &PointBlock,
+    i: usize,
+    l: u32,
+    tested: &mut Vec<LeafDistances>,
+    best: &mut Best,
+) {
     let leaf = &tree.leaves[l as usize];
     // If it wins, its corners are needed next.
     prefetch(&tree.slots[leaf.first as usize]);
@@ -151,26 +215,30 @@ unsafe fn probe<V: Lanes<8>>(tree: &Tree, b: &Block, i: usize, l: u32, s: &mut S
     let r: [f32; 3] = std::array::from_fn(|k| r[k] + b.offset[k][i % BLOCK]);
     // SAFETY: the caller's promise.
     let d = unsafe { kernel::leaf_distance2(leaf, kernel::into_frames::<V>(leaf, r)) };
-    s.rows.push(Row { distance2: d.array(), first: leaf.first, point: i as u32 });
+    tested.push(LeafDistances { distance2: d.array(), first: leaf.first, point: i as u32 });
     let least = d.least();
-    known.best2 = if least < known.best2 { least } else { known.best2 };
+    best.distance2 = if least < best.distance2 { least } else { best.distance2 };
     // The sum is no less than the length of `r`, and needs no root.
     let e = ROUNDING * (r[0].abs() + r[1].abs() + r[2].abs() + 2.0 * b.reach + leaf.radius);
-    known.error = if e > known.error { e } else { known.error };
+    best.error = if e > best.error { e } else { best.error };
 }
 
-/// From the tested leaves to the triangles worth settling.
+/// From the tested leaves to the triangles that may be the closest.
 #[inline(always)]
-unsafe fn settle_rows<V: Lanes<8>>(known: &[Known; BLOCK], s: &mut Scratch) {
-    let limit = known.map(|k| {
-        let l = k.best2.sqrt() + 2.0 * k.error;
+unsafe fn list_undecided<V: Lanes<8>>(
+    best: &[Best; BLOCK],
+    tested: &[LeafDistances],
+    undecided: &mut Vec<Undecided>,
+) {
+    let limit = best.map(|k| {
+        let l = k.distance2.sqrt() + 2.0 * k.error;
         l * l * 1.00001
     });
-    for row in &s.rows {
+    for leaf in tested {
         // SAFETY: the caller's promise.
-        let mut mask = unsafe { V::load(&row.distance2).le(V::splat(limit[row.point as usize % BLOCK])) };
+        let mut mask = unsafe { V::load(&leaf.distance2).le(V::splat(limit[leaf.point as usize % BLOCK])) };
         while mask != 0 {
-            s.pairs.push((row.point, row.first + mask.trailing_zeros()));
+            undecided.push(Undecided { point: leaf.point, slot: leaf.first + mask.trailing_zeros() });
             mask &= mask - 1;
         }
     }
