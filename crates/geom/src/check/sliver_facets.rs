@@ -1,6 +1,6 @@
 //! Facets too thin to have a normal worth the name.
 
-use super::{Inspected, Kind, Severity, spacing};
+use super::{Inspected, Kind, Measure, Severity, Shows, spacing};
 use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
 
@@ -9,6 +9,8 @@ pub(super) const KIND: Kind = Kind {
     severity: Severity::Warning,
     about: "Facets with an area, but a smaller angle than the one given, or lower than the spacing of the coordinates.",
     size: "height over the longest edge, mm",
+    measure: Measure::Height,
+    shows: Shows::Facets,
     find: |m| {
         let (sine, lowest) = (libm::sin(m.options.sliver_angle), spacing(&m.properties.bounds));
         let is_sliver = |f: usize| {

@@ -41,6 +41,7 @@ use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
 use criterion::fewest_points;
+pub use estimate::KINDS;
 use grow::Context;
 use noise::Noise;
 use pieces::{Band, NONE, PieceGraph, Pieces};
@@ -48,9 +49,6 @@ use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;
-
-/// The kinds that can be found, the order in which they are tried.
-pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
 /// What to look for.
 #[derive(Clone, Debug)]

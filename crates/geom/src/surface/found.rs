@@ -31,6 +31,21 @@ pub enum Reached {
     Memory,
 }
 
+impl Reached {
+    /// All of them.
+    pub const ALL: [Reached; 4] = [Reached::Tolerance, Reached::Noise, Reached::Points, Reached::Memory];
+
+    /// The word for it: `tolerance`, `noise`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            Reached::Tolerance => "tolerance",
+            Reached::Noise => "noise",
+            Reached::Points => "points",
+            Reached::Memory => "memory",
+        }
+    }
+}
+
 /// A surface through points, and what it keeps to.
 #[derive(Clone, Debug)]
 pub struct SurfaceFit {

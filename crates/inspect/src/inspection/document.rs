@@ -10,7 +10,7 @@ use crate::results::align::AlignNote;
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
-use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, overall};
+use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word, overall};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::fit::Method;
@@ -141,7 +141,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
     };
     FeatureRecord {
         id: taken.id.clone(),
-        shape: taken.class.word().into(),
+        shape: Word(taken.class),
         source: source.into(),
         points: taken.points.len() as u64,
         coverage: taken.coverage,
@@ -149,7 +149,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
             .coverage
             .is_none()
             .then(|| "there is no nominal area, or no measured one".into()),
-        method: plan.method.name().into(),
+        method: Word(plan.method),
         parameters,
         uncertainty: u,
         uncertainty_reason: u_reason,
@@ -194,10 +194,10 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let limits = spec.limits.widened(measured.map_or(0.0, |v| v.bonus));
     let (lower, upper) = limits.range();
     let zone = match (nominal, measured) {
-        (Some(_), _) => "value",
-        _ if spec.kind.word() == "texture" => "value",
-        (None, Some(v)) if v.diametral => "diameter",
-        _ => "width",
+        (Some(_), _) => ZoneForm::Value,
+        _ if spec.kind.word() == "texture" => ZoneForm::Value,
+        (None, Some(v)) if v.diametral => ZoneForm::Diameter,
+        (None, _) => ZoneForm::Width,
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
@@ -219,7 +219,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         feature: spec.features.iter().map(id).collect::<Vec<_>>().join(JOINED),
         datums: spec.datums.iter().map(|d| d.name(&plan.features)).collect(),
         modifiers: modifiers(spec),
-        zone: zone.into(),
+        zone: Word(zone),
         nominal,
         tolerance,
         lower,
