@@ -7,7 +7,7 @@ use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::results::check::found;
 use crate::results::compare::{
-    BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
+    AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
 };
 
 /// Writes all sections.
@@ -232,14 +232,33 @@ pub fn excluded(h: &mut Html, c: &Comparison, all: u64) {
     }
 }
 
-/// What the rules for outliers and coverage gave, where they were asked.
+/// Along what the deviations are, and what the rules for outliers and coverage gave, where they were asked.
 pub fn rules(h: &mut Html, c: &Comparison, decimals: usize) {
+    if let Some(a) = &c.along {
+        fact(h, "along", |h| along(h, a));
+    }
     if let Some(o) = &c.outliers {
         fact(h, "outliers", |h| outliers(h, o, decimals));
     }
     if let Some(covered) = &c.coverage {
         fact(h, "uncovered", |h| uncovered(h, covered));
     }
+}
+
+/// Along what lines deviations are.
+fn along(h: &mut Html, a: &AlongRecord) {
+    match a.direction {
+        Some(d) => {
+            for (n, x) in d.into_iter().enumerate() {
+                h.raw(if n > 0 { "; " } else { "" }).number(x, 4, false);
+            }
+        }
+        None => {
+            let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
+            h.word(key);
+        }
+    }
+    h.raw("<br><small>").word("along.means").raw("</small>");
 }
 
 /// A rule for outliers, and the limits that it gave.
@@ -263,13 +282,12 @@ fn uncovered(h: &mut Html, c: &CoverageRecord) {
     h.word("reason.not_measured").raw(" (≤\u{a0}").number(c.reach, 2, false).raw("\u{a0}mm)</small>");
 }
 
+const REASONS: [&str; 7] =
+    ["max_distance", "free_edge", "not_measured", "facing", "outlier", "no_crossing", "no_direction"];
+
 /// The reasons that the table of words knows.
 fn known(reason: &str) -> &str {
-    if ["max_distance", "free_edge", "not_measured", "facing", "outlier"].contains(&reason) {
-        reason
-    } else {
-        "excluded"
-    }
+    if REASONS.contains(&reason) { reason } else { "excluded" }
 }
 
 fn sign(h: &mut Html, s: &SignRecord) {
