@@ -158,8 +158,9 @@ def reasons(folder):
     held = np.load(folder / "r.npz")
     deviation, excluded = held["deviation"], held["excluded"]
     document = json.loads((folder / "r.json").read_text())["comparisons"][0]
-    counts = [document["excluded"].get(name, 0) for name in ("max_distance", "free_edge", "facing", "outlier")]
-    assert counts == [int((excluded == code).sum()) for code in (1, 2, 3, 4)], counts
+    names = ("max_distance", "free_edge", "facing", "outlier", "no_crossing", "no_direction")
+    counts = [document["excluded"].get(name, 0) for name in names]
+    assert counts == [int((excluded == code).sum()) for code in range(1, 7)], counts
     assert counts[0] > 0 and counts[2] > 0 and counts[3] > 0, "every reason that was asked for is there"
     same("points without a deviation", np.isnan(deviation), np.isin(excluded, (1, 2, 3)))
 

@@ -70,21 +70,9 @@ pub unsafe fn search<V: Lanes<8>>(
         for (i, q) in place.iter_mut().enumerate() {
             *q = b.place(i);
         }
-        // Distances to the boxes it begins with, and the nearest child.
         let mut boxes = [[[0f32; 8]; MOST / 8]; BLOCK];
         let mut here = [0; BLOCK];
-        for i in 0..b.len {
-            let q = kernel::splat::<V>(place[i]);
-            let mut least = f32::INFINITY;
-            for (node, out) in s.start.iter().zip(&mut boxes[i]) {
-                let d = kernel::box_distance2::<V>(node, q);
-                d.store(out);
-                let l = d.least();
-                let nearest = node.child[d.le(V::splat(l)).trailing_zeros() as usize & 7];
-                here[i] = if l < least { nearest } else { here[i] };
-                least = if l < least { l } else { least };
-            }
-        }
+        nearest_children::<V>(&s.start, &place[..b.len], &mut boxes, &mut here);
         descend::<V>(tree, &place[..b.len], &mut here);
         let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.centre[k]) * tree.scale) as f32);
         s.tested.clear();
@@ -137,6 +125,36 @@ pub unsafe fn search<V: Lanes<8>>(
             }
         }
         list_undecided::<V>(&best, &s.tested, undecided);
+    }
+}
+
+/// Squared distances of each place from the boxes that it begins with, and the child whose box is nearest.
+///
+/// # Safety
+/// The processor has the instructions of `V`.
+#[inline(always)]
+unsafe fn nearest_children<V: Lanes<8>>(
+    start: &[Node],
+    place: &[[f32; 3]],
+    boxes: &mut [[[f32; 8]; MOST / 8]; BLOCK],
+    here: &mut [i32; BLOCK],
+) {
+    for (i, place) in place.iter().enumerate() {
+        // SAFETY: the caller's promise.
+        let q = unsafe { kernel::splat::<V>(*place) };
+        let mut least = f32::INFINITY;
+        for (node, out) in start.iter().zip(&mut boxes[i]) {
+            // SAFETY: the caller's promise.
+            let (d, l) = unsafe {
+                let d = kernel::box_distance2::<V>(node, q);
+                (d, d.least())
+            };
+            d.store(out);
+            // SAFETY: the caller's promise.
+            let nearest = node.child[d.le(unsafe { V::splat(l) }).trailing_zeros() as usize & 7];
+            here[i] = if l < least { nearest } else { here[i] };
+            least = if l < least { l } else { least };
+        }
     }
 }
 

@@ -8,7 +8,8 @@
 //! | anything else of many points | [`Tree::for_each_closest`], [`Tree::map_closest`], then [`Tree::place`], [`Signs::sign`] |
 //! | inside or outside of a mesh with holes | [`Winding`] |
 //! | is the closest place on the rim? | [`FreeEdges`] |
-//! | the definition of the answer | [`brute::closest`] |
+//! | where a line through a point meets it | [`Tree::crossing`]; of many points [`Tree::map_crossings`] |
+//! | the definition of the answers | [`brute::closest`], [`brute::crossing`] |
 //!
 //! "Exact" means: the least, over all faces, of the distance to a face evaluated in double precision (to thin faces in
 //! twice that, see `thin`); ties go to the lowest face. It is off by no more than 2^-40 of the distance from the face's
@@ -24,6 +25,7 @@
 mod block;
 pub mod brute;
 mod build;
+mod crossing;
 mod decide;
 mod edges;
 mod few_leaves;
@@ -32,6 +34,7 @@ mod hit;
 mod kernel;
 mod layout;
 mod limits;
+mod line;
 mod lockstep;
 mod order;
 mod prune;
@@ -45,6 +48,7 @@ mod tree;
 mod triangle;
 mod winding;
 
+pub use crossing::Crossing;
 pub use edges::FreeEdges;
 pub use hit::Hit;
 pub use limits::{

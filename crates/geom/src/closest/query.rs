@@ -126,7 +126,7 @@ impl Tree {
     }
 }
 
-fn check_distance(max_distance: f64) -> Result<(), QueryError> {
+pub(super) fn check_distance(max_distance: f64) -> Result<(), QueryError> {
     if max_distance >= 0.0 { Ok(()) } else { Err(QueryError::BadMaxDistance(max_distance)) }
 }
 

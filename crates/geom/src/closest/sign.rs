@@ -117,17 +117,34 @@ impl Signs {
     }
 
     fn sign_at_rim(&self, p: &Point, hit: &Hit) -> f64 {
+        let place = triangle::closest_point(p, &self.tree.triangle(hit.slot));
+        if dot(minus(*p, place.point), self.pseudonormal(hit, place.feature)) < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// Normal of the surface at the place that `hit` found for `p`, not of unit length: of the face; on an edge the sum of both
+    /// unit normals, at a corner the sum weighted by angle. `None` where it is zero.
+    ///
+    /// # Panics
+    /// If `hit` comes from another tree with more faces.
+    pub fn normal(&self, p: &Point, hit: &Hit) -> Option<Vector> {
+        let feature = match hit.height != 0.0 {
+            true => Feature::Face,
+            false => triangle::closest_point(p, &self.tree.triangle(hit.slot)).feature,
+        };
+        Some(self.pseudonormal(hit, feature)).filter(|n| *n != [0.0; 3])
+    }
+
+    /// Pseudonormal of a feature of the face that was hit.
+    fn pseudonormal(&self, hit: &Hit, feature: Feature) -> Vector {
         let t = self.tree.triangle(hit.slot);
-        let place = triangle::closest_point(p, &t);
-        let n = match place.feature {
+        match feature {
             Feature::Face => normal(&t),
             Feature::Edge(i) => match self.across[hit.slot as usize][i as usize] {
                 Across::One(o) => plus(normal(&t), normal(&self.tree.triangle(o))),
                 Across::Free | Across::Unclear => normal(&t),
             },
             Feature::Vertex(i) => self.corner[self.tree.slots[hit.slot as usize][i as usize] as usize],
-        };
-        if dot(minus(*p, place.point), n) < 0.0 { -1.0 } else { 1.0 }
+        }
     }
 
     /// Signed distance of each point, millimetres, positive outside, in the order of `points`; NaN beyond

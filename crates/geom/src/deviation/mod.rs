@@ -1,5 +1,6 @@
 //! Deviations of points from a reference.
 
+pub mod along;
 pub mod paper;
 pub mod sample;
 pub mod sign_choice;

@@ -34,20 +34,29 @@ pub enum Exclusion {
     MaxDistance,
     /// The nearest place lies on a free edge; NaN among deviations.
     FreeEdge,
+    /// The line along which it is measured meets nothing within that distance; a NaN of its own among deviations.
+    NoCrossing,
+    /// It has no direction to measure along; a NaN of its own among deviations.
+    NoDirection,
 }
+
+/// NaNs of their own, which are only ever copied: no arithmetic sees them.
+const NO_CROSSING: u64 = 0x7ff8_0000_0000_0005;
+const NO_DIRECTION: u64 = 0x7ff8_0000_0000_0006;
 
 impl Exclusion {
     /// All, in the order of reports.
-    pub const ALL: [Exclusion; 2] = [Exclusion::MaxDistance, Exclusion::FreeEdge];
+    pub const ALL: [Exclusion; 4] =
+        [Exclusion::MaxDistance, Exclusion::FreeEdge, Exclusion::NoCrossing, Exclusion::NoDirection];
 
     /// What a value among deviations stands for; `None` for a deviation.
     pub fn of(value: f64) -> Option<Exclusion> {
-        if value.is_finite() {
-            None
-        } else if value.is_nan() {
-            Some(Exclusion::FreeEdge)
-        } else {
-            Some(Exclusion::MaxDistance)
+        match value.to_bits() {
+            _ if value.is_finite() => None,
+            _ if value.is_infinite() => Some(Exclusion::MaxDistance),
+            NO_CROSSING => Some(Exclusion::NoCrossing),
+            NO_DIRECTION => Some(Exclusion::NoDirection),
+            _ => Some(Exclusion::FreeEdge),
         }
     }
 
@@ -56,6 +65,8 @@ impl Exclusion {
         match self {
             Exclusion::MaxDistance => f64::INFINITY,
             Exclusion::FreeEdge => f64::NAN,
+            Exclusion::NoCrossing => f64::from_bits(NO_CROSSING),
+            Exclusion::NoDirection => f64::from_bits(NO_DIRECTION),
         }
     }
 
@@ -64,6 +75,8 @@ impl Exclusion {
         match self {
             Exclusion::MaxDistance => "max_distance",
             Exclusion::FreeEdge => "free_edge",
+            Exclusion::NoCrossing => "no_crossing",
+            Exclusion::NoDirection => "no_direction",
         }
     }
 }
@@ -122,6 +135,10 @@ impl ReferenceSurface {
     /// The search tree.
     pub fn tree(&self) -> &Tree {
         &self.tree
+    }
+    /// The greatest distance that counts.
+    pub(super) fn max_distance(&self) -> f64 {
+        self.max_distance
     }
     /// The sign method and why.
     pub fn sign(&self) -> &SignChoice {
@@ -247,7 +264,7 @@ impl ReferenceSurface {
 }
 
 /// Hands on whether to stop, but not what is done: points count once, by their distances.
-struct OnlyCancels<'a>(&'a dyn Progress);
+pub(super) struct OnlyCancels<'a>(pub &'a dyn Progress);
 
 impl Progress for OnlyCancels<'_> {
     fn cancelled(&self) -> bool {

@@ -3,7 +3,7 @@
 //! An element with more unknowns fits the same points at least as well and mostly reaches farther: a cylinder contains nearly
 //! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
 //! earn them, by one of two kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
-//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`DOUBTFUL`], [`CLEARLY`]).
+//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]).
 //! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
@@ -11,9 +11,6 @@
 use super::region::GrownRegion;
 use crate::shape::Kind;
 
-/// Root mean square distance in standard deviations of the noise, beyond which another kind may be the right one. Of the right
-/// element it is 1, known to 2 % from the points that are fitted; the rest is for noise that is not the same everywhere.
-pub(super) const DOUBTFUL: f64 = 1.25;
 /// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this
 /// is a root mean square of 0.94: what the noise alone leaves.
 pub(super) const CLEARLY: f64 = 0.75;

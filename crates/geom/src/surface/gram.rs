@@ -88,6 +88,15 @@ impl Binned {
     pub(super) fn cells(&self) -> (usize, usize) {
         (self.starts.len() - 1, self.starts.windows(2).filter(|w| w[0] == w[1]).count())
     }
+    /// Points for a unit of area, by their weights, over the cells that have any.
+    pub(super) fn density(&self) -> f64 {
+        let area = |cell: usize| {
+            let at = [cell / self.spans[1].count(), cell % self.spans[1].count()];
+            4.0 * self.spans[0].half(at[0]) * self.spans[1].half(at[1])
+        };
+        let filled = self.starts.windows(2).enumerate().filter(|(_, w)| w[0] < w[1]);
+        self.size().1 / filled.map(|(cell, _)| area(cell)).sum::<f64>()
+    }
     /// `Σ w |x|²` over the points less the center, and `Σ w`.
     pub(super) fn size(&self) -> (f64, f64) {
         let weight = |k: usize| self.weights.as_ref().map_or(1.0, |w| w[k]);

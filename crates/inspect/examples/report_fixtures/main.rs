@@ -413,6 +413,7 @@ fn comparison(
         } else {
             BTreeMap::new()
         },
+        along: None,
         outliers: None,
         coverage: None,
         verdict: shares.as_ref().map(|s| match s.inside {

@@ -2,7 +2,7 @@
 
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
-use super::{Comparisons, Excluded, Facing, MapSurface, Options, Outliers, plausibility};
+use super::{AlongRule, Comparisons, Excluded, Facing, MapSurface, Options, Outliers, plausibility};
 use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
@@ -100,6 +100,7 @@ fn comparison(
             uncertain: s.uncertain,
             drawn_within: s.drawn_within,
         }),
+        along: c.along.map(along),
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),
         deviation: BySide::of(&c.summary),
@@ -118,6 +119,14 @@ fn comparison(
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
         research: None,
     }
+}
+
+fn along(rule: AlongRule) -> AlongRecord {
+    let direction = match rule {
+        AlongRule::Direction(d) => Some(d),
+        AlongRule::Reference | AlongRule::Measured => None,
+    };
+    AlongRecord { kind: rule.name().into(), direction }
 }
 
 fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {

@@ -16,15 +16,36 @@ pub enum Excluded {
     Facing = 3,
     /// Beyond the limits that the rule for outliers gives.
     Outlier = 4,
+    /// The line along which it is measured meets the reference nowhere, or not within the greatest distance.
+    NoCrossing = 5,
+    /// It has no normal to measure along.
+    NoDirection = 6,
 }
 
 /// A NaN of its own, which is only ever copied: no arithmetic sees it.
 const OUTLIER: u64 = 0x7ff8_0000_0000_0004;
 
+impl From<Exclusion> for Excluded {
+    fn from(e: Exclusion) -> Excluded {
+        match e {
+            Exclusion::MaxDistance => Excluded::MaxDistance,
+            Exclusion::FreeEdge => Excluded::FreeEdge,
+            Exclusion::NoCrossing => Excluded::NoCrossing,
+            Exclusion::NoDirection => Excluded::NoDirection,
+        }
+    }
+}
+
 impl Excluded {
     /// All, in the order of their numbers.
-    pub const ALL: [Excluded; 4] =
-        [Excluded::MaxDistance, Excluded::FreeEdge, Excluded::Facing, Excluded::Outlier];
+    pub const ALL: [Excluded; 6] = [
+        Excluded::MaxDistance,
+        Excluded::FreeEdge,
+        Excluded::Facing,
+        Excluded::Outlier,
+        Excluded::NoCrossing,
+        Excluded::NoDirection,
+    ];
 
     /// What a value among deviations stands for; `None` for a deviation.
     ///
@@ -37,9 +58,8 @@ impl Excluded {
         match value {
             d if d.is_finite() => None,
             f64::NEG_INFINITY => Some(Excluded::Facing),
-            f64::INFINITY => Some(Excluded::MaxDistance),
             nan if nan.to_bits() == OUTLIER => Some(Excluded::Outlier),
-            _ => Some(Excluded::FreeEdge),
+            other => Exclusion::of(other).map(Excluded::from),
         }
     }
 
@@ -50,6 +70,8 @@ impl Excluded {
             Excluded::FreeEdge => Exclusion::FreeEdge.value(),
             Excluded::Facing => f64::NEG_INFINITY,
             Excluded::Outlier => f64::from_bits(OUTLIER),
+            Excluded::NoCrossing => Exclusion::NoCrossing.value(),
+            Excluded::NoDirection => Exclusion::NoDirection.value(),
         }
     }
 
@@ -60,6 +82,8 @@ impl Excluded {
             Excluded::FreeEdge => Exclusion::FreeEdge.name(),
             Excluded::Facing => "facing",
             Excluded::Outlier => "outlier",
+            Excluded::NoCrossing => Exclusion::NoCrossing.name(),
+            Excluded::NoDirection => Exclusion::NoDirection.name(),
         }
     }
 

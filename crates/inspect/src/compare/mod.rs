@@ -1,6 +1,7 @@
 //! One measured set against one or several references, in one pass over the points.
 
 mod against;
+mod along;
 mod document;
 mod excluded;
 mod facing;
@@ -18,6 +19,7 @@ mod view;
 mod worst;
 
 pub use against::{Reference, ReferenceError};
+pub use along::{AlongRule, Lines};
 pub use document::{Inputs, document};
 pub use excluded::Excluded;
 pub use facing::{Facing, facet_normals, vertex_normals};
@@ -144,8 +146,9 @@ pub fn run<S: PointStream + ?Sized, K>(
             Some(_) => waiting.push((std::mem::take(&mut points), taken)),
         }
     }
-    if let Some(facing) = options.facing.as_ref().filter(|f| f.count() as u64 != start) {
-        return Err(CompareError::Normals { normals: facing.count(), points: start });
+    let needed = [options.facing.as_ref().map(Facing::count), options.along.as_ref().and_then(Lines::count)];
+    if let Some(normals) = needed.into_iter().flatten().find(|n| *n as u64 != start) {
+        return Err(CompareError::Normals { normals, points: start });
     }
     if let Some(rule) = options.outliers {
         for (i, r) in running.iter_mut().enumerate() {

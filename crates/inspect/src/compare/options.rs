@@ -1,5 +1,6 @@
 //! What is asked of a comparison.
 
+use super::along::Lines;
 use super::facing::Facing;
 use super::outliers::OutlierRule;
 use crate::tolerance::Tolerance;
@@ -60,6 +61,8 @@ pub struct Options {
     pub method: Method,
     /// Sign and exclusions.
     pub surface: SurfaceOptions,
+    /// Along what line deviations are measured; to the nearest place without one.
+    pub along: Option<Lines>,
     /// Only points whose normals agree with the reference's.
     pub facing: Option<Facing>,
     /// Which points are outliers; none without a rule.
@@ -86,6 +89,7 @@ impl Default for Options {
         Options {
             method: Method::Exact,
             surface: SurfaceOptions::default(),
+            along: None,
             facing: None,
             outliers: None,
             coverage: None,

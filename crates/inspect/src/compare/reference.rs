@@ -1,6 +1,7 @@
 //! The running comparison with one reference.
 
 use super::against::{Reference, ReferenceError};
+use super::along::{AlongRule, Lines};
 use super::excluded::Excluded;
 use super::facing::Facing;
 use super::map::{Flagged, Foot, MapSurface, PointMap};
@@ -23,6 +24,8 @@ use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
 pub struct Compared {
     /// Diagonal of the reference's box, millimetres.
     pub diagonal: f64,
+    /// Along what lines deviations are; `None` for those to the nearest place.
+    pub along: Option<AlongRule>,
     /// How the sign was found.
     pub sign: SignChoice,
     /// How both sign methods agree on a sample; absent for unsigned distances.
@@ -84,7 +87,7 @@ pub struct SplinesFound {
 pub struct WorstPlace {
     /// The measured point.
     pub place: Place,
-    /// The nearest place on the reference.
+    /// The nearest place on the reference, or where its line meets it.
     pub nearest: Point,
     /// Unit normal of the facet there; `None` if it has no area.
     pub normal: Option<Vector>,
@@ -114,6 +117,7 @@ pub struct Running<'a> {
     keep: usize,
     limits: Option<Limits>,
     excluded: [u64; Excluded::ALL.len()],
+    along: Option<AlongRule>,
     facing: Option<Facing>,
     outliers: Option<Outliers>,
     coverage: Coverage,
@@ -147,6 +151,7 @@ impl<'a> Running<'a> {
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
             excluded: Default::default(),
+            along: options.along.as_ref().map(Lines::rule),
             facing: options.facing.clone(),
             outliers: None,
             coverage: options.coverage.unwrap_or_default(),
@@ -262,6 +267,7 @@ impl<'a> Running<'a> {
             diagonal: self.mesh.bounds().diagonal(),
             histogram: self.values.histogram(&summary.all, self.limits.as_ref()),
             limits: self.limits,
+            along: self.along,
             sign: choice,
             disagreement: self.target.disagreement(sample, progress)?,
             precondition: self.target.precondition().clone(),
@@ -274,6 +280,8 @@ impl<'a> Running<'a> {
                     Excluded::MaxDistance | Excluded::FreeEdge => true,
                     Excluded::Facing => self.facing.is_some(),
                     Excluded::Outlier => self.outliers.is_some(),
+                    Excluded::NoCrossing => self.along.is_some(),
+                    Excluded::NoDirection => self.along.is_some_and(|a| a.name() != "direction"),
                 })
                 .map(|e| (e, self.excluded[e as usize - 1]))
                 .collect(),
@@ -327,7 +335,7 @@ impl Values {
 fn worst(target: &Target, places: &[Place]) -> Result<Vec<WorstPlace>, QueryError> {
     let mut out = vec![];
     for &place in places {
-        if let Some(found) = target.nearest(&place.point)? {
+        if let Some(found) = target.nearest(&place)? {
             out.push(WorstPlace {
                 place,
                 nearest: found.place,

@@ -1,24 +1,27 @@
 //! What points are measured against: facets, or B-spline surfaces themselves.
 
 use super::against::{Reference, ReferenceError};
+use super::along::{AlongRule, Lines};
 use super::excluded::Excluded;
 use super::facing::{Facing, facet_normal};
 use super::map::{Foot, PointMap};
 use super::options::Options;
+use super::worst::Place;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
+use trueness_geom::deviation::along::Along;
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::deviation::surface::{Disagreement, ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Progress;
+use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, times};
 use trueness_geom::spline::surface::{FootSearch, NearestFoot};
-use trueness_geom::topology::Soundness;
+use trueness_geom::topology::{Soundness, TopologyError};
 
 /// A reference ready to be measured against.
 pub enum Target<'a> {
     /// The nearest facet counts.
-    Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh },
+    Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh, along: Option<Along> },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
 }
@@ -31,7 +34,7 @@ pub struct Splines<'a> {
     precondition: Precondition,
 }
 
-/// Where a point is nearest to the reference.
+/// Where a point is nearest to the reference, or where its line meets it.
 pub struct Nearest {
     /// The place.
     pub place: Point,
@@ -78,7 +81,9 @@ impl<'a> Target<'a> {
         match (reference.splines, tree) {
             (None, Some(tree)) => {
                 let surface = ReferenceSurface::new(tree, reference.mesh, &options.surface, progress)?;
-                Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh })
+                let along =
+                    options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
+                Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh, along })
             }
             (Some(search), _) => Ok(Target::Splines(Splines {
                 search,
@@ -127,11 +132,24 @@ impl<'a> Target<'a> {
     ) -> Result<Measures, QueryError> {
         let facing = Excluded::Facing.value();
         match self {
+            Target::Facets { surface, mesh, along: Some(along) } => {
+                let turn = if surface.sign().inside_out { -1.0 } else { 1.0 };
+                let found =
+                    surface.map_along(asked.start, points, along, progress, |i, deviation, met| {
+                        let Some(met) = met else { return (deviation, None) };
+                        if !asked.agrees(i, || facet_normal(mesh, met.face).map(|n| times(turn, n))) {
+                            return (facing, None);
+                        }
+                        (deviation, asked.map.map(|map| map.foot(met.face, met.barycentric)))
+                    })?;
+                let (deviations, feet) = found.into_iter().unzip();
+                Ok(Measures { deviations, feet, uncertain: 0 })
+            }
             Target::Facets { surface, .. } if asked.map.is_none() && asked.facing.is_none() => {
                 let deviations = surface.deviations(points, progress)?;
                 Ok(Measures { deviations, feet: vec![], uncertain: 0 })
             }
-            Target::Facets { surface, mesh } => {
+            Target::Facets { surface, mesh, along: None } => {
                 let (tree, turn) = (surface.tree(), if surface.sign().inside_out { -1.0 } else { 1.0 });
                 let found = surface.map(points, progress, |i, deviation, hit| {
                     let Some(hit) = hit.filter(|_| deviation.is_finite()) else { return (deviation, None) };
@@ -160,10 +178,20 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Where a point is nearest; `None` for one that cannot be measured.
-    pub fn nearest(&self, p: &Point) -> Result<Option<Nearest>, QueryError> {
+    /// Where a point is nearest, or where its line meets the reference; `None` for one that cannot be measured.
+    pub fn nearest(&self, place: &Place) -> Result<Option<Nearest>, QueryError> {
+        let p = &place.point;
         match self {
-            Target::Facets { surface, mesh } => {
+            Target::Facets { surface, mesh, along: Some(along) } => {
+                let met = surface.map_along(place.index, &[*p], along, &Silent, |_, _, met| met.copied())?;
+                Ok(met.into_iter().flatten().next().map(|met| Nearest {
+                    place: met.point,
+                    normal: facet_normal(mesh, met.face),
+                    face: met.face,
+                    weights: met.barycentric,
+                }))
+            }
+            Target::Facets { surface, mesh, along: None } => {
                 let found = surface.tree().closest(p, f64::INFINITY)?;
                 Ok(found.map(|Closest { point, face, barycentric: weights, .. }| Nearest {
                     place: point,
@@ -191,6 +219,19 @@ impl Splines<'_> {
         }
         if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
     }
+}
+
+/// The lines that are asked for, ready to be measured along.
+fn along(
+    lines: &Lines,
+    surface: &ReferenceSurface,
+    progress: &dyn Progress,
+) -> Result<Along, ReferenceError> {
+    Ok(match lines.rule() {
+        AlongRule::Direction(d) => Along::Direction(d),
+        AlongRule::Measured => Along::Measured(lines.normals()),
+        AlongRule::Reference => surface.normals(progress).map_err(TopologyError::from)?,
+    })
 }
 
 /// Nothing is wrong with facets where there are none.

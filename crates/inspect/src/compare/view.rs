@@ -134,6 +134,8 @@ impl Field {
             Some(Excluded::FreeEdge) => nan,
             Some(Excluded::Facing) => NoValue::Facing,
             Some(Excluded::Outlier) => NoValue::Outlier,
+            Some(Excluded::NoCrossing) => NoValue::NoCrossing,
+            Some(Excluded::NoDirection) => NoValue::NoDirection,
         };
         Field {
             values: values.iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect(),

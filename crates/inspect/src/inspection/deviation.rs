@@ -1,7 +1,7 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
 use super::data::{Data, Stop};
-use crate::compare::{self, CompareError, Comparisons, Facing, Options, Reference, vertex_normals};
+use crate::compare::{self, CompareError, Comparisons, Facing, Lines, Options, Reference, vertex_normals};
 use crate::plan::Deviation;
 use std::convert::Infallible;
 use trueness_geom::closest::QueryError;
@@ -38,13 +38,14 @@ pub(super) fn deviations(
     let (Some(measured), Some(reference)) = (&data.measured, data.reference.take()) else {
         return Err(Stop::Deviation("one of them is not there".into()));
     };
-    let facing = asked.facing.map(|angle| {
-        let of_mesh = || vertex_normals(measured);
-        let normals = if measured.faces.is_empty() { std::mem::take(&mut data.normals) } else { of_mesh() };
-        Facing::new(angle, normals)
-    });
+    let normals = match asked.needs_normals() {
+        None => vec![],
+        Some(_) if measured.faces.is_empty() => std::mem::take(&mut data.normals),
+        Some(_) => vertex_normals(measured),
+    };
     let options = Options {
-        facing,
+        facing: asked.facing.map(|angle| Facing::new(angle, normals.clone())),
+        along: asked.along.map(|rule| Lines::new(rule, normals)),
         outliers: asked.outliers,
         coverage: asked.coverage,
         surface: SurfaceOptions {

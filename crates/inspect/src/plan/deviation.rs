@@ -2,8 +2,8 @@
 
 use super::checker::Checker;
 use super::error::PlanError;
-use super::text::{CoverageText, DeviationText, PlanText};
-use crate::compare::{Coverage, OutlierRule};
+use super::text::{AlongText, CoverageText, DeviationText, PlanText};
+use crate::compare::{AlongRule, Coverage, OutlierRule};
 use crate::tolerance::Tolerance;
 
 /// What is asked of the deviations. Lengths in millimetres.
@@ -17,12 +17,25 @@ pub struct Deviation {
     pub max_distance: f64,
     /// Whether points nearest to a free edge of the reference are left out.
     pub skip_boundary: bool,
+    /// Along what lines they are measured; to the nearest place without.
+    pub along: Option<AlongRule>,
     /// Points whose normals turn away from the reference's by more than this are left out, radians.
     pub facing: Option<f64>,
     /// Which points are outliers, and left out.
     pub outliers: Option<OutlierRule>,
     /// Within what distance a point covers the reference, where that is asked.
     pub coverage: Option<Coverage>,
+}
+
+impl Deviation {
+    /// The key that needs the normals of the measured points, if one does.
+    pub fn needs_normals(&self) -> Option<&'static str> {
+        match (self.facing, self.along) {
+            (Some(_), _) => Some("`facing`"),
+            (_, Some(AlongRule::Measured)) => Some("`along`"),
+            _ => None,
+        }
+    }
 }
 
 pub(super) fn deviation(checker: &Checker, plan: &PlanText) -> Result<Option<Deviation>, PlanError> {
@@ -63,6 +76,7 @@ pub(super) fn deviation(checker: &Checker, plan: &PlanText) -> Result<Option<Dev
         required_share,
         max_distance,
         skip_boundary: written.skip_boundary,
+        along: along(checker, written)?,
         facing: facing(checker, written)?,
         outliers: match &written.outliers {
             None => None,
@@ -73,6 +87,25 @@ pub(super) fn deviation(checker: &Checker, plan: &PlanText) -> Result<Option<Dev
         },
         coverage: coverage(checker, written)?,
     }))
+}
+
+fn along(checker: &Checker, written: &DeviationText) -> Result<Option<AlongRule>, PlanError> {
+    let Some(at) = &written.along else { return Ok(None) };
+    let found = match &at.value {
+        AlongText::Direction(d) => AlongRule::direction(*d),
+        AlongText::Word(word) => match word.as_str() {
+            "reference" => Ok(AlongRule::Reference),
+            "measured" => Ok(AlongRule::Measured),
+            _ => Err(String::new()),
+        },
+    };
+    match found {
+        Ok(rule) => Ok(Some(rule)),
+        Err(_) => {
+            let what = "along is a direction other than 0, as in [0, 0, 1], or \"reference\" or \"measured\"";
+            checker.wrong(&at.span, what)
+        }
+    }
 }
 
 fn facing(checker: &Checker, written: &DeviationText) -> Result<Option<f64>, PlanError> {

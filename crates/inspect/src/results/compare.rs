@@ -98,13 +98,17 @@ pub struct Comparison {
     /// Of a reference that is not a mesh but B-spline surfaces; absent for meshes.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub surfaces: Option<SurfacesRecord>,
+    /// Along what lines the deviations are; absent where they are to the nearest place.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub along: Option<AlongRecord>,
     /// How the sign was found here.
     pub sign: SignRecord,
     /// Whether the statistics rest on a sound mesh; of B-spline surfaces, which have no facets that could be wrong, `sound`.
     pub soundness: Soundness,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
-    /// Points left out, by reason: `max_distance`, `free_edge`; with `--facing` also `facing`, with `--outliers` `outlier`.
+    /// Points left out, by reason: `max_distance`, `free_edge`; with `--facing` also `facing`, with `--outliers` `outlier`, with
+    /// `--along` `no_crossing` (the line meets nothing) and, for normals, `no_direction`.
     pub excluded: BTreeMap<String, u64>,
     /// The rule for outliers and what it gave here; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -132,6 +136,18 @@ pub struct Comparison {
     /// Intervals, tests and models; only with `--research`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub research: Option<Research>,
+}
+
+/// Along what lines deviations are: distances to the nearest crossing of a line through the point with the reference, ahead or
+/// behind; the sign is that of the nearest place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AlongRecord {
+    /// `direction`: the same for all points; `reference`: the reference's normal at the nearest place; `measured`: each point's own
+    /// normal.
+    pub kind: String,
+    /// The direction, as it was given.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub direction: Option<[f64; 3]>,
 }
 
 /// Which points were left out as outliers. The limits belong to what counts.

@@ -107,13 +107,14 @@ impl Measured {
         Ok(found)
     }
 
-    /// A normal for each point, as it lies now: of a mesh by its facets, of points from their file at `path`. All are held in
-    /// memory.
+    /// A normal for each point, as it lies now, for `what` asks for them: of a mesh by its facets, of points from their file at
+    /// `path`. All are held in memory.
     pub fn normals(
         &self,
         path: &Path,
         columns: Option<&Columns>,
         reading: &ReadOptions,
+        what: &str,
     ) -> anyhow::Result<Vec<Vector>> {
         if let Some(mesh) = &self.mesh {
             return Ok(match self.kind {
@@ -122,7 +123,7 @@ impl Measured {
             });
         }
         let mut normals =
-            read::all_normals(path, columns, reading, "--facing", " (or those that --normals names)")?;
+            read::all_normals(path, columns, reading, what, " (or those that --normals names)")?;
         if let Some(motion) = &self.motion {
             normals.iter_mut().for_each(|n| *n = motion.vector(*n));
         }

@@ -17,14 +17,14 @@ use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
-pub use table::{coverage, outliers};
+pub use table::{along, coverage, outliers};
 use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{
-    self, Coverage, Facing, Inputs, Method, Options, OutlierRule, Reference, View,
+    self, AlongRule, Coverage, Facing, Inputs, Lines, Method, Options, OutlierRule, Reference, View,
 };
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
@@ -45,6 +45,7 @@ Examples:
   trueness compare scan.stl nominal.stl --align --tolerance 0.1
   trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
   trueness compare scan.ply nominal.stl --outliers mad:5 --facing 60 --coverage auto
+  trueness compare scan.ply nominal.stl --along 0,0,1 --max-distance 2
   trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5
   trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html")]
 pub struct CompareArgs {
@@ -80,11 +81,14 @@ pub struct CompareArgs {
     /// Exclude (and count) points whose nearest place is a free edge of the reference
     #[arg(long)]
     skip_boundary: bool,
+    /// Measure along lines instead of to the nearest place: a direction, or the normals of the reference or of the measured
+    #[arg(long, value_name = "X,Y,Z | reference | measured", allow_hyphen_values = true)]
+    along: Option<AlongRule>,
     /// Exclude (and count) points whose normals turn away from the reference's by more than this, degrees
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     facing: Option<FacingArg>,
-    /// Columns of the normals in a table of points, for --facing [default: nx,ny,nz]
-    #[arg(long, value_name = "LIST", requires = "facing", allow_hyphen_values = true)]
+    /// Columns of the normals in a table of points, for --facing and --along measured [default: nx,ny,nz]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     normals: Option<Columns>,
     /// Exclude (and count) outliers: mad:5 for 5 × 1.4826 MAD from the median, 3sigma for 3 σ from the mean
     #[arg(long, value_name = "RULE", allow_hyphen_values = true)]
@@ -144,6 +148,7 @@ impl CompareArgs {
             ))
             .into());
         }
+        self.check_along()?;
         Ok(Options {
             method: match self.method {
                 MethodArg::Exact => Method::Exact,
@@ -159,6 +164,7 @@ impl CompareArgs {
                 max_distance,
                 skip_boundary: self.skip_boundary,
             },
+            along: self.along.map(|rule| Lines::new(rule, vec![])),
             outliers: self.outliers,
             coverage: self.coverage,
             tolerance: self.tolerance.map(|t| t.0),
@@ -168,6 +174,25 @@ impl CompareArgs {
             seed: common.seed,
             ..Options::default()
         })
+    }
+}
+
+impl CompareArgs {
+    /// Refuses what lines do not go with.
+    fn check_along(&self) -> Result<(), Usage> {
+        let measured = self.along == Some(AlongRule::Measured);
+        if self.normals.is_some() && self.facing.is_none() && !measured {
+            return Err(Usage("--normals is for --facing and --along measured; give one of them".into()));
+        }
+        match (self.along, self.method) {
+            (Some(_), MethodArg::Paper) => {
+                Err(Usage("--along measures along lines, --method paper to vertices; choose one".into()))
+            }
+            (Some(_), _) if self.both => Err(Usage(
+                "--both measures to the nearest place in both directions; leave out --along".into(),
+            )),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -199,16 +224,13 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         true => Some(aligned(args, &mut measured, opened[0].mesh(), &files[1].path, common)?),
         false => None,
     };
-    if let Some(FacingArg(angle)) = args.facing {
-        let normals = measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading())?;
-        options.facing = Some(Facing::new(angle.to_radians(), normals));
-    }
+    normals(args, &measured, &mut options)?;
     let references: Vec<Reference> =
         files[1..].iter().zip(&opened).map(|(f, r)| r.reference(f.path.clone())).collect();
     let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
         Some(path) => {
-            let reasons = options.facing.is_some() || options.outliers.is_some();
+            let reasons = options.facing.is_some() || options.outliers.is_some() || options.along.is_some();
             Some(PointFiles::create(path, references.len(), early_scale, reasons)?)
         }
         None => None,
@@ -256,6 +278,19 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         None | Some(Verdict::Pass) if aligned => Outcome::Conforming,
         _ => Outcome::NotConforming,
     })
+}
+
+/// Reads the measured normals for what asks for them.
+fn normals(args: &CompareArgs, measured: &Measured, options: &mut Options) -> anyhow::Result<()> {
+    let read =
+        |what: &str| measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what);
+    if args.along == Some(AlongRule::Measured) {
+        options.along = Some(Lines::new(AlongRule::Measured, read("--along measured")?));
+    }
+    if let Some(FacingArg(angle)) = args.facing {
+        options.facing = Some(Facing::new(angle.to_radians(), read("--facing")?));
+    }
+    Ok(())
 }
 
 /// Brings the measured to the first reference.

@@ -73,6 +73,11 @@ fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
             "--method paper: it measures to the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
         )));
     }
+    if options.along.is_some() {
+        return Err(Usage(format!(
+            "--along: its lines meet the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+        )));
+    }
     match options.surface.sign {
         SignRequest::Auto | SignRequest::None => Ok(()),
         SignRequest::Pseudonormal | SignRequest::Winding => Err(Usage(format!(

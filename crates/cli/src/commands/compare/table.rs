@@ -3,7 +3,7 @@
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
 use trueness_inspect::results::compare::{
-    CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
+    AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
 };
 use trueness_inspect::results::research::{Finding, Research, Test};
 use trueness_inspect::results::statistics::TABLE_ROWS;
@@ -56,6 +56,9 @@ fn head(d: &CompareDocument) -> String {
         if let Some(s) = &c.surfaces {
             rows.push(("surfaces".into(), format!("{of}{}", surfaces(s))));
         }
+        if let Some(a) = &c.along {
+            rows.push(("along".into(), format!("{of}{}", along(a))));
+        }
         if !c.soundness.sound {
             rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
             rows.extend(places(c).map(|place| (String::new(), format!("  {of}{place}"))));
@@ -97,7 +100,17 @@ fn limit(d: &CompareDocument, reason: &str) -> String {
             let degrees = (1e9 * angle.to_degrees()).round() / 1e9;
             format!(": more than {degrees}° from the reference's normal")
         }
+        None if reason == "no_crossing" => ": the line meets nothing".into(),
         None => String::new(),
+    }
+}
+
+/// Along what lines deviations are.
+pub fn along(a: &AlongRecord) -> String {
+    match (&a.direction, a.kind.as_str()) {
+        (Some([x, y, z]), _) => format!("the direction {x}, {y}, {z}, to the nearest crossing"),
+        (_, "reference") => "the reference's normal at the nearest place, to the nearest crossing".into(),
+        _ => "each point's own normal, to the nearest crossing".into(),
     }
 }
 

@@ -97,8 +97,11 @@ impl PlanFile {
                     self.at(own, "the measured data (--measured FILE names another file)")
                 })?,
             };
-            if mesh.faces.is_empty() && self.plan.deviation.is_some_and(|d| d.facing.is_some()) {
-                data.normals = read::all_normals(&path, None, &options, "`facing` of [deviation]", "")?;
+            if let Some(what) = self.plan.deviation.and_then(|d| d.needs_normals())
+                && mesh.faces.is_empty()
+            {
+                let what = format!("{what} of [deviation]");
+                data.normals = read::all_normals(&path, None, &options, &what, "")?;
             }
             data.measured = Some(mesh);
             inputs.push(record);

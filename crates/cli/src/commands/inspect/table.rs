@@ -1,6 +1,6 @@
 //! The document of an inspection for people.
 
-use crate::commands::compare::{coverage, outliers};
+use crate::commands::compare::{along, coverage, outliers};
 use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, signed, six_digits};
 use crate::read;
@@ -83,6 +83,9 @@ fn deviation(out: &mut String, c: &Comparison) {
         let _ = write!(out, ": {}", verdict.word());
     }
     out.push('\n');
+    if let Some(found) = &c.along {
+        let _ = writeln!(out, "  along {}", along(found));
+    }
     if let Some(found) = &c.outliers {
         let _ = writeln!(out, "  outliers by {}", outliers(found));
     }

@@ -1,5 +1,6 @@
 //! Meshes and points for the tests, and what several of them ask.
 
+mod crossing;
 mod exact;
 mod limit;
 mod sign;
@@ -129,4 +130,14 @@ pub const LEVELS: [Level; 3] = [Level::Plain, Level::Avx2, Level::Avx512];
 /// Runs `f` in a pool of `threads`.
 pub fn in_pool<T: Send>(threads: usize, f: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(f)
+}
+
+/// Turns places about the origin by the length of `axis`, radians.
+pub fn turned(axis: Point) -> impl Fn(Point) -> Point {
+    let (k, angle) = crate::space::unit(axis).unwrap_or(([0.0, 0.0, 1.0], 0.0));
+    move |p| {
+        let (s, c) = (angle.sin(), angle.cos());
+        let (across, along) = (crate::space::cross(k, p), crate::space::dot(k, p) * (1.0 - c));
+        std::array::from_fn(|i| c * p[i] + s * across[i] + along * k[i])
+    }
 }

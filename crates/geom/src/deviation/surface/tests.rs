@@ -4,6 +4,7 @@ use super::super::sign_choice::SignReason;
 use super::*;
 use crate::check::tests::{add, inverted};
 use crate::closest::tests::{TestRandom, cube, sphere};
+use crate::deviation::along::Along;
 use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::tests::block;
@@ -164,4 +165,64 @@ fn points_on_the_surface_take_no_part_in_the_disagreement() {
     let off: Vec<Point> = on.iter().map(|p| plus(*p, [0.125, 0.0, 0.0])).collect();
     let (_, _, disagreement) = ask(&mesh, SurfaceOptions::default(), &off);
     assert!(disagreement.sample > 1000 && disagreement.differing == 0, "{disagreement:?}");
+}
+
+/// Closed forms along a direction, along the reference's normal and along each point's own; what is not met is told why.
+#[test]
+fn deviations_along_lines() {
+    let mesh = cube(1.0);
+    let tree = Tree::build(&mesh).unwrap();
+    let options = SurfaceOptions { max_distance: 2.5, ..SurfaceOptions::default() };
+    let surface = ReferenceSurface::new(&tree, &mesh, &options, &Silent).unwrap();
+    // Over the top; beside it; inside, nearest to the bottom; too far from everything; in reach, but not along the line.
+    let points = [[0.5, 0.5, 1.25], [1.5, 0.25, 0.5], [0.5, 0.5, 0.25], [0.5, 0.5, 4.0], [0.5, 0.5, 3.0]];
+    let ask = |start, along: &Along| {
+        let got =
+            surface.map_along(start, &points, along, &Silent, |_, d, c| (d, c.map(|c| c.point))).unwrap();
+        got.into_iter().map(|(d, at)| Exclusion::of(d).map_or(Ok((d, at.unwrap())), Err)).collect::<Vec<_>>()
+    };
+    use Exclusion::{MaxDistance, NoCrossing, NoDirection};
+    let up = ask(0, &Along::Direction([0.0, 0.0, -3.0]));
+    let top = Ok((0.25, [0.5, 0.5, 1.0]));
+    let bottom = Ok((-0.25, [0.5, 0.5, 0.0]));
+    assert_eq!(up, [top, Err(NoCrossing), bottom, Err(MaxDistance), Ok((2.0, [0.5, 0.5, 1.0]))]);
+    let normals = surface.normals(&Silent).unwrap();
+    let nearest = ask(0, &normals);
+    assert_eq!(nearest[..3], [top, Ok((0.5, [1.0, 0.25, 0.5])), bottom]);
+    // Its own normals, from the second of a list on: aslant by 3 : 4, across, none, and no number.
+    let own = [[9.0; 3], [0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [0.0; 3], [1.0, 0.0, 0.0], [f64::NAN; 3]];
+    let own = ask(1, &Along::Measured(own.to_vec().into()));
+    let (d, at) = own[0].unwrap();
+    assert!((d - 0.25 / 0.8).abs() < 1e-15 && (at[0] - (0.5 - 0.25 * 0.75)).abs() < 1e-15, "{d} {at:?}");
+    assert_eq!(own[1..], [Err(NoCrossing), Err(NoDirection), Err(MaxDistance), Err(NoDirection)]);
+}
+
+/// Of a sphere, lines through its centre have the nearest distance; of points beside an edge the normal is that of both facets.
+#[test]
+fn normals_of_the_reference_are_those_of_the_nearest_place() {
+    let center = [1.0, 2.0, 3.0];
+    let mesh = sphere(60, 5.0, center);
+    let tree = Tree::build(&mesh).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let d = &mut TestRandom(7);
+    let points: Vec<Point> = (0..500).map(|_| plus(center, d.point(6.0))).collect();
+    let normals = surface.normals(&Silent).unwrap();
+    let along = surface.map_along(0, &points, &normals, &Silent, |_, d, _| d).unwrap();
+    let nearest = surface.deviations(&points, &Silent).unwrap();
+    for ((a, n), p) in along.iter().zip(&nearest).zip(&points) {
+        // The normal of a facet leans by up to a facet's turn of 6° from the way to the nearest place.
+        let most = n.abs() / (6f64.to_radians()).cos() + 1e-9;
+        assert!(a.signum() == n.signum() && a.abs() >= n.abs() - 1e-12 && a.abs() <= most, "{p:?}: {a} {n}");
+    }
+    let (mesh, beside) = (cube(1.0), [[1.3, 0.4, 1.1]]);
+    let tree = Tree::build(&mesh).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let found = surface
+        .map_along(0, &beside, &surface.normals(&Silent).unwrap(), &Silent, |_, d, c| (d, *c.unwrap()));
+    let (d, crossing) = found.unwrap()[0];
+    // Along (1, 0, 1) from there the side x = 1 is met at z = 0.8.
+    assert!(
+        (d - 0.3 * 2f64.sqrt()).abs() < 1e-14 && (crossing.point[2] - 0.8).abs() < 1e-14,
+        "{d} {crossing:?}"
+    );
 }

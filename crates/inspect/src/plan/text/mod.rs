@@ -140,12 +140,24 @@ pub struct DeviationText {
     /// Whether points whose nearest place is a free edge of the reference are left out and counted.
     #[serde(default)]
     pub skip_boundary: bool,
+    /// Measures along lines instead of to the nearest place: a direction, or the normals of the `reference` or of the `measured`.
+    pub along: Option<At<AlongText>>,
     /// Points whose normals turn away from the reference's by more than this are left out and counted, degrees.
     pub facing: Option<At<f64>>,
     /// Outliers by this rule are left out and counted: `mad:5` or `3sigma`.
     pub outliers: Option<At<String>>,
     /// Tells what part of the reference no point covers within this reach: `auto` or a length.
     pub coverage: Option<At<CoverageText>>,
+}
+
+/// What is measured along.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum AlongText {
+    /// A direction, in the coordinates of the reference.
+    Direction([f64; 3]),
+    /// `reference` or `measured`.
+    Word(String),
 }
 
 /// A reach along the reference.

@@ -24,11 +24,15 @@ pub enum NoValue {
     Facing = 8,
     /// It is an outlier.
     Outlier = 9,
+    /// The line along which it is measured meets nothing.
+    NoCrossing = 10,
+    /// It has no normal to measure along.
+    NoDirection = 11,
 }
 
 impl NoValue {
     /// All of them, in the order of their codes.
-    pub const ALL: [NoValue; 10] = [
+    pub const ALL: [NoValue; 12] = [
         NoValue::Unknown,
         NoValue::MaxDistance,
         NoValue::FreeEdge,
@@ -39,6 +43,8 @@ impl NoValue {
         NoValue::NoSurface,
         NoValue::Facing,
         NoValue::Outlier,
+        NoValue::NoCrossing,
+        NoValue::NoDirection,
     ];
 
     /// Name in the manifest and in the text table (`reason.<name>`).
@@ -54,6 +60,8 @@ impl NoValue {
             NoValue::NoSurface => "no_surface",
             NoValue::Facing => "facing",
             NoValue::Outlier => "outlier",
+            NoValue::NoCrossing => "no_crossing",
+            NoValue::NoDirection => "no_direction",
         }
     }
 }
@@ -107,7 +115,7 @@ mod tests {
             for v in values {
                 let code = c.code(v, NoValue::Unknown);
                 assert!((f64::from(code) * c.step - v).abs() <= 0.5 * c.step * (1.0 + 1e-9));
-                assert!(code > c.no_value(NoValue::Outlier));
+                assert!(code > c.no_value(NoValue::NoDirection));
             }
         }
     }
@@ -117,7 +125,7 @@ mod tests {
         let c = Codes::for_values(&[1.0], 1.0);
         assert_eq!(c.code(f64::NAN, NoValue::Unknown), -32_768);
         assert_eq!(c.code(f64::NAN, NoValue::FreeEdge), -32_766);
-        assert_eq!(c.code(-1.0, NoValue::Unknown), -32_758);
+        assert_eq!(c.code(-1.0, NoValue::Unknown), -32_756);
     }
 
     #[test]

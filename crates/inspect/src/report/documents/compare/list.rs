@@ -1,14 +1,14 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
 use super::super::super::number::Style;
-use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section};
+use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section, series};
 use super::super::super::values::{Name, Text};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::results::check::found;
 use crate::results::compare::{
-    BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
+    AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
 };
 use crate::results::statistics::PAGE_ROWS;
 use maud::{Markup, Render, html};
@@ -209,11 +209,24 @@ pub fn excluded(s: Style, c: &Comparison, all: u64) -> Markup {
     }
 }
 
-/// What the rules for outliers and coverage gave, where they were asked.
+/// Along what the deviations are, and what the rules for outliers and coverage gave, where they were asked.
 pub fn rules(s: Style, c: &Comparison, decimals: usize) -> Markup {
     html! {
+        @if let Some(a) = &c.along { (fact(s, "along", along(s, a))) }
         @if let Some(o) = &c.outliers { (fact(s, "outliers", outliers(s, o, decimals))) }
         @if let Some(covered) = &c.coverage { (fact(s, "uncovered", uncovered(s, covered))) }
+    }
+}
+
+/// Along what lines deviations are.
+fn along(s: Style, a: &AlongRecord) -> Markup {
+    let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
+    html! {
+        @match a.direction {
+            Some(direction) => { (series(s, direction, "; ", 4)) }
+            None => { (s.word(key)) }
+        }
+        br; small { (s.word("along.means")) }
     }
 }
 
@@ -238,13 +251,12 @@ fn uncovered(s: Style, c: &CoverageRecord) -> Markup {
     }
 }
 
+const REASONS: [&str; 7] =
+    ["max_distance", "free_edge", "not_measured", "facing", "outlier", "no_crossing", "no_direction"];
+
 /// The reasons that the table of words knows.
 fn known(reason: &str) -> &str {
-    if ["max_distance", "free_edge", "not_measured", "facing", "outlier"].contains(&reason) {
-        reason
-    } else {
-        "excluded"
-    }
+    if REASONS.contains(&reason) { reason } else { "excluded" }
 }
 
 fn sign(s: Style, sign: &SignRecord) -> Markup {
