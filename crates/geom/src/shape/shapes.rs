@@ -264,6 +264,7 @@ fn off_axis(p: Point, point: Point, direction: Vector) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Coordinate;
     use super::*;
 
     fn one_of_each() -> [Shape; 10] {

@@ -15,7 +15,7 @@ pub mod repair;
 pub mod research;
 pub mod section;
 pub mod segment;
-mod statistics;
+pub mod statistics;
 pub mod surface;
 pub mod trend;
 mod verdict;

@@ -1,7 +1,7 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
 use super::super::super::number::Style;
-use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section};
+use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section, series};
 use super::super::super::values::{Name, Text};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
@@ -10,6 +10,7 @@ use crate::results::check::found;
 use crate::results::compare::{
     AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
 };
+use crate::results::statistics::PAGE_ROWS;
 use maud::{Markup, Render, html};
 
 /// All sections.
@@ -127,26 +128,6 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
     )
 }
 
-/// A row of the table of statistics: key in the table of words, digits beyond the scale's, signed, number and reason.
-type Row = (&'static str, usize, bool, fn(&Statistics) -> (Option<f64>, Option<&str>));
-
-const ROWS: [Row; 14] = [
-    ("mean", 1, true, |s| (s.mean, s.mean_reason.as_deref())),
-    ("std_dev", 1, false, |s| (s.std_dev, s.std_dev_reason.as_deref())),
-    ("rms", 1, false, |s| (s.rms, s.rms_reason.as_deref())),
-    ("mean_abs", 1, false, |s| (s.mean_abs, s.mean_abs_reason.as_deref())),
-    ("min", 0, true, |s| (s.min, s.min_reason.as_deref())),
-    ("max", 0, true, |s| (s.max, s.max_reason.as_deref())),
-    ("range_width", 0, false, |s| (s.range, s.range_reason.as_deref())),
-    ("median", 1, true, |s| (s.median, s.median_reason.as_deref())),
-    ("p5", 0, true, |s| (s.percentiles.p5, None)),
-    ("p95", 0, true, |s| (s.percentiles.p95, None)),
-    ("six_sigma", 1, false, |s| (s.six_sigma, s.six_sigma_reason.as_deref())),
-    ("cv", 0, false, |s| (s.cv, s.cv_reason.as_deref())),
-    ("skewness", 0, true, |s| (s.skewness, s.skewness_reason.as_deref())),
-    ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
-];
-
 /// Digits after the decimal sign with which a number fits its column: from a thousand on six in all.
 fn column_digits(value: Option<f64>, wanted: usize) -> usize {
     match value.map_or(0.0, f64::abs) {
@@ -171,7 +152,7 @@ pub fn by_side(s: Style, deviation: &BySide, decimals: usize) -> Markup {
             thead { tr { th {} @for key in ["all", "plus", "minus"] { th.r { (s.word(key)) } } } }
             tbody {
                 tr { th scope="row" { (s.word("points")) } (cell(&|side| s.count(side.count).render())) }
-                @for (key, more, signed, of) in ROWS {
+                @for (key, more, signed, of) in PAGE_ROWS {
                     tr {
                         th scope="row" { (s.word(key)) }
                         (cell(&|side| {
@@ -239,10 +220,11 @@ pub fn rules(s: Style, c: &Comparison, decimals: usize) -> Markup {
 
 /// Along what lines deviations are.
 fn along(s: Style, a: &AlongRecord) -> Markup {
+    let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
     html! {
         @match a.direction {
-            Some([x, y, z]) => { (s.number(x, 4)) "; " (s.number(y, 4)) "; " (s.number(z, 4)) }
-            None => { (s.word(if a.kind == "reference" { "along.reference" } else { "along.measured" })) }
+            Some(direction) => { (series(s, direction, "; ", 4)) }
+            None => { (s.word(key)) }
         }
         br; small { (s.word("along.means")) }
     }
