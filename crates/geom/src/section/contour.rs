@@ -3,11 +3,12 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
+use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
-use super::row::{Clean, spacing};
+use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
 use super::start::{Part, shares};
@@ -32,7 +33,8 @@ const FARTHEST: f64 = 20.0;
 ///
 /// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
 /// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
-/// points are taken to scatter normally across the contour, all alike. Points that repeat the one before, and single points
+/// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
+/// other way round. Points that repeat the one before, and single points
 /// far off what their neighbors tell, are left out and listed.
 ///
 /// # Errors
@@ -49,6 +51,20 @@ const FARTHEST: f64 = 20.0;
 /// assert!(found.joins[0].point[0].abs() < 1e-3 && found.joins[0].point[1].abs() < 1e-6);
 /// ```
 pub fn contour(
+    points: &[[f64; 2]],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    check_row(points, options)?;
+    if !from_the_end(points) {
+        return in_order(points, options, progress);
+    }
+    let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
+    Ok(in_order(&turned, options, progress)?.turned_round(points, options))
+}
+
+/// The contour of a row, found from its first point.
+fn in_order(
     points: &[[f64; 2]],
     options: &Options,
     progress: &dyn Progress,
@@ -461,28 +477,15 @@ impl Joined {
         // A repeated point is where the one it repeats is: before it, or at the start.
         for k in 0..total {
             if !known[k] {
-                let like = if k == 0 || clean.repeated.last() == Some(&k) && clean.closed {
-                    clean.numbers[0]
-                } else {
-                    k - 1
-                };
+                let at_start = k == 0 || clean.ends_meet.is_some_and(|from| k >= from);
+                let like = if at_start { clean.numbers[0] } else { k - 1 };
                 (labels[k], residuals[k], stations[k]) = (labels[like], residuals[like], stations[like]);
             }
         }
-        if clean.closed && contour.segments.len() > 1 {
-            let by = labels[clean.numbers[0]] as usize;
-            let count = contour.segments.len();
-            let before: f64 = contour.segments[..by].iter().map(|s| s.length).sum();
-            contour.segments.rotate_left(by);
-            let joins = contour.joins.len();
-            contour.joins.rotate_left(by.min(joins));
-            labels.iter_mut().for_each(|l| *l = ((*l as usize + count - by) % count) as u32);
-            contour.astray.iter_mut().for_each(|s| *s = (*s + count - by) % count);
-            contour.astray.sort_unstable();
-            let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
-            stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
-        }
         (contour.labels, contour.residuals, contour.stations) = (labels, residuals, stations);
+        if clean.closed {
+            contour.begin_with(contour.labels[clean.numbers[0]] as usize);
+        }
         // Outliers were found before the row was turned.
         contour.outliers = outliers.into_iter().map(|i| clean.numbers[i]).collect();
         (contour.repeated, contour.gaps) = (clean.repeated.clone(), clean.gaps.clone());

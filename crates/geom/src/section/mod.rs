@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `row` | rows as they come: what is wrong with them |
+//! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
@@ -17,6 +18,7 @@
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
+//! | `crossings` | places where a contour crosses itself |
 //! | `nominal` | distances from the section of a nominal |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
@@ -27,8 +29,10 @@ mod chain;
 mod contour;
 mod convert;
 mod corner;
+mod crossings;
 mod cut;
 mod dimension;
+mod direction;
 mod exact;
 mod facets;
 mod follow;
