@@ -11,7 +11,7 @@ use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
 use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
-use super::start::{Part, shares};
+use super::start::{Part, noise, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 use std::collections::VecDeque;
@@ -56,11 +56,53 @@ pub fn contour(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
-    if !from_the_end(points) {
-        return in_order(points, options, progress);
-    }
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
-    Ok(in_order(&turned, options, progress)?.turned_round(points, options))
+    let backward = from_the_end(points);
+    let ways = if backward { [&turned[..], points] } else { [points, &turned] };
+    let mut found = in_order(ways[0], options, progress);
+    let mut is_backward = backward;
+    // A search that ended badly may end well from the other end.
+    if found.as_ref().map_or_else(|e| *e == SectionError::Astray, |found| is_doubtful(found, points, options)) {
+        let other = match in_order(ways[1], options, progress) {
+            Err(SectionError::Cancelled(e)) => return Err(e.into()),
+            other => other,
+        };
+        let cheaper = match (&found, &other) {
+            (Ok(found), Ok(other)) => rank(other, points.len()) < rank(found, points.len()),
+            (_, other) => other.is_ok(),
+        };
+        if cheaper {
+            (found, is_backward) = (other, !backward);
+        }
+    }
+    let found = found?;
+    Ok(if is_backward { found.turned_round(points) } else { found })
+}
+
+/// Points scatter about a contour this many times as much as about local fits where it hides form.
+const DOUBTFUL: f64 = 1.3;
+
+/// Whether segments of a contour are astray, or its points scatter more than about local fits.
+fn is_doubtful(found: &Contour, points: &[[f64; 2]], options: &Options) -> bool {
+    let own = options.noise.unwrap_or_else(|| noise(points, found.closed).0);
+    !found.astray.is_empty() || own > 0.0 && rms(found) > DOUBTFUL * own
+}
+
+/// Root mean square distance of the points from a contour, outliers left out.
+fn rms(found: &Contour) -> f64 {
+    let kept = found.residuals.iter().enumerate().filter(|(i, _)| found.outliers.binary_search(i).is_err());
+    let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
+    (sum / f64::max(count, 1.0)).sqrt()
+}
+
+/// By which of two contours of a row the one to take is told: segments astray first, then twice the negative logarithm of the
+/// likelihood and the penalty for the unknowns.
+fn rank(found: &Contour, count: usize) -> (usize, f64) {
+    let (count, floor) = (count as f64, RESOLUTION * found.spacing);
+    let off = rms(found);
+    let cost = count * libm::log(off * off + floor * floor)
+        + (found.unknowns + found.joins.len() as f64) * libm::log(count);
+    (found.astray.len(), cost)
 }
 
 /// The contour of a row, found from its first point.
@@ -380,10 +422,11 @@ impl Plan<'_> {
         }
         let sum: f64 = all.contour.residuals.iter().zip(self.weights).map(|(r, w)| w * r * r).sum();
         let unknowns: f64 = founds.iter().map(Found::unknowns).sum();
+        all.contour.unknowns = unknowns;
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
-        all.misdrawn(&self.clean.points, self.weights);
+        all.misdrawn(&self.clean.points, self.weights, self.step);
         all.contour.end_lengths();
         Ok(all)
     }
@@ -436,17 +479,23 @@ impl Joined {
         contour.joins.extend(parts.joins);
     }
 
-    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, are astray too.
-    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64]) {
+    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
+    /// do, are astray too.
+    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
         const BEYOND: f64 = 3.0;
+        /// So many distances between points, and standard deviations, beyond an end of a line or arc.
+        const AHEAD: f64 = 8.0;
         let contour = &mut self.contour;
-        let mut off = vec![0.0f64; contour.segments.len()];
+        let mut off = vec![[0.0f64; 2]; contour.segments.len()];
         for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
-            let off = &mut off[*label as usize];
-            *off = off.max(contour.segments[*label as usize].off_drawn(*p));
+            let (off, segment) = (&mut off[*label as usize], &contour.segments[*label as usize]);
+            *off = [off[0].max(segment.off_drawn(*p)), off[1].max(segment.ahead_of_drawn(*p))];
         }
-        let far = |(k, off): &(usize, f64)| *off > contour.segments[*k].max + BEYOND * contour.noise;
+        let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
+        let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
+            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
+        };
         let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
         self.astray(astray);
     }

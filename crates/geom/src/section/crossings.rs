@@ -1,6 +1,6 @@
 //! Places where a contour crosses itself: then it has no inside, and none of the measures that ask for one.
 
-use super::result::{Contour, Geometry, Segment};
+use super::result::{Geometry, Segment};
 use crate::num::predicates::side_of_line;
 use crate::progress::{Cancelled, Progress};
 
@@ -77,24 +77,35 @@ pub(super) fn crossing_chords(
     Ok(found)
 }
 
-impl Contour {
-    /// Where the contour crosses itself, in the order of its points; at most a hundred places.
-    ///
-    /// Curves are looked at by chords, so that two of them that run beside each other nearer than chords to their arcs (3e-4 of a
-    /// radius) may be taken for crossing. That the contour touches itself is no crossing. Cost: a sort of the chords, and a look at
-    /// those that overlap in one coordinate.
-    ///
-    /// # Errors
-    /// [`Cancelled`], when asked to stop.
-    pub fn crossings(&self, progress: &dyn Progress) -> Result<Vec<[f64; 2]>, Cancelled> {
-        let chords: Vec<Chord> = self.segments.iter().enumerate().flat_map(|(n, s)| chords(n, s)).collect();
-        let ends: Vec<[[f64; 2]; 2]> = chords.iter().map(|c| c.ends).collect();
-        let pairs = crossing_chords(&ends, self.closed, MOST, progress)?;
-        Ok(pairs.into_iter().map(|(i, j)| self.place_of(&chords[i], &chords[j])).collect())
-    }
+/// Where segments that follow each other cross, in their order; at most a hundred places. `closed` tells that the last is followed by
+/// the first.
+///
+/// Curves are looked at by chords, so that two of them that run beside each other nearer than chords to their arcs (3e-4 of a
+/// radius) may be taken for crossing. Where segments touch there is no crossing. Cost: a sort of the chords, and a look at those that
+/// overlap in one coordinate.
+///
+/// # Errors
+/// [`Cancelled`], when asked to stop.
+///
+/// ```
+/// use trueness_geom::{progress::Silent, section::{crossings, Segment}};
+/// let tie = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+/// let sides: Vec<Segment> = (0..4).map(|i| Segment::straight(tie[i], tie[(i + 1) % 4])).collect();
+/// assert_eq!(crossings(&sides, true, &Silent).unwrap(), [[1.0, 1.0]]);
+/// ```
+pub fn crossings(
+    segments: &[Segment],
+    closed: bool,
+    progress: &dyn Progress,
+) -> Result<Vec<[f64; 2]>, Cancelled> {
+    let chords: Vec<Chord> = segments.iter().enumerate().flat_map(|(n, s)| chords(n, s)).collect();
+    let ends: Vec<[[f64; 2]; 2]> = chords.iter().map(|c| c.ends).collect();
+    let pairs = crossing_chords(&ends, closed, MOST, progress)?;
+    Ok(pairs.into_iter().map(|(i, j)| place_of(segments, &chords[i], &chords[j])).collect())
+}
 
-    /// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.
-    fn place_of(&self, a: &Chord, b: &Chord) -> [f64; 2] {
+/// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.
+fn place_of(segments: &[Segment], a: &Chord, b: &Chord) -> [f64; 2] {
         let (mut shares, mut ends) = ([a.shares, b.shares], [a.ends, b.ends]);
         for _ in 0..STEPS {
             let along = [ends, [ends[1], ends[0]]].map(|[own, other]| meeting(own, other));
@@ -102,13 +113,12 @@ impl Contour {
                 let [from, to] = shares[k];
                 let (at, half) = (from + along[k] * (to - from), SHORTER * (to - from));
                 shares[k] = [(at - half).max(0.0), (at + half).min(1.0)];
-                ends[k] = shares[k].map(|s| self.segments[chord.segment].place(s));
+                ends[k] = shares[k].map(|s| segments[chord.segment].place(s));
             }
         }
         let [own, other] = ends;
         let t = meeting(own, other);
         [0, 1].map(|k| own[0][k] + t * (own[1][k] - own[0][k]))
-    }
 }
 
 /// Where on a chord the line through another meets it: 0 at its start, 1 at its end; the middle of parallel ones.
@@ -186,16 +196,16 @@ mod tests {
                 .map(|p| p.map(|x| x + noise * normal()))
                 .collect();
             let found = contour(&eight, &Options::default(), &Silent).unwrap();
-            let crossings = found.crossings(&Silent).unwrap();
-            assert_eq!(crossings.len(), 1, "{noise} {crossings:?}");
-            let off = libm::hypot(crossings[0][0] - 3.0, crossings[0][1] - 1.0);
+            let places = crossings(&found.segments, true, &Silent).unwrap();
+            assert_eq!(places.len(), 1, "{noise} {places:?}");
+            let off = libm::hypot(places[0][0] - 3.0, places[0][1] - 1.0);
             assert!(off < 1e-3 + 2.0 * noise, "{noise} {off}");
             let ellipse: Vec<[f64; 2]> = (0..400)
                 .map(|i| libm::sincos(f64::from(i) * std::f64::consts::TAU / 400.0))
-                .map(|(s, c)| [10.0 * s + noise * normal(), 0.4 * c + noise * normal()])
+                .map(|(s, c)| [10.0 * s + noise * normal(), 2.0 * c + noise * normal()])
                 .collect();
             let found = contour(&ellipse, &Options::default(), &Silent).unwrap();
-            assert_eq!(found.crossings(&Silent).unwrap(), [[0.0; 2]; 0], "{noise}");
+            assert_eq!(crossings(&found.segments, true, &Silent).unwrap(), [[0.0; 2]; 0], "{noise}");
         }
         // Lines cross where theirs do, to rounding; a bow tie whose middle is a point of the row too.
         let tie: Vec<[f64; 2]> = (0..20)
@@ -206,8 +216,8 @@ mod tests {
             .chain((0..20).map(|i| [0.0, 20.0 - f64::from(i)]))
             .collect();
         let found = contour(&tie, &Options::default(), &Silent).unwrap();
-        let crossings = found.crossings(&Silent).unwrap();
-        assert_eq!(crossings.len(), 1, "{crossings:?}");
-        assert!(libm::hypot(crossings[0][0] - 10.0, crossings[0][1] - 10.0) < 1e-9, "{crossings:?}");
+        let places = crossings(&found.segments, true, &Silent).unwrap();
+        assert_eq!(places.len(), 1, "{places:?}");
+        assert!(libm::hypot(places[0][0] - 10.0, places[0][1] - 10.0) < 1e-9, "{places:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
-use super::result::{Contour, Join, Options, Segment};
+use super::result::{Contour, Join, Segment};
 use super::row::{Passed, distance};
 
 /// Steps that differ by less than this share are taken for equal: rounding of a motion does not turn a row round.
@@ -16,7 +16,7 @@ pub(super) fn from_the_end(points: &[[f64; 2]]) -> bool {
         (a - b).abs() > EQUAL * (a + b)
     };
     if let Some(i) = (0..n.saturating_sub(1) / 2).find(differ) {
-        return step(i) > step(n - 2 - i);
+        return step(i) < step(n - 2 - i);
     }
     let pairs = points.iter().flatten().zip(points.iter().rev().flat_map(|p| p.iter()));
     pairs.map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).is_some_and(std::cmp::Ordering::is_gt)
@@ -24,12 +24,12 @@ pub(super) fn from_the_end(points: &[[f64; 2]]) -> bool {
 
 impl Contour {
     /// The contour of the row `points`, found from its last point, as from its first.
-    pub(super) fn turned_round(mut self, points: &[[f64; 2]], options: &Options) -> Contour {
+    pub(super) fn turned_round(mut self, points: &[[f64; 2]]) -> Contour {
         let (n, count) = (points.len(), self.segments.len());
         let whole: f64 = self.segments.iter().map(|s| s.length).sum();
         self.segments = self.segments.into_iter().rev().map(Segment::reversed).collect();
         self.joins = self.joins.into_iter().rev().map(Join::reversed).collect();
-        if self.closed && self.joins.len() == count {
+        if self.closed && count > 0 && self.joins.len() == count {
             // The join over the seam is the last.
             self.joins.rotate_left(1);
         }
@@ -38,7 +38,7 @@ impl Contour {
         self.astray = self.astray.into_iter().rev().map(|s| count - 1 - s).collect();
         self.residuals = self.residuals.into_iter().rev().map(|r| 0.0 - r).collect();
         self.stations = self.stations.into_iter().rev().map(|s| whole - s).collect();
-        let passed = Passed::of(points, options.closed == Some(false));
+        let passed = Passed::of(points, !self.closed);
         // Of points at the same place the first stands for all.
         let first = |i: usize| {
             let of_the_end = passed.ends_meet.is_some_and(|from| i >= from);
@@ -49,8 +49,8 @@ impl Contour {
         self.outliers.sort_unstable();
         self.gaps = passed.gaps(points);
         self.repeated = passed.repeated;
-        if self.closed {
-            self.begin_with(self.labels[0] as usize);
+        if let Some(first) = self.labels.first().filter(|_| self.closed) {
+            self.begin_with(*first as usize);
         }
         self
     }

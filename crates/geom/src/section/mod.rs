@@ -19,6 +19,7 @@
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
 //! | `crossings` | places where a contour crosses itself |
+//! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
@@ -38,6 +39,7 @@ mod facets;
 mod follow;
 mod foot;
 mod free;
+mod joined;
 mod least;
 mod levels;
 mod link;
@@ -61,9 +63,11 @@ mod untangle;
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use chain::Kind;
 pub use contour::contour;
+pub use crossings::crossings;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut, cut_facets};
 pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
+pub use joined::joined;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};

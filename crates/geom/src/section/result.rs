@@ -130,6 +130,20 @@ impl Segment {
         }
     }
 
+    /// How far beyond an end of the line or arc as it is drawn the foot of a point lies, along it; 0 of a free curve.
+    pub(super) fn ahead_of_drawn(&self, p: [f64; 2]) -> f64 {
+        if self.geometry.kind() == Kind::Spline {
+            return 0.0;
+        }
+        let foot = self.nearest(p);
+        if foot.share > 0.0 && foot.share < 1.0 {
+            return 0.0;
+        }
+        let (d, along) = ([p[0] - foot.place[0], p[1] - foot.place[1]], foot.along);
+        let size = libm::hypot(along[0], along[1]).max(f64::MIN_POSITIVE);
+        ((d[0] * along[0] + d[1] * along[1]) / size).abs()
+    }
+
     /// Angle of the direction from start to end with the first axis, radians.
     pub fn angle(&self) -> f64 {
         libm::atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
@@ -211,6 +225,8 @@ pub struct Contour {
     pub joins: Vec<Join>,
     /// Standard deviation of the points about the contour.
     pub noise: f64,
+    /// Number of unknowns that were found from the points; 0 of exact facets.
+    pub unknowns: f64,
     /// Mean distance between neighboring points.
     pub spacing: f64,
     /// Segment that each point belongs to.

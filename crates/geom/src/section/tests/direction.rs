@@ -93,7 +93,7 @@ fn lists_are_those_of_the_row(contour: &Contour, points: &[[f64; 2]], number: us
 /// The distance and the length along the contour of each point are those of its foot.
 fn feet_are_where_stations_tell(contour: &Contour, points: &[[f64; 2]], whole: f64, number: usize) {
     for (i, p) in points.iter().enumerate() {
-        if contour.outliers.contains(&i) {
+        if contour.outliers.contains(&i) || contour.astray.contains(&(contour.labels[i] as usize)) {
             continue;
         }
         let label = contour.labels[i] as usize;
