@@ -66,10 +66,7 @@ fn no_drawing(path: &Path) -> anyhow::Error {
 }
 
 /// Opens the nominal of a section: a drawing, or a mesh or points.
-pub fn nominal(
-    path: &Path,
-    options: &ReadOptions,
-) -> anyhow::Result<Result<(Drawing, InputRecord), Opened>> {
+pub fn nominal(path: &Path, options: &ReadOptions) -> anyhow::Result<Result<(Drawing, InputRecord), Opened>> {
     match any(path, Role::Reference, options)? {
         Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
         Any::Whole(opened) => Ok(Err(opened)),

@@ -119,8 +119,7 @@ fn in_order(
 ) -> Result<Airfoil, AirfoilError> {
     let mut left_out = contour.outliers.iter().chain(&contour.repeated).copied().collect::<Vec<_>>();
     left_out.sort_unstable();
-    let mut numbers: Vec<usize> =
-        (0..points.len()).filter(|i| left_out.binary_search(i).is_err()).collect();
+    let mut numbers: Vec<usize> = (0..points.len()).filter(|i| left_out.binary_search(i).is_err()).collect();
     // Points as near as this are one: a trailing edge of both is sharp.
     let nothing = RESOLUTION * contour.spacing;
     let near = |i: usize, j: usize| distance(points[i], points[j]) < nothing;

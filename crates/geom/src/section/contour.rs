@@ -14,6 +14,7 @@ use super::span::{Found, Span, Task, single};
 use super::start::{Part, noise, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
+use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -59,11 +60,21 @@ pub fn contour(
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
-    let mut found = in_order(ways[0], options, progress);
+    let (hasty, again) = (Cell::new(false), Cell::new(false));
+    let mut found = in_order(ways[0], options, Some(&hasty), progress);
     let mut is_backward = backward;
+    // What takes long from one end may be short from the other.
+    if hasty.get() && !matches!(found, Err(SectionError::Cancelled(_))) {
+        found = in_order(ways[1], options, Some(&again), progress);
+        match again.get() {
+            true => found = in_order(ways[0], options, None, progress),
+            false => is_backward = !backward,
+        }
+    }
     // A search that ended badly may end well from the other end.
-    if found.as_ref().map_or_else(|e| *e == SectionError::Astray, |found| is_doubtful(found, points, options)) {
-        let other = match in_order(ways[1], options, progress) {
+    let doubtful = |found: &Contour| !hasty.get() && is_doubtful(found, points, options);
+    if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
+        let other = match in_order(ways[1], options, None, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             other => other,
         };
@@ -105,10 +116,11 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
     (found.astray.len(), cost)
 }
 
-/// The contour of a row, found from its first point.
+/// The contour of a row, found from its first point; `hasty` as of the search.
 fn in_order(
     points: &[[f64; 2]],
     options: &Options,
+    hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     let clean = Clean::new(points, options)?;
@@ -116,7 +128,11 @@ fn in_order(
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
     let mut start = Start::new(clean, options);
-    let mut chains = start.plan(options).all(&start.parts, progress)?;
+    let mut chains = Plan { hasty, ..start.plan(options) }.all(&start.parts, progress)?;
+    if hasty.is_some_and(Cell::get) {
+        // It is of no use.
+        return Err(SectionError::Astray);
+    }
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.0);
     while let Some(other) = finer.pop_front() {
@@ -170,6 +186,8 @@ struct Plan<'a> {
     known: bool,
     /// The chains of the parts as they are, without any search.
     draft: bool,
+    /// As of the search.
+    hasty: Option<&'a Cell<bool>>,
 }
 
 /// Whether a search from these parts may lead to chains that cost less than `bar`: those of the parts as they are cost little more.
@@ -209,6 +227,7 @@ impl Start {
             forced: self.forced,
             known: self.known,
             draft: false,
+            hasty: None,
         }
     }
 }
@@ -247,6 +266,15 @@ impl Plan<'_> {
                 }
             }
             if !found.astray {
+                // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
+                if single(&found.state) && found.pieces()[0].kind == Kind::Arc {
+                    let whole = shares(&self.clean.points, self.weights, 1);
+                    let task = Task { draft: true, ..self.task(false, true, n) };
+                    let mut open = span().find(&whole, &task, progress)?;
+                    open.circle = !open.astray;
+                    open.noise = if self.given.is_some() { open.noise } else { open.scatter() };
+                    found = if open.circle { open } else { found };
+                }
                 return Ok((vec![found], vec![]));
             }
             if forced.is_some() {
@@ -319,7 +347,7 @@ impl Plan<'_> {
         self.options.resolution.unwrap_or(RESOLUTION * self.spacing)
     }
 
-    fn task(&self, closed: bool, whole: bool, count: usize) -> Task {
+    fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
         let n = self.clean.points.len();
         // What the rest of the row tells about the noise; next to all if it was given.
         let degrees = match self.given {
@@ -341,6 +369,7 @@ impl Plan<'_> {
             level: self.options.level,
             known: self.known,
             draft: self.draft,
+            hasty: self.hasty,
         }
     }
 

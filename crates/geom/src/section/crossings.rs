@@ -106,19 +106,19 @@ pub fn crossings(
 
 /// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.
 fn place_of(segments: &[Segment], a: &Chord, b: &Chord) -> [f64; 2] {
-        let (mut shares, mut ends) = ([a.shares, b.shares], [a.ends, b.ends]);
-        for _ in 0..STEPS {
-            let along = [ends, [ends[1], ends[0]]].map(|[own, other]| meeting(own, other));
-            for (k, chord) in [a, b].into_iter().enumerate() {
-                let [from, to] = shares[k];
-                let (at, half) = (from + along[k] * (to - from), SHORTER * (to - from));
-                shares[k] = [(at - half).max(0.0), (at + half).min(1.0)];
-                ends[k] = shares[k].map(|s| segments[chord.segment].place(s));
-            }
+    let (mut shares, mut ends) = ([a.shares, b.shares], [a.ends, b.ends]);
+    for _ in 0..STEPS {
+        let along = [ends, [ends[1], ends[0]]].map(|[own, other]| meeting(own, other));
+        for (k, chord) in [a, b].into_iter().enumerate() {
+            let [from, to] = shares[k];
+            let (at, half) = (from + along[k] * (to - from), SHORTER * (to - from));
+            shares[k] = [(at - half).max(0.0), (at + half).min(1.0)];
+            ends[k] = shares[k].map(|s| segments[chord.segment].place(s));
         }
-        let [own, other] = ends;
-        let t = meeting(own, other);
-        [0, 1].map(|k| own[0][k] + t * (own[1][k] - own[0][k]))
+    }
+    let [own, other] = ends;
+    let t = meeting(own, other);
+    [0, 1].map(|k| own[0][k] + t * (own[1][k] - own[0][k]))
 }
 
 /// Where on a chord the line through another meets it: 0 at its start, 1 at its end; the middle of parallel ones.

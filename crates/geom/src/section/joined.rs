@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Weights that differ by less than this share are the same.
 const EQUAL: f64 = 1e-14;
 /// Places of a rational curve for each of its spans, by which it is followed.
-const PLACES: usize = 64;
+const PLACES: usize = 256;
 
 impl Segment {
     /// A line from a place to another, which no points belong to.
@@ -36,7 +36,8 @@ impl Segment {
     pub fn curve(rational: &Rational<3>, tolerance: f64) -> Option<Segment> {
         let masses = rational.masses();
         let first = masses.points().first()?.mass;
-        let (curve, deviation) = match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL * first) {
+        let (curve, deviation) = match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL * first)
+        {
             true => {
                 let points = masses.points().iter().map(|m| [0, 1].map(|k| m.moment[k] / m.mass)).collect();
                 (Curve::new(masses.knots().clone(), points).ok()?, 0.0)
@@ -70,7 +71,8 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
         parameters.extend((0..PLACES).map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES as f64));
     }
     parameters.extend(spans.last());
-    let points: Vec<[f64; 2]> = parameters.iter().map(|t| rational.at(*t).map(flat)).collect::<Option<_>>()?;
+    let points: Vec<[f64; 2]> =
+        parameters.iter().map(|t| rational.at(*t).map(flat)).collect::<Option<_>>()?;
     let tangent = |t: f64| rational.derivatives(t, 1).map(|d| flat(d[1]));
     let (from, to) = knots.domain();
     let ends = Ends {
@@ -113,7 +115,9 @@ impl EndsAt {
         let far = |(i, at_end): &(usize, bool)| {
             length(p, if *at_end { segments[*i].end } else { segments[*i].start })
         };
-        ends.map(|e| (far(e), *e)).filter(|(d, _)| *d <= gap).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+        ends.map(|e| (far(e), *e))
+            .filter(|(d, _)| *d <= gap)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, e)| e)
     }
 }

@@ -102,7 +102,8 @@ impl Clean {
         if ratio > UNORDERED && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }
-        let found = ends_meet.is_some() || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
+        let found =
+            ends_meet.is_some() || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
         let closed = options.closed.unwrap_or(found);
         let n = all.len() as f64;
         let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());

@@ -59,7 +59,9 @@ impl NominalArgs {
         for (n, section) in sections.iter().enumerate() {
             let outlines = match &nominal {
                 Nominal::Mesh(mesh) => cut(mesh, section, planes.get(n), stage)?,
-                Nominal::Drawing(drawing) => drawn(drawing, (sections.len() > 1).then_some(n), &shown.to_string())?,
+                Nominal::Drawing(drawing) => {
+                    drawn(drawing, (sections.len() > 1).then_some(n), &shown.to_string())?
+                }
                 Nominal::Row(..) if sections.len() > 1 => {
                     return Err(Usage(format!(
                         "--nominal {shown}: it holds points in order, which are of one plane; give one --plane, or a mesh"
@@ -136,7 +138,9 @@ fn drawn(drawing: &Drawing, plane: Option<usize>, shown: &str) -> anyhow::Result
         });
     }
     if segments.is_empty() && plane.is_none() {
-        anyhow::bail!("{shown}: it holds neither lines nor arcs nor splines that are read: there is no nominal");
+        anyhow::bail!(
+            "{shown}: it holds neither lines nor arcs nor splines that are read: there is no nominal"
+        );
     }
     Ok(section::with_material_inside(section::joined(segments, SHARE * size)))
 }

@@ -183,13 +183,8 @@ pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
         weights = vec![1.0; points.len()];
     }
     let degree = usize::try_from(said.integer(71)?).unwrap_or(0);
-    let raw = Raw {
-        degree: vec![degree],
-        knots: vec![said.all(40)?],
-        counts: vec![points.len()],
-        points,
-        weights,
-    };
+    let raw =
+        Raw { degree: vec![degree], knots: vec![said.all(40)?], counts: vec![points.len()], points, weights };
     out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(said.line))?));
     Ok(())
 }

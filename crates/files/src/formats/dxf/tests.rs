@@ -73,11 +73,9 @@ fn what_is_written_reads_back() {
 #[test]
 fn polylines_have_bulges() {
     // A half circle to the right of the way from (0, 0) to (2, 0): below, counter-clockwise; then a straight way back.
-    let (found, unit, _) = read(&drawing(
-        "9 $INSUNITS 70 1",
-        "0 LWPOLYLINE 8 0 90 2 70 1 10 0 20 0 42 1 10 2 20 0 42 0",
-    ))
-    .unwrap();
+    let (found, unit, _) =
+        read(&drawing("9 $INSUNITS 70 1", "0 LWPOLYLINE 8 0 90 2 70 1 10 0 20 0 42 1 10 2 20 0 42 0"))
+            .unwrap();
     assert_eq!((unit, found.entities.len()), (Unit::Inch, 2));
     is_at(place(&found.entities[0].drawn, 0.0), [0.0, 0.0]);
     is_at(place(&found.entities[0].drawn, 0.5), [25.4, -25.4]);
@@ -142,7 +140,10 @@ fn hostile_drawings_are_refused_with_their_line() {
         ("0 SPLINE 71 3 11 0 21 0 31 0 11 1 21 1 31 0", "passes through"),
         ("0 SPLINE 71 3 40 0 40 0 40 1 40 1 10 0 20 0 10 1 20 1", "knots"),
         ("0 SPLINE 71 99999999999 40 0 40 1 10 0 20 0 10 1 20 1", "degree"),
-        ("0 SPLINE 71 1 72 4000000000 73 4000000000 40 0 40 0 40 1 40 1 41 -1 41 1 10 0 20 0 10 1 20 1", "weight"),
+        (
+            "0 SPLINE 71 1 72 4000000000 73 4000000000 40 0 40 0 40 1 40 1 41 -1 41 1 10 0 20 0 10 1 20 1",
+            "weight",
+        ),
         ("0 POLYLINE 70 0 0 VERTEX 10 0 20 0", "SEQEND"),
         ("0 LWPOLYLINE 20 0 10 0", "first coordinate"),
         ("x LINE", "code of a group"),

@@ -6,9 +6,9 @@
 
 use super::super::chain::Kind;
 use super::super::result::{Continuity, Contour};
+use super::RESOLUTION;
 use super::ends::{Around, TrailingEdge, distance};
 use super::error::AirfoilError;
-use super::RESOLUTION;
 use crate::progress::{Cancelled, Progress};
 use crate::spline::curve::{self, Curve, Ends, Fitted};
 
@@ -122,17 +122,13 @@ fn along(curve: &Curve<[f64; 2]>) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 /// The contour's own course with what it costs for as many points; `None` where it does not end where the profile does.
-fn of_contour(
-    around: &Around,
-    ends: [usize; 2],
-    contour: &Contour,
-    as_many: f64,
-) -> Option<(f64, Course)> {
+fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64) -> Option<(f64, Course)> {
     let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
     if whole <= 0.0 {
         return None;
     }
-    let kept = |i: &usize| contour.outliers.binary_search(i).is_err() && contour.repeated.binary_search(i).is_err();
+    let kept =
+        |i: &usize| contour.outliers.binary_search(i).is_err() && contour.repeated.binary_search(i).is_err();
     let own: Vec<usize> = (0..contour.residuals.len()).filter(kept).collect();
     let sum: f64 = own.iter().map(|i| contour.residuals[*i].powi(2)).sum();
     let (count, unknowns) = (own.len() as f64, contour.unknowns);
@@ -260,7 +256,13 @@ impl Smooth {
                     idle = 0;
                     let variance = fitted.sum_of_squares / (n as f64 - p).max(1.0);
                     let uncertainty = (variance * p / n as f64).sqrt();
-                    best = Some(Smooth { curve: fitted.curve, uncertainty, noise: variance.sqrt(), cost, count: n });
+                    best = Some(Smooth {
+                        curve: fitted.curve,
+                        uncertainty,
+                        noise: variance.sqrt(),
+                        cost,
+                        count: n,
+                    });
                 } else {
                     idle += 1;
                 }
@@ -272,4 +274,3 @@ impl Smooth {
         }
     }
 }
-

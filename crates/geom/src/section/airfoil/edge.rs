@@ -22,8 +22,8 @@ const UNKNOWNS: usize = 5;
 /// Points belong to the edge within this share of the chord along it.
 const EDGE: f64 = 0.25;
 /// Curvatures agree within so many standard uncertainties of the one of the smaller reach; a curvature below so many is none.
-const AGREE: f64 = 1.0;
-const SURE: f64 = 3.0;
+const AGREE: f64 = 2.0;
+const SURE: f64 = 2.0;
 /// The uncertainty is no less than that of a reach of so much fewer points.
 const SMALLER: f64 = 0.65;
 

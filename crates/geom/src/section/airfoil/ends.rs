@@ -67,7 +67,12 @@ impl Around {
             if gap > APART * chord {
                 return Err(AirfoilError::Open { gap, chord });
             }
-            return Ok(Around { row: row.to_vec(), ends: [0, row.len() - 1], over: 0, trailing: TrailingEdge::Open(gap) });
+            return Ok(Around {
+                row: row.to_vec(),
+                ends: [0, row.len() - 1],
+                over: 0,
+                trailing: TrailingEdge::Open(gap),
+            });
         }
         let (mut head, mut tail) = diameter(row);
         if width(row, head, tail) < width(row, tail, head) {
@@ -89,7 +94,12 @@ impl Around {
             }
             _ => {
                 let over = n / 16 + 1;
-                Around { row: run(tail + n - over, n + 2 * over), ends: [tail; 2], over, trailing: TrailingEdge::Round }
+                Around {
+                    row: run(tail + n - over, n + 2 * over),
+                    ends: [tail; 2],
+                    over,
+                    trailing: TrailingEdge::Round,
+                }
             }
         })
     }

@@ -18,7 +18,12 @@ fn rows() -> Vec<Vec<[f64; 2]>> {
     all.push(meets);
     let random = &mut Random::new(11);
     let mut noisy = |p: [f64; 2], noise: f64| p.map(|x| x + noise * normal(random));
-    let wave = |i: u32| [0.1 * f64::from(i), libm::sin(0.03 * f64::from(i)) + if i < 60 { 0.0 } else { 0.02 * f64::from(i - 60) }];
+    let wave = |i: u32| {
+        [
+            0.1 * f64::from(i),
+            libm::sin(0.03 * f64::from(i)) + if i < 60 { 0.0 } else { 0.02 * f64::from(i - 60) },
+        ]
+    };
     all.push((0..200).map(|i| noisy(wave(i), 0.01)).collect());
     all.push((0..90).map(|i| noisy([0.05 * f64::from(i % 45), f64::from(i / 45)], 0.05)).collect());
     let square = |i: u32| match i / 30 {
@@ -49,7 +54,11 @@ fn a_row_the_other_way_round_is_measured_as_the_same_row() {
             assert!(a.clone().reversed() == *b || *a == b.clone().reversed(), "{number} {k} {a:?} {b:?}");
             if let Some(join) = two.joins.get(k) {
                 let before = &one.joins[(of(k) + m - 1) % m];
-                assert_eq!((join.point, join.uncertainty), (before.point, before.uncertainty), "{number} {k}");
+                assert_eq!(
+                    (join.point, join.uncertainty),
+                    (before.point, before.uncertainty),
+                    "{number} {k}"
+                );
                 assert_eq!(join.interval, [before.interval[1], before.interval[0]], "{number} {k}");
                 assert_eq!((join.turn, join.continuity), (0.0 - before.turn, before.continuity));
             }
