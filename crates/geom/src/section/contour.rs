@@ -3,6 +3,7 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
+use super::crossings::crossings;
 use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
@@ -87,7 +88,9 @@ pub fn contour(
         }
     }
     let found = found?;
-    Ok(if is_backward { found.turned_round(points) } else { found })
+    let mut found = if is_backward { found.turned_round(points) } else { found };
+    found.crossings = crossings(&found.segments, found.closed, progress)?;
+    Ok(found)
 }
 
 /// Points scatter about a contour this many times as much as about local fits where it hides form.

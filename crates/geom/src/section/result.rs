@@ -241,6 +241,8 @@ pub struct Contour {
     pub repeated: Vec<usize>,
     /// Gaps between neighboring points of more than five times the median distance: the number of the point before.
     pub gaps: Vec<usize>,
+    /// Where the contour crosses itself: at most a hundred places. A closed one that does has no inside.
+    pub crossings: Vec<[f64; 2]>,
     /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
     /// the way through the points. They tell nothing of the part.
     pub astray: Vec<usize>,

@@ -45,6 +45,10 @@ pub fn contours(h: &mut Html, document: &SectionDocument) {
             h.raw("<p class=\"note\"><strong class=\"warning\">⚠</strong> ").word("contour.astray");
             h.raw(" ").text(&numbers.join(", ")).raw("</p>");
         }
+        if let [[x, y], ..] = contour.crossings[..] {
+            h.raw("<p class=\"note\"><strong class=\"warning\">⚠</strong> ").word("contour.crossings");
+            h.raw(&format!(" ({x:.4}, {y:.4})</p>"));
+        }
         h.raw("<div class=\"wide\">");
         segments(h, contour, numbers[n]);
         h.raw("</div>");
