@@ -21,11 +21,9 @@ const GROWTH: f64 = 1.25;
 const UNKNOWNS: usize = 5;
 /// Points belong to the edge within this share of the chord along it.
 const EDGE: f64 = 0.25;
-/// Curvatures agree within so many standard uncertainties of the one of the smaller reach; a curvature below so many is none.
-const AGREE: f64 = 2.0;
+/// Curvatures of two reaches agree within so many standard deviations of their difference; one below so many uncertainties is none.
+const AGREE: f64 = 2.5;
 const SURE: f64 = 2.0;
-/// The uncertainty is no less than that of a reach of so much fewer points.
-const SMALLER: f64 = 0.65;
 
 /// The radius of the points of `row` at `place`, an end of the chord whose other end is `from`.
 ///
@@ -52,27 +50,38 @@ pub(super) fn radius(
         return Err(AirfoilError::FewAround { found: near.len() });
     }
     let (mut all, mut count): (Vec<Bend>, usize) = (vec![], FEWEST);
-    loop {
-        let Some(bend) = fit(&near[..count], noise) else { break };
-        let agrees = |b: &Bend| (b.curvature - bend.curvature).abs() <= AGREE * b.uncertainty;
-        if !all.iter().all(agrees) {
-            all.push(bend);
-            all.rotate_right(1);
+    // One that disagrees may do so by chance, two in succession do not.
+    let mut other: Option<Bend> = None;
+    while let Some(bend) = fit(&near[..count], noise) {
+        let agrees = |b: &Bend| {
+            let spread =
+                (b.uncertainty * b.uncertainty - bend.uncertainty * bend.uncertainty).max(0.0).sqrt();
+            (b.curvature - bend.curvature).abs() <= AGREE * spread
+        };
+        let is_other = !all.iter().all(agrees);
+        if is_other && other.is_some() {
             break;
         }
-        all.push(bend);
+        if is_other {
+            other = Some(bend);
+        } else {
+            other = None;
+            all.push(bend);
+        }
         if count == near.len() {
             break;
         }
         count = ((count as f64 * GROWTH).ceil() as usize).min(near.len());
     }
+    all.splice(0..0, other);
     let [.., best] = all[..] else { return Err(AirfoilError::Flat) };
-    // What changes with the square of the reach is as large as this makes it from one reach to the next; the one that disagrees was
-    // put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
+    // What changes with the square of the reach is as large as this makes it from one reach to the next; the one that disagrees
+    // was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
     let beside = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
     let changed = (best.curvature - beside.curvature) / (GROWTH * GROWTH - 1.0);
-    let smaller = all[..all.len() - 1].iter().rfind(|b| b.count as f64 <= SMALLER * best.count as f64);
-    let uncertainty = libm::hypot(best.uncertainty, changed).max(smaller.map_or(0.0, |b| b.uncertainty));
+    let smaller = all[..all.len() - 1].iter().rfind(|b| b.count < best.count).unwrap_or(&best);
+    let scatter = libm::hypot(best.uncertainty, smaller.uncertainty) * std::f64::consts::FRAC_1_SQRT_2;
+    let uncertainty = libm::hypot(scatter, changed);
     match best.curvature {
         k if k > SURE * uncertainty => {
             Ok(EdgeRadius { radius: 1.0 / k, uncertainty: uncertainty / (k * k), count: best.count })

@@ -220,21 +220,18 @@ fn noise_changes_measures_by_what_is_stated() {
 fn uncertainties_hold_over_fresh_noise() {
     let u = 8.9 / 19.2;
     let most = 2.0 * (1.2 - 0.7 * u + 9.6 * u * (1.0 - u));
-    for (form, thick, radii, count, noise) in [
-        ([1.2, -0.7, 9.6], most, [1.2, 0.5], 300, 0.01),
-        ([1.2, -0.7, 9.6], most, [1.2, 0.5], 200, 0.02),
-        ([1.2, 0.0, 0.0], 2.4, [1.2, 1.2], 300, 0.02),
-        ([1.2, 0.0, 0.0], 2.4, [1.2, 1.2], 200, 0.03),
-    ] {
+    for (form, thick, radii, count, noise) in
+        [([1.2, -0.7, 9.6], most, [1.2, 0.5], 160, 0.01), ([1.2, 0.0, 0.0], 2.4, [1.2, 1.2], 160, 0.02)]
+    {
         let (exact, random) = (envelope(count, form), &mut Random::new(count as u64));
         let (mut off, mut within, mut all) = (0.0, [0, 0], [0, 0]);
-        for _ in 0..24 {
+        for _ in 0..16 {
             let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
             let points: Vec<[f64; 2]> =
                 exact.iter().map(|p| [p[0] + noise * normal(), p[1] + noise * normal()]).collect();
             let row = contour(&points, &Options::default(), &Silent).unwrap();
             let found = airfoil(&points, &row, &Silent).unwrap();
-            off += ((found.thickness - thick) / found.thickness_uncertainty).powi(2) / 24.0;
+            off += ((found.thickness - thick) / found.thickness_uncertainty).powi(2) / 16.0;
             for (k, edge) in [found.leading_radius, found.trailing_radius].into_iter().enumerate() {
                 if let Ok(edge) = edge {
                     // Both ends of a blade of one thickness are alike.
@@ -244,24 +241,24 @@ fn uncertainties_hold_over_fresh_noise() {
             }
         }
         let name = format!("{form:?} {noise}: {off} {within:?} of {all:?}");
-        // The mean of 24 standardized squares is uncertain by 0.29: three of that.
-        assert!(off < 1.9, "{name}");
-        // 95 of 100 are to be within; of 24, three fewer than that by chance in one case of 30.
-        assert!((0..2).all(|k| all[k] >= 12 && within[k] * 100 >= 83 * all[k]), "{name}");
+        // The mean of 16 standardized squares is uncertain by 0.35: three of that.
+        assert!(off < 2.05, "{name}");
+        // 95 of 100 are to be within; of 16 two fewer than that by chance in one case of 50.
+        assert!((0..2).all(|k| all[k] >= 8 && within[k] * 100 >= 81 * all[k]), "{name}");
     }
 }
 
 /// A figure of eight has no inside, and is no profile; scatter about a sharp edge is no crossing.
 #[test]
 fn profiles_that_cross_themselves_are_refused() {
-    for noise in [0.0, 0.005, 0.05] {
+    for noise in [0.0, 0.02] {
         let random = &mut Random::new(2);
         let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
         let mut noisy = |p: [f64; 2]| p.map(|x| x + noise * normal());
         for lobe in [0.3, 1.0] {
             // The one lobe is smaller.
-            let eight: Vec<[f64; 2]> = (0..400)
-                .map(|i| libm::sincos((f64::from(i) + 0.3) * TAU / 400.0))
+            let eight: Vec<[f64; 2]> = (0..200)
+                .map(|i| libm::sincos((f64::from(i) + 0.3) * TAU / 200.0))
                 .map(|(s, c)| if s < 0.0 { (s * lobe, c * lobe) } else { (s, c) })
                 .map(|(s, c)| noisy([40.0 * s, 10.0 * s * c]))
                 .collect();
@@ -269,7 +266,7 @@ fn profiles_that_cross_themselves_are_refused() {
             let refused = airfoil(&eight, &row, &Silent);
             assert!(matches!(refused, Err(AirfoilError::Crosses { .. })), "{noise} {lobe} {refused:?}");
         }
-        let sharp = naca(0.02, 0.4, 0.12, 0.1036, 150);
+        let sharp = naca(0.02, 0.4, 0.12, 0.1036, 60);
         let sharp: Vec<[f64; 2]> = sharp.iter().map(|p| noisy([40.0 * p[0], 40.0 * p[1]])).collect();
         let row = contour(&sharp, &Options::default(), &Silent).unwrap();
         let taken = airfoil(&sharp, &row, &Silent);
