@@ -414,6 +414,7 @@ fn comparison(
             BTreeMap::new()
         },
         along: None,
+        regions: vec![],
         outliers: None,
         coverage: None,
         verdict: shares.as_ref().map(|s| match s.inside {

@@ -31,10 +31,16 @@ impl Subject for InspectDocument {
     fn numbers(&self, h: &mut Html) {
         let n = &self.counts;
         h.raw("<dl class=\"key-numbers\">");
-        let within = self.deviation.as_ref().and_then(|d| d.tolerance.as_ref());
-        let outside =
-            within.is_some() && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+        let regions = self.deviation.as_ref().filter(|d| !d.regions.is_empty());
+        let within =
+            self.deviation.as_ref().filter(|d| d.regions.is_empty()).and_then(|d| d.tolerance.as_ref());
+        let judged = within.is_some() || regions.is_some();
+        let outside = judged && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+        let key = if regions.is_some() { "regions.pass" } else { "deviations.within" };
         let share = |h: &mut Html| {
+            if let Some(c) = regions {
+                compare::passing(h, c);
+            }
             if let Some(t) = within {
                 h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
                 if t.required < 1.0 {
@@ -46,17 +52,17 @@ impl Subject for InspectDocument {
         let alone = outside && n.fail == 0;
         let mut lead = !alone;
         if alone {
-            key_number(h, "deviations.within", "lead", share);
+            key_number(h, key, "lead", share);
         }
-        for (key, count, class) in [
+        for (word, count, class) in [
             ("verdict.fail", n.fail, "warn"),
             ("verdict.undecided", n.undecided, "warn"),
             ("verdict.not_measured", n.not_measured, "warn"),
             ("verdict.pass", n.pass, ""),
         ] {
-            if count > 0 || key == "verdict.pass" {
+            if count > 0 || word == "verdict.pass" {
                 let leads = count > 0 && std::mem::take(&mut lead);
-                key_number(h, key, if leads { "lead" } else { class }, |h| {
+                key_number(h, word, if leads { "lead" } else { class }, |h| {
                     h.count(count);
                     if leads {
                         h.raw(" <small>/\u{a0}").count(self.characteristics.len() as u64).raw("</small>");
@@ -67,8 +73,8 @@ impl Subject for InspectDocument {
         key_number(h, "characteristics", "", |h| {
             h.count(self.characteristics.len() as u64);
         });
-        if within.is_some() && !alone {
-            key_number(h, "deviations.within", if outside { "warn" } else { "" }, share);
+        if judged && !alone {
+            key_number(h, key, if outside { "warn" } else { "" }, share);
         }
         h.raw("</dl>");
     }
@@ -182,8 +188,10 @@ fn characteristics(h: &mut Html, d: &InspectDocument) {
 fn deviations(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
     section(h, "deviations", |h| {
         h.raw("<dl class=\"facts pairs\">");
-        if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
+        if let Some(verdict) = c.verdict {
             fact(h, "verdict", |h| badge(h, verdict.into()));
+        }
+        if let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) {
             fact(h, "tolerance", |h| {
                 h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
             });
@@ -202,6 +210,7 @@ fn deviations(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) 
             h.raw("<p class=\"note\">⚠ ").text(&warning.text).raw("</p>");
         }
     });
+    compare::regions(h, c, decimals);
     compare::worst(h, c, decimals, first_pick);
     compare::statistics(h, c, decimals);
 }

@@ -5,9 +5,11 @@ use super::super::super::page::blocks::{badge, fact, file_name, place_cells, sec
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
+use crate::results::Verdict;
 use crate::results::check::found;
 use crate::results::compare::{
     AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
+    ToleranceShares,
 };
 
 /// Writes all sections.
@@ -28,6 +30,7 @@ pub fn list(h: &mut Html, result: &CompareDocument) {
         }
         worst(h, c, result.scale.decimals as usize, first_pick);
         first_pick += c.worst.len();
+        regions(h, c, result.scale.decimals as usize);
         statistics(h, c, result.scale.decimals as usize);
         trust(h, result, c);
         let found = found(&c.soundness.findings);
@@ -62,6 +65,11 @@ fn ranking(h: &mut Html, result: &CompareDocument) {
             h.optional(c.deviation.all.rms, c.deviation.all.rms_reason.as_deref(), decimals, false)
                 .raw("</td><td class=\"r\">");
             match (&c.tolerance, c.verdict) {
+                (_, Some(v)) if !c.regions.is_empty() => {
+                    badge(h, headline(Some(v)));
+                    h.raw(" ");
+                    passing(h, c);
+                }
                 (Some(t), Some(v)) => {
                     badge(h, headline(Some(v)));
                     h.raw(" ").optional_percent(t.inside, t.inside_reason.as_deref(), 2);
@@ -107,8 +115,9 @@ pub fn worst(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
             "</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>",
         );
         for (n, w) in c.worst.iter().enumerate() {
-            let outside =
-                c.tolerance.as_ref().is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower);
+            let region = w.region.as_ref().and_then(|id| c.regions.iter().find(|r| r.id == *id));
+            let zone = region.map(|r| &r.tolerance).or(c.tolerance.as_ref());
+            let outside = zone.is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower);
             let class = if outside { " class=\"out\"" } else { "" };
             h.raw(&format!("<tr data-pick=\"{}\"{class}><td>{}</td><td class=\"r\">", first_pick + n, n + 1));
             h.number(w.deviation, decimals, true).raw("</td>");
@@ -147,6 +156,48 @@ fn column_digits(value: Option<f64>, wanted: usize) -> usize {
         size if size < 1e5 => wanted.min(1),
         _ => 0,
     }
+}
+
+/// How many of the regions pass.
+pub fn passing(h: &mut Html, c: &Comparison) {
+    let pass = c.regions.iter().filter(|r| r.verdict == Verdict::Pass).count();
+    h.count(pass as u64).raw(" <small>/\u{a0}").count(c.regions.len() as u64).raw("</small>");
+}
+
+/// The regions with their tolerances, shares and verdicts, and all other points.
+pub fn regions(h: &mut Html, c: &Comparison, decimals: usize) {
+    if c.regions.is_empty() {
+        return;
+    }
+    section(h, "regions", |h| {
+        h.raw("<table class=\"statistics\"><thead><tr><th>").word("region").raw("</th><th class=\"r\">");
+        h.word("tolerance").raw("</th><th class=\"r\">").word("points").raw("</th><th class=\"r\">");
+        h.word("within.short").raw("</th><th></th></tr></thead><tbody>");
+        let mut row = |name: Option<&str>, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
+            h.raw("<tr><th scope=\"row\">");
+            match name {
+                Some(name) => h.name(name),
+                None => h.word("regions.others"),
+            };
+            h.raw("</th><td class=\"r\">").number(t.lower, decimals, true).raw("\u{2009}…\u{2009}");
+            h.number(t.upper, decimals, true).raw("</td><td class=\"r\">").count(points);
+            h.raw("</td><td class=\"r\">").optional_percent(t.inside, t.inside_reason.as_deref(), 2);
+            h.raw("</td><td>");
+            if let Some(verdict) = verdict {
+                badge(h, verdict.into());
+            }
+            h.raw("</td></tr>");
+        };
+        for r in &c.regions {
+            row(Some(&r.id), &r.tolerance, r.deviation.count, Some(r.verdict));
+        }
+        if let Some(t) = &c.tolerance {
+            let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
+            let of = |share| if share >= t.required { Verdict::Pass } else { Verdict::Fail };
+            row(None, t, rest, t.inside.map(of));
+        }
+        h.raw("</tbody></table><p class=\"note\">").word("regions.means").raw("</p>");
+    });
 }
 
 pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {

@@ -3,7 +3,7 @@
 mod list;
 mod words;
 
-pub use list::{by_side, excluded, rules, statistics, worst};
+pub use list::{by_side, excluded, passing, regions, rules, statistics, worst};
 
 use super::super::html::Html;
 use super::super::page::blocks::{Headline, key_number};
@@ -93,7 +93,9 @@ impl Subject for CompareDocument {
 /// The map of a comparison.
 pub fn map(c: &Comparison) -> Map<'_> {
     let all = &c.deviation.all;
-    let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
+    // Where several tolerances hold, no band of the map shows what is within them.
+    let tolerance = c.tolerance.clone().filter(|_| c.regions.is_empty());
+    let histogram = c.histogram.as_ref();
     Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram, ..Map::default() }
 }
 
@@ -109,6 +111,7 @@ fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned:
     let shown = if n == 0 { "" } else { " hidden" };
     h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{n}\"{shown}>"));
     match &c.tolerance {
+        _ if !c.regions.is_empty() => key_number(h, "regions.pass", "lead", |h| list::passing(h, c)),
         Some(t) => {
             key_number(h, "within", "lead", |h| {
                 h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);

@@ -24,7 +24,7 @@ pub(super) fn warning_key(kind: WarningKind) -> &'static str {
 
 /// The map in one sentence, for those who cannot see it.
 pub(super) fn in_words(h: &mut Html, c: &Comparison) {
-    let Some(t) = &c.tolerance else { return };
+    let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) else { return };
     let (Some(inside), Some(above), Some(below)) = (t.inside, t.above, t.below) else { return };
     h.raw("<p class=\"words\">");
     for (n, (key, share)) in [("within", inside), ("above", above), ("below", below)].into_iter().enumerate()
