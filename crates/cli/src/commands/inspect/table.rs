@@ -16,7 +16,9 @@ pub fn table(document: &InspectDocument) -> String {
     }
     let alignment = &document.alignment;
     if let Some(rms) = alignment.rms {
-        let _ = writeln!(out, "aligned by {}, rms {}", alignment.method, six_digits(rms));
+        let greatest =
+            alignment.greatest.map_or_else(String::new, |g| format!(", greatest distance {}", six_digits(g)));
+        let _ = writeln!(out, "aligned by {}, rms {}{greatest}", alignment.method, six_digits(rms));
     }
     for warning in &alignment.warnings {
         let _ = writeln!(out, "! alignment: {}", warning.text);

@@ -119,6 +119,8 @@ pub enum AlignWord {
     Given,
     /// The best fit onto the reference.
     BestFit,
+    /// The least greatest distance from the reference, near the best fit.
+    Chebyshev,
     /// By datum features.
     Datum,
     /// By reference points.
@@ -207,6 +209,7 @@ impl AlignWord {
             AlignWord::None => "none",
             AlignWord::Given => "given",
             AlignWord::BestFit => "best-fit",
+            AlignWord::Chebyshev => "chebyshev",
             AlignWord::Datum => "datum",
             AlignWord::Rps => "rps",
             AlignWord::Pairs => "pairs",

@@ -10,6 +10,8 @@ pub struct Facts<'a> {
     pub method: &'a str,
     /// Root mean square distance of what counts, mm.
     pub rms: Option<f64>,
+    /// Greatest distance, where it is the least, mm.
+    pub greatest: Option<f64>,
     /// Points without a weight.
     pub left_out: Option<u64>,
     /// What is to be said about the result.
@@ -26,6 +28,11 @@ pub fn alignment(h: &mut Html, of: &Facts) {
         if let Some(rms) = of.rms {
             fact(h, "rms", |h| {
                 h.number(rms, 4, false).raw("\u{a0}mm");
+            });
+        }
+        if let Some(greatest) = of.greatest {
+            fact(h, "align.greatest", |h| {
+                h.number(greatest, 4, false).raw("\u{a0}mm");
             });
         }
         if let Some(points) = of.left_out {

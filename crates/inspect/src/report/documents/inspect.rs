@@ -86,7 +86,16 @@ impl Subject for InspectDocument {
         }
         section(h, "features", |h| features(h, self));
         let (of, left_out) = (&self.alignment, None);
-        alignment(h, &Facts { method: &of.method, rms: of.rms, left_out, warnings: &of.warnings });
+        alignment(
+            h,
+            &Facts {
+                method: &of.method,
+                rms: of.rms,
+                greatest: of.greatest,
+                left_out,
+                warnings: &of.warnings,
+            },
+        );
     }
 
     fn method(&self, h: &mut Html) {

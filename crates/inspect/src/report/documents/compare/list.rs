@@ -42,7 +42,7 @@ pub fn list(h: &mut Html, result: &CompareDocument) {
     }
     if let Some(a) = &result.alignment {
         let (rms, left_out) = (Some(a.rms), Some(a.left_out));
-        alignment(h, &Facts { method: "best-fit", rms, left_out, warnings: &a.warnings });
+        alignment(h, &Facts { method: "best-fit", rms, greatest: None, left_out, warnings: &a.warnings });
     }
 }
 
