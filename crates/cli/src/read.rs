@@ -5,7 +5,6 @@ mod surface_document;
 use crate::exit::Usage;
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
-use rayon::prelude::*;
 use std::path::Path;
 use trueness_files::cad::SplineModel;
 use trueness_files::{
@@ -13,6 +12,7 @@ use trueness_files::{
     open_normals,
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
@@ -67,7 +67,7 @@ fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
         trueness_files::Body::Mesh(mesh) => {
             let out =
                 |v: &u32| mesh.mesh.positions.get(*v as usize).is_some_and(|p| out_of_range(p, MAX_VERTEX));
-            if let Some(v) = mesh.mesh.faces.par_iter().flatten_iter().copied().filter(out).min() {
+            if let Some(v) = mesh.mesh.faces.par_iter().flat_map_iter(|f| *f).filter(out).min() {
                 bail!(refusal(path, "vertex", v as usize, MAX_VERTEX));
             }
             describe(&mut record, &mesh.mesh.positions);

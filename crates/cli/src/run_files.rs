@@ -111,11 +111,11 @@ impl RunFiles {
     }
 
     fn check_overlaps(&self) -> Result<(), Usage> {
-        let mut taken: Vec<(Place, &Output)> = vec![];
-        let inputs: Vec<(Place, &PathBuf)> =
-            self.inputs.iter().filter_map(|path| Some((Place::of_input(path)?, path))).collect();
+        let mut taken: Vec<(FileIdentity, &Output)> = vec![];
+        let inputs: Vec<(FileIdentity, &PathBuf)> =
+            self.inputs.iter().filter_map(|path| Some((FileIdentity::of_input(path)?, path))).collect();
         for output in &self.outputs {
-            let Some(place) = Place::of_output(&output.path) else { continue };
+            let Some(place) = FileIdentity::of_output(&output.path) else { continue };
             let (option, shown) = (output.option, output.path.display());
             if let Some((_, other)) = taken.iter().find(|(p, _)| *p == place) {
                 let (first, there) = (other.option, other.path.display());
@@ -157,7 +157,7 @@ pub fn is_stream(path: &Path) -> bool {
 
 /// Which file a path stands for, whatever way it is spelled and through whichever links.
 #[derive(PartialEq, Eq)]
-enum Place {
+enum FileIdentity {
     /// Device and number of a file that exists.
     #[cfg(unix)]
     Node(u64, u64),
@@ -165,39 +165,39 @@ enum Place {
     Path(PathBuf),
 }
 
-impl Place {
+impl FileIdentity {
     /// Of what is read; `-` is what the standard input was redirected from. `None` for devices and pipes.
-    fn of_input(path: &Path) -> Option<Place> {
-        Place::existing(if is_dash(path) { Path::new("/dev/stdin") } else { path })
+    fn of_input(path: &Path) -> Option<FileIdentity> {
+        FileIdentity::existing(if is_dash(path) { Path::new("/dev/stdin") } else { path })
     }
 
     /// Of what is written; `-` is what the standard output was redirected to. `None` for devices, pipes, and files whose
     /// folder does not exist.
-    fn of_output(path: &Path) -> Option<Place> {
+    fn of_output(path: &Path) -> Option<FileIdentity> {
         if is_dash(path) {
-            return Place::existing(Path::new("/dev/stdout"));
+            return FileIdentity::existing(Path::new("/dev/stdout"));
         }
         if fs::metadata(path).is_ok() {
-            return Place::existing(path);
+            return FileIdentity::existing(path);
         }
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Some(Place::Path(fs::canonicalize(folder).ok()?.join(path.file_name()?)))
+        Some(FileIdentity::Path(fs::canonicalize(folder).ok()?.join(path.file_name()?)))
     }
 
-    fn existing(path: &Path) -> Option<Place> {
+    fn existing(path: &Path) -> Option<FileIdentity> {
         let there = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
-        Place::node(path, &there)
+        FileIdentity::node(path, &there)
     }
 
     #[cfg(unix)]
-    fn node(_: &Path, there: &fs::Metadata) -> Option<Place> {
+    fn node(_: &Path, there: &fs::Metadata) -> Option<FileIdentity> {
         use std::os::unix::fs::MetadataExt;
-        Some(Place::Node(there.dev(), there.ino()))
+        Some(FileIdentity::Node(there.dev(), there.ino()))
     }
 
     #[cfg(not(unix))]
-    fn node(path: &Path, _: &fs::Metadata) -> Option<Place> {
-        fs::canonicalize(path).ok().map(Place::Path)
+    fn node(path: &Path, _: &fs::Metadata) -> Option<FileIdentity> {
+        fs::canonicalize(path).ok().map(FileIdentity::Path)
     }
 }
 

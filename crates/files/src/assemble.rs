@@ -5,7 +5,7 @@ use crate::{
     error::{Fault, Located, Result},
     polygon::{Cut, triangulate},
 };
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::{
     mesh::Mesh,
     space::Point,

@@ -13,7 +13,7 @@ use std::{
 
 /// Bytes not yet stepped over.
 pub(crate) struct Feed {
-    kind: Kind,
+    kind: FeedSource,
     /// Bytes read and not yet stepped over are `buffer[at..]`.
     buffer: Vec<u8>,
     at: usize,
@@ -21,7 +21,7 @@ pub(crate) struct Feed {
     position: u64,
 }
 
-enum Kind {
+enum FeedSource {
     /// A file of this length when it was opened.
     File { file: File, length: u64 },
     /// Nothing but what lies in the buffer.
@@ -38,15 +38,15 @@ const SLICE: u64 = 64 << 20;
 impl Feed {
     /// A regular file, from its start.
     pub fn file(file: File, length: u64) -> Feed {
-        Feed::of(Kind::File { file, length }, vec![])
+        Feed::of(FeedSource::File { file, length }, vec![])
     }
     pub fn memory(bytes: Vec<u8>) -> Feed {
-        Feed::of(Kind::Memory, bytes)
+        Feed::of(FeedSource::Memory, bytes)
     }
     pub fn stream(reader: Box<dyn Read + Send>) -> Feed {
-        Feed::of(Kind::Stream { reader, ended: false }, vec![])
+        Feed::of(FeedSource::Stream { reader, ended: false }, vec![])
     }
-    fn of(kind: Kind, buffer: Vec<u8>) -> Feed {
+    fn of(kind: FeedSource, buffer: Vec<u8>) -> Feed {
         Feed { kind, buffer, at: 0, position: 0 }
     }
 
@@ -59,8 +59,8 @@ impl Feed {
     pub fn left(&self) -> Option<u64> {
         let buffered = (self.buffer.len() - self.at) as u64;
         match &self.kind {
-            Kind::File { length, .. } => Some(length - self.position),
-            Kind::Stream { ended: false, .. } => None,
+            FeedSource::File { length, .. } => Some(length - self.position),
+            FeedSource::Stream { ended: false, .. } => None,
             _ => Some(buffered),
         }
     }
@@ -69,9 +69,11 @@ impl Feed {
     pub fn ahead(&mut self, want: usize) -> Result<&[u8]> {
         if self.buffer.len() - self.at < want {
             let more = match &self.kind {
-                Kind::File { length, .. } => *length > self.position + (self.buffer.len() - self.at) as u64,
-                Kind::Memory => false,
-                Kind::Stream { ended, .. } => !ended,
+                FeedSource::File { length, .. } => {
+                    *length > self.position + (self.buffer.len() - self.at) as u64
+                }
+                FeedSource::Memory => false,
+                FeedSource::Stream { ended, .. } => !ended,
             };
             if more {
                 self.buffer.drain(..self.at);
@@ -97,7 +99,7 @@ impl Feed {
     /// Fills `out` with the bytes from `from` on, counted from where the feed stands. A file is asked for no others.
     pub fn copy(&mut self, from: u64, out: &mut [u8]) -> Result<()> {
         let start = self.position + from;
-        if let Kind::File { file, length } = &mut self.kind {
+        if let FeedSource::File { file, length } = &mut self.kind {
             file.seek(SeekFrom::Start(start))?;
             return file.read_exact(out).map_err(|e| match e.kind() {
                 ErrorKind::UnexpectedEof => shrunk(file, *length).into(),
@@ -114,8 +116,8 @@ impl Feed {
     fn fill(&mut self, want: usize) -> Result<()> {
         let (buffer, position) = (&mut self.buffer, self.position);
         match &mut self.kind {
-            Kind::Memory => Ok(()),
-            Kind::File { file, length } => {
+            FeedSource::Memory => Ok(()),
+            FeedSource::File { file, length } => {
                 let want = (want.max(READ) as u64).min(*length - position);
                 file.seek(SeekFrom::Start(position + buffer.len() as u64))?;
                 reserve(buffer, want)?;
@@ -128,7 +130,7 @@ impl Feed {
                 }
                 Ok(())
             }
-            Kind::Stream { reader, ended } => {
+            FeedSource::Stream { reader, ended } => {
                 while buffer.len() < want {
                     // The buffer grows with what was really read, never to what some header promises.
                     let more = READ.max(buffer.len() / 2).min(want - buffer.len()).max(READ) as u64;

@@ -49,7 +49,7 @@ fn fan(corners: &[u32], mut out: impl FnMut([u32; 3])) {
 }
 
 /// The corners in the plane of the polygon, counter-clockwise; `None` where it has no area to look along.
-fn seen_along_area(corners: Vec<Point>) -> Option<Vec<Place>> {
+fn seen_along_area(corners: Vec<Point>) -> Option<Vec<Point2>> {
     let n = corners.len();
     // Relative to the first corner: far from the origin the products would lose their digits.
     let near: Vec<Point> = corners.iter().map(|p| minus(*p, corners[0])).collect();
@@ -65,7 +65,7 @@ fn seen_along_area(corners: Vec<Point>) -> Option<Vec<Place>> {
 }
 
 /// No corner turns clockwise, and all turns together go round once.
-fn convex(places: &[Place]) -> bool {
+fn convex(places: &[Point2]) -> bool {
     let n = places.len();
     let edge = |i: usize| {
         let (a, b) = (places[i % n], places[(i + 1) % n]);
@@ -80,16 +80,16 @@ fn convex(places: &[Place]) -> bool {
     left && (0..n).map(whole).sum::<f64>() < 9.0
 }
 
-type Place = [f64; 2];
+type Point2 = [f64; 2];
 
 /// Twice the area of a triangle of places, positive when counter-clockwise.
-fn turn([a, b, c]: [Place; 3]) -> f64 {
+fn turn([a, b, c]: [Point2; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Corners seen in the plane of the polygon, counter-clockwise, and which of them are left.
 struct Ears {
-    places: Vec<Place>,
+    places: Vec<Point2>,
     /// The corners before and after each that are left.
     around: Vec<[u32; 2]>,
     tree: Tree,
@@ -102,7 +102,7 @@ struct Ears {
 }
 
 impl Ears {
-    fn new(places: Vec<Place>) -> Ears {
+    fn new(places: Vec<Point2>) -> Ears {
         let n = places.len() as u32;
         let around = (0..n).map(|i| [(i + n - 1) % n, (i + 1) % n]).collect();
         let tree = Tree::of(&places);
@@ -196,7 +196,7 @@ fn set(of: &mut BTreeSet<u32>, b: u32, wanted: bool) {
 
 /// The places of the corners that are left, each once, halved along their longer side again and again.
 struct Tree {
-    places: Vec<Place>,
+    places: Vec<Point2>,
     /// Corners at each place.
     corners: Vec<u32>,
     /// The place of each corner.
@@ -208,8 +208,8 @@ struct Tree {
 
 #[derive(Clone, Copy)]
 struct Node {
-    low: Place,
-    high: Place,
+    low: Point2,
+    high: Point2,
     /// Places that are left.
     left: u32,
 }
@@ -218,14 +218,14 @@ struct Node {
 const FEW: usize = 6;
 
 impl Tree {
-    fn of(corners: &[Place]) -> Tree {
+    fn of(corners: &[Point2]) -> Tree {
         let by_place = |a: &u32, b: &u32| {
             let [a, b] = [a, b].map(|i| corners[*i as usize]);
             a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
         };
         let mut order: Vec<u32> = (0..corners.len() as u32).collect();
         order.sort_unstable_by(by_place);
-        let mut groups: Vec<(Place, Vec<u32>)> = vec![];
+        let mut groups: Vec<(Point2, Vec<u32>)> = vec![];
         for i in order {
             match groups.last_mut().filter(|g| g.0 == corners[i as usize]) {
                 Some(group) => group.1.push(i),
@@ -268,7 +268,7 @@ impl Tree {
     }
 
     /// Some place inside the triangle or on its rim that is not one of its corners.
-    fn within(&mut self, triangle: [Place; 3]) -> Option<u32> {
+    fn within(&mut self, triangle: [Point2; 3]) -> Option<u32> {
         let mut open = vec![(1, 0, self.places.len())];
         while let Some((node, from, to)) = open.pop() {
             self.visited += 1;
@@ -298,7 +298,7 @@ impl Tree {
 }
 
 /// Halves places along the longer side of their box and sets the nodes.
-fn halve(groups: &mut [(Place, Vec<u32>)], node: usize, nodes: &mut [Node]) {
+fn halve(groups: &mut [(Point2, Vec<u32>)], node: usize, nodes: &mut [Node]) {
     let bound = |k: usize, f: fn(f64, f64) -> f64, start: f64| groups.iter().map(|g| g.0[k]).fold(start, f);
     let low = [0, 1].map(|k| bound(k, f64::min, f64::INFINITY));
     let high = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY));
@@ -314,7 +314,7 @@ fn halve(groups: &mut [(Place, Vec<u32>)], node: usize, nodes: &mut [Node]) {
 }
 
 /// Whether the box lies wholly outside one side of the triangle or of its box, so that it holds no place of the triangle.
-fn apart(triangle: &[Place; 3], node: &Node) -> bool {
+fn apart(triangle: &[Point2; 3], node: &Node) -> bool {
     let beside = |k: usize| {
         triangle.iter().all(|p| p[k] < node.low[k]) || triangle.iter().all(|p| p[k] > node.high[k])
     };
@@ -329,7 +329,7 @@ fn apart(triangle: &[Place; 3], node: &Node) -> bool {
 }
 
 /// Greatest distance along axis `k` of the box from a place.
-fn span(node: &Node, from: Place, k: usize) -> f64 {
+fn span(node: &Node, from: Point2, k: usize) -> f64 {
     (node.low[k] - from[k]).abs().max((node.high[k] - from[k]).abs())
 }
 
@@ -390,7 +390,7 @@ mod tests {
     }
 
     /// The triangles of [`Ears::cut`], found with nothing remembered.
-    fn plain(places: &[Place]) -> Vec<[u32; 3]> {
+    fn plain(places: &[Point2]) -> Vec<[u32; 3]> {
         let (mut left, mut all, mut i) = ((0..places.len()).collect::<Vec<_>>(), vec![], 0);
         while left.len() > 3 {
             let n = left.len();
@@ -398,7 +398,7 @@ mod tests {
             let turns = |k: usize| turn(triangle(k).map(|i| places[i]));
             let ear = |k: usize| {
                 let [a, b, c] = triangle(k).map(|i| places[i]);
-                let inside = |p: Place| {
+                let inside = |p: Point2| {
                     ![a, b, c].contains(&p)
                         && [[a, b, p], [b, c, p], [c, a, p]].iter().all(|t| turn(*t) >= 0.0)
                 };
@@ -426,7 +426,7 @@ mod tests {
                     _ => [random.below(5) as f64, random.below(5) as f64],
                 }
             };
-            let places: Vec<Place> = (0..n).map(place).collect();
+            let places: Vec<Point2> = (0..n).map(place).collect();
             let mut got = vec![];
             let how = Ears::new(places.clone()).cut(EFFORT, |t| got.push(t));
             assert_eq!(got, plain(&places), "{case}");

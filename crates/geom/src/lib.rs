@@ -2,30 +2,30 @@
 //!
 //! | task | where |
 //! |---|---|
-//! | a scan brought onto its reference | [`align`] |
-//! | points, vectors, boxes | [`space`] |
-//! | triangle meshes | [`mesh`] |
-//! | point clouds in blocks | [`cloud`] |
+//! | welding, edges, shells, soundness | [`topology`] |
+//! | all defects of a mesh | [`check`] |
+//! | mending them | [`repair`] |
+//! | meshes cut where facets meet, unions of shells | [`arrange`] |
+//! | closest points, distances, signs | [`closest`] |
 //! | deviations from a reference | [`deviation`] |
 //! | statistics of numbers with a sign | [`stats`] |
-//! | neighbours among points | [`spatial`] |
-//! | sums, random numbers | [`num`] |
-//! | closest points, distances, signs | [`closest`] |
-//! | welding, edges, shells, soundness | [`topology`] |
+//! | a scan brought onto its reference | [`align`] |
 //! | lines, planes, cylinders …: parameters, distances | [`shape`] |
 //! | elements fitted to points | [`fit`] |
-//! | all defects of a mesh | [`check`] |
-//! | meshes cut where facets meet, unions of shells | [`arrange`] |
+//! | elements found in a mesh or cloud | [`segment`] |
+//! | features found with the nominal | [`feature`] |
+//! | tolerance zones, datum systems | [`zone`] |
 //! | lines, arcs and curves of a section, and their joins | [`section`] |
 //! | B-splines and NURBS | [`spline`] |
 //! | B-spline surfaces through scattered points | [`surface`] |
 //! | curvatures of meshes and clouds | [`curvature`] |
-//! | elements found in a mesh or cloud | [`segment`] |
-//! | mending them | [`repair`] |
-//! | instruction sets | [`simd`] |
+//! | points, vectors, boxes | [`space`] |
+//! | triangle meshes | [`mesh`] |
+//! | point clouds in blocks | [`cloud`] |
 //! | rigid motions | [`rigid`] |
-//! | features found with the nominal | [`feature`] |
-//! | tolerance zones, datum systems | [`zone`] |
+//! | neighbors among points | [`spatial`] |
+//! | sums, random numbers | [`num`] |
+//! | instruction sets | [`simd`] |
 //! | progress and cancellation | [`progress`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
@@ -42,6 +42,7 @@ mod frame;
 mod memory;
 pub mod mesh;
 pub mod num;
+pub mod parallel;
 pub mod progress;
 pub mod repair;
 pub mod rigid;

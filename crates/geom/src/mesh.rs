@@ -1,7 +1,7 @@
 //! The triangle mesh as data: positions and corners, no adjacency.
 
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
-use rayon::prelude::*;
 
 /// Vertices (millimetres) and faces of three vertex numbers each, outward normal by the right hand.
 ///

@@ -7,8 +7,8 @@ pub(crate) use view::groups;
 
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
-use crate::results::{InputRecord, UNITS, VERSION};
-use trueness_geom::check::{Finding, Found, Kind, Options, Report, Severity};
+use crate::results::{InputRecord, UNITS, VERSION, Word};
+use trueness_geom::check::{Finding, Found, Kind, Options, Report};
 
 /// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
 pub fn document(
@@ -85,11 +85,7 @@ pub(crate) fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
         _ => "not asked for",
     };
     Defects {
-        severity: match kind.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        }
-        .into(),
+        severity: Word(kind.severity),
         count: found.map(|f| f.count as u64),
         at_least: found.is_some_and(|f| f.at_least),
         count_reason: found.is_none().then(|| reason.into()),

@@ -6,27 +6,16 @@ mod view;
 pub use kind::{Kind, values};
 pub use view::View;
 
-use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Quantity, Range, SCHEMA};
+use crate::results::curvature::{
+    CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Quantity, Range, SCHEMA,
+};
 use crate::results::surface::MapRecord;
-use crate::results::{self, Histogram, InputRecord, UNITS, VERSION};
+use crate::results::{self, Histogram, InputRecord, UNITS, VERSION, Word};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-
-/// Name of a reason in documents, files and text tables.
-pub fn reason(reason: NoCurvature) -> &'static str {
-    match reason {
-        NoCurvature::NotFinite => "not_finite",
-        NoCurvature::Unused => "unused",
-        NoCurvature::NotASurface => "not_a_surface",
-        NoCurvature::Boundary => "boundary",
-        NoCurvature::FewNeighbors => "few_neighbors",
-        NoCurvature::Undetermined => "undetermined",
-        NoCurvature::Folded => "folded",
-    }
-}
 
 /// The document of the curvatures at `points`, which are the vertices of a mesh or the points of a cloud, as `inputs` has them.
 /// `None` where no place has curvatures; [`without`] tells why.
@@ -48,12 +37,12 @@ pub fn document(
         version: VERSION.into(),
         units: UNITS.into(),
         inputs,
-        places: if of_mesh { "vertices" } else { "points" }.into(),
+        places: Word(if of_mesh { PlaceKind::Vertices } else { PlaceKind::Points }),
         degree: options.degree as u64,
         neighborhood: neighborhood(options),
         boundary: options.boundary,
         sign: "positive towards the normal".into(),
-        normals: if of_mesh { "facets" } else { "neighbors" }.into(),
+        normals: Word(if of_mesh { NormalSource::Facets } else { NormalSource::Neighbors }),
         parts: found.parts as u64,
         total: points.len() as u64,
         count: jets.len() as u64,
@@ -78,10 +67,10 @@ fn neighborhood(options: &Options) -> Neighborhood {
 }
 
 /// How many places have no curvatures, by reason.
-pub fn without(found: &Curvatures) -> BTreeMap<String, u64> {
+pub fn without(found: &Curvatures) -> BTreeMap<Word<NoCurvature>, u64> {
     let mut all = BTreeMap::new();
     for why in found.places.iter().filter_map(|p| p.as_ref().err()) {
-        *all.entry(reason(*why).to_string()).or_insert(0) += 1;
+        *all.entry(Word(*why)).or_insert(0) += 1;
     }
     all
 }

@@ -2,5 +2,5 @@
 
 mod view;
 
-pub use view::View;
+pub use view::{View, color};
 pub(crate) use view::{cut_out, rim};

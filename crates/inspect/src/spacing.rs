@@ -1,6 +1,6 @@
 //! How far scattered points on a surface lie apart.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Points that a cell holds in the mean, which its side then says how far apart they lie.

@@ -10,13 +10,13 @@ use crate::results::surface::{
     BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
     SurfaceDocument, ToleranceRecord, WorstPoint,
 };
-use crate::results::{self, InputRecord, UNITS, VERSION};
+use crate::results::{self, InputRecord, UNITS, VERSION, Word};
 use crate::scale::Scale;
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-use trueness_geom::surface::{Base, Fairness, Layout, Options, Reached, SurfaceFit};
+use trueness_geom::surface::{Base, Fairness, Layout, Options, SurfaceFit};
 
 /// Share of points in layers beyond which the surface is doubtful.
 pub const FOLDED: f64 = 0.01;
@@ -75,7 +75,7 @@ pub fn document(
 
 fn base(found: &Base) -> BaseRecord {
     BaseRecord {
-        kind: found.kind.name().into(),
+        kind: Word(found.kind),
         origin: found.origin,
         axes: found.axes,
         radius: found.radius,
@@ -99,13 +99,7 @@ fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
 fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
     let (Layout::Tolerance(value), Some(reached)) = (&options.layout, fit.reached) else { return None };
     let outside = fit.deviations.iter().filter(|d| d.abs() > *value).count() as u64;
-    let stopped_by = match reached {
-        Reached::Tolerance => "tolerance",
-        Reached::Noise => "noise",
-        Reached::Points => "points",
-        Reached::Memory => "memory",
-    };
-    Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: stopped_by.into() })
+    Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: Word(reached) })
 }
 
 /// The deviations' counts and colours: by the tolerance, where there is one.

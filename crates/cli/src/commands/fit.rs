@@ -9,6 +9,7 @@ use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -34,8 +35,8 @@ pub struct FitArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
     points: PathBuf,
     /// What is fitted
-    #[arg(long, value_enum)]
-    shape: ShapeArg,
+    #[arg(long, value_parser = shapes())]
+    shape: String,
     /// What makes an element the best
     #[arg(long, value_enum, default_value = "gaussian")]
     method: MethodArg,
@@ -47,34 +48,29 @@ pub struct FitArgs {
     report: ReportArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShapeArg {
-    Line,
-    Plane,
-    Circle,
-    /// In the plane: of points of two columns, or of x and y.
-    Ellipse,
-    Sphere,
-    Cylinder,
-    Cone,
-    Torus,
+/// The names of all shapes, each once.
+fn shapes() -> PossibleValuesParser {
+    let mut names: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+    names.dedup();
+    names
+        .into_iter()
+        .map(|name| {
+            let only_flat = Kind::named(name, false).is_none();
+            let value = PossibleValue::new(name);
+            if only_flat {
+                value.help("In the plane: of points of two columns, or of x and y")
+            } else {
+                value
+            }
+        })
+        .collect::<Vec<_>>()
+        .into()
 }
 
-impl ShapeArg {
-    fn kind(self, planar: bool) -> Kind {
-        match self {
-            ShapeArg::Line if planar => Kind::Line2,
-            ShapeArg::Line => Kind::Line,
-            ShapeArg::Plane => Kind::Plane,
-            ShapeArg::Circle if planar => Kind::Circle2,
-            ShapeArg::Circle => Kind::Circle,
-            ShapeArg::Ellipse => Kind::Ellipse2,
-            ShapeArg::Sphere => Kind::Sphere,
-            ShapeArg::Cylinder => Kind::Cylinder,
-            ShapeArg::Cone => Kind::Cone,
-            ShapeArg::Torus => Kind::Torus,
-        }
-    }
+/// The shape of a name, in the plane where the points are and there is such, else as there is one.
+fn shape(name: &str, planar: bool) -> anyhow::Result<Kind> {
+    let known = Kind::named(name, planar).or_else(|| Kind::named(name, !planar));
+    known.ok_or_else(|| Usage(format!("--shape {name} is not known")).into())
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -125,7 +121,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     read::hash(&mut record, &args.points)?;
     let options = Options { method: args.method.into(), start: None, seed: common.seed };
     let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
-    let fit = fit::fit(&points, args.shape.kind(planar), &options, &stage);
+    let fit = fit::fit(&points, shape(&args.shape, planar)?, &options, &stage);
     drop(stage);
     let fit = fit.map_err(|e| match e {
         FitError::Cancelled => anyhow::Error::from(Cancelled),

@@ -9,18 +9,20 @@ use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
+use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
-use trueness_inspect::segment::View;
+use trueness_inspect::segment::{View, color};
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -38,12 +40,12 @@ pub struct SegmentArgs {
     /// What is looked for
     #[arg(
         long,
-        value_enum,
+        value_parser = PossibleValuesParser::new(names()),
         value_delimiter = ',',
         value_name = "LIST",
-        default_value = "plane,cylinder,cone,sphere,torus"
+        default_value = ALL.as_str()
     )]
-    shapes: Vec<ShapeArg>,
+    shapes: Vec<String>,
     /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
@@ -70,31 +72,18 @@ pub struct SegmentArgs {
     report: ReportArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShapeArg {
-    Plane,
-    Cylinder,
-    Cone,
-    Sphere,
-    Torus,
-}
+/// What is looked for unless something else is asked for.
+static ALL: LazyLock<String> = LazyLock::new(|| names().join(","));
 
-impl From<ShapeArg> for Kind {
-    fn from(shape: ShapeArg) -> Kind {
-        match shape {
-            ShapeArg::Plane => Kind::Plane,
-            ShapeArg::Cylinder => Kind::Cylinder,
-            ShapeArg::Cone => Kind::Cone,
-            ShapeArg::Sphere => Kind::Sphere,
-            ShapeArg::Torus => Kind::Torus,
-        }
-    }
+/// The names of the shapes that can be found.
+fn names() -> [&'static str; KINDS.len()] {
+    KINDS.map(Kind::name)
 }
 
 impl SegmentArgs {
     fn options(&self, seed: u64) -> Options {
         Options {
-            kinds: self.shapes.iter().map(|&shape| shape.into()).collect(),
+            kinds: self.shapes.iter().filter_map(|name| Kind::named(name, false)).collect(),
             tolerance: self.tolerance,
             crease: self.crease.to_radians(),
             min_share: self.min_share / 100.0,
@@ -155,7 +144,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     if let Some(path) = &args.out {
         let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
-        regions(path, &mesh.positions, pieces, &labels, colour)?;
+        regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
     let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
     if args.report.html.is_some() {
@@ -165,20 +154,6 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table(&document, &found))?;
     Ok(Outcome::Conforming)
-}
-
-/// Colour of a region: neighbouring numbers far apart on the colour circle, grey for none.
-fn colour(label: i32) -> [u8; 3] {
-    if label < 0 {
-        return [150; 3];
-    }
-    let golden = (5f64.sqrt() - 1.0) / 2.0;
-    let hue = 6.0 * (f64::from(label) * golden).fract();
-    [5.0, 3.0, 1.0].map(|shift: f64| {
-        let k = (shift + hue).rem_euclid(6.0);
-        let value = 0.9 - 0.7 * k.min(4.0 - k).clamp(0.0, 1.0);
-        (255.0 * value).round() as u8
-    })
 }
 
 /// Rows of the table.
@@ -191,7 +166,7 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
     for region in document.regions.iter().take(ROWS) {
         rows.push(vec![
             region.number.to_string(),
-            region.shape.clone(),
+            region.shape.to_string(),
             size(region),
             format!("{:.2} %", 100.0 * region.share),
             grouped(region.points),
@@ -226,7 +201,7 @@ fn size(region: &RegionRecord) -> String {
     let mut words = Vec::new();
     for (name, short) in names {
         // The radius of a cone is that at some place.
-        let told = name != "radius" || region.shape != "cone";
+        let told = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
         let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));

@@ -7,7 +7,7 @@ use std::path::Path;
 use trueness_geom::align::{Alignment, BestFit, Measured, Target, best_fit};
 use trueness_geom::closest::{Closest, Tree};
 use trueness_geom::deviation::sign_choice::SignChoice;
-use trueness_geom::deviation::surface::{Surface, SurfaceOptions};
+use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
@@ -17,7 +17,7 @@ use trueness_geom::topology::Soundness;
 /// mesh, its search tree (about 120 bytes a facet), and what the sign needs (36 at most).
 pub struct Reference {
     mesh: Mesh,
-    surface: Surface,
+    surface: ReferenceSurface,
 }
 
 impl Reference {
@@ -58,7 +58,7 @@ impl Reference {
     /// ```
     pub fn with(mesh: Mesh, options: &SurfaceOptions, progress: &dyn Progress) -> Result<Reference, Error> {
         let tree = Tree::build_watched(&mesh, progress)?;
-        let surface = Surface::new(&tree, &mesh, options, progress)?;
+        let surface = ReferenceSurface::new(&tree, &mesh, options, progress)?;
         Ok(Reference { mesh, surface })
     }
 

@@ -14,8 +14,8 @@ use crate::{
     unicode::no_zeros,
     write::{Loss, corners::corner_positions},
 };
-use rayon::prelude::*;
 use std::{borrow::Cow, io::Write};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::{mesh::Mesh, space::Point};
 
 /// Wavefront OBJ.

@@ -5,14 +5,14 @@ use crate::{
     feed::Feed,
     scalar::{Order, Scalar},
 };
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// Points of one task.
 const CHUNK: usize = 1 << 13;
 
 /// Where a coordinate is in a row: offset and type.
-pub(crate) type Place = (usize, Scalar);
+pub(crate) type RowField = (usize, Scalar);
 
 /// How the rows are made.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +20,10 @@ pub(crate) struct Rows {
     pub order: Order,
     /// Bytes of a row; at least up to the end of each place.
     pub stride: usize,
-    pub x: Place,
-    pub y: Place,
+    pub x: RowField,
+    pub y: RowField,
     /// `None` in the plane: z is 0.
-    pub z: Option<Place>,
+    pub z: Option<RowField>,
     /// How many there are.
     pub count: u64,
     /// What they are called in messages: one, many.
@@ -34,7 +34,7 @@ impl Rows {
     /// The point of a row, which has `stride` bytes at least.
     #[inline(always)]
     pub fn point(&self, row: &[u8]) -> Point {
-        let get = |(at, scalar): Place| scalar.get(&row[at..], self.order);
+        let get = |(at, scalar): RowField| scalar.get(&row[at..], self.order);
         [get(self.x), get(self.y), self.z.map_or(0.0, get)]
     }
 }

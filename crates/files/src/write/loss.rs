@@ -1,6 +1,6 @@
 //! What a format could not hold.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
 
 /// What was lost in writing.

@@ -9,9 +9,9 @@ use crate::{
     error::{WriteError, WriteFault},
     formats::{npz, vtp},
 };
-use rayon::prelude::*;
 use std::io::{BufWriter, Write};
 use std::path::Path;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
 
 /// Rows made into bytes by one task.

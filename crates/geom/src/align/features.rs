@@ -8,9 +8,9 @@
 //! An efficient RANSAC for 3D object recognition, ACCV 2010). Pairs with few counterparts are tried first: they tell most.
 
 use super::sample::Samples;
+use crate::parallel::prelude::*;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Cells of each of the angles from 0 to π.

@@ -8,9 +8,9 @@
 use crate::fit::eigen;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::neighbours::PointTree;
-use rayon::prelude::*;
 
 /// What is brought to the reference, millimetres, in a frame of its own.
 #[derive(Clone, Copy, Debug)]

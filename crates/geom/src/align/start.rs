@@ -6,10 +6,10 @@ use super::icp::Problem;
 use super::sample::{Moments, Samples, area, on_surface};
 use super::{AlignError, Target};
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::rigid::Rigid;
 use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Places on the reference whose pairs are known.

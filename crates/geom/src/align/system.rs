@@ -3,8 +3,8 @@
 //! The six unknowns are a rotation vector about a center and a translation. Rotations are counted in units of the
 //! points' root mean square distance from the center, so that all six have the size of a displacement.
 
+use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
-use rayon::prelude::*;
 
 /// What a point is held by: the shape of the surface where it is nearest.
 #[derive(Clone, Copy, Debug)]

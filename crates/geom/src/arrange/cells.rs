@@ -9,9 +9,9 @@ use super::cut::Piece;
 use super::points::Points;
 use super::ray::{Around, Rays};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::topology::sides::{self, each_edge};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 /// The number of a part, what is added to the winding numbers relative to its first cell, and the shells around it.
 type Anchored = (usize, i32, Around);

@@ -4,7 +4,7 @@
 //! Solid Geometry, 2016), so that what they have in common falls into the same pieces.
 
 use super::meetings::{Edge, edge};
-use super::points::{Place, Plane, Points};
+use super::points::{ExactPoint, Plane, Points};
 use crate::mesh::Mesh;
 use crate::num::predicates::side_of_line;
 use crate::space::{Point, cross, minus};
@@ -41,7 +41,7 @@ pub(super) struct Cluster {
 /// Two segments cross at a place that may have no number yet.
 pub(super) struct Crossing {
     pub segments: [usize; 2],
-    pub place: Place,
+    pub place: ExactPoint,
 }
 
 /// A cut of a facet: the facet that cuts, and the ends.
@@ -181,7 +181,7 @@ impl Planes {
         Planes { own: plane_of(mesh, cluster.facets[0]), of: BTreeMap::new() }
     }
 
-    fn crossing(&mut self, mesh: &Mesh, cluster: &Cluster, [i, j]: [usize; 2]) -> Option<Place> {
+    fn crossing(&mut self, mesh: &Mesh, cluster: &Cluster, [i, j]: [usize; 2]) -> Option<ExactPoint> {
         let ends = |e: Edge| e.map(|v| mesh.positions[v as usize]);
         let lines = [i, j].map(|i| cluster.segments[i].line);
         for line in lines {
@@ -190,11 +190,15 @@ impl Planes {
             }
         }
         match lines {
-            [Line::Edge(e), Line::Edge(f)] => Place::on_line(ends(e), &Plane::along(cluster.axis, ends(f))),
-            [Line::Edge(e), Line::Cut(f)] | [Line::Cut(f), Line::Edge(e)] => {
-                Place::on_line(ends(e), self.of.get(&f)?)
+            [Line::Edge(e), Line::Edge(f)] => {
+                ExactPoint::on_line(ends(e), &Plane::along(cluster.axis, ends(f)))
             }
-            [Line::Cut(f), Line::Cut(g)] => Place::of_planes([&self.own, self.of.get(&f)?, self.of.get(&g)?]),
+            [Line::Edge(e), Line::Cut(f)] | [Line::Cut(f), Line::Edge(e)] => {
+                ExactPoint::on_line(ends(e), self.of.get(&f)?)
+            }
+            [Line::Cut(f), Line::Cut(g)] => {
+                ExactPoint::of_planes([&self.own, self.of.get(&f)?, self.of.get(&g)?])
+            }
         }
     }
 }

@@ -4,12 +4,12 @@ use super::cluster::{Cluster, Crossing, Cut, Line, plane_of};
 use super::cut::{Piece, Pieces, along, cut};
 use super::error::ArrangeError;
 use super::meetings::{Edge, Meeting, Name, meeting};
-use super::points::{Place, Points};
+use super::points::{ExactPoint, Points};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::Topology;
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The pieces of a mesh.
@@ -124,10 +124,10 @@ impl Names {
         let place = |(e, f): &(Edge, u32)| {
             let ends = e.map(|v| mesh.positions[v as usize]);
             // Its ends lie on either side of the plane.
-            Place::on_line(ends, &plane_of(mesh, *f)).unwrap_or_else(|| Place::of(ends[0]))
+            ExactPoint::on_line(ends, &plane_of(mesh, *f)).unwrap_or_else(|| ExactPoint::of(ends[0]))
         };
-        let places: Vec<Place> = names.par_iter().map(place).collect();
-        let number = |((e, f), place): ((Edge, u32), Place)| (e, f, points.number_of(place));
+        let places: Vec<ExactPoint> = names.par_iter().map(place).collect();
+        let number = |((e, f), place): ((Edge, u32), ExactPoint)| (e, f, points.number_of(place));
         Names(names.into_iter().zip(places).map(number).collect())
     }
 

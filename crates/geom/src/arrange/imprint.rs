@@ -1,11 +1,16 @@
-//! Surfaces that lie upon each other but for rounding, given the same vertices and edges.
+//! Surfaces that coincide but for rounding get the same vertices and edges.
 //!
-//! Faces of two bodies that touch have no common plane once their corners were turned and rounded: facets of the one cross those
-//! of the other at random, and what lies between them is as thin as the spacing of numbers. Here vertices, edges and facets that
-//! are no farther apart than a reach of some such spacings share what they have in common: vertices become one; where edges
-//! pass each other there is a new vertex; vertices that lie upon edges and facets become points of these. Then the facets
-//! are cut along all that lies upon them (`retile`). Facets of two faces are the same triangles where the faces overlap,
-//! and an arrangement cancels or merges them. No place of the surface moves farther than three times the reach.
+//! The problem: two bodies touch in a face. After their corners have been rotated and rounded, the two faces have no common plane.
+//! Facets of one cross those of the other at random, and the space between them is as thin as the spacing of numbers.
+//!
+//! The method, with a reach of some such spacings:
+//! - vertices no farther apart than the reach become one;
+//! - where two edges pass each other within the reach, both get a new vertex;
+//! - vertices within the reach of an edge or a facet become points of it;
+//! - facets are cut along everything that lies upon them (`retile`).
+//!
+//! The result: where the two faces overlap, both consist of the same triangles, and an arrangement cancels or merges these. No
+//! place of the surface moves farther than three times the reach.
 //!
 //! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space, with the vertices that are
 //! there in place of the pixels of a grid.

@@ -12,8 +12,8 @@
 //!    number (`cells`, `ray`).
 //! 5. Only then are points rounded to numbers a file can hold. Where that makes facets cross or flat, the rounded mesh is cut
 //!    again (`outer`), new points first put upon others a few steps of the numbers away (`snap`).
-//! 6. Where that comes to no end, surfaces lie upon each other but for rounding: they are given the same vertices and edges, and
-//!    all begins anew (`imprint`, `retile`).
+//! 6. If facets still cross after the last cut, surfaces coincide but for rounding. They are given the same vertices and edges,
+//!    and the whole is done again from step 1 (`imprint`, `retile`).
 //!
 //! After Zhou, Grinspun, Zorin, Jacobson, Mesh Arrangements for Solid Geometry, 2016; filters before exact numbers as in
 //! Cherchi, Livesu, Scateni, Attene, Fast and Robust Mesh Arrangements using Floating-point Arithmetic, 2020.

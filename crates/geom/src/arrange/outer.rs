@@ -12,11 +12,11 @@ use super::upon::{Closeness, step, upon};
 use crate::check::around::Around;
 use crate::check::intersect;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::weld::{as_it_is, compact, rejoined};
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// How the boundary is made.

@@ -31,7 +31,7 @@ pub(super) fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32
 }
 
 /// An error where a corner of a facet is so large or so small that products of coordinates leave the range of numbers. Facets that belong
-/// to no shell have no say.
+/// to no shell are not considered.
 pub(super) fn in_range(mesh: &Mesh, topology: &Topology) -> Result<(), ArrangeError> {
     let facets = mesh.faces.iter().zip(&topology.shell_of).filter(|(_, shell)| **shell != u32::MAX);
     let mut corners = facets.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize]));

@@ -22,7 +22,7 @@ struct Homogeneous {
 
 /// A place, exactly.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct ExactPoint {
     /// The neighbouring numbers below and above each coordinate; the coordinate itself twice where it is a number.
     low: Point,
     high: Point,
@@ -54,13 +54,13 @@ impl Plane {
     }
 }
 
-impl Place {
+impl ExactPoint {
     /// A vertex.
-    pub fn of(p: Point) -> Place {
-        Place { low: p, high: p, exact: None }
+    pub fn of(p: Point) -> ExactPoint {
+        ExactPoint { low: p, high: p, exact: None }
     }
 
-    fn homogeneous(x: [Big; 3], w: Big) -> Option<Place> {
+    fn homogeneous(x: [Big; 3], w: Big) -> Option<ExactPoint> {
         let (x, w) = match w.sign() {
             0 => return None,
             1 => (x, w),
@@ -69,26 +69,26 @@ impl Place {
         let [a, b, c] = [0, 1, 2].map(|k| Big::quotient(&x[k], &w));
         let (low, high) = ([a[0], b[0], c[0]], [a[1], b[1], c[1]]);
         let exact = (low != high).then(|| Box::new(Homogeneous { x, w }));
-        Some(Place { low, high, exact })
+        Some(ExactPoint { low, high, exact })
     }
 
     /// Where a line meets a plane; `None` where it runs along it.
-    pub fn on_line([p, q]: [Point; 2], plane: &Plane) -> Option<Place> {
+    pub fn on_line([p, q]: [Point; 2], plane: &Plane) -> Option<ExactPoint> {
         let way = minus(q, p);
         let from = p.map(Big::of);
         let w = dot(&plane.normal, &way);
         let t = &plane.offset - &dot(&plane.normal, &from);
         let x = std::array::from_fn(|k| &(&from[k] * &w) + &(&way[k] * &t));
-        Place::homogeneous(x, w)
+        ExactPoint::homogeneous(x, w)
     }
 
     /// Where three planes meet; `None` where that is no single point.
-    pub fn of_planes([a, b, c]: [&Plane; 3]) -> Option<Place> {
+    pub fn of_planes([a, b, c]: [&Plane; 3]) -> Option<ExactPoint> {
         let (bc, ca, ab) =
             (cross(&b.normal, &c.normal), cross(&c.normal, &a.normal), cross(&a.normal, &b.normal));
         let x =
             std::array::from_fn(|k| &(&(&a.offset * &bc[k]) + &(&b.offset * &ca[k])) + &(&c.offset * &ab[k]));
-        Place::homogeneous(x, dot(&a.normal, &bc))
+        ExactPoint::homogeneous(x, dot(&a.normal, &bc))
     }
 
     /// The place, each coordinate to the nearest number.
@@ -122,7 +122,7 @@ impl Place {
 }
 
 /// Order along axis `k`.
-pub(super) fn compare(k: usize, a: &Place, b: &Place) -> Ordering {
+pub(super) fn compare(k: usize, a: &ExactPoint, b: &ExactPoint) -> Ordering {
     if a.high[k] < b.low[k] {
         return Ordering::Less;
     }
@@ -137,18 +137,18 @@ pub(super) fn compare(k: usize, a: &Place, b: &Place) -> Ordering {
 }
 
 /// Side of `c` on the line through `a` and `b`, all seen along `axis`: +1 on the left, 0 on the line.
-pub(super) fn orient(axis: usize, [a, b, c]: [&Place; 3]) -> i32 {
+pub(super) fn orient(axis: usize, [a, b, c]: [&ExactPoint; 3]) -> i32 {
     if let (None, None, None) = (&a.exact, &b.exact, &c.exact) {
         return side_of_line(axis, &a.low, &b.low, &c.low);
     }
     let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-    let difference = |p: &Place, k: usize| p.interval(k) - a.interval(k);
+    let difference = |p: &ExactPoint, k: usize| p.interval(k) - a.interval(k);
     let filtered = difference(b, x) * difference(c, y) - difference(b, y) * difference(c, x);
     if let Some(sign) = filtered.sign() {
         return sign;
     }
     // All w are positive: the determinant of the homogeneous coordinates has the sign.
-    let row = |p: &Place| {
+    let row = |p: &ExactPoint| {
         let ((x, w), (y, _)) = (p.fraction(x), p.fraction(y));
         [x, y, w]
     };
@@ -158,20 +158,20 @@ pub(super) fn orient(axis: usize, [a, b, c]: [&Place; 3]) -> i32 {
 /// All points: first the vertices of the mesh, then those that were found.
 pub(super) struct Points<'a> {
     vertices: &'a [Point],
-    found: Vec<Place>,
+    found: Vec<ExactPoint>,
     /// Points by the bits of their lower bounds.
     at: HashMap<[u64; 3], Vec<u32>>,
 }
 
 /// A vertex or a point that was found.
 pub(super) enum At<'a> {
-    Vertex(Place),
-    Found(&'a Place),
+    Vertex(ExactPoint),
+    Found(&'a ExactPoint),
 }
 
 impl std::ops::Deref for At<'_> {
-    type Target = Place;
-    fn deref(&self) -> &Place {
+    type Target = ExactPoint;
+    fn deref(&self) -> &ExactPoint {
         match self {
             At::Vertex(place) => place,
             At::Found(place) => place,
@@ -202,13 +202,13 @@ impl<'a> Points<'a> {
     pub fn at(&self, point: u32) -> At<'_> {
         let i = point as usize;
         match self.vertices.get(i) {
-            Some(p) => At::Vertex(Place::of(*p)),
+            Some(p) => At::Vertex(ExactPoint::of(*p)),
             None => At::Found(&self.found[i - self.vertices.len()]),
         }
     }
 
     /// Number of the point at this place, a new one if there is none.
-    pub fn number_of(&mut self, place: Place) -> u32 {
+    pub fn number_of(&mut self, place: ExactPoint) -> u32 {
         let next = self.len() as u32;
         let key = key(&place.low);
         let same = |&p: &u32| {

@@ -4,11 +4,11 @@
 //! The facets that it passes behind the piece are found and ordered by exact signs, as in the nesting of shells.
 
 use super::cut::Piece;
-use super::points::{Place, Points, orient};
+use super::points::{ExactPoint, Points, orient};
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Point, times};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// The facets of closed shells, to be asked about by rays.
@@ -79,7 +79,7 @@ impl<'a> Rays<'a> {
             times(1.0 / (w[0] + w[1] + w[2]), sum)
         };
         let inside = |p: &Point| {
-            let p = Place::of(*p);
+            let p = ExactPoint::of(*p);
             (0..3).all(|k| orient(0, [&at[k], &at[(k + 1) % 3], &p]) == turn)
         };
         weights.into_iter().map(place).find(inside).map(|p| (p, turn))

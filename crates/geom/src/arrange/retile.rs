@@ -1,7 +1,7 @@
 //! Facets cut along the vertices and edges that lie upon them, those that lie upon each other together.
 //!
-//! Facets that have three vertices in common which are no line overlap: they are triangulated as one, seen along one axis, so
-//! that each triangle of the part they have in common is the same for all of them.
+//! Facets overlap if they have three vertices in common that do not lie on a line. Such facets are triangulated together, seen along
+//! one axis, so that all of them have the same triangles in the part they have in common.
 
 use super::cluster::axis_of;
 use super::imprint::Imprints;
@@ -11,9 +11,9 @@ use super::triangulate::{self, Triangles, next, triangulate};
 use crate::check::finding::area;
 use crate::mesh::Mesh;
 use crate::num::predicates::side_of_line;
+use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 

@@ -1,7 +1,7 @@
-//! Points that rounding has left too close to others, put upon these.
+//! Points that rounding has left too close to other points are moved to these.
 //!
-//! Places some steps of the numbers apart make facets that cross again wherever their corners are rounded to. Put upon one of
-//! them, such facets vanish or coincide, and the next cut cancels what coincides.
+//! Facets between points that are only some spacings of numbers apart cross again after every rounding. If the points become one, such
+//! facets lose their area or coincide, and the next cut cancels those that coincide.
 
 use crate::space::Point;
 use std::collections::{HashMap, HashSet};

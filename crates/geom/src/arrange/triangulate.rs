@@ -1,11 +1,13 @@
 //! Triangulation of points in a plane, some of them joined by edges that must be there.
 //!
-//! The points are taken in the order of one coordinate; each lies outside of the hull of those before, and is joined with the
-//! edges of the hull that it sees (the sweep of de Berg et al., Computational Geometry, 2008). An edge is flipped where the
-//! circle of a triangle holds the point beyond (Lawson, 1977): that is a matter of looks alone, so it is decided
-//! roughly and only so often; that both new triangles run counter-clockwise is decided exactly. Edges that are missing
-//! are made by flipping those that cross them (Sloan, A fast algorithm for generating constrained Delaunay
-//! triangulations, 1993). Exact: which triangles there are, and which way round.
+//! 1. The points are added in the order of one coordinate. Each lies outside of the hull of those before and is joined with the
+//!    edges of the hull that it sees (the sweep of de Berg et al., Computational Geometry, 2008).
+//! 2. An edge is flipped where the circle of a triangle contains the point beyond the edge (Lawson, 1977). This only makes
+//!    triangles rounder, so it is decided in floating point and a limited number of times.
+//! 3. An edge that must be there and is missing is made by flipping the edges that cross it (Sloan, A fast algorithm for
+//!    generating constrained Delaunay triangulations, 1993).
+//!
+//! That triangles do not overlap and run counter-clockwise is decided exactly in every step.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;

@@ -2,10 +2,10 @@
 
 use crate::mesh::Mesh;
 use crate::num::predicates::height;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, dot, minus, times};
 use crate::topology::Topology;
 use crate::topology::weld::WeldError;
-use rayon::prelude::*;
 
 /// What lies upon each other: facets with so little between them, mm, in numbers of this spacing.
 #[derive(Clone, Copy)]

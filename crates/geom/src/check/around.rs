@@ -2,8 +2,8 @@
 
 use super::near::{Look, Near};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
-use rayon::prelude::*;
 use std::cell::Cell;
 
 /// From this share of the facets on, looking at all of them is no slower.

@@ -1,12 +1,14 @@
 //! Edges with one facet only.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "boundary_edges",
     severity: Severity::Error,
     about: "Edges with one facet: the surface has a rim there. Vertices run as the facet does.",
     size: "length, mm",
+    measure: Measure::Length,
+    shows: Shows::Line,
     find: |m| {
         m.each(&m.topology.boundary_edges, |e| {
             m.finding(vec![e.facet], e.vertices.to_vec(), m.distance(e.vertices))

@@ -1,6 +1,6 @@
 //! Chains of boundary edges that do not close.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "cracks",
@@ -8,6 +8,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Chains of boundary edges that do not close to a ring: they end at edges with more than two facets. \
             Vertices go from end to end.",
     size: "length, mm",
+    measure: Measure::Length,
+    shows: Shows::Line,
     find: |m| {
         m.each(&m.free_edges.chains, |chain| {
             let length = chain.windows(2).map(|p| m.distance([p[0], p[1]])).sum();

@@ -1,12 +1,14 @@
 //! Facets with fewer than three neighbours.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "dangling_facets",
     severity: Severity::Error,
     about: "Facets with fewer than three neighbours.",
     size: "neighbours missing",
+    measure: Measure::Missing,
+    shows: Shows::Facets,
     find: |m| {
         let mut facets: Vec<u32> = m.topology.boundary_edges.iter().map(|e| e.facet).collect();
         facets.sort_unstable();

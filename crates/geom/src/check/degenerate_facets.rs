@@ -1,12 +1,14 @@
 //! Facets without area.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "degenerate_facets",
     severity: Severity::Error,
     about: "Facets without area, decided exactly: with a repeated vertex, or with three different ones on one line.",
     size: "longest edge, mm",
+    measure: Measure::Length,
+    shows: Shows::Facets,
     find: |m| {
         let mut facets = [&m.topology.repeated_vertex[..], &m.topology.collinear].concat();
         facets.sort_unstable();

@@ -16,10 +16,70 @@ pub enum Severity {
     Warning,
 }
 
+impl Severity {
+    /// All of them.
+    pub const ALL: [Severity; 2] = [Severity::Error, Severity::Warning];
+
+    /// Its name: `error` or `warning`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        }
+    }
+}
+
 impl PartialEq for Kind {
     fn eq(&self, other: &Kind) -> bool {
         self.name == other.name
     }
+}
+
+/// What the size of a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Length of an edge or a line.
+    Length,
+    /// Length of a ring.
+    Perimeter,
+    /// Height of a facet over its longest edge: the less, the worse.
+    Height,
+    /// Distance of two places.
+    Distance,
+    /// Diagonal of a box.
+    Diagonal,
+    /// Area.
+    Area,
+    /// Volume.
+    Volume,
+    /// Number of facets.
+    Facets,
+    /// Number of neighbors that are missing.
+    Missing,
+}
+
+impl Measure {
+    /// Whether a finding is the worse, the less it measures.
+    pub fn less_is_worse(self) -> bool {
+        self == Measure::Height
+    }
+}
+
+/// What of a finding shows where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shows {
+    /// Its vertices.
+    Points,
+    /// The line through its vertices.
+    Line,
+    /// The ring through its vertices.
+    Ring,
+    /// The first vertex, which lies on the edge between the others.
+    PointAndLine,
+    /// Its facets.
+    Facets,
+    /// All facets connected with the first of its own.
+    Shell,
 }
 
 /// A kind of defect: an entry of [`KINDS`](super::KINDS).
@@ -33,6 +93,10 @@ pub struct Kind {
     pub about: &'static str,
     /// What [`Finding::size`] is, with its unit.
     pub size: &'static str,
+    /// The same as one of few.
+    pub measure: Measure,
+    /// What of a finding shows where it is.
+    pub shows: Shows,
     /// Looks for it; `None` where it cannot be looked for.
     pub(crate) find: fn(&Inspected) -> Option<Found>,
 }

@@ -1,6 +1,6 @@
 //! Closed rings of boundary edges.
 
-use super::{Finding, Inspected, Kind, Severity};
+use super::{Finding, Inspected, Kind, Measure, Severity, Shows};
 use crate::space::{cross, minus, norm, plus, times};
 
 pub(super) const KIND: Kind = Kind {
@@ -9,6 +9,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Closed rings of boundary edges. Vertices go once round; a ring that touches itself is taken apart. \
             The area is that of the ring seen from where it looks largest.",
     size: "perimeter, mm",
+    measure: Measure::Perimeter,
+    shows: Shows::Ring,
     find: |m| m.each(&m.free_edges.rings, |ring| hole(m, ring)),
 };
 

@@ -1,12 +1,14 @@
 //! Neighbours that face different ways.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "inconsistent_orientation",
     severity: Severity::Error,
     about: "Edges whose two facets run along them in the same direction: one of them looks inwards.",
     size: "length, mm",
+    measure: Measure::Length,
+    shows: Shows::Line,
     find: |m| {
         m.each(&m.topology.inconsistent_edges, |e| {
             let facets = m.topology.facets_at_edge(m.mesh, e.vertices);

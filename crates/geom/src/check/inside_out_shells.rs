@@ -3,11 +3,11 @@
 use super::islands::shell_bounds;
 use super::near::Near;
 use super::nesting::Container;
-use super::{Finding, Inspected, Kind, Severity};
+use super::{Finding, Inspected, Kind, Measure, Severity, Shows};
 use crate::mesh::Mesh;
 use crate::num::exact::Exact;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, times};
-use rayon::prelude::*;
 use std::sync::LazyLock;
 
 pub(super) const KIND: Kind = Kind {
@@ -17,6 +17,8 @@ pub(super) const KIND: Kind = Kind {
             once, and a shell must have it on its inner side only, or (a cavity, looking inwards) on its outer side only. One \
             that encloses nothing looks neither way. Facets: the first of the shell.",
     size: "volume enclosed, mm³",
+    measure: Measure::Volume,
+    shows: Shows::Shell,
     find: |m| {
         let closed = closed_shells(m);
         let bounds = shell_bounds(m);

@@ -1,8 +1,8 @@
 //! Shells so small that they are likely dust.
 
-use super::{Inspected, Kind, Severity};
+use super::{Inspected, Kind, Measure, Severity, Shows};
+use crate::parallel::prelude::*;
 use crate::space::Aabb;
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "islands",
@@ -10,6 +10,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Shells that are small beside the whole: dust of a scan, or crumbs of a conversion. \
             Facets: the first of the shell.",
     size: "diagonal, mm",
+    measure: Measure::Diagonal,
+    shows: Shows::Shell,
     find: |m| {
         let bounds = shell_bounds(m);
         let limit = m.options.island_share * m.properties.bounds.diagonal();

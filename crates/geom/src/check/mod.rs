@@ -37,7 +37,7 @@ mod t_junctions;
 pub(crate) mod tests;
 mod unshared_vertices;
 
-pub use finding::{Finding, Found, Inspected, Kind, Severity};
+pub use finding::{Finding, Found, Inspected, Kind, Measure, Severity, Shows};
 pub use kinds::KINDS;
 pub(crate) use known::Known;
 pub use options::Options;

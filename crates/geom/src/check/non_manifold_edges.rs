@@ -1,12 +1,14 @@
 //! Edges with more than two facets.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "non_manifold_edges",
     severity: Severity::Error,
     about: "Edges with more than two facets: walls meet there, or facets are doubled.",
     size: "length, mm",
+    measure: Measure::Length,
+    shows: Shows::Line,
     find: |m| {
         m.each(&m.topology.non_manifold_edges, |e| {
             let facets = m.topology.facets_at_edge(m.mesh, e.vertices);

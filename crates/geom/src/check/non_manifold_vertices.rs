@@ -1,12 +1,14 @@
 //! Vertices at which parts of the surface touch.
 
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
 
 pub(super) const KIND: Kind = Kind {
     name: "non_manifold_vertices",
     severity: Severity::Error,
     about: "Vertices whose facets are not all connected through edges there: parts of the surface touch in a point.",
     size: "number of facets",
+    measure: Measure::Facets,
+    shows: Shows::Points,
     find: |m| {
         m.each(&m.topology.non_manifold_vertices, |&v| {
             let facets = m.topology.facets_at_vertex(v);

@@ -1,6 +1,6 @@
 //! Facets at no place.
 
-use super::{Finding, Kind, Severity};
+use super::{Finding, Kind, Measure, Severity, Shows};
 use crate::space::Aabb;
 
 pub(super) const KIND: Kind = Kind {
@@ -8,6 +8,8 @@ pub(super) const KIND: Kind = Kind {
     severity: Severity::Error,
     about: "Facets with a coordinate that is NaN or infinite. They are left out of everything else.",
     size: "always 0",
+    measure: Measure::Length,
+    shows: Shows::Facets,
     find: |m| {
         m.each(&m.topology.not_finite, |&f| {
             // There is no place to show: the middle of the whole stands in.

@@ -1,9 +1,9 @@
 //! Normals in the file that contradict the order of the vertices.
 
 use super::finding::area;
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
+use crate::parallel::prelude::*;
 use crate::space::{cross, dot, minus};
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "reversed_normals",
@@ -11,6 +11,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Facets whose stored normal makes a right angle or more with the one that the order of their vertices gives. \
             A stored normal that is zero or not a number says nothing.",
     size: "area, mm²",
+    measure: Measure::Area,
+    shows: Shows::Facets,
     find: |m| {
         let stored = m.stored_normals?;
         let contradicts = |(face, normal): (&[u32; 3], &[f32; 3])| {

@@ -1,7 +1,7 @@
 //! Facets that cross, touch or overlap.
 
 use super::intersect::Crossings;
-use super::{Finding, Found, Inspected, Kind, Severity};
+use super::{Finding, Found, Inspected, Kind, Measure, Severity, Shows};
 use crate::space::Aabb;
 
 pub(super) const KIND: Kind = Kind {
@@ -9,6 +9,8 @@ pub(super) const KIND: Kind = Kind {
     severity: Severity::Error,
     about: "Pairs of facets that meet anywhere else than in the vertices or the edge they share, decided exactly.",
     size: "diagonal of the box that the two have in common, mm",
+    measure: Measure::Diagonal,
+    shows: Shows::Facets,
     find: |m| {
         let Crossings { count, at_least, first } = m.crossings?;
         let items = first.iter().map(|pair| crossing(m, *pair)).collect();

@@ -1,18 +1,20 @@
 //! Facets too thin to have a normal worth the name.
 
-use super::{Inspected, Kind, Severity, spacing};
+use super::{Inspected, Kind, Measure, Severity, Shows, spacing};
+use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "sliver_facets",
     severity: Severity::Warning,
     about: "Facets with an area, but a smaller angle than the one given, or lower than the spacing of the coordinates.",
     size: "height over the longest edge, mm",
+    measure: Measure::Height,
+    shows: Shows::Facets,
     find: |m| {
         let (sine, lowest) = (libm::sin(m.options.sliver_angle), spacing(&m.properties.bounds));
         let is_sliver = |f: usize| {
-            let shape = Shape::of(m.corners(f as u32));
+            let shape = Slenderness::of(m.corners(f as u32));
             shape.sine < sine || shape.height < lowest
         };
         let without_area = |f: u32| m.topology.collinear.binary_search(&f).is_ok();
@@ -25,24 +27,24 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-struct Shape {
+struct Slenderness {
     /// Sine of the smallest angle.
     sine: f64,
     height: f64,
 }
 
-impl Shape {
-    fn of([a, b, c]: [Point; 3]) -> Shape {
+impl Slenderness {
+    fn of([a, b, c]: [Point; 3]) -> Slenderness {
         let twice_area = norm(cross(minus(b, a), minus(c, a)));
         let mut lengths = [minus(b, a), minus(c, b), minus(a, c)].map(norm);
         lengths.sort_unstable_by(f64::total_cmp);
         // The smallest angle lies between the two longer edges.
-        Shape { sine: twice_area / (lengths[1] * lengths[2]), height: twice_area / lengths[2] }
+        Slenderness { sine: twice_area / (lengths[1] * lengths[2]), height: twice_area / lengths[2] }
     }
 }
 
 fn sliver(m: &Inspected, facet: u32) -> super::Finding {
-    let shape = Shape::of(m.corners(facet));
+    let shape = Slenderness::of(m.corners(facet));
     let mut finding = m.finding(vec![facet], vec![], shape.height);
     finding.measures = vec![("smallest_angle", libm::asin(shape.sine))];
     finding

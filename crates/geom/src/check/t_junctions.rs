@@ -1,10 +1,10 @@
 //! Vertices that lie on somebody else's edge.
 
 use super::near::{farthest, segment_reaches};
-use super::{Found, Inspected, Kind, Severity};
+use super::{Found, Inspected, Kind, Measure, Severity, Shows};
+use crate::parallel::prelude::*;
 use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
-use rayon::prelude::*;
 
 /// Edges of one task.
 const PART: usize = 1 << 9;
@@ -15,6 +15,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Vertices on the boundary that lie within the gap of a boundary edge of another facet, away from its ends. \
             Vertices: the one, then the ends of the edge.",
     size: "distance, mm",
+    measure: Measure::Distance,
+    shows: Shows::PointAndLine,
     find: |m| {
         let near = m.free_edges.near(m.mesh);
         let at_edge = |e: &EdgeAt| {

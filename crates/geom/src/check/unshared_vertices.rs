@@ -1,10 +1,10 @@
 //! Vertices that were likely meant to be one.
 
 use super::near::{Look, farthest};
-use super::{Kind, Severity};
+use super::{Kind, Measure, Severity, Shows};
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, minus, norm};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 pub(super) const KIND: Kind = Kind {
     name: "unshared_vertices",
@@ -12,6 +12,8 @@ pub(super) const KIND: Kind = Kind {
     about: "Groups of vertices on the boundary that lie within the gap of one another, directly or through others of the \
             group, and are not joined by an edge: were they one, facets would be neighbours.",
     size: "diagonal of their box, mm",
+    measure: Measure::Diagonal,
+    shows: Shows::Points,
     find: |m| {
         let near = m.free_edges.near(m.mesh);
         let vertices = m.free_edges.vertices();

@@ -1,71 +1,17 @@
-//! A block of neighbouring points, the buffers of the thread that answers it, and the error bounds.
+//! A block of neighboring points, and the error bounds of the search in single precision.
 
-use crate::closest::layout::Node;
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
 use crate::space::Point;
 
 /// Points in a block: the width of an AVX-512 register.
 pub const BLOCK: usize = 16;
-/// Up to this many leaves, a block is tested triangle by triangle; above, by a common walk. (8 and 12 are slower.)
-pub const DENSE: usize = 10;
-/// Leaves and nodes at most to begin the common walk with: children of two nodes. (24 are slower.)
-pub const FRONT: usize = 16;
 /// Unit of the error bounds: a distance computed from lengths up to `l` is right to `ROUNDING * l`. The kernels make
 /// about ten roundings of 2^-24; this allows sixteen.
 pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// A triangle that may be the closest to some point of the block.
-#[derive(Clone, Copy)]
-pub struct Candidate {
-    pub leaf: u32,
-    pub lane: u32,
-    /// The block's centre in the triangle's frame.
-    pub centre: [f32; 3],
-}
-
-/// A child of a node: where it leads, and where its box stands.
-#[derive(Clone, Copy)]
-pub struct Seed {
-    pub child: i32,
-    pub parent: u32,
-    pub lane: u32,
-}
-
-/// A leaf tested against one point by the wave.
-#[derive(Clone, Copy)]
-pub struct Row {
-    pub distance2: [f32; 8],
-    /// First slot of the leaf.
-    pub first: u32,
-    /// Number of the point in the block.
-    pub point: u32,
-}
-
-/// Buffers of one thread, and what carries over from block to block.
-#[derive(Default)]
-pub struct Scratch {
-    /// Winner of the block before: where to begin. (The answers do not depend on it.)
-    pub warm: u32,
-    /// Leaves that can hold the closest triangle of some point.
-    pub leaves: Vec<Seed>,
-    /// Nodes that can hold further ones; together at most [`FRONT`].
-    pub open: Vec<Seed>,
-    /// All of them, as children of nodes of their own: where the wave begins.
-    pub front: Vec<Node>,
-    /// (point, node) and (point, leaf) pairs of the wave.
-    pub queue: Vec<[i32; 2]>,
-    pub found: Vec<[i32; 2]>,
-    pub candidates: Vec<Candidate>,
-    /// Squared distances, candidates x points.
-    pub table: Vec<[f32; BLOCK]>,
-    pub rows: Vec<Row>,
-    /// Triangles to settle: point of the block, slot.
-    pub pairs: Vec<(u32, u32)>,
-}
-
 /// A block of up to sixteen points.
-pub struct Block {
+pub struct PointBlock {
     pub points: [Point; BLOCK],
     pub len: usize,
     /// Centre of the points' box.
@@ -78,13 +24,13 @@ pub struct Block {
     pub at: [f32; 3],
 }
 
-impl Block {
+impl PointBlock {
     /// Of one to sixteen points.
     #[inline(always)]
-    pub fn new(tree: &Tree, points: &[Point]) -> Block {
+    pub fn new(tree: &Tree, points: &[Point]) -> PointBlock {
         let len = points.len();
         let (mut lo, mut hi) = (points[0], points[0]);
-        let mut b = Block {
+        let mut b = PointBlock {
             points: [points[len - 1]; BLOCK],
             len,
             centre: [0.0; 3],
@@ -130,8 +76,8 @@ impl Block {
         std::array::from_fn(|k| self.at[k] + self.offset[k][i])
     }
 
-    /// Squared box distance up to which a box can hold a rival of point `i`, whose least distance is `best` with error
-    /// bound `error`. The point's place and the boxes are rounded too, at the scale of the whole mesh.
+    /// Squared box distance up to which a box can hold a triangle nearer to point `i` than `best`, the least distance found,
+    /// with error bound `error`. The point's place and the boxes are rounded too, at the scale of the whole mesh.
     #[inline(always)]
     pub fn bound(&self, i: usize, best: f32, error: f32) -> f32 {
         let size = self.place(i).iter().fold(1.0, |m, x| if x.abs() > m { x.abs() } else { m });
@@ -146,19 +92,19 @@ impl Block {
     }
 }
 
-/// A place near the block, and how far off the surface it may be: the numbers of its coordinates are spaced, and where a mesh
-/// is small, or long, for its distance from the origin, they are spaced wider than points are apart.
-pub struct Near {
+/// A point of the surface near the block, and how far rounding may have put it off the surface. Of a mesh that is small for
+/// its distance from the origin, neighboring values of a coordinate can lie farther apart than the points do.
+pub struct SurfacePoint {
     pub point: Point,
-    /// Scaled.
+    /// Greatest distance from the surface, scaled.
     pub off: f32,
 }
 
-impl Near {
+impl SurfacePoint {
     /// The place closest to the block's centre on the triangle in this slot.
     #[inline(always)]
-    pub fn new(tree: &Tree, b: &Block, slot: u32) -> Near {
-        /// Greatest that is worth telling: its square is in the range of single precision.
+    pub fn new(tree: &Tree, b: &PointBlock, slot: u32) -> SurfacePoint {
+        /// Greatest bound kept: its square is in the range of single precision.
         const MOST: f64 = 1e15;
         let t = tree.triangle(slot);
         let point = triangle::closest_point(&b.centre, &t).point;
@@ -166,7 +112,7 @@ impl Near {
         let rounding = 16.0 * f64::EPSILON;
         let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;
         // A NaN is not below either.
-        Near { point, off: if off < MOST { off as f32 * 1.000001 } else { MOST as f32 } }
+        SurfacePoint { point, off: if off < MOST { off as f32 * 1.000001 } else { MOST as f32 } }
     }
 }
 

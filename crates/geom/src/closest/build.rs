@@ -15,9 +15,9 @@ use crate::closest::limits::{self, MeshError};
 use crate::closest::tree::{Arrays, Tree};
 use crate::memory::large_pages;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Aabb;
-use rayon::prelude::*;
 
 /// Triangles per leaf at most.
 const LEAF: usize = 8;

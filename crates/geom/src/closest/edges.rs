@@ -2,12 +2,12 @@
 
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::triangle::Feature;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
-use rayon::prelude::*;
 
 /// From so many triangles at both ends of an edge on, it is looked up in a sorted list.
 const MANY: usize = 64;
-/// Every so manieth item of a loop asks whether to go on.
+/// Items of a loop after which it is asked whether to go on.
 pub(super) const ASK: u32 = 1 << 12;
 
 /// What lies across an edge.

@@ -113,22 +113,22 @@ pub unsafe fn box_distance2<V: Lanes<8>>(node: &Node, q: [V; 3]) -> V {
     }
 }
 
-/// A block of points (as a box) and a reference point `x` on the surface, ready for [`advantage`].
+/// A block of points (as a box) and a point `x` of the surface, prepared for [`domination_margin`].
 #[derive(Clone, Copy)]
-pub struct Rival<V> {
+pub struct Domination<V> {
     /// Low and high side of the block.
     side: [[V; 3]; 2],
     /// Squared distance from that side to `x`, along the axis.
     to_x: [[V; 3]; 2],
 }
 
-impl<V: Lanes<8>> Rival<V> {
+impl<V: Lanes<8>> Domination<V> {
     /// The block is the box `centre ± half`.
     #[inline(always)]
     pub unsafe fn new(centre: [f32; 3], half: [f32; 3], x: [f32; 3]) -> Self {
         unsafe {
             let zero = V::splat(0.0);
-            let mut r = Rival { side: [[zero; 3]; 2], to_x: [[zero; 3]; 2] };
+            let mut r = Domination { side: [[zero; 3]; 2], to_x: [[zero; 3]; 2] };
             for k in 0..3 {
                 for (s, p) in [centre[k] - half[k], centre[k] + half[k]].into_iter().enumerate() {
                     r.side[s][k] = V::splat(p);
@@ -147,7 +147,7 @@ impl<V: Lanes<8>> Rival<V> {
 /// block: two box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel,
 /// Kröger, Renz & Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
 #[inline(always)]
-pub unsafe fn advantage<V: Lanes<8>>(node: &Node, r: &Rival<V>) -> V {
+pub unsafe fn domination_margin<V: Lanes<8>>(node: &Node, r: &Domination<V>) -> V {
     unsafe {
         let zero = V::splat(0.0);
         let mut g = zero;

@@ -1,9 +1,9 @@
 //! What the search accepts, and how it refuses the rest.
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Cancelled;
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// Largest coordinate of a point accepted, millimetres.
 pub const MAX_COORDINATE: f64 = 1e60;

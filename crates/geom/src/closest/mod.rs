@@ -18,34 +18,34 @@
 //! on the rounded distance.
 //!
 //! How it is fast, in the order in which a point meets it: `order` sorts the points along a space-filling curve, `query`
-//! answers them in blocks of sixteen that share one walk (`walk`) through the tree of `tree` and `build`, `kernel` tests
-//! triangles in single precision, which may only say "cannot be nearer", and `triangle` decides in double.
+//! answers them in blocks of sixteen that go through the stages of `search` together, down the tree of `tree` and `build`;
+//! `kernel` tests triangles in single precision, which may only say "cannot be nearer", and `triangle` decides in double.
 //! To answer a stream, call for each block of it; blocks of 100,000 points and more cost nothing extra.
 
 mod block;
 pub mod brute;
 mod build;
 mod crossing;
-mod dense;
+mod decide;
 mod edges;
+mod few_leaves;
 mod frame;
-mod front;
 mod hit;
 mod kernel;
 mod layout;
 mod limits;
 mod line;
+mod lockstep;
 mod order;
+mod prune;
 mod query;
+mod search;
 mod segment;
-mod settle;
 mod sign;
 mod solid_angle;
 mod thin;
 mod tree;
 mod triangle;
-mod walk;
-mod wave;
 mod winding;
 
 pub use crossing::Crossing;
@@ -59,7 +59,7 @@ pub use query::Query;
 pub use sign::Signs;
 pub use tree::{Closest, Tree};
 pub use triangle::Feature;
-pub(crate) use triangle::{Place, closest_point, squared_distance};
+pub(crate) use triangle::{PointOfTriangle, closest_point, squared_distance};
 pub use winding::Winding;
 
 #[cfg(test)]

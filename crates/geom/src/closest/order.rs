@@ -7,9 +7,9 @@
 
 use crate::closest::limits::{QueryError, sane};
 use crate::memory::{Shared, large_pages};
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// High bits of the key that choose the bucket.
 const BUCKET_BITS: u32 = 12;
@@ -35,7 +35,7 @@ pub fn for_each_bucket<S: Default>(
     for (n, slice) in points.chunks(SLICE).enumerate() {
         let base = n * SLICE;
         let mut buckets = buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
-        chunks(&mut buckets).into_par_iter().with_max_len(1).try_for_each_init(
+        chunks(&mut buckets).into_par_iter().try_for_each_init(
             || (S::default(), vec![]),
             |(scratch, spare), chunk| {
                 for items in chunk {

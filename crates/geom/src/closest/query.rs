@@ -1,14 +1,14 @@
 //! Answering the points: blocks of sixteen neighbours share one walk through the tree.
 //!
-//! For each block (module `walk`):
+//! For each block (module `search`):
 //! 1. take a surface point `x` near the block: the closest one of the triangle that won in the block before;
-//! 2. collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of the block,
-//!    as long as they are few (`front`);
-//! 3. few leaves and nothing else (points dense compared with triangles): test every triangle that survives against all
-//!    sixteen points at once (`dense`); else the sixteen points walk on from there in step, each with its own bound
-//!    (`wave`);
-//! 4. every triangle within the error bound of a point's best is settled in double precision; ties go to the lowest face
-//!    (`settle`).
+//! 2. `prune`: collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of
+//!    the block, as long as they are few;
+//! 3. few leaves and nothing else (points dense compared with triangles): test every triangle that is left against all
+//!    sixteen points at once (`few_leaves`); else the sixteen points search on from there in lockstep, each with its own
+//!    bound (`lockstep`);
+//! 4. `decide`: every triangle within the error bound of a point's best is computed in double precision; ties go to the
+//!    lowest face.
 //!
 //! Single precision only excludes, so neither the order of the points nor the way they are cut into chunks, nor the
 //! number of threads, nor the instruction set can change a result.
@@ -17,12 +17,11 @@
     reason = "choosing the instruction set at run time; answers written to places of their own"
 )]
 
-use crate::closest::block::Scratch;
 use crate::closest::hit::Hit;
 use crate::closest::limits::{QueryError, sane};
 use crate::closest::order;
+use crate::closest::search::{self, Scratch, Sink};
 use crate::closest::tree::{Closest, Tree};
-use crate::closest::walk;
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::simd::Level;
@@ -138,7 +137,7 @@ fn answer_items(
     points: &[Point],
     items: &[u64],
     scratch: &mut Scratch,
-    sink: walk::Sink,
+    sink: Sink,
 ) {
     use crate::simd::lanes::Plain;
     let far = query.max_distance;
@@ -146,14 +145,14 @@ fn answer_items(
     {
         use crate::simd::lanes_x86::{A4d, A8, A16, Z8d, Z16};
         #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-        fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: walk::Sink) {
+        fn avx2(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: Sink) {
             // SAFETY: the features above are those of the types.
-            unsafe { walk::all::<A8, A16, A4d>(t, p, i, far, s, f) }
+            unsafe { search::answer::<A8, A16, A4d>(t, p, i, far, s, f) }
         }
         #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-        fn avx512(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: walk::Sink) {
+        fn avx512(t: &Tree, p: &[Point], i: &[u64], far: f64, s: &mut Scratch, f: Sink) {
             // SAFETY: the features above are those of the types.
-            unsafe { walk::all::<A8, Z16, Z8d>(t, p, i, far, s, f) }
+            unsafe { search::answer::<A8, Z16, Z8d>(t, p, i, far, s, f) }
         }
         // SAFETY: `Level::detect` found these features.
         match query.instructions.min(Level::detect()) {
@@ -163,5 +162,5 @@ fn answer_items(
         }
     }
     // SAFETY: plain Rust needs no special instructions.
-    unsafe { walk::all::<Plain<8>, Plain<16>, f64>(tree, points, items, far, scratch, sink) }
+    unsafe { search::answer::<Plain<8>, Plain<16>, f64>(tree, points, items, far, scratch, sink) }
 }

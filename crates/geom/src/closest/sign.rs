@@ -12,9 +12,9 @@ use crate::closest::limits::QueryError;
 use crate::closest::query::Query;
 use crate::closest::tree::Tree;
 use crate::closest::triangle::{self, Feature};
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
-use rayon::prelude::*;
 
 /// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 36 bytes a face.
 ///

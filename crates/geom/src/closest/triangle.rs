@@ -80,7 +80,7 @@ pub enum Feature {
 
 /// A point of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PointOfTriangle {
     /// Where.
     pub point: Point,
     /// Weights of the corners: the point is their weighted mean.
@@ -92,12 +92,14 @@ pub struct Place {
 /// The point of triangle `t` closest to `p`: the place whose distance [`squared_distance`] reports.
 ///
 /// Scalar; called once per answer, not in the search.
-pub fn closest_point(p: &Point, t: &[Point; 3]) -> Place {
+pub fn closest_point(p: &Point, t: &[Point; 3]) -> PointOfTriangle {
     let [a, b, c] = *t;
     let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
     let (ap, bp) = (sub(*p, a), sub(*p, b));
-    let (mut least, mut place) =
-        (f64::INFINITY, Place { point: a, barycentric: [1.0, 0.0, 0.0], feature: Feature::Vertex(0) });
+    let (mut least, mut place) = (
+        f64::INFINITY,
+        PointOfTriangle { point: a, barycentric: [1.0, 0.0, 0.0], feature: Feature::Vertex(0) },
+    );
     // Edge 2 is measured from corner 0 to corner 2, as in `squared`.
     for (i, from, to, v, w) in [(0, 0, 1, ab, ap), (2, 0, 2, ac, ap), (1, 1, 2, bc, bp)] {
         let s = along(w, v, dot(v, v), 0.0, 1.0);
@@ -106,18 +108,20 @@ pub fn closest_point(p: &Point, t: &[Point; 3]) -> Place {
             let mut barycentric = [0.0; 3];
             (barycentric[from], barycentric[to]) = (1.0 - s, s);
             (least, place) = match s {
-                0.0 => (d, Place { point: t[from], barycentric, feature: Feature::Vertex(from as u8) }),
-                1.0 => (d, Place { point: t[to], barycentric, feature: Feature::Vertex(to as u8) }),
+                0.0 => {
+                    (d, PointOfTriangle { point: t[from], barycentric, feature: Feature::Vertex(from as u8) })
+                }
+                1.0 => (d, PointOfTriangle { point: t[to], barycentric, feature: Feature::Vertex(to as u8) }),
                 _ => {
                     let point = std::array::from_fn(|k| t[from][k] + s * v[k]);
-                    (d, Place { point, barycentric, feature: Feature::Edge(i) })
+                    (d, PointOfTriangle { point, barycentric, feature: Feature::Edge(i) })
                 }
             };
         }
     }
     let inside = |point, [wa, wb, wc]: [f64; 3]| {
         let sum = wa + wb + wc;
-        Place { point, barycentric: [wa / sum, wb / sum, wc / sum], feature: Feature::Face }
+        PointOfTriangle { point, barycentric: [wa / sum, wb / sum, wc / sum], feature: Feature::Face }
     };
     if is_thin(t) {
         return match thin::foot(p, t).filter(|foot| foot.height_squared < least) {

@@ -17,11 +17,11 @@ use crate::closest::order;
 use crate::closest::solid_angle::{self, Group, Stack};
 use crate::closest::tree::Tree;
 use crate::memory::{Shared, large_pages};
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
 use crate::space::{Point, Vector, cross, minus, norm, plus, times};
-use rayon::prelude::*;
 
 /// A group is taken as a dipole from this many radii on, where the number is wanted.
 const OPENING: f32 = 3.0;

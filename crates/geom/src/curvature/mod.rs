@@ -30,10 +30,10 @@ pub use jet::Jet;
 pub use terms::{CurvatureError, DEGREES, MOST_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use jet::Fitter;
-use rayon::prelude::*;
 use terms::Terms;
 
 /// Places answered between two questions whether to go on.

@@ -3,9 +3,9 @@
 use super::jet::{Fitter, Jet};
 use super::terms::{NoCurvature, Taken, Terms};
 use crate::fit::Scatter;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, Vector, dot, minus};
 use crate::spatial::neighbours::{Neighbour, PointTree};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Neighbours of a point that normals are handed on to.

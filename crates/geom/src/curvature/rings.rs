@@ -3,11 +3,11 @@
 use super::jet::{Fitter, Jet};
 use super::terms::{NoCurvature, Taken, Terms};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Vector, cross, dot, minus, norm, plus, unit};
 use crate::spatial::lists::lists;
 use crate::topology::{Topology, TopologyError};
-use rayon::prelude::*;
 
 /// Rings do not grow through vertices with more neighbours: those around the middle of a disc of many facets would each take
 /// in all others.
@@ -39,7 +39,8 @@ impl Rings<'_> {
             let area = cross(minus(b, a), minus(c, a));
             face.iter().for_each(|v| normals[*v as usize] = plus(normals[*v as usize], area));
         }
-        normals.par_iter_mut().for_each(|n| *n = unit(*n).map_or([0.0; 3], |(n, _)| n));
+        let of_length_1 = |n: &mut Vector| *n = unit(*n).map_or([0.0; 3], |(n, _)| n);
+        normals.par_chunks_mut(1 << 12).for_each(|part| part.iter_mut().for_each(of_length_1));
         let pairs: Vec<[u32; 2]> = (mesh.faces.par_iter().zip(&out))
             .filter(|(_, out)| !**out)
             .flat_map_iter(|(f, _)| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|e| e.map(|k| f[k])))

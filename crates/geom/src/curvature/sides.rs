@@ -3,18 +3,18 @@
 use super::jet::Jet;
 use super::terms::NoCurvature;
 use crate::num::sum::Sum;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm};
 use crate::spatial::lists::lists;
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 /// A part is a body where the mean of n · (p − c), over the mean distance |p − c| from its middle c, is at least this share of the
 /// length of its mean normal: of a closed body the former is above 0 (three times volume over area) and the latter 0, however
 /// it is shaped; of a flat sheet the former is 0 and the latter 1.
 const BODY: f64 = 0.25;
 
-type Place = Result<Jet, NoCurvature>;
+type JetResult = Result<Jet, NoCurvature>;
 
 /// Turns the normals of each part that hangs together to one side, and gives the number of parts.
 ///
@@ -22,7 +22,7 @@ type Place = Result<Jet, NoCurvature>;
 /// number.
 pub(super) fn turn(
     points: &[Point],
-    places: &mut [Place],
+    places: &mut [JetResult],
     links: &[Vec<u32>],
     progress: &dyn Progress,
 ) -> Result<usize, Cancelled> {
@@ -66,7 +66,7 @@ pub(super) fn turn(
 }
 
 /// Goes along the tree from the least number of each part.
-fn agree(places: &mut [Place], tree: Vec<[u32; 2]>) {
+fn agree(places: &mut [JetResult], tree: Vec<[u32; 2]>) {
     let (first, others) = lists(places.len(), tree);
     let mut met = vec![false; places.len()];
     let mut open = vec![];
@@ -93,7 +93,7 @@ fn agree(places: &mut [Place], tree: Vec<[u32; 2]>) {
 }
 
 /// For each part whether it looks inward, and must be turned.
-fn inward(points: &[Point], places: &[Place], parts: usize, part_of: &[u32]) -> Vec<bool> {
+fn inward(points: &[Point], places: &[JetResult], parts: usize, part_of: &[u32]) -> Vec<bool> {
     let of = |i: usize| Some((part_of[i] as usize, places[i].as_ref().ok()?.bend.normal));
     let known = || (0..places.len()).filter_map(|i| of(i).map(|(part, normal)| (i, part, normal)));
     let mut counts = vec![0.0; parts];

@@ -81,6 +81,19 @@ impl NoCurvature {
         NoCurvature::Undetermined,
         NoCurvature::Folded,
     ];
+
+    /// Its name: `not_finite`, `unused`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            NoCurvature::NotFinite => "not_finite",
+            NoCurvature::Unused => "unused",
+            NoCurvature::NotASurface => "not_a_surface",
+            NoCurvature::Boundary => "boundary",
+            NoCurvature::FewNeighbors => "few_neighbors",
+            NoCurvature::Undetermined => "undetermined",
+            NoCurvature::Folded => "folded",
+        }
+    }
 }
 
 /// Why there are no curvatures.

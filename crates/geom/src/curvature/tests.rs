@@ -8,25 +8,25 @@ use crate::space::{Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
 
 /// A place, its outward normal, and there the principal curvatures with the direction of the first.
-type Known = (Point, Vector, [f64; 2], Vector);
+type KnownPoint = (Point, Vector, [f64; 2], Vector);
 
 /// A body known in closed form, by two parameters.
-type Surface = fn(f64, f64) -> Known;
+type TestSurface = fn(f64, f64) -> KnownPoint;
 
 const R: f64 = 10.0;
 
-fn sphere(u: f64, v: f64) -> Known {
+fn sphere(u: f64, v: f64) -> KnownPoint {
     let n = [v.cos() * u.cos(), v.cos() * u.sin(), v.sin()];
     (times(R, n), n, [-1.0 / R; 2], [-u.sin(), u.cos(), 0.0])
 }
 
-fn cylinder(u: f64, v: f64) -> Known {
+fn cylinder(u: f64, v: f64) -> KnownPoint {
     let n = [u.cos(), u.sin(), 0.0];
     ([R * n[0], R * n[1], R * v], n, [0.0, -1.0 / R], [0.0, 0.0, 1.0])
 }
 
 /// Radii 10 and 4; `v` is 0 on the outer side.
-fn torus(u: f64, v: f64) -> Known {
+fn torus(u: f64, v: f64) -> KnownPoint {
     let n = [v.cos() * u.cos(), v.cos() * u.sin(), v.sin()];
     let middle = [R * u.cos(), R * u.sin(), 0.0];
     let around = [-u.sin(), u.cos(), 0.0];
@@ -34,7 +34,7 @@ fn torus(u: f64, v: f64) -> Known {
 }
 
 /// A patch of the surface around `(u, v)`: rings of a grid that is moved by chance, half of it as fine as said.
-fn patch(surface: Surface, at: [f64; 2], step: f64, random: &mut Random) -> Mesh {
+fn patch(surface: TestSurface, at: [f64; 2], step: f64, random: &mut Random) -> Mesh {
     const N: u32 = 16;
     let place = |k: u32| {
         let mut along = |j: u32, size: f64| {
@@ -61,7 +61,7 @@ fn grid(n: u32, width: u32, flip: bool) -> Vec<[u32; 3]> {
 const MIDDLE: usize = 16 / 2 * 17 + 16 / 2;
 
 /// Greatest error of the principal curvatures in the middle over some patches.
-fn error(surface: Surface, at: [f64; 2], step: f64, options: &Options, cloud_instead: bool) -> f64 {
+fn error(surface: TestSurface, at: [f64; 2], step: f64, options: &Options, cloud_instead: bool) -> f64 {
     let mut worst = 0.0f64;
     for seed in 0..8 {
         let mesh = patch(surface, at, step, &mut Random::new(seed));
@@ -85,7 +85,7 @@ fn error(surface: Surface, at: [f64; 2], step: f64, options: &Options, cloud_ins
 /// Curvatures come out to the order degree − 1 at least (theorem 3 of the paper), on meshes and in clouds.
 #[test]
 fn curvatures_converge_as_the_paper_says() {
-    let surfaces: [(Surface, [f64; 2]); 4] =
+    let surfaces: [(TestSurface, [f64; 2]); 4] =
         [(sphere, [0.4, 0.3]), (cylinder, [0.4, 0.1]), (torus, [0.4, 0.5]), (torus, [0.4, 2.6])];
     for (n, (surface, at)) in surfaces.into_iter().enumerate() {
         for degree in 2..=5 {
@@ -105,8 +105,8 @@ fn curvatures_converge_as_the_paper_says() {
 }
 
 /// A body with all of its values.
-fn whole(surface: Surface, n: u32, m: u32, v: impl Fn(u32) -> f64) -> (Mesh, Vec<Known>) {
-    let known: Vec<Known> =
+fn whole(surface: TestSurface, n: u32, m: u32, v: impl Fn(u32) -> f64) -> (Mesh, Vec<KnownPoint>) {
+    let known: Vec<KnownPoint> =
         (0..n * (m + 1)).map(|k| surface(TAU * f64::from(k % n) / f64::from(n), v(k / n))).collect();
     let faces = (0..n * m).flat_map(|k| {
         let (i, j) = (k % n, k / n);
@@ -116,7 +116,7 @@ fn whole(surface: Surface, n: u32, m: u32, v: impl Fn(u32) -> f64) -> (Mesh, Vec
     (Mesh { positions: known.iter().map(|k| k.0).collect(), faces: faces.collect() }, known)
 }
 
-fn whole_torus() -> (Mesh, Vec<Known>) {
+fn whole_torus() -> (Mesh, Vec<KnownPoint>) {
     let (mut mesh, mut known) = whole(torus, 120, 60, |j| TAU * f64::from(j) / 60.0);
     // The last row is the first one.
     mesh.faces.iter_mut().flatten().for_each(|v| *v %= 7200);

@@ -3,7 +3,7 @@
 //! The size is the distance to the nearest crossing of that line with the mesh, ahead or behind; the sign is that of the nearest
 //! place, since the side of a surface that a point is on does not hang on where one looks.
 
-use super::surface::{Exclusion, OnlyCancels, Surface};
+use super::surface::{Exclusion, OnlyCancels, ReferenceSurface};
 use crate::closest::{Crossing, QueryError, Signs};
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector};
@@ -30,7 +30,7 @@ impl std::fmt::Debug for Along {
     }
 }
 
-impl Surface {
+impl ReferenceSurface {
     /// The reference's own normals as lines to measure along. Linear time.
     ///
     /// # Errors
@@ -47,18 +47,18 @@ impl Surface {
     /// excludes it too. Cost: twice that of the nearest places; see [`Tree::crossing`](crate::closest::Tree::crossing).
     ///
     /// # Errors
-    /// Those of [`Surface::deviations`]. `progress` hears of points once.
+    /// Those of [`ReferenceSurface::deviations`]. `progress` hears of points once.
     ///
     /// ```
     /// use trueness_geom::closest::Tree;
     /// use trueness_geom::deviation::along::Along;
-    /// use trueness_geom::deviation::surface::{Surface, SurfaceOptions};
+    /// use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
     /// use trueness_geom::{mesh::Mesh, progress::Silent};
     /// // A plane at 45°: the point 1 above it along z lies √½ away from it.
     /// let positions = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 4.0, 0.0]];
     /// let mesh = Mesh { positions, faces: vec![[0, 1, 2]] };
     /// let tree = Tree::build(&mesh)?;
-    /// let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent)?;
+    /// let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent)?;
     /// let up = Along::Direction([0.0, 0.0, 1.0]);
     /// let points = [[1.0, 1.0, 2.0]];
     /// assert_eq!(surface.map_along(0, &points, &up, &Silent, |_, d, _| d)?, [1.0]);

@@ -27,11 +27,11 @@ pub use facet::Value;
 
 use crate::closest::{MeshError, QueryError, check_mesh, check_points};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point};
 use crate::spatial::neighbours::PointTree;
 use crate::topology::weld;
-use rayon::prelude::*;
 
 /// Facets that the window must hold (1).
 const FACETS: usize = 10;

@@ -4,9 +4,9 @@ use crate::closest::{MeshError, check_mesh};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::num::sum::Sum;
+use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
 use crate::stats::statistics::{Number, Statistics};
-use rayon::prelude::*;
 
 /// Why a mesh cannot be sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

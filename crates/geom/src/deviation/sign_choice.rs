@@ -10,8 +10,8 @@
 
 use crate::check::Precondition;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, minus, norm, plus};
-use rayon::prelude::*;
 use std::fmt;
 
 /// What the user asks for.

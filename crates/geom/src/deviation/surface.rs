@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
-/// What is asked of a [`Surface`].
+/// What is asked of a [`ReferenceSurface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceOptions {
     /// Sign method.
@@ -82,7 +82,7 @@ impl Exclusion {
 }
 
 /// A reference mesh with all that its deviations need: built once, asked often, from any number of threads.
-pub struct Surface {
+pub struct ReferenceSurface {
     tree: Tree,
     choice: SignChoice,
     precondition: Precondition,
@@ -100,7 +100,7 @@ enum Side {
     None,
 }
 
-impl Surface {
+impl ReferenceSurface {
     /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ impl Surface {
         mesh: &Mesh,
         options: &SurfaceOptions,
         progress: &dyn Progress,
-    ) -> Result<Surface, TopologyError> {
+    ) -> Result<ReferenceSurface, TopologyError> {
         let precondition = Precondition::of(mesh, FLAWS, progress)?;
         let soundness = &precondition.soundness;
         let choice = SignChoice::new(options.sign, &precondition, mesh);
@@ -122,7 +122,7 @@ impl Surface {
         let free_edges = (options.skip_boundary && !soundness.closed)
             .then(|| FreeEdges::watched(tree, progress))
             .transpose()?;
-        Ok(Surface {
+        Ok(ReferenceSurface {
             tree: tree.clone(),
             choice,
             precondition,
@@ -165,7 +165,7 @@ impl Surface {
     /// `f(index, deviation, hit)` of each point, in the order of `points`; the hit is missing beyond the greatest distance.
     ///
     /// # Errors
-    /// Those of [`Surface::deviations`].
+    /// Those of [`ReferenceSurface::deviations`].
     pub fn map<T: Copy + Send>(
         &self,
         points: &[Point],
@@ -223,12 +223,12 @@ pub struct Disagreement {
 /// Points nearer to a facet than this share of its longest edge have no side that winding numbers could tell.
 const ON_SURFACE: f64 = 1e-6;
 
-impl Surface {
+impl ReferenceSurface {
     /// Asks both sign methods about `points`, whichever is in use. Points on the surface are left out: they have no side.
     /// Cost: that of preparing the other method, and of the points.
     ///
     /// # Errors
-    /// Those of [`Surface::deviations`].
+    /// Those of [`ReferenceSurface::deviations`].
     pub fn disagreement(
         &self,
         points: &[Point],
@@ -243,9 +243,9 @@ impl Surface {
             Side::Winding(w) => self.inside(w, points, progress)?,
             _ => self.inside(&Winding::new(&self.tree), points, progress)?,
         };
-        let told = || sides.iter().zip(&inside).filter(|(side, _)| **side != 0.0);
-        let differing = told().filter(|(side, inside)| (outward * **side < 0.0) != **inside).count();
-        Ok(Disagreement { sample: told().count() as u64, differing: differing as u64 })
+        let decided = || sides.iter().zip(&inside).filter(|(side, _)| **side != 0.0);
+        let differing = decided().filter(|(side, inside)| (outward * **side < 0.0) != **inside).count();
+        Ok(Disagreement { sample: decided().count() as u64, differing: differing as u64 })
     }
 
     /// The side that each point is on, by pseudonormals; 0 for those on the surface.

@@ -8,7 +8,7 @@
 //! sharp edge, a point is of the piece whose plane it lies on, if it does not lie on that of the feature.
 
 use super::rules::Rules;
-use super::{FeatureError, Nearness, Nominal, Surface};
+use super::{FeatureError, Nearness, Nominal, NominalSurface};
 use crate::fit::eigen;
 use crate::progress::Progress;
 use crate::space::{Point, Vector, dot, minus, plus, times};
@@ -32,7 +32,7 @@ const EDGE: f64 = 2.0;
 const ON: f64 = 6.0;
 /// A point farther than so many root mean square distances from the plane of its neighbours is not of it; a single one among a
 /// dozen is three and a half off.
-const ASTRAY: f64 = 2.0;
+const MOST_OFF_PLANE: f64 = 2.0;
 /// Neighbours lie in a row if their mean square across it is below this share of that along it.
 const ROW: f64 = 0.01;
 /// A piece goes on if so many of its neighbours are beyond the reach of the feature.
@@ -137,7 +137,7 @@ struct Level {
 struct Cloud<'a> {
     points: &'a [Point],
     tree: &'a PointTree,
-    surface: Surface,
+    surface: NominalSurface,
     near: &'a Nearness,
     /// Neighbours that make a plane.
     count: usize,
@@ -211,7 +211,7 @@ impl Cloud<'_> {
         let off = dot(minus(self.at(p), center), rows[0]).abs();
         let rounding = ROUNDING * self.at(p).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let rms = values[0].sqrt();
-        let flat = ratio(values[0], values[1]) <= FLAT && off <= ASTRAY * rms + rounding;
+        let flat = ratio(values[0], values[1]) <= FLAT && off <= MOST_OFF_PLANE * rms + rounding;
         (Patch { center, normal: rows[0], rms, flat }, values)
     }
 

@@ -14,7 +14,7 @@ mod surface;
 
 pub use beside::{Piece, pieces_beside};
 pub use nominal::{FeatureError, Nearness, Nominal};
-pub use surface::Surface;
+pub use surface::NominalSurface;
 
 use crate::closest::Tree;
 use crate::mesh::Mesh;

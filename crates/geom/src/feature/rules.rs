@@ -8,10 +8,10 @@ use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, tim
 /// A nominal feature, ready to be asked.
 pub(super) struct Rules<'a> {
     near: &'a Nearness,
-    kind: Kind,
+    kind: CheckedNominal,
 }
 
-enum Kind {
+enum CheckedNominal {
     Plane { point: Point, normal: Vector, boundary: Polygon },
     Cylinder { point: Point, direction: Vector, radius: f64, length: f64 },
     Cone { apex: Point, direction: Vector, half_angle: f64, between: [f64; 2] },
@@ -47,24 +47,24 @@ impl<'a> Rules<'a> {
                 }
                 let normal = way("normal", *normal)?;
                 let boundary = Polygon::new(*point, normal, boundary).ok_or(FeatureError::Boundary)?;
-                Kind::Plane { point: place(*point)?, normal, boundary }
+                CheckedNominal::Plane { point: place(*point)?, normal, boundary }
             }
-            Nominal::Cylinder { point, direction, radius, length } => Kind::Cylinder {
+            Nominal::Cylinder { point, direction, radius, length } => CheckedNominal::Cylinder {
                 point: place(*point)?,
                 direction: way("direction", *direction)?,
                 radius: size("radius", *radius)?,
                 length: size("length", *length)?,
             },
-            Nominal::Cone { apex, direction, half_angle, between: [from, to] } => Kind::Cone {
+            Nominal::Cone { apex, direction, half_angle, between: [from, to] } => CheckedNominal::Cone {
                 apex: place(*apex)?,
                 direction: way("direction", *direction)?,
                 half_angle: size("half angle", *half_angle)?,
                 between: [from.min(*to), size("end", from.max(*to))?],
             },
             Nominal::Sphere { center, radius } => {
-                Kind::Sphere { center: place(*center)?, radius: size("radius", *radius)? }
+                CheckedNominal::Sphere { center: place(*center)?, radius: size("radius", *radius)? }
             }
-            Nominal::Edge { point, direction, length, normals: [a, b] } => Kind::Edge {
+            Nominal::Edge { point, direction, length, normals: [a, b] } => CheckedNominal::Edge {
                 point: place(*point)?,
                 direction: way("direction", *direction)?,
                 length: size("length", *length)?,
@@ -85,7 +85,7 @@ impl<'a> Rules<'a> {
     /// Whether a facet of any angle may belong to the feature, where others enclose it. Never to an edge, which is told by its
     /// angles alone.
     pub(super) fn tilted(&self, corners: [Point; 3]) -> bool {
-        !matches!(self.kind, Kind::Edge { .. }) && corners.iter().all(|p| self.point(*p))
+        !matches!(self.kind, CheckedNominal::Edge { .. }) && corners.iter().all(|p| self.point(*p))
     }
 
     /// Whether a place is near the feature and within its bounds.
@@ -93,20 +93,20 @@ impl<'a> Rules<'a> {
         let Nearness { distance, margin, .. } = *self.near;
         let within = |x: f64, low: f64, high: f64| x >= low + margin && x <= high - margin;
         match &self.kind {
-            Kind::Plane { point, normal, boundary } => {
+            CheckedNominal::Plane { point, normal, boundary } => {
                 dot(minus(p, *point), *normal).abs() <= distance && boundary.holds(p, margin)
             }
-            Kind::Cylinder { point, direction, radius, length } => {
+            CheckedNominal::Cylinder { point, direction, radius, length } => {
                 let (off, along) = polar(p, *point, *direction);
                 (off - radius).abs() <= distance && within(along, 0.0, *length)
             }
-            Kind::Cone { apex, direction, half_angle, between: [from, to] } => {
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => {
                 let (off, along) = polar(p, *apex, *direction);
                 let away = off * libm::cos(*half_angle) - along * libm::sin(*half_angle);
                 away.abs() <= distance && within(along, *from, *to)
             }
-            Kind::Sphere { center, radius } => (norm(minus(p, *center)) - radius).abs() <= distance,
-            Kind::Edge { point, direction, length, .. } => {
+            CheckedNominal::Sphere { center, radius } => (norm(minus(p, *center)) - radius).abs() <= distance,
+            CheckedNominal::Edge { point, direction, length, .. } => {
                 let (off, along) = polar(p, *point, *direction);
                 off <= distance && within(along, 0.0, *length)
             }
@@ -117,25 +117,24 @@ impl<'a> Rules<'a> {
     fn faces(&self, center: Point, facing: Vector) -> bool {
         let angle = self.near.angle;
         match &self.kind {
-            Kind::Plane { normal, .. } => dot(*normal, facing) >= libm::cos(angle),
-            Kind::Cylinder { point, direction, .. } => {
+            CheckedNominal::Plane { normal, .. } => dot(*normal, facing) >= libm::cos(angle),
+            CheckedNominal::Cylinder { point, direction, .. } => {
                 // Inwards in a bore, outwards on a boss.
                 across(center, *point, *direction)
                     .is_some_and(|radial| dot(radial, facing).abs() >= libm::cos(angle))
             }
-            Kind::Cone { apex, direction, half_angle, .. } => {
-                across(center, *apex, *direction).is_some_and(|radial| {
+            CheckedNominal::Cone { apex, direction, half_angle, .. } => across(center, *apex, *direction)
+                .is_some_and(|radial| {
                     let normal = minus(
                         times(libm::cos(*half_angle), radial),
                         times(libm::sin(*half_angle), *direction),
                     );
                     dot(normal, facing).abs() >= libm::cos(angle)
-                })
-            }
-            Kind::Sphere { center: middle, .. } => {
+                }),
+            CheckedNominal::Sphere { center: middle, .. } => {
                 unit(minus(center, *middle)).is_some_and(|(r, _)| dot(r, facing).abs() >= libm::cos(angle))
             }
-            Kind::Edge { direction, normals: [a, b], .. } => {
+            CheckedNominal::Edge { direction, normals: [a, b], .. } => {
                 // Between the two normals, turning about the edge.
                 let turn = cross(*a, *b);
                 let about = if dot(turn, *direction) < 0.0 { times(-1.0, *direction) } else { *direction };
@@ -163,32 +162,32 @@ impl<'a> Rules<'a> {
         };
         const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
-            Kind::Plane { point, normal, boundary } => boundary.places(|[a, b], axes| {
+            CheckedNominal::Plane { point, normal, boundary } => boundary.places(|[a, b], axes| {
                 let dropped = 3 - axes[0] - axes[1];
                 let mut p = *point;
                 (p[axes[0]], p[axes[1]]) = (a, b);
                 p[dropped] -= dot(minus(p, *point), *normal) / normal[dropped];
                 p
             }),
-            Kind::Cylinder { point, direction, radius, length } => LEVELS
+            CheckedNominal::Cylinder { point, direction, radius, length } => LEVELS
                 .iter()
                 .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
                 .collect(),
-            Kind::Cone { apex, direction, half_angle, between: [from, to] } => LEVELS
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => LEVELS
                 .iter()
                 .flat_map(|t| {
                     let z = from + t * (to - from);
                     ring(plus(*apex, times(z, *direction)), *direction, z * libm::tan(*half_angle))
                 })
                 .collect(),
-            Kind::Sphere { center, radius } => [-0.8f64, -0.4, 0.0, 0.4, 0.8]
+            CheckedNominal::Sphere { center, radius } => [-0.8f64, -0.4, 0.0, 0.4, 0.8]
                 .iter()
                 .flat_map(|t| {
                     let axis = [0.0, 0.0, 1.0];
                     ring(plus(*center, times(t * radius, axis)), axis, radius * (1.0 - t * t).sqrt())
                 })
                 .collect(),
-            Kind::Edge { point, direction, length, .. } => {
+            CheckedNominal::Edge { point, direction, length, .. } => {
                 (0..9).map(|k| plus(*point, times(length * (f64::from(k) + 0.5) / 9.0, *direction))).collect()
             }
         }

@@ -5,7 +5,7 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, times, unit};
 
 /// A surface that a nominal feature lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
+pub enum NominalSurface {
     /// A plane with its unit normal.
     Plane(Point, Vector),
     /// A cylinder: a point of its axis, unit direction, radius.
@@ -18,37 +18,37 @@ pub enum Surface {
 
 impl Nominal {
     /// The surface that the feature lies on; `None` for an edge, and where a direction has no length.
-    pub fn surface(&self) -> Option<Surface> {
+    pub fn surface(&self) -> Option<NominalSurface> {
         let way = |v: Vector| unit(v).map(|u| u.0);
         Some(match *self {
-            Nominal::Plane { point, normal, .. } => Surface::Plane(point, way(normal)?),
+            Nominal::Plane { point, normal, .. } => NominalSurface::Plane(point, way(normal)?),
             Nominal::Cylinder { point, direction, radius, .. } => {
-                Surface::Cylinder(point, way(direction)?, radius)
+                NominalSurface::Cylinder(point, way(direction)?, radius)
             }
             Nominal::Cone { apex, direction, half_angle, .. } => {
-                Surface::Cone(apex, way(direction)?, half_angle)
+                NominalSurface::Cone(apex, way(direction)?, half_angle)
             }
-            Nominal::Sphere { center, radius } => Surface::Sphere(center, radius),
+            Nominal::Sphere { center, radius } => NominalSurface::Sphere(center, radius),
             Nominal::Edge { .. } => return None,
         })
     }
 }
 
-impl Surface {
+impl NominalSurface {
     /// Signed distance of `p` (mm), positive along the normal of a plane and away from an axis or center, and its gradient, a
     /// unit vector. `None` on the axis or at the center, where the gradient has no direction, and where `p` is no number.
     pub fn distance(&self, p: Point) -> Option<(f64, Vector)> {
         let (distance, gradient) = match *self {
-            Surface::Plane(point, normal) => (dot(minus(p, point), normal), normal),
-            Surface::Sphere(center, radius) => {
+            NominalSurface::Plane(point, normal) => (dot(minus(p, point), normal), normal),
+            NominalSurface::Sphere(center, radius) => {
                 let (away, length) = unit(minus(p, center))?;
                 (length - radius, away)
             }
-            Surface::Cylinder(point, direction, radius) => {
+            NominalSurface::Cylinder(point, direction, radius) => {
                 let (radial, off) = radial(p, point, direction)?;
                 (off - radius, radial)
             }
-            Surface::Cone(apex, direction, half_angle) => {
+            NominalSurface::Cone(apex, direction, half_angle) => {
                 let (radial, off) = radial(p, apex, direction)?;
                 let (sine, cosine) = (libm::sin(half_angle), libm::cos(half_angle));
                 let along = dot(minus(p, apex), direction);
@@ -59,7 +59,7 @@ impl Surface {
     }
 
     /// Signed distance (mm) of `p` from the line in which the plane through it across `normal` (of length 1) meets the surface,
-    /// and its gradient in that plane, a unit vector. Signs as of [`Surface::distance`].
+    /// and its gradient in that plane, a unit vector. Signs as of [`NominalSurface::distance`].
     ///
     /// The foot is sought along the line's own normal, again and again: right for places that are nearer to the line than its
     /// radius of curvature. `None` where that does not settle, where the surface lies along the plane, and where `p` is no
@@ -109,10 +109,10 @@ mod tests {
     fn gradients_are_slopes() {
         let w = unit([1.0, 2.0, -2.0]).unwrap().0;
         let surfaces = [
-            Surface::Plane([1.0, 2.0, 3.0], w),
-            Surface::Cylinder([1.0, 2.0, 3.0], w, 4.0),
-            Surface::Cone([1.0, 2.0, 3.0], w, 0.4),
-            Surface::Sphere([1.0, 2.0, 3.0], 4.0),
+            NominalSurface::Plane([1.0, 2.0, 3.0], w),
+            NominalSurface::Cylinder([1.0, 2.0, 3.0], w, 4.0),
+            NominalSurface::Cone([1.0, 2.0, 3.0], w, 0.4),
+            NominalSurface::Sphere([1.0, 2.0, 3.0], 4.0),
         ];
         for surface in surfaces {
             for p in [[5.0, -3.0, 2.0], [-2.0, 7.0, 1.0], [9.0, 9.0, -9.0]] {
@@ -138,20 +138,21 @@ mod tests {
         let near = |found: Option<(f64, Vector)>, wanted: f64| {
             assert!((found.unwrap().0 - wanted).abs() < 1e-12, "{found:?} {wanted}");
         };
-        let cone = Surface::Cone([0.0; 3], z, 0.4);
+        let cone = NominalSurface::Cone([0.0; 3], z, 0.4);
         near(cone.distance_within([3.0, 4.0, 10.0], z), 5.0 - 10.0 * libm::tan(0.4));
         // Along the axis the distance is that of the cone.
         near(
             cone.distance_within([4.0, 0.0, 10.0], [0.0, 1.0, 0.0]),
             cone.distance([4.0, 0.0, 10.0]).unwrap().0,
         );
-        let sphere = Surface::Sphere([1.0, 0.0, 0.0], 5.0);
+        let sphere = NominalSurface::Sphere([1.0, 0.0, 0.0], 5.0);
         near(sphere.distance_within([1.0, 4.2, 3.0], z), 0.2);
-        let slant = Surface::Plane([0.0; 3], unit([3.0, 0.0, 4.0]).unwrap().0);
+        let slant = NominalSurface::Plane([0.0; 3], unit([3.0, 0.0, 4.0]).unwrap().0);
         near(slant.distance_within([1.0, 7.0, 2.0], z), 1.0 + 8.0 / 3.0);
         assert!(slant.distance_within([1.0, 7.0, 2.0], unit([3.0, 0.0, 4.0]).unwrap().0).is_none());
         // x² / 18 + y² / 9 = 1 in the plane's coordinates (x along the slope).
-        let (cylinder, slope) = (Surface::Cylinder([0.0; 3], z, 3.0), unit([1.0, 0.0, 1.0]).unwrap().0);
+        let (cylinder, slope) =
+            (NominalSurface::Cylinder([0.0; 3], z, 3.0), unit([1.0, 0.0, 1.0]).unwrap().0);
         let across = unit([1.0, 0.0, -1.0]).unwrap().0;
         for [a, b] in [[4.0, 1.2], [1.0, 3.2], [-3.5, -2.0], [4.3, 0.0]] {
             let p = plus(times(a, slope), [0.0, b, 0.0]);

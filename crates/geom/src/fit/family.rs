@@ -27,8 +27,8 @@ pub(super) trait Family<const P: usize>: Sync {
     const LOCAL: [Local; P];
     /// Whether the distance is signed. The distance to a curve in space is not.
     const SIGNED: bool = true;
-    /// Axes of its frame along which the element reaches on and on: along them nothing tells its origin, and its shape is
-    /// told at the foot of the points' mean.
+    /// Axes of its frame along which the element has no end: the points do not determine its origin along them. Its shape is reported
+    /// with the origin at the foot of the points' mean.
     const FREE: &'static [usize] = &[];
 
     /// Hands each row of the least-squares problem for the point `q` to `rows`: residual and its derivatives.

@@ -1,11 +1,16 @@
 //! Least squares of orthogonal distances: Levenberg–Marquardt on streamed normal equations.
 //!
-//! D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963).
-//! Ours differs in four points. The unknowns are small motions about the present element, so the frame is
-//! renewed in every step. Damping starts at zero, as the starts are good. And once the linear model says that
-//! the sum of squares cannot fall by more than its own rounding, steps are taken unseen until they stop
-//! shrinking: the gradient still has digits where the sum has none left. While steps are short, and shrink as they do with
-//! the right normal matrix, that matrix is kept and only the gradient is summed.
+//! D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", J. SIAM 11 (1963). Ours differs in
+//! four points.
+//! 1. The unknowns are small motions about the present element, so the frame is renewed in every step.
+//! 2. Damping starts at zero, as the starts are good.
+//! 3. Near the optimum the sum of squares falls by less than its own rounding and no longer tells whether a step was good. The
+//!    gradient still has digits there, so such steps are taken without asking the sum.
+//! 4. While steps are short, and shrink as they do with the right normal matrix, that matrix is kept and only the gradient
+//!    is summed.
+//!
+//! **When it stops.** There is one rule ([`Step::is_last`]): the search ends with the step after which nothing is left to go
+//! that can be told apart from rounding. All lengths are root mean square changes of the distances, in the unit frame.
 
 use super::family::{Element, Family};
 use super::normal::{Sums, Weighing, sums, sums_near};
@@ -33,23 +38,56 @@ pub(super) const NEAR: Effort = Effort { steps: 40, enough: 1e-3 };
 pub(super) struct Optimum<const P: usize> {
     pub element: Element,
     /// Of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one or
-    /// two passes before, as long as the steps since were short ([`ALIKE`]).
+    /// two passes before, as long as the steps since were short ([`KEEPS_MATRIX`]).
     pub sums: Sums<P>,
     pub steps: usize,
     pub converged: bool,
 }
 
-/// Relative fall of the sum of squares that its rounding still shows.
+/// Relative fall of the sum of squares that can still be told from its rounding: five digits are left to that.
 const VISIBLE_FALL: f64 = 1e-11;
-/// Steps below this, root mean square in the unit frame, are in the reach of rounding.
+/// Steps below this length can be rounding alone: distances are rounded by 1e-16, and unknowns that the points hardly
+/// determine magnify that, here by a million at most.
 const ROUNDING_REACH: f64 = 1e-10;
-/// Steps below this, root mean square in the unit frame, are thought to leave the normal matrix as it is.
-const ALIKE: f64 = 1e-5;
-/// What remains of a step in the next, at most, where they did: the matrix then has three digits and more, enough for steps
-/// and uncertainties. If more remains, it is renewed.
-const SWIFT: f64 = 1e-3;
+/// Steps up to this length are taken to leave the normal matrix as it is.
+const KEEPS_MATRIX: f64 = 1e-5;
+/// … if the step is at most this share of the one before: then the matrix has three digits and more, enough for steps and
+/// uncertainties. If more remains, it is summed anew.
+const FAST_SHRINKING: f64 = 1e-3;
+/// Share of the predicted fall of the sum of squares that a step must bring to be taken.
+const ACCEPTED_GAIN: f64 = 1e-4;
+/// Damping above which the matrix has no inverse at any damping: the points leave some unknown without influence.
+const GIVE_UP: f64 = 1e12;
 /// Damping below which none is used, and the first damping used once it is needed.
 const DAMPING: (f64, f64) = (1e-7, 1e-3);
+
+/// What is known of a step before it is tried.
+struct Step {
+    length: f64,
+    /// Length of the step taken before; infinite for the first.
+    last_length: f64,
+    /// The sum of squares would fall by less than its own rounding; and it is not damped, so that it leads to the optimum.
+    invisible: bool,
+}
+
+impl Step {
+    /// Whether nothing is left to go after this step that can be told apart from rounding.
+    ///
+    /// Left to go is at most about the length of the step itself; where undamped steps shrink steadily, as they do near the optimum,
+    /// the length of the next one: this one times the quotient of the last two. That is compared with `enough`. And where steps
+    /// in the reach of rounding no longer become shorter by half, they are rounding themselves.
+    fn is_last(&self, enough: f64) -> bool {
+        let &Step { length, last_length, invisible } = self;
+        let shrinking = if invisible && last_length < 1.0 { (length / last_length).min(1.0) } else { 1.0 };
+        let is_rounding = invisible && length < ROUNDING_REACH && length > 0.5 * last_length;
+        length * shrinking <= enough || is_rounding
+    }
+
+    /// Whether the normal matrix is good enough for the next step too.
+    fn keeps_matrix(&self) -> bool {
+        self.length <= KEEPS_MATRIX && self.length <= FAST_SHRINKING * self.last_length
+    }
+}
 
 /// The local minimum reached from `start`; `None` if `start` has no finite sum of squares or the points leave
 /// some unknown without any influence.
@@ -70,54 +108,52 @@ pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
             F::sound(element.size).then_some((step, element))
         });
         let Some((step, element)) = proposal else {
-            if damping > 1e12 {
+            if damping > GIVE_UP {
                 return None;
             }
-            damping = harder(damping);
+            damping = more(damping);
             continue;
         };
-        let length = now.sums.length(&step);
         let fall = now.sums.fall(&step);
-        let unseen = damping == 0.0 && fall <= VISIBLE_FALL * now.sums.square;
-        if length <= effort.enough
-            || (unseen && last_length < 1.0 && length * (length / last_length) <= effort.enough)
-            || (unseen && length < ROUNDING_REACH && length > 0.5 * last_length)
-        {
+        let invisible = damping == 0.0 && fall <= VISIBLE_FALL * now.sums.square;
+        let this = Step { length: now.sums.length(&step), last_length, invisible };
+        if this.is_last(effort.enough) {
             now.element = element;
             now.converged = true;
             break;
         }
-        let next = if length <= ALIKE && length <= SWIFT * last_length {
+        let next = if this.keeps_matrix() {
             sums_near::<P, F, W>(&element, sample, weigh, &now.sums)
         } else {
             sums::<P, F, W>(&element, sample, weigh)
         };
         let gain = (now.sums.square - next.square) / fall;
-        if unseen || gain > 1e-4 {
+        if invisible || gain > ACCEPTED_GAIN {
             now.element = element;
             now.sums = next;
-            last_length = length;
-            damping = if gain > 0.75 || unseen {
-                easier(damping)
+            last_length = this.length;
+            damping = if gain > 0.75 || invisible {
+                less(damping)
             } else if gain < 0.25 {
-                harder(damping)
+                more(damping)
             } else {
                 damping
             };
-        } else if length < ROUNDING_REACH {
+        } else if this.length < ROUNDING_REACH {
+            // Not even a step that short is taken: the element is as good as rounding allows.
             now.converged = true;
             break;
         } else {
-            damping = harder(damping);
+            damping = more(damping);
         }
     }
     now.sums.square.is_finite().then_some(now)
 }
 
-fn harder(damping: f64) -> f64 {
+fn more(damping: f64) -> f64 {
     (damping * 8.0).max(DAMPING.1)
 }
-fn easier(damping: f64) -> f64 {
+fn less(damping: f64) -> f64 {
     let less = damping / 8.0;
     if less < DAMPING.0 { 0.0 } else { less }
 }

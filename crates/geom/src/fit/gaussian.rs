@@ -178,7 +178,7 @@ pub(super) fn statistics<const P: usize, F: Family<P>>(
 /// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element` and the standard
 /// deviation of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
 ///
-/// Along its free axes an element is told at the foot of the mean of all n points. The mean is uncertain by the standard
+/// Along its free axes an element is given at the foot of the mean of all n points. The mean is uncertain by the standard
 /// deviation over √n, noise being the same in all directions; and the foot moves with the axis, if the mean lies beside it.
 pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
@@ -198,11 +198,11 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
         slopes[k] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
     }
     // inverse · slopes
-    let mut told = [[0.0; MOST_NUMBERS]; P];
+    let mut inverse_slopes = [[0.0; MOST_NUMBERS]; P];
     for a in 0..P {
         for b in 0..P {
             for n in 0..size {
-                told[a][n] += inverse[a][b] * slopes[b][n];
+                inverse_slopes[a][n] += inverse[a][b] * slopes[b][n];
             }
         }
     }
@@ -210,7 +210,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     for (i, row) in values.chunks_mut(size).enumerate() {
         for a in 0..P {
             for (n, value) in row.iter_mut().enumerate() {
-                *value += slopes[a][i] * told[a][n] * (std_dev * std_dev);
+                *value += slopes[a][i] * inverse_slopes[a][n] * (std_dev * std_dev);
             }
         }
     }

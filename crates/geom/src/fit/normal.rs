@@ -7,8 +7,8 @@ use super::dense;
 use super::family::{Element, Family, Rows};
 use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
 use super::sample::Sample;
+use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, dot, times};
-use rayon::prelude::*;
 
 /// Points of one block: large enough to make sharing out cheap, small enough for the nearest caches.
 pub(super) const BLOCK: usize = 8192;

@@ -118,8 +118,8 @@ impl Powers {
                 normal.push(vec![dot(g, u), dot(g, v), dot(g, w), aa]);
                 let right = vec![dot(f, u), dot(f, v), dot(f, w), dot6(&along, &covariance(&across))];
                 let x = super::dense::solve(normal, right.clone())?;
-                let told: f64 = x.iter().zip(&right).map(|(a, b)| a * b).sum();
-                error = dot6(&across, &covariance(&across)) - told;
+                let explained: f64 = x.iter().zip(&right).map(|(a, b)| a * b).sum();
+                error = dot6(&across, &covariance(&across)) - explained;
                 center = [0.5 * x[0], 0.5 * x[1]];
             }
         }

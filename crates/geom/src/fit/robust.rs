@@ -1,9 +1,9 @@
 //! Fits that outliers do not pull: a start from random trials, then the biweight.
 //!
-//! Each trial fits few random points and is judged by the median distance of a sample, which up to half the
-//! points cannot spoil (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best one
-//! J. W. Tukey's biweight is minimised; its weights fall to zero at 4.685 standard deviations, which keeps 95 %
-//! of the efficiency of least squares on normal noise.
+//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as long
+//! as less than half of them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best
+//! trial on, the sum of J. W. Tukey's biweight is minimised. Its weights fall to zero at 4.685 standard deviations, which keeps
+//! 95 % of the efficiency of least squares on normal noise.
 
 use super::family::{Element, Family};
 use super::gauss::{FULL, ROUGH, minimise};
@@ -17,7 +17,7 @@ use crate::progress::Progress;
 use crate::space::Point;
 
 /// Points that trials are judged by.
-const JURY: usize = 512;
+const JUDGING_POINTS: usize = 512;
 /// Points that the standard deviation is found from.
 const SOME: usize = 8192;
 /// Most trials: enough for 40 % outliers and nine points a trial.
@@ -111,9 +111,9 @@ fn trials<const P: usize, F: Family<P>>(
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Element, FitError> {
-    let jury = sample.thinned(JURY);
-    let judged = |element: Element| (median::<P, F>(&element, &jury), element);
-    let mut best = gaussian::quick::<P, F>(&jury).map(judged);
+    let judging = sample.thinned(JUDGING_POINTS);
+    let judged = |element: Element| (median::<P, F>(&element, &judging), element);
+    let mut best = gaussian::quick::<P, F>(&judging).map(judged);
     let mut random = Random::new(seed);
     let each = (P + 2).min(sample.len());
     let mut enough = TRIALS;
@@ -129,7 +129,7 @@ fn trials<const P: usize, F: Family<P>>(
         let Some(found) = gaussian::quick::<P, F>(&few).map(judged) else { continue };
         if best.as_ref().is_none_or(|b| found.0 < b.0) {
             let near = 3.0 * NORMAL * found.0;
-            let share = share_within::<P, F>(&found.1, &jury, near);
+            let share = share_within::<P, F>(&found.1, &judging, near);
             let clean = share.powi(each as i32);
             // So many that with 99.9 % one of them had no outlier.
             let needed = (libm::log(0.001f64) / libm::log(1.0 - clean)).ceil();

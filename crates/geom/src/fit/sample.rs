@@ -13,8 +13,8 @@ pub(super) struct Sample<'a> {
     pub points: Cow<'a, [Point]>,
     pub center: Point,
     pub scale: f64,
-    /// Mean of all points, in the unit frame: elements that reach on and on are told at its foot. Of some of the points, it
-    /// is that of all.
+    /// Mean of all points, in the unit frame: elements without an end are reported with their origin at its foot. A part of the sample
+    /// keeps the mean of the whole.
     pub station: Point,
 }
 
@@ -70,7 +70,7 @@ impl<'a> Sample<'a> {
     }
     /// The mean of the points, in the unit frame; the same for any number of threads.
     fn mean(&self) -> Point {
-        use rayon::prelude::*;
+        use crate::parallel::prelude::*;
         let sum = |part: &[Point]| part.iter().fold([0.0; 3], |s, &p| plus(s, self.unit(p)));
         let total = match self.len() <= BLOCK {
             true => sum(&self.points),
@@ -95,7 +95,7 @@ const BLOCK: usize = 1 << 16;
 
 /// The box of the points, or `None` if a coordinate is not finite.
 fn bounds(points: &[Point]) -> Option<Aabb> {
-    use rayon::prelude::*;
+    use crate::parallel::prelude::*;
     if points.len() <= BLOCK {
         return block_bounds(points);
     }

@@ -4,8 +4,8 @@ use super::family::{Element, Family};
 use super::lanes::{GROUP, Lanes, PARTS, Sum, group, groups, widest};
 use super::normal::Placing;
 use super::sample::Sample;
+use crate::parallel::prelude::*;
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// Points of one block.
 pub(super) const BLOCK: usize = 256;

@@ -52,7 +52,7 @@ impl Family<7> for Torus {
         ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, STARTS)
     }
     fn more_starts(points: &[Point]) -> Vec<Element> {
-        // A short thick piece tells little about its axis: look all round it, near and far.
+        // A short thick piece hardly determines its axis: try directions all around, near and far.
         const TURNS: usize = 12;
         let scatter = Scatter::of(points);
         let frames = scatter.axes.into_iter().chain(directions()).flat_map(|w| {

@@ -1,8 +1,11 @@
 //! Minimum zone, minimum circumscribed and maximum inscribed elements of any number of points.
 //!
-//! Few points touch the best element. A small working set is solved to the end; one pass over all points finds
-//! those that still stick out; the worst of every stretch of the list join the working set, until none sticks
-//! out. The answer is then optimal for all points, with the multipliers of the touching ones as certificate.
+//! Few points touch the best element, so the problem is solved by exchange:
+//! 1. the element is optimized for a small working set of points;
+//! 2. one pass over all points finds those farther off than the zone of the working set allows;
+//! 3. if there are any, the worst of each part of the list join the working set, and it goes on with 1.
+//!
+//! At the end no point is outside, so the element is optimal for all points. The multipliers of the touching points certify it.
 
 use super::family::{Element, Family};
 use super::minimax::{Aim, Low, minimax};
@@ -24,7 +27,7 @@ const ROUNDS: usize = 60;
 const TOUCHES: f64 = 1e-15;
 /// An optimum whose distances range this many times as far as those of the least-squares element is another
 /// one: a flat ring also fits through a cylinder that lies on its side.
-const ASTRAY: f64 = 6.0;
+const OTHER_OPTIMUM: f64 = 6.0;
 /// Further starts about the first optimum.
 const STARTS: u64 = 12;
 
@@ -181,7 +184,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
     /// Whether the optimum belongs to the feature: it has not left through a gap between the points, and its
     /// distances range not much farther than those of the first element.
     fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
-        let most = ASTRAY * self.range.max(TOUCHES);
+        let most = OTHER_OPTIMUM * self.range.max(TOUCHES);
         self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))
     }
 

@@ -4,8 +4,8 @@
 //! row to its end, so that products of two rows are products of slices. The rows of a block do not depend on each
 //! other left of it: they are computed on all threads, each entry in one fixed order, so the bits are the same on any number.
 
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 /// Rows of a block.
 const BLOCK: usize = 32;

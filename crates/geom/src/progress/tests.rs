@@ -4,7 +4,7 @@ use super::*;
 use crate::check::{self, Precondition, check, intersect};
 use crate::closest::tests::{cube, sphere};
 use crate::closest::{FreeEdges, Query, Signs, Tree, Winding};
-use crate::deviation::surface::{Surface, SurfaceOptions};
+use crate::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use crate::mesh::Mesh;
 use crate::repair::{self, repair};
 use crate::topology::Topology;
@@ -37,7 +37,7 @@ fn broken() -> Mesh {
 /// A name, and whether the work was stopped.
 type Job<'a> = (&'a str, Box<dyn Fn(&dyn Progress) -> bool + Sync + 'a>);
 
-fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a Surface) -> Vec<Job<'a>> {
+fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a ReferenceSurface) -> Vec<Job<'a>> {
     let surface = SurfaceOptions { skip_boundary: true, ..SurfaceOptions::default() };
     let topology = Topology::of(mesh).unwrap();
     let few = topology.shell_of.iter().map(|_| true).collect::<Vec<bool>>();
@@ -57,7 +57,7 @@ fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a Surface) -> Vec<Job<'a>> 
         ("free edges", Box::new(|p| FreeEdges::watched(tree, p).is_err())),
         ("distances", Box::new(|p| tree.distances(&mesh.positions, &Query::default(), p).is_err())),
         ("winding", Box::new(|p| Winding::new(tree).numbers(&mesh.positions, p).is_err())),
-        ("surface", Box::new(move |p| Surface::new(tree, mesh, &surface, p).is_err())),
+        ("surface", Box::new(move |p| ReferenceSurface::new(tree, mesh, &surface, p).is_err())),
         ("deviations", Box::new(|p| whole.deviations(&mesh.positions, p).is_err())),
         ("disagreement", Box::new(|p| whole.disagreement(&mesh.positions, p).is_err())),
     ]
@@ -67,7 +67,7 @@ fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a Surface) -> Vec<Job<'a>> 
 fn all_stop_when_they_are_told_to() {
     for mesh in [broken(), cube(2.0)] {
         let tree = Tree::build(&mesh).unwrap();
-        let whole = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+        let whole = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
         for (name, job) in jobs(&mesh, &tree, &whole) {
             let run = |after: usize| {
                 on_threads(1, || {

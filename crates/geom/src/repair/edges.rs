@@ -1,9 +1,9 @@
 //! All edges of a mesh with the facets at them, as one sorted table; the sheets between the edges where more than two meet.
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::topology::Topology;
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 /// A facet at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

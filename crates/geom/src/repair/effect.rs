@@ -11,10 +11,10 @@ use crate::check::nesting::Container;
 use crate::check::{Known, Report};
 use crate::closest::{Query, Tree};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, cross, minus, norm, plus, times, unit};
 use crate::topology::{Properties, Topology};
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Bodies, and what they enclose.
@@ -48,7 +48,7 @@ impl Effect {
         let turn = report.soundness.inconsistent_edges > 0;
         let mut base = turned(before, turn, options)?;
         let known = base.known()?;
-        let enclosed = match report.sound && base.changes.is_empty() {
+        let enclosed = match report.sound && base.state.changes.is_empty() {
             true => Ok(Enclosed::sound(base.mesh(), &known.properties)),
             false => enclosed_by(&mut base)?,
         };
@@ -217,7 +217,7 @@ fn beyond(lost: &[[Point; 3]], after: &Mesh, progress: &dyn Progress) -> Result<
     let least = NOTHING * GAP * after.finite_bounds().diagonal();
     let counts = |p: &Point, distance: f64| distance > least && rays.winding(p).is_some_and(|w| w < 1);
     let farthest = all.par_iter().zip(distances).map(|(p, d)| if counts(p, d) { d } else { 0.0 });
-    Ok(farthest.reduce_with(f64::max))
+    Ok(Some(farthest.reduce(|| 0.0, f64::max)))
 }
 
 /// Gaps of a mesh that are narrower than some reach.

@@ -4,9 +4,9 @@ use super::same::Same;
 use crate::check::finding::area;
 use crate::closest::{MeshError, Query, QueryError, Tree};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Point, plus, times};
-use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Vertices and facets that stayed, came and went.

@@ -1,8 +1,12 @@
-//! Mending what [`check`] finds, without moving a vertex.
+//! Repair of what [`check`] finds, without moving a vertex.
 //!
-//! [`repair`] goes through the steps of [`STEPS`], one file and one line each, again and again until nothing is left to
-//! do. Steps only ever add vertices and let facets name others, so every place that stays keeps its bits. Every change is
-//! listed. The result of a step is decided exactly where [`check`] decides exactly.
+//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes nothing. A step
+//! makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers facets, but never writes
+//! a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step decides exactly what [`check`]
+//! decides exactly.
+//!
+//! Where the steps together make the mesh worse, they are gone through again without one of them, from the state before that
+//! step first changed something (`rounds`).
 
 mod change;
 mod degenerate;
@@ -25,6 +29,7 @@ mod same;
 mod scraps;
 mod self_intersections;
 mod split;
+mod state;
 mod step;
 mod stitch;
 mod t_junctions;
@@ -45,12 +50,12 @@ use crate::arrange::ArrangeError;
 use crate::check::{self, Known, Report};
 use crate::closest::sane_vertex;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
-use rayon::prelude::*;
-use rounds::{Keeper, Kept, Place, go_through};
+use rounds::{Kept, StepPosition, go_through};
 use same::Same;
 use std::sync::Arc;
 use work::Work;
@@ -88,7 +93,7 @@ impl Default for Options {
     }
 }
 
-/// What came of it.
+/// The result of a repair.
 #[derive(Clone, Debug)]
 pub struct Repaired {
     /// The mended mesh. Vertices that stayed keep their bits and their order; new ones follow.
@@ -143,7 +148,7 @@ pub struct Rounded {
     pub farthest: f64,
 }
 
-/// Torn holes are widened by no more than this share of the whole area, all together.
+/// Holes that a step has cut are widened by no more than this share of the whole area, all together.
 const WIDEN: f64 = 0.25;
 
 /// Steps that remove surface so that what is left can be closed. Where it is not sound even so, they are not done.
@@ -200,9 +205,9 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     };
     let soup = start.soup()?;
     let attempt = |without: &[&'static str], from: Option<&Kept>| {
-        // Bodies that are not united stay whole: what crosses is not torn out in their place.
-        let torn = without.contains(&union::STEP.name).then_some(self_intersections::STEP.name);
-        let is_wanted = |s: &&str| !without.contains(s) && torn != Some(*s);
+        // Bodies that are not united stay whole: what crosses is not cut out in place of uniting them.
+        let also = without.contains(&union::STEP.name).then_some(self_intersections::STEP.name);
+        let is_wanted = |s: &&str| !without.contains(s) && also != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt((&start, from), &Options { steps, ..options.clone() }, (&before, &check_options))
     };
@@ -221,7 +226,7 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     let mut taken_back = vec![];
     let mut lost = done.did(&LOSING);
     if !done.after.sound && !lost.is_empty() {
-        // Surface was removed in vain: it shall stay.
+        // Surface was removed, and the rest is not sound all the same: once more without removing any.
         done = attempt(&lost, None)?;
         taken_back.append(&mut lost);
     }
@@ -259,23 +264,23 @@ fn names_but(name: &str) -> Vec<&'static str> {
     STEPS.iter().map(|s| s.name).filter(|n| *n != name).collect()
 }
 
-/// The steps without one of those that changed something in `done`, or without the last ones of these, so that nothing is worse than
-/// `least`; and all that were left out, with those left out before.
-fn without_some<'a>(
-    attempt: &impl Fn(&[&'static str], Option<&Kept>) -> Result<Attempt<'a>, RepairError>,
-    done: &Attempt<'a>,
+/// The first attempt after which no defect is more frequent than in `least`, and the steps that it leaves out: each step that changed
+/// something in `done` is left out by itself; then the last two of them, the last three, and so on. Always without `left_out` too.
+fn without_some(
+    attempt: &impl Fn(&[&'static str], Option<&Kept>) -> Result<Attempt, RepairError>,
+    done: &Attempt,
     left_out: &[&'static str],
     least: &Report,
-) -> Result<Option<(Attempt<'a>, Vec<&'static str>)>, RepairError> {
-    // Tearing opens what is closed: it is the first to be done without.
-    let tearing = self_intersections::STEP.name;
-    let singly = done.did(&[&[tearing][..], &names_but(tearing)].concat());
+) -> Result<Option<(Attempt, Vec<&'static str>)>, RepairError> {
+    // Cutting out opens what is closed: it is the first step to be left out.
+    let cutting_out = self_intersections::STEP.name;
+    let singly = done.did(&[&[cutting_out][..], &names_but(cutting_out)].concat());
     let in_turn = done.did(&names_but(""));
     let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
     for tried in singly.into_iter().map(|name| vec![name]).chain(last) {
         let without = [left_out, &tried].concat();
         // The presence of these two changes what other steps do.
-        let alone = !tried.iter().any(|name| [union::STEP.name, tearing].contains(name));
+        let alone = !tried.iter().any(|name| [union::STEP.name, cutting_out].contains(name));
         let from = if alone { Kept::before(&done.kept, &tried) } else { None };
         let next = attempt(&without, from)?;
         if !worse(least, &next.after) {
@@ -295,8 +300,8 @@ fn worse(before: &Report, after: &Report) -> bool {
     errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))
 }
 
-/// What some steps came to.
-struct Attempt<'a> {
+/// What one attempt came to.
+struct Attempt {
     mesh: Mesh,
     known: Arc<Known>,
     changes: Vec<Change>,
@@ -306,10 +311,10 @@ struct Attempt<'a> {
     not_united: Option<ArrangeError>,
     lost: Vec<[Point; 3]>,
     /// States on the way.
-    kept: Vec<Kept<'a>>,
+    kept: Vec<Kept>,
 }
 
-impl Attempt<'_> {
+impl Attempt {
     /// Which of these steps changed something, in the order given.
     fn did(&self, steps: &[&'static str]) -> Vec<&'static str> {
         steps.iter().copied().filter(|name| self.changes.iter().any(|c| c.step == *name)).collect()
@@ -331,31 +336,29 @@ impl Attempt<'_> {
     }
 }
 
-/// Goes through the steps of `options`, from the start or from a state on the way to which these steps have not differed.
-fn attempt<'a>(
-    (start, from): (&Work<'a>, Option<&Kept>),
+/// Goes through the steps of `options`, from the start, or from a state up to which they did the same as in an earlier attempt.
+fn attempt(
+    (start, from): (&Work, Option<&Kept>),
     options: &Options,
     (before, check_options): (&Report, &check::Options),
-) -> Result<Attempt<'a>, RepairError> {
+) -> Result<Attempt, RepairError> {
     let wanted = |(_, step): &(usize, &'static Step)| options.steps.contains(&step.name);
     let steps: Vec<(usize, &'static Step)> = STEPS.into_iter().enumerate().filter(wanted).collect();
-    let mut keeper = Keeper { options: start.options, progress: start.progress, kept: vec![] };
-    let (mut work, mut rounds);
-    if let Some(from) = from {
-        work = from.work.copy(options, start.progress);
-        rounds = go_through(&mut work, &steps, from.place(), None)?;
-    } else {
-        work = start.again(options);
-        work.may_widen = WIDEN * before.properties.area;
-        rounds = go_through(&mut work, &steps, Place::START, Some(&mut keeper))?;
-    }
-    if work.widened && work.has_torn_hole()? {
-        // All for nothing: what was torn out in vain shall stay.
-        work = start.again(options);
-        rounds = go_through(&mut work, &steps, Place::START, None)?;
+    let mut kept = vec![];
+    let (mut work, mut rounds) = match from {
+        Some(from) => go_through(start.resumed(&from.state, options), &steps, from.position, None)?,
+        None => {
+            let mut work = start.again(options);
+            work.state.handover.widening_left = WIDEN * before.properties.area;
+            go_through(work, &steps, StepPosition::START, Some(&mut kept))?
+        }
+    };
+    if work.state.handover.has_widened && work.has_open_cut()? {
+        // Widened in vain: once more without, so that what was cut out beyond the crossings stays.
+        (work, rounds) = go_through(start.again(options), &steps, StepPosition::START, None)?;
     }
     let mut counts = Counts::of(start.mesh(), work.mesh());
-    if !work.changes.is_empty() {
+    if !work.state.changes.is_empty() {
         let joined = rejoined(work.mesh().clone())?;
         let same = joined.faces == work.mesh().faces;
         if !same {
@@ -364,9 +367,9 @@ fn attempt<'a>(
         work.compacted(compact(joined, 0), same);
     }
     let after = work.report(check_options)?;
-    let (known, not_united) = (work.known()?, work.not_united);
-    let (changes, lost) = (std::mem::take(&mut work.changes), std::mem::take(&mut work.lost));
-    let kept = keeper.kept;
+    let (known, not_united) = (work.known()?, work.state.handover.not_united);
+    let (changes, lost) =
+        (std::mem::take(&mut work.state.changes), std::mem::take(&mut work.state.handover.lost));
     Ok(Attempt { mesh: work.into_mesh(), known, changes, rounds, after, counts, not_united, lost, kept })
 }
 

@@ -4,12 +4,11 @@
 //! something, everything is as it was: so the state before it is kept, and what follows is done again from there.
 
 use super::error::RepairError;
-use super::options::Options;
 use super::self_intersections;
+use super::state::State;
 use super::step::Step;
 use super::work::Work;
 use crate::arrange::ArrangeError;
-use crate::progress::Progress;
 
 /// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
 pub(super) const ROUNDS: usize = 8;
@@ -17,15 +16,16 @@ pub(super) const ROUNDS: usize = 8;
 const MOST_FACETS: usize = 1_000_000;
 
 /// A state on the way: before a step that then changed something for the first time.
-pub(super) struct Kept<'a> {
-    pub work: Work<'a>,
+pub(super) struct Kept {
+    pub state: State,
+    /// The step.
     name: &'static str,
-    place: Place,
+    pub position: StepPosition,
 }
 
 /// Where on the way a state is.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct StepPosition {
     round: usize,
     /// The number of the next step in the list of all.
     step: usize,
@@ -33,75 +33,56 @@ pub(super) struct Place {
     done: usize,
 }
 
-impl Place {
-    pub(super) const START: Place = Place { round: 1, step: 0, done: 0 };
+impl StepPosition {
+    pub(super) const START: StepPosition = StepPosition { round: 1, step: 0, done: 0 };
 }
 
-impl<'a> Kept<'a> {
+impl Kept {
     /// Of states in the order of the way the last one that none of these steps has changed; `None` where that cannot be told.
-    pub(super) fn before<'k>(kept: &'k [Kept<'a>], steps: &[&'static str]) -> Option<&'k Kept<'a>> {
+    pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static str]) -> Option<&'k Kept> {
         let all = steps.iter().all(|name| kept.iter().any(|k| k.name == *name));
         kept.iter().find(|k| all && steps.contains(&k.name))
     }
-
-    pub(super) fn place(&self) -> Place {
-        self.place
-    }
 }
 
-/// What keeps states on the way.
-pub(super) struct Keeper<'a> {
-    pub options: &'a Options,
-    pub progress: &'a dyn Progress,
-    pub kept: Vec<Kept<'a>>,
-}
-
-impl<'a> Keeper<'a> {
-    /// The state before a step that has changed nothing so far.
-    fn state(&self, work: &Work, name: &'static str) -> Option<Work<'a>> {
-        let is_wanted = work.mesh().faces.len() <= MOST_FACETS && self.kept.iter().all(|k| k.name != name);
-        is_wanted.then(|| work.copy(self.options, self.progress))
-    }
-}
-
-/// Goes through `steps`, with their numbers in the list of all, from `place` on until nothing is left to do; how often.
-pub(super) fn go_through(
-    work: &mut Work,
+/// Goes through `steps`, with their numbers in the list of all, from `position` on until nothing is left to do; the end, and in how
+/// many rounds. In `kept`, if given, the state before each step that changed something comes to stand, once for each step.
+pub(super) fn go_through<'a>(
+    mut work: Work<'a>,
     steps: &[(usize, &'static Step)],
-    mut place: Place,
-    mut keeper: Option<&mut Keeper>,
-) -> Result<usize, RepairError> {
-    let tears = steps.iter().any(|(_, s)| s.name == self_intersections::STEP.name);
-    while place.round <= ROUNDS {
-        for &(number, step) in steps.iter().filter(|(number, _)| *number >= place.step) {
-            let state = keeper.as_ref().and_then(|keeper| keeper.state(work, step.name));
-            (step.run)(work)?;
-            if let (Some(keeper), Some(state)) = (&mut keeper, state)
-                && work.is_beyond(&state)
+    mut position: StepPosition,
+    mut kept: Option<&mut Vec<Kept>>,
+) -> Result<(Work<'a>, usize), RepairError> {
+    let may_cut = steps.iter().any(|(_, s)| s.name == self_intersections::STEP.name);
+    while position.round <= ROUNDS {
+        for &(number, step) in steps.iter().filter(|(number, _)| *number >= position.step) {
+            let is_kept = work.mesh().faces.len() <= MOST_FACETS
+                && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.name != step.name));
+            let before = is_kept.then(|| work.state.clone());
+            work = step.done(work)?;
+            if let (Some(kept), Some(state)) = (&mut kept, before)
+                && work.state.is_beyond(&state)
             {
-                keeper.kept.push(Kept {
-                    work: state,
-                    name: step.name,
-                    place: Place { step: number, ..place },
-                });
+                let position = StepPosition { step: number, ..position };
+                kept.push(Kept { state, name: step.name, position });
             }
         }
         // A tangle that two rounds have not undone gets no better.
-        let idle = work.changes.len() == place.done;
+        let idle = work.state.changes.len() == position.done;
         // Bodies whose union cannot be written stay whole.
-        let is_close = matches!(work.not_united, Some(ArrangeError::Unresolved { .. }));
-        let round = place.round;
-        place = Place { round: round + 1, step: 0, done: work.changes.len() };
-        if idle && !work.may_tear && tears && !is_close {
-            // Nothing else helps: the last resort, if there is anything to tear out.
-            work.may_tear = true;
+        let is_close = matches!(work.state.handover.not_united, Some(ArrangeError::Unresolved { .. }));
+        let round = position.round;
+        position = StepPosition { round: round + 1, step: 0, done: work.state.changes.len() };
+        if idle && !work.state.handover.may_cut_out && may_cut && !is_close {
+            // Nothing else helps: the last resort, if there is anything to cut out.
+            work.state.handover.may_cut_out = true;
             if work.crossings(|_, _| true)?.is_some_and(|pairs| !pairs.is_empty()) {
                 continue;
             }
         }
         if idle || round > 1 && work.crossings(|_, _| true)?.is_none() {
-            return Ok(round);
+            return Ok((work, round));
         }
     }
-    Ok(ROUNDS)
+    Ok((work, ROUNDS))
 }

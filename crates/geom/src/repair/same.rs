@@ -1,7 +1,7 @@
 //! Facets found by the places of their corners, in whichever order they run.
 
 use crate::mesh::Mesh;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// The three places of a facet, sorted.
 type Key = [[u64; 3]; 3];

@@ -1,7 +1,8 @@
 //! Facets that still cross when nothing else is left to do: the last resort.
 //!
-//! The facets of all crossing pairs are torn out, and what is left of a shell beside its largest piece goes too if it is
-//! small. The holes are filled by the step that fills holes, whatever their size; where nothing fits it widens them.
+//! The facets of all crossing pairs are cut out. If that cuts a shell into several pieces, those that are small beside its
+//! largest piece are removed too. The step that fills holes then fills the holes, whatever their size; where no patch fits,
+//! it widens them.
 
 use super::error::RepairError;
 use super::scraps::sheets;
@@ -16,13 +17,13 @@ pub(super) const STEP: Step = Step {
     run,
 };
 
-/// More than this share of the area is not torn out: what is left would be another model.
+/// No more than this share of the area is cut out: what is left beyond that would be another model.
 const MOST: f64 = 0.75;
-/// A piece cut off goes if it has at most this share of the area of the largest piece of its shell.
-const CRUMB: f64 = 0.25;
+/// A piece cut off is removed if it has at most this share of the area of the largest piece of its shell.
+const SMALL_PIECE: f64 = 0.25;
 
 fn run(work: &mut Work) -> Result<(), RepairError> {
-    if !work.may_tear {
+    if !work.state.handover.may_cut_out {
         return Ok(());
     }
     // Of a tangle nothing would be left.
@@ -36,25 +37,25 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         return Ok(());
     }
     let shell_of = known.topology.shell_of.clone();
-    let mut torn = vec![false; work.mesh().faces.len()];
-    crossings.iter().flatten().for_each(|f| torn[*f as usize] = true);
+    let mut is_removed = vec![false; work.mesh().faces.len()];
+    crossings.iter().flatten().for_each(|f| is_removed[*f as usize] = true);
     let area_of = |wanted: bool| -> f64 {
-        let facets = (0..).zip(&torn).filter(|(_, t)| **t || !wanted);
+        let facets = (0..).zip(&is_removed).filter(|(_, t)| **t || !wanted);
         facets.map(|(f, _)| area(work.corners(f))).sum()
     };
     if area_of(true) > MOST * area_of(false) {
         return Ok(());
     }
-    let removed: Vec<u32> = (0..).zip(&torn).filter(|(_, t)| **t).map(|(f, _)| f).collect();
+    let removed: Vec<u32> = (0..).zip(&is_removed).filter(|(_, t)| **t).map(|(f, _)| f).collect();
     let place = work.middle(crossings[0][0]);
     work.log(STEP.name, "crossing facets torn out", place, removed.len(), 0.0);
-    work.tear(&removed);
-    let left = shell_of.into_iter().zip(torn).filter(|(_, torn)| !torn).map(|(shell, _)| shell);
-    crumbs(work, &left.collect::<Vec<u32>>())
+    work.cut_out(&removed);
+    let left = shell_of.into_iter().zip(is_removed).filter(|(_, removed)| !removed).map(|(shell, _)| shell);
+    remove_small_pieces(work, &left.collect::<Vec<u32>>())
 }
 
-/// Removes what was cut off the shells, `shell_of` being the shell of each facet before the cut.
-fn crumbs(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairError> {
+/// Removes the small pieces that were cut off; `shell_of` is the shell of each facet before the cut.
+fn remove_small_pieces(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairError> {
     let known = work.known()?;
     let areas = &known.properties.shell_areas;
     let pieces = (0..).zip(&known.topology.shell_of).filter(|(_, s)| **s != u32::MAX);
@@ -71,13 +72,13 @@ fn crumbs(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairError> {
     }
     let mut removed = vec![];
     for (piece, (shell, facets)) in of_piece.into_iter().enumerate() {
-        if areas[piece] <= CRUMB * largest.get(&shell).copied().unwrap_or(0.0) {
+        if areas[piece] <= SMALL_PIECE * largest.get(&shell).copied().unwrap_or(0.0) {
             work.log(STEP.name, "piece cut off removed", work.middle(facets[0]), facets.len(), areas[piece]);
             removed.extend(facets);
         }
     }
     if !removed.is_empty() {
-        work.tear(&removed);
+        work.cut_out(&removed);
     }
     Ok(())
 }

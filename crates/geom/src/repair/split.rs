@@ -1,8 +1,8 @@
-//! Edges of more than two facets, and vertices where several fans touch: parted.
+//! Edges of more than two facets, and vertices where several fans of facets touch, are split.
 //!
 //! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair. Around
 //! such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area keeps the
-//! vertex; each other one gets a vertex of its own, set off a little into its own material: a copy at the very same place
+//! vertex. Each other fan gets a vertex of its own, moved a little into its own material: a copy at the very same place
 //! would be joined again by the next program that reads the file.
 
 use super::degenerate::cut;
@@ -22,7 +22,7 @@ pub(super) const EDGES: Step = Step {
         let known = work.known()?;
         let edges = known.topology.non_manifold_edges.iter();
         let vertices = edges.flat_map(|e| e.vertices).collect();
-        part(work, vertices, EDGES.name, true)
+        split(work, vertices, EDGES.name, true)
     },
 };
 
@@ -31,19 +31,20 @@ pub(super) const VERTICES: Step = Step {
     about: "Parts the surface at vertices where several fans of facets touch.",
     run: |work| {
         let vertices = work.known()?.topology.non_manifold_vertices.clone();
-        part(work, vertices, VERTICES.name, false)
+        split(work, vertices, VERTICES.name, false)
     },
 };
 
-/// How far a new vertex is set off into the material, in gaps: out of it, and more each time, if facets cross otherwise. Where
-/// two pits touch with their tips, the way into the material of one leads into the other.
+/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Negative: out of the
+/// material; where the tips of two pits touch, the way into the material of one leads into the other.
 const OFFSETS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
 type Pairs = BTreeMap<([u32; 2], u32), u32>;
 
-/// Parts the surface at `vertices`. With `open_together`, fans with a rim stay one: filling their holes may join them.
-fn part(
+/// Splits the surface at `vertices`. With `open_together`, all fans with a boundary stay one: filling their holes may join
+/// them.
+fn split(
     work: &mut Work,
     mut vertices: Vec<u32>,
     step: &'static str,
@@ -72,7 +73,7 @@ fn part(
     }
     let first = work.mesh().positions.len() as u32;
     let lost = apart(work, lost, &again, step)?;
-    work.parted.extend(first..work.mesh().positions.len() as u32);
+    work.state.handover.kept_apart.extend(first..work.mesh().positions.len() as u32);
     for (v, fan) in &lost {
         work.log(step, "fan of facets given its own vertex", work.at(*v), fan.len(), 0.0);
     }
@@ -83,9 +84,10 @@ fn part(
     Ok(())
 }
 
-/// Sets the fans and pairs off, each as little as it can be without crossing anything, and returns the fans that were.
+/// Moves the fans and pairs apart, each by the first distance of [`OFFSETS`] at which it crosses nothing, and returns the fans
+/// that were moved.
 ///
-/// What crosses at every distance stays together if it does so at a vertex; at an edge it is parted all the same.
+/// A fan at a vertex that crosses something at every distance stays where it is; at an edge it is moved all the same.
 fn apart(
     work: &mut Work,
     mut lost: Vec<(u32, Vec<u32>)>,
@@ -155,8 +157,8 @@ fn apart(
     }
 }
 
-/// A number for each fan, the same for those that are set off as one: with common facets, at vertices that lie so near
-/// that the two might be meant as one.
+/// A number for each fan. Fans with the same number are moved together: they have common facets, at vertices within the gap
+/// of each other.
 fn together(work: &Work, lost: &[(u32, Vec<u32>)]) -> Vec<u32> {
     let sets = Sets::new(lost.len());
     let mut fans: BTreeMap<(u32, u32), u32> = BTreeMap::new();

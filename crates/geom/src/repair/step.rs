@@ -12,3 +12,11 @@ pub struct Step {
     pub about: &'static str,
     pub(super) run: fn(&mut Work) -> Result<(), RepairError>,
 }
+
+impl Step {
+    /// The state after this step, made from the one before.
+    pub(super) fn done<'a>(&self, mut work: Work<'a>) -> Result<Work<'a>, RepairError> {
+        (self.run)(&mut work)?;
+        Ok(work)
+    }
+}

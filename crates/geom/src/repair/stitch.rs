@@ -1,17 +1,18 @@
 //! Gaps between edges that were meant as one.
 //!
-//! First vertices on the boundary within the gap of one another become one. Then boundary edges look for a partner whose two
-//! ends lie near their own, at distances that grow fourfold up to the limit, but never beyond a quarter of the edges
-//! themselves: so neighbouring vertices cannot collapse, and the nearest partner wins.
+//! 1. Vertices on the boundary within the gap of one another become one.
+//! 2. Each boundary edge is joined with a partner whose two ends lie near its own. The distance allowed grows fourfold from pass
+//!    to pass up to the limit, so that the nearest partner is taken first. It is never more than a quarter of the length of either
+//!    edge, so that the ends of an edge cannot become one.
 
 use super::error::RepairError;
 use super::step::Step;
 use super::work::Work;
 use crate::check::Known;
 use crate::check::{self, near::Near};
+use crate::parallel::prelude::*;
 use crate::space::{minus, norm, plus, times};
 use crate::topology::union::Sets;
-use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "stitch",
@@ -37,8 +38,8 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         let mut groups = work.find(kind)?;
         let known = work.known()?;
         let sets = Sets::new(work.mesh().positions.len());
-        let parted = |v: &u32| work.parted.contains(v);
-        groups.retain(|g| !g.vertices.iter().any(parted));
+        let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
+        groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
         groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
         let members = groups.into_iter().flat_map(|g| g.vertices).collect();
         merge(work, &known, &sets, members);
@@ -130,11 +131,11 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
         .collect::<Vec<_>>()
         .concat();
     found.sort_unstable_by(nearer);
-    let parted = |v: &u32| work.parted.contains(v);
+    let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
     let mut used = vec![false; edges.len()];
     let mut pairs = vec![];
     for (distance, e, f, joined) in found {
-        let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(parted);
+        let free = !used[e as usize] && !used[f as usize] && !joined.iter().flatten().any(is_kept_apart);
         let apart = |[a, b]: &[u32; 2]| a == b || !known.topology.has_edge(work.mesh(), [*a, *b]);
         if free && joined.iter().all(apart) {
             (used[e as usize], used[f as usize]) = (true, true);

@@ -11,11 +11,11 @@ use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, bound
 use crate::check;
 use crate::check::finding::area;
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::Point;
 use crate::topology::Topology;
 use crate::topology::union::Sets;
 use crate::topology::weld::{self, Welded};
-use rayon::prelude::*;
 
 pub(super) const STEP: Step = Step {
     name: "union",
@@ -46,12 +46,12 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let given = Given { mesh: mesh.clone(), topology: all.then_some(&known.topology), pairs };
     match boundary_of(given, &options, work.progress) {
         Ok(boundary) => {
-            work.not_united = None;
+            work.state.handover.not_united = None;
             replace(work, (&facets, &first), &mesh, boundary);
         }
         Err(ArrangeError::Weld(e)) => return Err(e.into()),
         Err(ArrangeError::Cancelled(e)) => return Err(e.into()),
-        Err(e) => work.not_united = Some(e),
+        Err(e) => work.state.handover.not_united = Some(e),
     }
     Ok(())
 }

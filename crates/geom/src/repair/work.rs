@@ -1,4 +1,4 @@
-//! The mesh under repair, and what is known about it.
+//! The mesh under repair: what steps ask of it, and how they change it.
 //!
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
@@ -7,6 +7,7 @@ use super::change::Change;
 use super::error::RepairError;
 use super::options::Options;
 use super::pairs::Pairs;
+use super::state::State;
 use crate::arrange::ArrangeError;
 use crate::check::around::Around;
 use crate::check::intersect::{self, Crossings};
@@ -15,40 +16,20 @@ use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, plus, times};
 use crate::topology::Topology;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What a step works on.
+/// What a step works on: a state, and what it is to be done with.
 pub(super) struct Work<'a> {
-    /// Copied only when it changes while an earlier state still holds it.
-    mesh: Arc<Mesh>,
+    pub state: State,
     pub options: &'a Options,
     pub progress: &'a dyn Progress,
     /// Distance, mm, up to which two places may have been meant as one.
     pub gap: f64,
     /// All coordinates have single precision: new ones shall have too.
     single: bool,
-    pub changes: Vec<Change>,
-    /// Vertices at the rims of holes that a step has torn: those holes must be filled whatever their size.
-    torn: BTreeSet<u32>,
-    /// Vertices that were parted from others on purpose and must not be joined again.
-    pub parted: BTreeSet<u32>,
-    /// Torn holes have been widened.
-    pub widened: bool,
-    /// Area, mm², by which they may still be.
-    pub may_widen: f64,
     /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
-    /// Nothing else has helped: crossing facets may be torn out.
-    pub may_tear: bool,
-    /// Why shells that meet were not united.
-    pub not_united: Option<ArrangeError>,
-    /// Corners of the facets that were removed so that the rest can be closed.
-    pub lost: Vec<[Point; 3]>,
-    known: Option<Arc<Known>>,
-    /// Pairs of its facets that meet where they should not, as far as they are known.
-    pairs: Pairs,
 }
 
 impl<'a> Work<'a> {
@@ -58,25 +39,8 @@ impl<'a> Work<'a> {
         options: &'a Options,
         progress: &'a dyn Progress,
     ) -> Result<Work<'a>, RepairError> {
-        let single = mesh.is_single();
-        let mut work = Work {
-            most_facets: 100 + 4 * mesh.faces.len(),
-            mesh: Arc::new(mesh),
-            options,
-            progress,
-            gap: 0.0,
-            single,
-            changes: vec![],
-            torn: BTreeSet::new(),
-            parted: BTreeSet::new(),
-            widened: false,
-            may_widen: 0.0,
-            may_tear: false,
-            not_united: None,
-            lost: vec![],
-            known: None,
-            pairs: Pairs::Unknown,
-        };
+        let (single, most_facets) = (mesh.is_single(), 100 + 4 * mesh.faces.len());
+        let mut work = Work { state: State::of(mesh), options, progress, gap: 0.0, single, most_facets };
         let spacing = check::spacing(&work.known()?.properties.bounds);
         work.gap = options.gap.unwrap_or(8.0 * spacing);
         Ok(work)
@@ -87,80 +51,56 @@ impl<'a> Work<'a> {
     where
         'a: 'b,
     {
-        Work {
-            mesh: self.mesh.clone(),
-            options,
-            changes: vec![],
-            torn: BTreeSet::new(),
-            parted: BTreeSet::new(),
-            lost: vec![],
-            known: self.known.clone(),
-            pairs: self.pairs.clone(),
-            ..*self
-        }
+        Work { state: self.state.untouched(), options, ..*self }
     }
 
-    /// The same state under other options.
-    pub(super) fn copy<'b>(&self, options: &'b Options, progress: &'b dyn Progress) -> Work<'b> {
-        Work {
-            mesh: self.mesh.clone(),
-            options,
-            progress,
-            changes: self.changes.clone(),
-            torn: self.torn.clone(),
-            parted: self.parted.clone(),
-            lost: self.lost.clone(),
-            known: self.known.clone(),
-            pairs: self.pairs.clone(),
-            ..*self
-        }
-    }
-
-    /// Whether anything has changed since that state.
-    pub(super) fn is_beyond(&self, earlier: &Work) -> bool {
-        let is_same = Arc::ptr_eq(&self.mesh, &earlier.mesh) || self.mesh == earlier.mesh;
-        self.changes.len() != earlier.changes.len() || !is_same
+    /// That state under other options.
+    pub(super) fn resumed<'b>(&self, state: &State, options: &'b Options) -> Work<'b>
+    where
+        'a: 'b,
+    {
+        Work { state: state.clone(), options, ..*self }
     }
 
     pub(super) fn mesh(&self) -> &Mesh {
-        &self.mesh
+        &self.state.mesh
     }
 
     /// The mesh as it is, to compare with it or to go back to it.
     pub(super) fn shared(&self) -> Arc<Mesh> {
-        self.mesh.clone()
+        self.state.mesh.clone()
     }
 
     pub(super) fn into_mesh(self) -> Mesh {
-        Arc::unwrap_or_clone(self.mesh)
+        Arc::unwrap_or_clone(self.state.mesh)
     }
 
     fn mesh_mut(&mut self) -> &mut Mesh {
-        Arc::make_mut(&mut self.mesh)
+        Arc::make_mut(&mut self.state.mesh)
     }
 
     /// Goes on with `mesh`: the same facets at the same places, without the vertices that no facet uses. `same`: apart from that,
     /// facets name the same corners.
     pub(super) fn compacted(&mut self, mesh: Mesh, same: bool) {
-        let known = self.known.take().filter(|_| same);
-        self.known = known.and_then(|known| known.compacted(&mesh)).map(Arc::new);
-        self.mesh = Arc::new(mesh);
+        let known = self.state.known.take().filter(|_| same);
+        self.state.known = known.and_then(|known| known.compacted(&mesh)).map(Arc::new);
+        self.state.mesh = Arc::new(mesh);
         if !same {
-            self.pairs = Pairs::Unknown;
+            self.state.pairs = Pairs::Unknown;
         }
     }
 
     pub(super) fn at(&self, vertex: u32) -> Point {
-        self.mesh.positions[vertex as usize]
+        self.state.mesh.positions[vertex as usize]
     }
 
     pub(super) fn corners(&self, facet: u32) -> [Point; 3] {
-        self.mesh.corners(facet)
+        self.state.mesh.corners(facet)
     }
 
     /// How many facets cutting may still add.
     pub(super) fn room(&self) -> usize {
-        self.most_facets.saturating_sub(self.mesh.faces.len())
+        self.most_facets.saturating_sub(self.state.mesh.faces.len())
     }
 
     /// The middle of a facet.
@@ -177,11 +117,11 @@ impl<'a> Work<'a> {
     /// What follows from the mesh as it is; computed again after a change only.
     pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
         self.go_on()?;
-        if let Some(known) = &self.known {
+        if let Some(known) = &self.state.known {
             return Ok(known.clone());
         }
-        let known = Arc::new(check::known(&self.mesh, self.progress)?);
-        self.known = Some(known.clone());
+        let known = Arc::new(check::known(&self.state.mesh, self.progress)?);
+        self.state.known = Some(known.clone());
         Ok(known)
     }
 
@@ -192,14 +132,14 @@ impl<'a> Work<'a> {
         let crossings = match all {
             Some(crossings) => crossings,
             None => intersect::first_self_intersections(
-                &self.mesh,
+                &self.state.mesh,
                 &known.topology,
                 options.limit,
                 self.progress,
             )?,
         };
         let gap = options.gap.unwrap_or(8.0 * check::spacing(&known.properties.bounds));
-        let inspected = known.inspected(&self.mesh, Some(&crossings), (options, gap), self.progress);
+        let inspected = known.inspected(&self.state.mesh, Some(&crossings), (options, gap), self.progress);
         Ok(check::report(&inspected)?)
     }
 
@@ -209,12 +149,12 @@ impl<'a> Work<'a> {
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        let some: Vec<bool> = (0..).zip(&self.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
+        let some: Vec<bool> = (0..).zip(&self.state.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
         if !some.contains(&true) {
             return Ok(Some(vec![]));
         }
-        if matches!(self.pairs, Pairs::Unknown)
-            && let Some(around) = Around::new(&self.mesh, &some)
+        if matches!(self.state.pairs, Pairs::Unknown)
+            && let Some(around) = Around::new(&self.state.mesh, &some)
         {
             let topology = Topology::watched(&around.mesh, self.progress)?;
             return self.crossings_around(&around, &topology);
@@ -229,11 +169,11 @@ impl<'a> Work<'a> {
     /// All pairs of facets that meet where they should not; `None` for a tangle. Only what has changed since they were known is
     /// looked at.
     pub(super) fn all_crossings(&mut self) -> Result<Option<&[[u32; 2]]>, RepairError> {
-        let facets = self.mesh.faces.len();
-        let mut pairs = std::mem::take(&mut self.pairs);
+        let facets = self.state.mesh.faces.len();
+        let mut pairs = std::mem::take(&mut self.state.pairs);
         if let Some(new) = pairs.new_facets(facets) {
             let some: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
-            let found = match Around::new(&self.mesh, &some) {
+            let found = match Around::new(&self.state.mesh, &some) {
                 Some(around) => {
                     let topology = Topology::watched(&around.mesh, self.progress)?;
                     self.crossings_around(&around, &topology)?
@@ -242,13 +182,13 @@ impl<'a> Work<'a> {
             };
             pairs.take_in(found, facets);
         }
-        self.pairs = pairs;
+        self.state.pairs = pairs;
         let most = self.most_crossings();
-        Ok(self.pairs.all().filter(|all| all.len() <= most))
+        Ok(self.state.pairs.all().filter(|all| all.len() <= most))
     }
 
-    /// Why nothing comes of it: most edges have one facet only, and facets cross without number. No step makes a surface of that. A
-    /// small one is gone through all the same, for what lies beside it.
+    /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them. No step
+    /// makes a surface of that. A small soup is repaired all the same, for the sake of what lies beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
         /// With so many free edges the steps take about a second.
         const SMALL: usize = 5_000;
@@ -262,7 +202,7 @@ impl<'a> Work<'a> {
     /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
     fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (known, most) = (self.known()?, self.most_crossings());
-        Ok(intersect::few_self_intersections(&self.mesh, &known.topology, some, most, self.progress)?)
+        Ok(intersect::few_self_intersections(&self.state.mesh, &known.topology, some, most, self.progress)?)
     }
 
     /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
@@ -281,7 +221,7 @@ impl<'a> Work<'a> {
     /// Pairs beyond which the mesh is a tangle.
     fn most_crossings(&self) -> usize {
         const FEW: usize = 10_000;
-        FEW + 8 * self.mesh.faces.len()
+        FEW + 8 * self.state.mesh.faces.len()
     }
 
     /// All that the check finds of a kind which needs no crossings.
@@ -290,7 +230,7 @@ impl<'a> Work<'a> {
         let default = check::Options::default();
         let island_share = self.options.islands.unwrap_or(default.island_share);
         let options = check::Options { limit: usize::MAX, island_share, ..default };
-        let inspected = known.inspected(&self.mesh, None, (&options, self.gap), self.progress);
+        let inspected = known.inspected(&self.state.mesh, None, (&options, self.gap), self.progress);
         let found = (kind.find)(&inspected).map_or(vec![], |found| found.items);
         self.go_on()?;
         Ok(found)
@@ -299,24 +239,24 @@ impl<'a> Work<'a> {
     /// Removes facets (numbers in any order, repeated or not) and adds others behind the rest.
     pub(super) fn replace(&mut self, removed: &[u32], added: &[[u32; 3]]) {
         if !removed.is_empty() {
-            let mut keep = vec![true; self.mesh.faces.len()];
+            let mut keep = vec![true; self.state.mesh.faces.len()];
             removed.iter().for_each(|&f| keep[f as usize] = false);
-            self.pairs.keep(&keep);
+            self.state.pairs.keep(&keep);
             let mut keep = keep.into_iter();
             self.mesh_mut().faces.retain(|_| keep.next().unwrap_or(true));
         }
         if !added.is_empty() {
             self.mesh_mut().faces.extend_from_slice(added);
         }
-        self.known = None;
+        self.state.known = None;
     }
 
     /// Turns facets over.
     pub(super) fn turn(&mut self, facets: impl IntoIterator<Item = u32>) {
         let mesh = self.mesh_mut();
         facets.into_iter().for_each(|f| mesh.faces[f as usize].swap(1, 2));
-        self.known = None;
-        self.pairs = Pairs::Unknown;
+        self.state.known = None;
+        self.state.pairs = Pairs::Unknown;
     }
 
     /// Lets every corner `v` name `other(facet, v)` instead.
@@ -324,22 +264,22 @@ impl<'a> Work<'a> {
         for (f, face) in (0..).zip(&mut self.mesh_mut().faces) {
             *face = face.map(|v| other(f, v));
         }
-        self.known = None;
-        self.pairs = Pairs::Unknown;
+        self.state.known = None;
+        self.state.pairs = Pairs::Unknown;
     }
 
     /// A new vertex at `place`, rounded to single precision where all others are.
     pub(super) fn add(&mut self, place: Point) -> u32 {
         let place = self.rounded(place);
         self.mesh_mut().positions.push(place);
-        self.known = None;
-        self.mesh.positions.len() as u32 - 1
+        self.state.known = None;
+        self.state.mesh.positions.len() as u32 - 1
     }
 
     /// New vertices, as they are.
     pub(super) fn append(&mut self, places: &[Point]) {
         self.mesh_mut().positions.extend_from_slice(places);
-        self.known = None;
+        self.state.known = None;
     }
 
     /// `place` in the precision of the mesh.
@@ -350,42 +290,42 @@ impl<'a> Work<'a> {
 
     /// Forgets facets and vertices that were added behind these and turned out not to be wanted.
     pub(super) fn truncate(&mut self, facets: u32, vertices: usize) {
-        let keep: Vec<bool> = (0..self.mesh.faces.len()).map(|f| f < facets as usize).collect();
-        self.pairs.keep(&keep);
+        let keep: Vec<bool> = (0..self.state.mesh.faces.len()).map(|f| f < facets as usize).collect();
+        self.state.pairs.keep(&keep);
         let mesh = self.mesh_mut();
         mesh.faces.truncate(facets as usize);
         mesh.positions.truncate(vertices);
-        self.known = None;
+        self.state.known = None;
     }
 
-    /// Removes facets and remembers that the hole is ours.
-    pub(super) fn tear(&mut self, removed: &[u32]) {
-        let faces = &self.mesh.faces;
-        self.torn.extend(removed.iter().flat_map(|f| faces[*f as usize]));
+    /// Removes facets and remembers the rim, so that the hole is filled whatever its size.
+    pub(super) fn cut_out(&mut self, removed: &[u32]) {
+        let faces = &self.state.mesh.faces;
+        self.state.handover.cut_rims.extend(removed.iter().flat_map(|f| faces[*f as usize]));
         self.lose(removed);
     }
 
     /// Removes facets and remembers where they were.
     pub(super) fn lose(&mut self, removed: &[u32]) {
-        self.lost.extend(removed.iter().map(|f| self.mesh.corners(*f)));
+        self.state.handover.lost.extend(removed.iter().map(|f| self.state.mesh.corners(*f)));
         self.replace(removed, &[]);
     }
 
     /// Goes back to an earlier state; its vertices must be the first of those now.
     pub(super) fn restore(&mut self, earlier: Arc<Mesh>) {
-        self.mesh = earlier;
-        self.known = None;
-        self.pairs = Pairs::Unknown;
+        self.state.mesh = earlier;
+        self.state.known = None;
+        self.state.pairs = Pairs::Unknown;
     }
 
-    /// Whether the ring is the rim of a hole that a step has torn.
-    pub(super) fn is_torn(&self, ring: &[u32]) -> bool {
-        ring.iter().all(|v| self.torn.contains(v))
+    /// Whether the ring is the rim of a hole that a step has cut.
+    pub(super) fn is_own_hole(&self, ring: &[u32]) -> bool {
+        ring.iter().all(|v| self.state.handover.cut_rims.contains(v))
     }
 
-    /// Whether a hole that a step has torn is still open.
-    pub(super) fn has_torn_hole(&mut self) -> Result<bool, RepairError> {
-        Ok(self.known()?.free_edges.rings.iter().any(|ring| self.is_torn(ring)))
+    /// Whether a hole that a step has cut is still open.
+    pub(super) fn has_open_cut(&mut self) -> Result<bool, RepairError> {
+        Ok(self.known()?.free_edges.rings.iter().any(|ring| self.is_own_hole(ring)))
     }
 
     pub(super) fn log(
@@ -396,6 +336,6 @@ impl<'a> Work<'a> {
         facets: usize,
         size: f64,
     ) {
-        self.changes.push(Change { step, what, position, facets, size });
+        self.state.changes.push(Change { step, what, position, facets, size });
     }
 }

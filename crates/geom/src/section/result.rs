@@ -148,6 +148,9 @@ pub enum Continuity {
 }
 
 impl Continuity {
+    /// All of them.
+    pub const ALL: [Continuity; 3] = [Continuity::G0, Continuity::G1, Continuity::G2];
+
     /// The word for it: `g0`, `g1`, `g2`.
     pub fn name(self) -> &'static str {
         match self {

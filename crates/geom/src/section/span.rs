@@ -13,7 +13,7 @@ const LOOSER: usize = 2;
 
 /// A chain went astray whose points lie farther off than this many times their noise, or than this many times this share of the
 /// distance between them where that is more (the larger one where the row is too short to tell its noise) ...
-const ASTRAY: f64 = 10.0;
+const OUTLIER: f64 = 10.0;
 const SHARES: [f64; 2] = [0.005, 0.02];
 /// ... or that is not about as long as the way from point to point. Noise of more than this share of the distance between points
 /// makes that way longer, and is not known well where a row is short: then the chain may be shorter.
@@ -143,7 +143,7 @@ impl Span {
             return true;
         }
         if !state.sum.is_finite()
-            || off > ASTRAY * noise.max(least)
+            || off > OUTLIER * noise.max(least)
             || state.breaks.windows(2).any(|w| w[0] >= w[1])
         {
             return true;

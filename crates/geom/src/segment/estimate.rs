@@ -12,7 +12,10 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 /// Places with unit normals.
 pub(super) type Patch = [(Point, Vector)];
 
-/// An element of the kind near the patch; `None` where the patch does not show one.
+/// The kinds that can be found, the order in which they are tried.
+pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
+
+/// An element of the kind near the patch; `None` where the patch does not show one, and of kinds that are not in [`KINDS`].
 pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
     match kind {
         Kind::Plane => plane(patch),
@@ -20,7 +23,7 @@ pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
         Kind::Cylinder => cylinder(patch),
         Kind::Cone => cone(patch),
         Kind::Torus => torus(patch),
-        _ => None,
+        Kind::Line2 | Kind::Line | Kind::Circle2 | Kind::Circle | Kind::Ellipse2 => None,
     }
 }
 

@@ -1,16 +1,16 @@
 //! The surface of a mesh: facets, neighbours through edges.
 
-use super::surface::{Pieces, Surface};
+use super::pieces::{PieceGraph, Pieces};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, minus, norm, plus, times, unit};
 use crate::spatial::lists::lists;
-use rayon::prelude::*;
 
 /// The facets of a mesh whose corners exist and are finite.
-pub(super) fn surface(mesh: &Mesh) -> Surface<'_> {
+pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     let shapes: Vec<_> = mesh.faces.par_iter().map(|face| middle(mesh, face)).collect();
     let (first, others) = neighbours(mesh);
-    Surface {
+    PieceGraph {
         points: &mesh.positions,
         pieces: Pieces::Facets(&mesh.faces),
         places: shapes.iter().map(|s| s.0).collect(),

@@ -1,6 +1,6 @@
 //! Spreading over neighbours.
 
-use super::surface::Surface;
+use super::pieces::PieceGraph;
 use crate::space::dot;
 
 /// Which pieces were looked at; kept between floods so that a small one costs little on a large surface.
@@ -11,7 +11,7 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    pub(super) fn new(surface: &Surface) -> Marks {
+    pub(super) fn new(surface: &PieceGraph) -> Marks {
         Marks { seen: vec![false; surface.len()], touched: Vec::new() }
     }
     /// Whether this is the first time since the last flood.
@@ -33,7 +33,7 @@ impl Marks {
 /// The pieces reached from `starts` over neighbours for which `accept` says yes, nearest rings first, until there are
 /// `most`. `accept` gets the piece and the one it is reached from.
 pub(super) fn flood(
-    surface: &Surface,
+    surface: &PieceGraph,
     starts: &[u32],
     most: usize,
     marks: &mut Marks,
@@ -64,7 +64,7 @@ pub(super) fn flood(
 
 /// The pieces for which `free` says yes in the first two rings around `pieces`, the inner ring first.
 pub(super) fn rings(
-    surface: &Surface,
+    surface: &PieceGraph,
     pieces: &[u32],
     marks: &mut Marks,
     free: impl Fn(u32) -> bool,
@@ -85,7 +85,7 @@ pub(super) fn rings(
 
 /// About `most` free pieces around `seed` without a crease between neighbours.
 pub(super) fn patch(
-    surface: &Surface,
+    surface: &PieceGraph,
     seed: u32,
     most: usize,
     crease: f64,
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     /// Number of steps over neighbours from any of `pieces` to each piece.
-    fn steps(surface: &Surface, pieces: &[u32]) -> Vec<usize> {
+    fn steps(surface: &PieceGraph, pieces: &[u32]) -> Vec<usize> {
         let mut steps = vec![usize::MAX; surface.len()];
         pieces.iter().for_each(|&p| steps[p as usize] = 0);
         for ring in 0..surface.len() {
@@ -131,9 +131,9 @@ mod tests {
         let mut around = rings(&surface, &reached, &mut marks, |_| true);
         around.sort_unstable();
         let beyond = steps(&surface, &reached);
-        let told: Vec<u32> =
+        let expected: Vec<u32> =
             (0..surface.len() as u32).filter(|&p| (1..=2).contains(&beyond[p as usize])).collect();
-        assert_eq!(around, told);
+        assert_eq!(around, expected);
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! One region: from a patch to all that belongs to its element.
 
+use super::criterion::{BETTER, CLEARLY, better, fewest_points};
 use super::estimate::estimate;
 use super::flood::{Marks, flood, patch, rings};
+use super::pieces::{Band, PieceGraph};
 use super::probe::Probe;
-use super::surface::{Band, Surface};
+use super::region::GrownRegion;
 use crate::fit::{Options, fit, improved};
 use crate::progress::Silent;
 use crate::shape::{Kind, Shape};
@@ -16,7 +18,7 @@ const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
 const GROWTH: usize = 3;
 /// A trial, and a region that is taken, has stopped growing when it gains less than one piece in so many.
-const STILL: [usize; 2] = [16, 100];
+const STOP_GAIN: [usize; 2] = [16, 100];
 /// Fits of one growing region. Growth threefold each time, it has covered any surface before.
 const ROUNDS: usize = 30;
 /// Share of a patch that must belong to the element estimated from it.
@@ -28,13 +30,16 @@ const GOES_ON: f64 = 0.3;
 
 /// Pieces whose points a start is looked for on.
 const FEW: usize = 60;
-/// How much less the distances from another kind must be for a region to change to it.
-const CLEARLY: f64 = 0.75;
+/// Share of the least weight asked for that a region must have for other kinds to be tried on it: they may cover more, but
+/// not many times as much.
+pub(super) const PROMISING: f64 = 0.3;
+/// How often a whole region may change its kind.
+const CHANGES: usize = 3;
 
 /// What all regions of a search have in common.
 #[derive(Debug)]
-pub(super) struct Terms<'a> {
-    pub surface: &'a Surface<'a>,
+pub(super) struct Context<'a> {
+    pub surface: &'a PieceGraph<'a>,
     /// Elements looked for, simple ones first.
     pub kinds: &'a [Kind],
     pub band: Band,
@@ -46,27 +51,7 @@ pub(super) struct Terms<'a> {
     pub size: f64,
 }
 
-/// Root mean square distance in standard deviations of the noise, beyond which another kind may be the right one.
-const DOUBTFUL: f64 = 1.25;
-
-/// An element and the pieces that belong to it.
-#[derive(Clone, Debug)]
-pub(super) struct Grown {
-    pub shape: Shape,
-    pub pieces: Vec<u32>,
-    pub weight: f64,
-    /// Root mean square distance of some of its points.
-    pub rms: f64,
-}
-
-impl Grown {
-    /// Its weight, less where it fits worse than noise of this standard deviation.
-    pub(super) fn merit(&self, noise: f64) -> f64 {
-        self.weight / (1.0 + (self.rms / noise).powi(2))
-    }
-}
-
-impl Terms<'_> {
+impl Context<'_> {
     /// The best region around `seed` with at most `most` pieces, over all kinds.
     pub(super) fn around(
         &self,
@@ -74,8 +59,8 @@ impl Terms<'_> {
         most: usize,
         marks: &mut Marks,
         free: &impl Fn(u32) -> bool,
-    ) -> Option<Grown> {
-        let mut best: Option<Grown> = None;
+    ) -> Option<GrownRegion> {
+        let mut best: Option<GrownRegion> = None;
         let mut last = 0;
         for count in PATCHES {
             let patch = patch(self.surface, seed, count, self.crease, marks, free);
@@ -86,9 +71,9 @@ impl Terms<'_> {
             for &kind in self.kinds {
                 let Some((shape, _)) = self.shown(kind, &patch, AGREEING) else { continue };
                 let Some(grown) = self.grown(shape, &patch, most, marks, free) else { continue };
-                best = Some(self.better(best, grown));
+                best = Some(better(best, grown, self.noise));
                 // No other kind can cover more than all that a trial may reach.
-                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && b.rms <= DOUBTFUL * self.noise) {
+                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && !b.is_doubtful(self.noise)) {
                     return best;
                 }
             }
@@ -104,23 +89,22 @@ impl Terms<'_> {
     /// patch did. `enough` is the weight below which the region is of no use.
     pub(super) fn whole(
         &self,
-        trial: &Grown,
+        trial: &GrownRegion,
         enough: f64,
         marks: &mut Marks,
         free: &impl Fn(u32) -> bool,
-    ) -> Option<Grown> {
+    ) -> Option<GrownRegion> {
         let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
-        if best.rms > DOUBTFUL * self.noise && best.weight >= 0.3 * enough {
+        if best.is_doubtful(self.noise) && best.weight >= PROMISING * enough {
             // It may have gone beyond its face: begin again with the other kinds.
             for &kind in self.kinds.iter().filter(|&&kind| kind != trial.shape.kind()) {
                 let Some((shape, _)) = self.shown(kind, &trial.pieces, AGREEING) else { continue };
                 let Some(grown) = self.grown(shape, &trial.pieces, usize::MAX, marks, free) else { continue };
-                best = self.better(Some(best), grown);
+                best = better(Some(best), grown, self.noise);
             }
         }
-        for _ in 0..3 {
-            // Another kind may cover more, but not many times as much.
-            if best.weight < 0.3 * enough {
+        for _ in 0..CHANGES {
+            if best.weight < PROMISING * enough {
                 break;
             }
             let before = (best.shape.kind(), best.pieces.len());
@@ -128,11 +112,11 @@ impl Terms<'_> {
             let wider = [&best.pieces[..], &beyond].concat();
             for &kind in self.kinds.iter().filter(|&&kind| kind != before.0) {
                 let Some((shape, rms)) = self.shown(kind, &wider, FITTING) else { continue };
-                if rms > 0.85 * best.rms && self.agreeing(&shape, &beyond) < GOES_ON {
+                if rms > BETTER * best.rms && self.agreeing(&shape, &beyond) < GOES_ON {
                     continue;
                 }
                 let Some(grown) = self.grown(shape, &wider, usize::MAX, marks, free) else { continue };
-                best = self.better(Some(best), grown);
+                best = better(Some(best), grown, self.noise);
             }
             if (best.shape.kind(), best.pieces.len()) == before {
                 break;
@@ -143,9 +127,9 @@ impl Terms<'_> {
 
     /// A ball as another kind, where its pieces fit a ball worse than noise and that one clearly better: a short fillet
     /// passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
-    pub(super) fn reconsidered(&self, region: &mut Grown) {
+    pub(super) fn reconsidered(&self, region: &mut GrownRegion) {
         let own = region.shape.kind();
-        if own != Kind::Sphere || region.rms <= DOUBTFUL * self.noise {
+        if own != Kind::Sphere || !region.is_doubtful(self.noise) {
             return;
         }
         let [few, points] = [FEW, ENOUGH].map(|most| self.surface.some_places(&region.pieces, most));
@@ -191,10 +175,10 @@ impl Terms<'_> {
         most: usize,
         marks: &mut Marks,
         free: &impl Fn(u32) -> bool,
-    ) -> Option<Grown> {
+    ) -> Option<GrownRegion> {
         let kind = shape.kind();
         let mut limit = GROWTH * patch.len();
-        let still = if most == usize::MAX { STILL[1] } else { STILL[0] };
+        let stop_gain = if most == usize::MAX { STOP_GAIN[1] } else { STOP_GAIN[0] };
         let mut last = 0;
         for _ in 0..ROUNDS {
             let element = Probe::new(&shape);
@@ -207,9 +191,9 @@ impl Terms<'_> {
             }
             let (better, rms) = improved(&points, &shape).filter(|f| self.sound(&f.0))?;
             let full = pieces.len() >= limit.min(most);
-            if pieces.len() >= most || (!full && pieces.len() <= last + last / still) {
+            if pieces.len() >= most || (!full && pieces.len() <= last + last / stop_gain) {
                 let weight = self.surface.weight(&pieces);
-                return Some(Grown { shape: better, pieces, weight, rms });
+                return Some(GrownRegion { shape: better, pieces, weight, rms });
             }
             shape = better;
             last = if full { 0 } else { pieces.len() };
@@ -240,71 +224,5 @@ impl Terms<'_> {
             }
             _ => true,
         }
-    }
-
-    /// The one that tells more. An element with more unknowns must cover clearly more, the more so the more it has, or
-    /// fit clearly better where the simpler one fits worse than noise.
-    fn better(&self, one: Option<Grown>, other: Grown) -> Grown {
-        let Some(one) = one else { return other };
-        let [unknowns, others] = [&one, &other].map(|g| g.shape.kind().unknowns());
-        let gain = other.weight / one.weight;
-        let wins = if unknowns == others {
-            gain > 1.0
-        } else if others > unknowns {
-            let worth = 1.15 + 0.1 * (others - unknowns) as f64;
-            // A plane that is bowed within the tolerance is still a plane.
-            let bent = one.shape.kind() != Kind::Plane && one.rms > DOUBTFUL * self.noise;
-            gain > worth || (gain > 0.95 && bent && other.rms < CLEARLY * one.rms)
-        } else {
-            gain > 0.98 && (gain > 1.05 || other.rms < 0.85 * one.rms)
-        };
-        if wins { other } else { one }
-    }
-}
-
-/// So many points that an element of the kind is more than a coincidence.
-pub(super) fn fewest_points(kind: Kind) -> usize {
-    if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::{one_of_each, parts::bored, terms};
-    use super::*;
-
-    /// Which of two tells more, by what they cover and how well they fit; noise is 0.01.
-    #[test]
-    fn the_simpler_element_is_preferred_unless_it_covers_less_or_fits_worse() {
-        let [plane, sphere, cylinder, _, torus] = one_of_each([0.0; 3], [0.0, 0.0, 1.0], 0.3);
-        let grown = |shape, weight, rms| Grown { shape, pieces: vec![], weight, rms };
-        terms(&bored(8).mesh, |terms| {
-            let second = |one: (Shape, f64, f64), other: (Shape, f64, f64)| {
-                let better = terms.better(Some(grown(one.0, one.1, one.2)), grown(other.0, other.1, other.2));
-                better.shape == other.0
-            };
-            // Two more unknowns: 35 % more.
-            assert!(!second((plane, 1.0, 0.01), (cylinder, 1.3, 0.01)));
-            assert!(second((plane, 1.0, 0.01), (cylinder, 1.4, 0.01)));
-            // A bowed plane stays one, a ball that fits worse than noise does not.
-            assert!(!second((plane, 1.0, 0.03), (cylinder, 1.0, 0.01)));
-            assert!(second((sphere, 1.0, 0.03), (torus, 1.0, 0.01)));
-            assert!(
-                !second((sphere, 1.0, 0.012), (torus, 1.0, 0.01))
-                    && !second((sphere, 1.0, 0.03), (torus, 0.9, 0.01))
-            );
-            // The other way round.
-            assert!(
-                second((cylinder, 1.0, 0.01), (plane, 1.06, 0.01))
-                    && second((torus, 1.0, 0.01), (sphere, 1.0, 0.008))
-            );
-            assert!(
-                !second((cylinder, 1.0, 0.01), (plane, 1.0, 0.01))
-                    && !second((cylinder, 1.0, 0.01), (plane, 0.9, 0.001))
-            );
-            // Of one kind the larger one.
-            let leaning = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.6, 0.8] };
-            assert!(second((plane, 1.0, 0.01), (leaning, 1.01, 0.02)));
-            assert!(!second((plane, 1.0, 0.01), (leaning, 0.99, 0.0)));
-        });
     }
 }

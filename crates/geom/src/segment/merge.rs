@@ -1,8 +1,9 @@
 //! Neighbouring regions that are one face: pieces of one element that form error or a scratch kept apart.
 
-use super::grow::{Grown, Terms};
+use super::grow::Context;
+use super::pieces::NONE;
 use super::probe::Probe;
-use super::surface::NONE;
+use super::region::GrownRegion;
 use crate::fit::improved;
 use crate::shape::Shape;
 use crate::space::Point;
@@ -15,9 +16,9 @@ const TELLS: f64 = 1.25;
 
 /// Joins regions that one element explains as well as two. Labels of regions that are gone are replaced; the regions
 /// themselves stay in place, without pieces.
-pub(super) fn merge(terms: &Terms, regions: &mut [Grown], labels: &mut [u32]) {
+pub(super) fn merge(context: &Context, regions: &mut [GrownRegion], labels: &mut [u32]) {
     // Each pass may bring new neighbours together.
-    while let Some((kept, gone, shape, rms)) = next(terms, regions, labels) {
+    while let Some((kept, gone, shape, rms)) = next(context, regions, labels) {
         let pieces = std::mem::take(&mut regions[gone].pieces);
         pieces.iter().for_each(|&p| labels[p as usize] = kept as u32);
         let weight = std::mem::take(&mut regions[gone].weight);
@@ -29,21 +30,21 @@ pub(super) fn merge(terms: &Terms, regions: &mut [Grown], labels: &mut [u32]) {
 }
 
 /// The first pair of neighbours that are one, the heavier one first, and their element.
-fn next(terms: &Terms, regions: &[Grown], labels: &[u32]) -> Option<(usize, usize, Shape, f64)> {
-    neighbours(terms, labels).into_iter().find_map(|[a, b]| {
+fn next(context: &Context, regions: &[GrownRegion], labels: &[u32]) -> Option<(usize, usize, Shape, f64)> {
+    neighbours(context, labels).into_iter().find_map(|[a, b]| {
         let (a, b) = (a as usize, b as usize);
         let (large, small) = if regions[b].weight > regions[a].weight { (b, a) } else { (a, b) };
-        let joint = joint(terms, &regions[large], &regions[small])?;
+        let joint = joint(context, &regions[large], &regions[small])?;
         Some((large, small, joint.0, joint.1))
     })
 }
 
 /// The element of both, where it explains them as well as their own do.
-fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
-    let surface = terms.surface;
-    let places = |region: &Grown| -> Vec<Point> {
+fn joint(context: &Context, large: &GrownRegion, small: &GrownRegion) -> Option<(Shape, f64)> {
+    let surface = context.surface;
+    let places = |region: &GrownRegion| -> Vec<Point> {
         let mut places = surface.some_places(&region.pieces, ENOUGH);
-        places.retain(|&p| region.shape.distance(p).abs() <= terms.band.distance);
+        places.retain(|&p| region.shape.distance(p).abs() <= context.band.distance);
         places
     };
     let (one, other) = (places(large), places(small));
@@ -54,12 +55,12 @@ fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
     let apart = square(&one, &large.shape) + square(&other, &small.shape);
     let together = square(&one, &shape) + square(&other, &shape);
     let count = both.len() as f64;
-    let floor = (terms.noise * terms.noise).max(1e-30);
+    let floor = (context.noise * context.noise).max(1e-30);
     // The small one counts by itself too: among many points of the large one it would not show.
     let alone = square(&other, &shape) / other.len() as f64;
     let own = square(&other, &small.shape) / other.len() as f64;
     let element = Probe::new(&shape);
-    let belong = small.pieces.iter().filter(|&&p| turned(terms, p, &element)).count();
+    let belong = small.pieces.iter().filter(|&&p| turned(context, p, &element)).count();
     let fits = together / count <= TELLS * TELLS * (apart / count).max(floor)
         && alone <= 4.0 * own.max(floor)
         && 10 * belong >= 9 * small.pieces.len();
@@ -67,15 +68,15 @@ fn joint(terms: &Terms, large: &Grown, small: &Grown) -> Option<(Shape, f64)> {
 }
 
 /// Whether the piece looks the way the element does.
-fn turned(terms: &Terms, piece: u32, element: &Probe) -> bool {
+fn turned(context: &Context, piece: u32, element: &Probe) -> bool {
     let i = piece as usize;
-    crate::space::dot(terms.surface.normals[i], element.normal(terms.surface.places[i])).abs()
-        >= terms.band.cosine
+    crate::space::dot(context.surface.normals[i], element.normal(context.surface.places[i])).abs()
+        >= context.band.cosine
 }
 
 /// Pairs of regions that touch, or that one piece of no region lies between.
-fn neighbours(terms: &Terms, labels: &[u32]) -> Vec<[u32; 2]> {
-    let surface = terms.surface;
+fn neighbours(context: &Context, labels: &[u32]) -> Vec<[u32; 2]> {
+    let surface = context.surface;
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     let mut around: Vec<u32> = Vec::new();
     for piece in 0..surface.len() as u32 {
@@ -103,18 +104,18 @@ fn neighbours(terms: &Terms, labels: &[u32]) -> Vec<[u32; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{parts::bored, terms};
+    use super::super::tests::{context, parts::bored};
     use super::*;
     use crate::mesh::Mesh;
     use crate::shape::Kind;
 
     /// A region of these pieces.
-    fn region(terms: &Terms, start: Shape, pieces: Vec<u32>) -> Grown {
-        let (shape, rms) = improved(&terms.surface.some_places(&pieces, ENOUGH), &start).unwrap();
-        Grown { shape, weight: terms.surface.weight(&pieces), pieces, rms }
+    fn region(context: &Context, start: Shape, pieces: Vec<u32>) -> GrownRegion {
+        let (shape, rms) = improved(&context.surface.some_places(&pieces, ENOUGH), &start).unwrap();
+        GrownRegion { shape, weight: context.surface.weight(&pieces), pieces, rms }
     }
 
-    fn labels(regions: &[Grown], count: usize) -> Vec<u32> {
+    fn labels(regions: &[GrownRegion], count: usize) -> Vec<u32> {
         let mut labels = vec![NONE; count];
         for (label, region) in regions.iter().enumerate() {
             region.pieces.iter().for_each(|&p| labels[p as usize] = label as u32);
@@ -125,27 +126,33 @@ mod tests {
     #[test]
     fn halves_of_a_face_become_one_and_two_faces_stay_two() {
         let part = bored(64).noisy(0.01, 6);
-        terms(&part.mesh, |terms| {
+        context(&part.mesh, |context| {
             let of = |face: usize, right: bool| -> Vec<u32> {
                 let all = 0..part.labels.len();
-                let here = |&p: &usize| part.labels[p] == face && (terms.surface.places[p][0] > 0.0) == right;
+                let here =
+                    |&p: &usize| part.labels[p] == face && (context.surface.places[p][0] > 0.0) == right;
                 all.filter(here).map(|p| p as u32).collect()
             };
             let faces = [(0, true), (0, false), (1, true), (1, false)];
-            let mut regions: Vec<Grown> =
-                faces.iter().map(|&(face, right)| region(terms, part.faces[face], of(face, right))).collect();
+            let mut regions: Vec<GrownRegion> = faces
+                .iter()
+                .map(|&(face, right)| region(context, part.faces[face], of(face, right)))
+                .collect();
             let mut labels = labels(&regions, part.labels.len());
-            merge(terms, &mut regions, &mut labels);
-            let left: Vec<&Grown> = regions.iter().filter(|r| !r.pieces.is_empty()).collect();
+            merge(context, &mut regions, &mut labels);
+            let left: Vec<&GrownRegion> = regions.iter().filter(|r| !r.pieces.is_empty()).collect();
             assert_eq!(left.len(), 2, "{left:?}");
             for face in [0, 1] {
-                let mut told = of(face, true);
-                told.extend(of(face, false));
-                let label = labels[told[0] as usize];
-                assert!(told.iter().all(|&p| labels[p as usize] == label));
+                let mut expected = of(face, true);
+                expected.extend(of(face, false));
+                let label = labels[expected[0] as usize];
+                assert!(expected.iter().all(|&p| labels[p as usize] == label));
                 let whole = &regions[label as usize];
-                assert_eq!((whole.pieces.len(), whole.shape.kind()), (told.len(), part.faces[face].kind()));
-                assert!((whole.weight - terms.surface.weight(&told)).abs() < 1e-9 * whole.weight);
+                assert_eq!(
+                    (whole.pieces.len(), whole.shape.kind()),
+                    (expected.len(), part.faces[face].kind())
+                );
+                assert!((whole.weight - context.surface.weight(&expected)).abs() < 1e-9 * whole.weight);
             }
         });
     }
@@ -164,15 +171,15 @@ mod tests {
                 mesh.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
             }
         }
-        terms(&mesh, |terms| {
+        context(&mesh, |context| {
             let count = mesh.faces.len() as u32;
             let plane = |normal| Shape::Plane { point: [0.0; 3], normal };
             let wall = 2 * 3 * LONG;
-            let floor = region(terms, plane([0.0, 0.0, 1.0]), (0..wall).collect());
-            let wall = region(terms, plane([1.0, 0.0, 0.0]), (wall..count).collect());
+            let floor = region(context, plane([0.0, 0.0, 1.0]), (0..wall).collect());
+            let wall = region(context, plane([1.0, 0.0, 0.0]), (wall..count).collect());
             let mut regions = [floor, wall];
             let mut labels = labels(&regions, count as usize);
-            merge(terms, &mut regions, &mut labels);
+            merge(context, &mut regions, &mut labels);
             assert!(regions.iter().all(|r| !r.pieces.is_empty() && r.shape.kind() == Kind::Plane));
         });
     }

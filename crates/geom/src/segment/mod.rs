@@ -7,45 +7,48 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `surface` | pieces and neighbours; `facets` of a mesh, `points` of a cloud |
+//! | `pieces` | pieces and neighbours; `facets` of a mesh, `points` of a cloud |
 //! | `probe` | an element ready for many questions |
 //! | `noise` | how far and how much turned a piece of a face may be |
 //! | `estimate` | an element from places and normals |
 //! | `flood`, `grow` | from a patch to a region |
+//! | `criterion` | which of two elements explains a region better |
 //! | `seeds`, `search` | where to try, and who comes first |
-//! | `merge`, `settle` | one face, one region; borders |
+//! | `merge`, `borders` | regions of one face joined; pieces along borders given to the nearer region |
 
+mod borders;
+mod criterion;
 mod estimate;
 mod facets;
 mod flood;
 mod grow;
 mod merge;
 mod noise;
+mod pieces;
 mod points;
 mod probe;
+mod region;
 mod search;
 mod seeds;
-mod settle;
-mod surface;
 #[cfg(test)]
 mod tests;
 
 use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot};
 use crate::topology::weld::WeldError;
-use grow::{Grown, Terms, fewest_points};
+use criterion::fewest_points;
+pub use estimate::KINDS;
+use grow::Context;
 use noise::Noise;
-use rayon::prelude::*;
+use pieces::{Band, NONE, PieceGraph, Pieces};
+use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;
-use surface::{Band, NONE, Pieces, Surface};
-
-/// The kinds that can be found, the order in which they are tried.
-pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
 /// What to look for.
 #[derive(Clone, Debug)]
@@ -217,7 +220,7 @@ const WIDTH: f64 = 8.0;
 const ANGLES: [f64; 2] = [12.0, 45.0];
 
 fn segment(
-    surface: Surface,
+    surface: PieceGraph,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Segmentation, SegmentError> {
@@ -235,7 +238,7 @@ fn segment(
     let noise = distance.max(step / 12f64.sqrt());
     let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
     let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());
-    let terms = Terms {
+    let context = Context {
         surface: &surface,
         kinds: &kinds,
         band: Band { distance: tolerance, cosine: libm::cos(turned) },
@@ -245,42 +248,42 @@ fn segment(
     };
     let total = surface.weights.iter().sum::<f64>();
     let limits = Limits { weight: options.min_share * total, points: options.min_points, seed: options.seed };
-    let (mut regions, mut labels) = search(&terms, &limits, progress)?;
-    merge::merge(&terms, &mut regions, &mut labels);
-    regions.par_iter_mut().for_each(|region| terms.reconsidered(region));
-    settle::settle(&terms, &regions, &mut labels);
-    let (regions, labels) = finished(&terms, regions, &labels, total, &limits);
+    let (mut regions, mut labels) = search(&context, &limits, progress)?;
+    merge::merge(&context, &mut regions, &mut labels);
+    regions.par_iter_mut().for_each(|region| context.reconsidered(region));
+    borders::move_borders(&context, &regions, &mut labels);
+    let (regions, labels) = finished(&context, regions, &labels, total, &limits);
     Ok(Segmentation { regions, labels, noise, tolerance })
 }
 
-/// The regions as they are told, largest first, and their labels.
+/// The regions as users get them, largest first, and their labels.
 fn finished(
-    terms: &Terms,
-    grown: Vec<Grown>,
+    context: &Context,
+    grown: Vec<GrownRegion>,
     labels: &[u32],
     total: f64,
     limits: &Limits,
 ) -> (Vec<Region>, Vec<u32>) {
-    let surface = terms.surface;
+    let surface = context.surface;
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); grown.len()];
     for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NONE) {
         members[label as usize].push(piece as u32);
     }
-    let depths = depths(terms, labels);
+    let depths = depths(context, labels);
     let enough = |pieces: &[u32]| !pieces.is_empty() && surface.weight(pieces) >= limits.weight;
     let mut named: Vec<(usize, Region, Vec<u32>)> = (grown.iter().zip(members).enumerate())
         .filter(|(_, (_, pieces))| enough(pieces))
         .filter_map(|(label, (grown, pieces))| {
-            let (region, pieces) = region(terms, grown, pieces, &depths, total)?;
+            let (region, pieces) = region(context, grown, pieces, &depths, total)?;
             enough(&pieces).then_some((label, region, pieces))
         })
         .collect();
     named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
-    let mut told = vec![NONE; labels.len()];
+    let mut new_labels = vec![NONE; labels.len()];
     for (new, (_, _, pieces)) in (0u32..).zip(&named) {
-        pieces.iter().for_each(|&piece| told[piece as usize] = new);
+        pieces.iter().for_each(|&piece| new_labels[piece as usize] = new);
     }
-    (named.into_iter().map(|n| n.1).collect(), told)
+    (named.into_iter().map(|n| n.1).collect(), new_labels)
 }
 
 /// Fits of a region until every piece of it lies within the tolerance; each takes pieces away.
@@ -290,13 +293,13 @@ const FITS: usize = 20;
 /// grew, elements were those of some of its points, and one corner of a facet might lie beyond an edge. `None` where no
 /// element keeps any.
 fn region(
-    terms: &Terms,
-    grown: &Grown,
+    context: &Context,
+    grown: &GrownRegion,
     mut pieces: Vec<u32>,
     depths: &[u8],
     total: f64,
 ) -> Option<(Region, Vec<u32>)> {
-    let surface = terms.surface;
+    let surface = context.surface;
     let (mut shape, mut beside) = (grown.shape, BTreeSet::new());
     for _ in 0..FITS {
         let inside = |p: &u32| if beside.contains(p) { 0 } else { depths[*p as usize] };
@@ -307,7 +310,7 @@ fn region(
             corners[..count].iter().map(distance).fold(0.0, f64::max)
         };
         let (near, far): (Vec<u32>, Vec<u32>) =
-            pieces.iter().partition(|&&piece| farthest(piece) <= terms.band.distance);
+            pieces.iter().partition(|&&piece| farthest(piece) <= context.band.distance);
         shape = fit.shape;
         if !far.is_empty() {
             // Points of what lies off are at an edge.
@@ -334,7 +337,7 @@ fn region(
 /// The least-squares element of the pieces near `start`, and the points it was fitted to: those farther inside, as `depth`
 /// says, if there are enough.
 fn fitted(
-    surface: &Surface,
+    surface: &PieceGraph,
     start: &Shape,
     pieces: &[u32],
     depth: impl Fn(&u32) -> u8,
@@ -354,8 +357,8 @@ fn fitted(
 /// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for
 /// at an edge it belongs to no face alone; 1 where it is next to a border without an edge, which is known no better
 /// than the noise allows; 2 elsewhere.
-fn depths(terms: &Terms, labels: &[u32]) -> Vec<u8> {
-    let surface = terms.surface;
+fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
+    let surface = context.surface;
     let foreign = |p: u32| {
         let near = surface.neighbours(p).iter();
         near.copied().filter(move |&n| labels[n as usize] != labels[p as usize])
@@ -373,7 +376,7 @@ fn depths(terms: &Terms, labels: &[u32]) -> Vec<u8> {
     for (piece, (face, &label)) in (0u32..).zip(faces.iter().zip(labels)) {
         let smooth = foreign(piece).any(|n| {
             let across = dot(surface.normals[piece as usize], surface.normals[n as usize]);
-            labels[n as usize] != NONE && across >= terms.crease
+            labels[n as usize] != NONE && across >= context.crease
         });
         for &v in face {
             let v = v as usize;

@@ -2,13 +2,13 @@
 
 use super::estimate::estimate;
 use super::flood::{Marks, patch};
+use super::pieces::PieceGraph;
 use super::probe::Probe;
-use super::surface::Surface;
 use crate::fit::improved;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
-use rayon::prelude::*;
 
 /// Patches looked at.
 const PATCHES: u64 = 400;
@@ -31,7 +31,7 @@ pub(super) struct Noise {
 
 /// The noise of a surface with at least one piece. `pick` draws a piece from a random number generator.
 pub(super) fn noise(
-    surface: &Surface,
+    surface: &PieceGraph,
     crease: f64,
     seed: u64,
     pick: impl Fn(&mut Random) -> u32 + Sync,
@@ -43,13 +43,13 @@ pub(super) fn noise(
 
 /// What patches of one size tell.
 fn of_patches(
-    surface: &Surface,
+    surface: &PieceGraph,
     size: usize,
     crease: f64,
     seed: u64,
     pick: &(impl Fn(&mut Random) -> u32 + Sync),
 ) -> Noise {
-    let mut found: Vec<(f64, f64)> = (0..PATCHES)
+    let found: Vec<Option<(f64, f64)>> = (0..PATCHES)
         .into_par_iter()
         .map_init(
             || Marks::new(surface),
@@ -58,8 +58,8 @@ fn of_patches(
                 best(surface, &patch(surface, piece, size, crease, marks, |_| true))
             },
         )
-        .flatten()
         .collect();
+    let mut found: Vec<(f64, f64)> = found.into_iter().flatten().collect();
     // Of the clean half, the median: a quarter of all.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.truncate(found.len().div_ceil(2));
@@ -71,7 +71,7 @@ fn of_patches(
 
 /// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken
 /// into account, and the median angle of the pieces to it.
-fn best(surface: &Surface, pieces: &[u32]) -> Option<(f64, f64)> {
+fn best(surface: &PieceGraph, pieces: &[u32]) -> Option<(f64, f64)> {
     let points = surface.some_places(pieces, usize::MAX);
     let oriented: Vec<_> =
         pieces.iter().map(|&p| (surface.places[p as usize], surface.normals[p as usize])).collect();

@@ -1,11 +1,11 @@
 //! The surface of a cloud: points, normals by local planes, neighbours by nearness.
 
-use super::surface::{Pieces, Surface};
+use super::pieces::{PieceGraph, Pieces};
 use crate::fit::eigen;
+use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use crate::spatial::lists::lists;
 use crate::spatial::neighbours::{Neighbour, PointTree};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Neighbours that make a normal, and that make one where so few lie along a line, as on a scanner's row.
@@ -16,7 +16,7 @@ const LINE: f64 = 0.03;
 const NEAR: usize = 8;
 
 /// The points of a finite cloud.
-pub(super) fn surface(points: &[Point]) -> Surface<'_> {
+pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
     let tree = PointTree::new(points);
     let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
         .map(|(i, p)| {
@@ -33,7 +33,7 @@ pub(super) fn surface(points: &[Point]) -> Surface<'_> {
         pairs.extend(near);
     }
     let (first, others) = lists(points.len(), pairs);
-    Surface {
+    PieceGraph {
         points,
         pieces: Pieces::Points,
         places: points.to_vec(),

@@ -3,7 +3,7 @@
 use crate::shape::Shape;
 use crate::space::{Point, Vector, cross, dot, minus, norm, times};
 
-/// One of the five elements, with what all places have in common worked out. Of other shapes every place lies off.
+/// An element, with what all places have in common worked out for the usual ones.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Probe {
     Plane { point: Point, normal: Vector },
@@ -11,7 +11,7 @@ pub(super) enum Probe {
     Cylinder { point: Point, axis: Vector, radius: f64 },
     Cone { point: Point, axis: Vector, radius: f64, sin: f64, cos: f64 },
     Torus { center: Point, axis: Vector, major: f64, minor: f64 },
-    Nothing,
+    Other(Shape),
 }
 
 impl Probe {
@@ -29,7 +29,7 @@ impl Probe {
             Shape::Torus { center, direction, major_radius, minor_radius } => {
                 Probe::Torus { center, axis: direction, major: major_radius, minor: minor_radius }
             }
-            _ => Probe::Nothing,
+            other => Probe::Other(other),
         }
     }
     /// Signed distance of `p`, as [`Shape::distance`].
@@ -53,7 +53,7 @@ impl Probe {
                 let e = rho - major;
                 (e * e + z * z).sqrt() - minor
             }
-            Probe::Nothing => f64::NAN,
+            Probe::Other(shape) => shape.distance(p),
         }
     }
     /// A normal of the element at the place of it nearest to `p`, not of unit length; zero where there are many.
@@ -76,7 +76,7 @@ impl Probe {
                 let length = norm(out);
                 if length == 0.0 { [0.0; 3] } else { minus(minus(p, center), times(major / length, out)) }
             }
-            Probe::Nothing => [0.0; 3],
+            Probe::Other(shape) => shape.normal(p),
         }
     }
     /// The cosine of the angle between the unit vector `n` and the normal next to `p`, to whichever side; 0 where the

@@ -4,13 +4,15 @@
 //! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
 //! makes nearly every trial on a face a success; and a region is connected from the first.
 
+use super::criterion::fewest_points;
 use super::flood::{Marks, patch};
-use super::grow::{Grown, Terms, fewest_points};
+use super::grow::{Context, PROMISING};
+use super::pieces::NONE;
+use super::region::GrownRegion;
 use super::seeds::Seeds;
-use super::surface::NONE;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 /// Seeds tried against the same state: the answer depends on it, not on the number of threads.
 const BATCH: u64 = 32;
@@ -34,12 +36,12 @@ pub(super) struct Limits {
 
 /// The regions found, in the order they were taken, and the region of each piece.
 pub(super) fn search(
-    terms: &Terms,
+    context: &Context,
     limits: &Limits,
     progress: &dyn Progress,
-) -> Result<(Vec<Grown>, Vec<u32>), Cancelled> {
-    let surface = terms.surface;
-    let mut found: Vec<Grown> = Vec::new();
+) -> Result<(Vec<GrownRegion>, Vec<u32>), Cancelled> {
+    let surface = context.surface;
+    let mut found: Vec<GrownRegion> = Vec::new();
     let mut labels = vec![NONE; surface.len()];
     let mut tried = vec![false; surface.len()];
     let mut seeds = Seeds::new(surface, |_| true);
@@ -66,31 +68,31 @@ pub(super) fn search(
             continue;
         }
         let free = |piece: u32| labels[piece as usize] == NONE;
-        let trials: Vec<Option<Grown>> = (drawn.par_iter())
-            .map_init(|| Marks::new(surface), |marks, &seed| terms.around(seed, TRIAL, marks, &free))
+        let trials: Vec<Option<GrownRegion>> = (drawn.par_iter())
+            .map_init(|| Marks::new(surface), |marks, &seed| context.around(seed, TRIAL, marks, &free))
             .collect();
-        let mut promising: Vec<(u32, Grown)> = Vec::new();
+        let mut promising: Vec<(u32, GrownRegion)> = Vec::new();
         for (&seed, trial) in drawn.iter().zip(trials) {
             match trial {
-                Some(grown) if grown.pieces.len() >= TRIAL || grown.weight >= 0.3 * limits.weight => {
+                Some(grown) if grown.pieces.len() >= TRIAL || grown.weight >= PROMISING * limits.weight => {
                     promising.push((seed, grown));
                 }
-                _ => shut(terms, seed, &mut tried, &mut marks),
+                _ => mark_tried(context, seed, &mut tried, &mut marks),
             }
         }
-        let merit = |grown: &Grown| grown.merit(terms.noise);
+        let merit = |grown: &GrownRegion| grown.merit(context.noise);
         promising.sort_by(|a, b| merit(&b.1).total_cmp(&merit(&a.1)).then(a.0.cmp(&b.0)));
         for (seed, trial) in promising {
             if labels[seed as usize] != NONE || tried[seed as usize] {
                 continue;
             }
             let free = |piece: u32| labels[piece as usize] == NONE;
-            let Some(grown) = terms.whole(&trial, limits.weight, &mut marks, &free) else {
-                shut(terms, seed, &mut tried, &mut marks);
+            let Some(grown) = context.whole(&trial, limits.weight, &mut marks, &free) else {
+                mark_tried(context, seed, &mut tried, &mut marks);
                 continue;
             };
-            if !enough(terms, &grown, limits) {
-                shut(terms, seed, &mut tried, &mut marks);
+            if !enough(context, &grown, limits) {
+                mark_tried(context, seed, &mut tried, &mut marks);
                 grown.pieces.iter().for_each(|&piece| tried[piece as usize] = true);
                 continue;
             }
@@ -104,16 +106,16 @@ pub(super) fn search(
     Ok((found, labels))
 }
 
-fn enough(terms: &Terms, grown: &Grown, limits: &Limits) -> bool {
+fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     let fewest = limits.points.max(fewest_points(grown.shape.kind()));
     // Enough to tell, and not a million.
     let some = &grown.pieces[..grown.pieces.len().min(8 * fewest)];
-    grown.weight >= limits.weight && terms.surface.points_of(some.iter().copied()).len() >= fewest
+    grown.weight >= limits.weight && context.surface.points_of(some.iter().copied()).len() >= fewest
 }
 
 /// Nothing starts from the seed and its nearest neighbours again.
-fn shut(terms: &Terms, seed: u32, tried: &mut [bool], marks: &mut Marks) {
-    for piece in patch(terms.surface, seed, TRIED, terms.crease, marks, |_| true) {
+fn mark_tried(context: &Context, seed: u32, tried: &mut [bool], marks: &mut Marks) {
+    for piece in patch(context.surface, seed, TRIED, context.crease, marks, |_| true) {
         tried[piece as usize] = true;
     }
     tried[seed as usize] = true;
@@ -121,7 +123,7 @@ fn shut(terms: &Terms, seed: u32, tried: &mut [bool], marks: &mut Marks) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{parts::turned, terms};
+    use super::super::tests::{context, parts::turned};
     use super::*;
     use crate::progress::Silent;
 
@@ -129,15 +131,15 @@ mod tests {
     #[test]
     fn regions_are_large_enough_and_apart() {
         let part = turned(1.0, 72).moved().noisy(0.01, 4);
-        terms(&part.mesh, |terms| {
-            let total: f64 = terms.surface.weights.iter().sum();
+        context(&part.mesh, |context| {
+            let total: f64 = context.surface.weights.iter().sum();
             for share in [0.002, 0.05, 0.15] {
                 let limits = Limits { weight: share * total, points: 0, seed: 1 };
-                let (found, labels) = search(terms, &limits, &Silent).unwrap();
+                let (found, labels) = search(context, &limits, &Silent).unwrap();
                 assert!(!found.is_empty() && found.iter().all(|region| region.weight >= limits.weight));
                 for (label, region) in found.iter().enumerate() {
                     assert!(region.pieces.iter().all(|&p| labels[p as usize] == label as u32));
-                    assert!((region.weight - terms.surface.weight(&region.pieces)).abs() < 1e-9 * total);
+                    assert!((region.weight - context.surface.weight(&region.pieces)).abs() < 1e-9 * total);
                 }
             }
         });

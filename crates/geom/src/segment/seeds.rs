@@ -1,6 +1,6 @@
 //! Where to try next: random pieces, large ones more often, each neighbourhood once.
 
-use super::surface::{NONE, Surface};
+use super::pieces::{NONE, PieceGraph};
 use crate::num::random::Random;
 
 /// Draws pieces with a chance that is proportional to their weight.
@@ -13,7 +13,7 @@ pub(super) struct Seeds {
 
 impl Seeds {
     /// Of the pieces that `open` says yes to.
-    pub(super) fn new(surface: &Surface, open: impl Fn(u32) -> bool) -> Seeds {
+    pub(super) fn new(surface: &PieceGraph, open: impl Fn(u32) -> bool) -> Seeds {
         let pieces: Vec<u32> = (0..surface.len() as u32).filter(|&p| surface.counts(p) && open(p)).collect();
         let mut sum = 0.0;
         let sums = pieces

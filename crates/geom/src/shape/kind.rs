@@ -1,5 +1,29 @@
 //! The kinds of shape.
 
+/// What the sign of a distance from an element tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Nothing: a curve in space has no sides.
+    None,
+    /// Positive is the side that the normal points to, or the left of a line in the plane.
+    OfNormal,
+    /// Positive is away from the axis or center.
+    InAndOut,
+}
+
+/// How one of the two coordinates of the places of an element runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// Not at all: it is 0.
+    None,
+    /// Along an axis of its frame, millimeters.
+    Length,
+    /// Around, radians.
+    Turn,
+    /// Up from the equator, radians, −π/2 to π/2.
+    Latitude,
+}
+
 /// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
@@ -70,6 +94,33 @@ impl Kind {
             Kind::Circle => 3,
             kind => kind.unknowns(),
         }
+    }
+    /// What the sign of a distance from it tells.
+    pub fn sides(self) -> Sides {
+        match self {
+            Kind::Line | Kind::Circle => Sides::None,
+            Kind::Line2 | Kind::Plane => Sides::OfNormal,
+            Kind::Circle2 | Kind::Ellipse2 | Kind::Sphere | Kind::Cylinder | Kind::Cone | Kind::Torus => {
+                Sides::InAndOut
+            }
+        }
+    }
+    /// How the two coordinates of its places run, as [`Shape::coordinates`](super::Shape::coordinates) gives them: of what is
+    /// round, around the third axis of its frame first.
+    pub fn coordinates(self) -> [Coordinate; 2] {
+        use Coordinate::{Latitude, Length, None, Turn};
+        match self {
+            Kind::Line2 | Kind::Line => [None, Length],
+            Kind::Plane => [Length, Length],
+            Kind::Circle2 | Kind::Circle | Kind::Ellipse2 => [Turn, None],
+            Kind::Cylinder | Kind::Cone => [Turn, Length],
+            Kind::Sphere => [Turn, Latitude],
+            Kind::Torus => [Turn, Turn],
+        }
+    }
+    /// The kind with this name, in the plane z = 0 or not.
+    pub fn named(name: &str, flat: bool) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name && kind.is_flat() == flat)
     }
     /// Whether it lies in the plane z = 0.
     pub fn is_flat(self) -> bool {

@@ -2,7 +2,8 @@
 //!
 //! | task | where |
 //! |---|---|
-//! | which kinds there are | [`Kind`] |
+//! | which kinds there are, and what distances from them tell | [`Kind`], [`Sides`] |
+//! | where its places lie, by two coordinates | [`Shape::frame`], [`Shape::coordinates`], [`Shape::at`] |
 //! | parameters of an element, distance of a point from it | [`Shape`] |
 //! | planes, lines, points, angles and distances made of others | [`derived`] |
 
@@ -11,6 +12,6 @@ pub(crate) mod ellipse;
 mod kind;
 mod shapes;
 
-pub use kind::Kind;
+pub use kind::{Coordinate, Kind, Sides};
 pub(crate) use shapes::MOST_NUMBERS;
-pub use shapes::{Parameter, Shape};
+pub use shapes::{Parameter, Shape, upon};

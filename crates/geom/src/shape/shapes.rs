@@ -3,7 +3,7 @@
 use super::ellipse;
 use super::kind::Kind;
 use crate::frame::Pose;
-use crate::space::{Point, Vector, cross, dot, minus, norm};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 
 /// A fitted element, millimetres and radians. Directions are unit vectors whose component of largest magnitude
 /// is positive, except a cone's, which points from the apex into the cone.
@@ -153,6 +153,106 @@ impl Shape {
             }
         }
     }
+    /// A normal of the element at the place of it nearest to `p`, to the side where distances are positive, not of unit length:
+    /// the direction in which the distance grows. Zero where there are many.
+    pub fn normal(&self, p: Point) -> Vector {
+        match *self {
+            Shape::Line2 { direction, .. } => [-direction[1], direction[0], 0.0],
+            Shape::Line { point, direction } | Shape::Cylinder { point, direction, .. } => {
+                across(p, point, direction)
+            }
+            Shape::Plane { normal, .. } => normal,
+            Shape::Circle2 { center, .. } => {
+                let q = minus(p, center);
+                [q[0], q[1], 0.0]
+            }
+            Shape::Circle { center, normal: direction, radius: ring, .. }
+            | Shape::Torus { center, direction, major_radius: ring, .. } => {
+                let out = across(p, center, direction);
+                let length = norm(out);
+                if length == 0.0 { [0.0; 3] } else { minus(minus(p, center), times(ring / length, out)) }
+            }
+            Shape::Ellipse2 { center, direction, major_radius, minor_radius } => {
+                let q = Pose::flat(center, direction).local(p);
+                let [x, y] = ellipse::foot([major_radius, minor_radius], q[0], q[1]).normal;
+                plus(times(x, direction), times(y, [-direction[1], direction[0], 0.0]))
+            }
+            Shape::Sphere { center, .. } => minus(p, center),
+            Shape::Cone { point, direction, half_angle, .. } => {
+                let out = across(p, point, direction);
+                let (sin, cos) = libm::sincos(half_angle);
+                minus(times(cos, out), times(sin * norm(out), direction))
+            }
+        }
+    }
+    /// The frame that its places are told in: an origin and three axes. Of what is round the third is the axis; which way the
+    /// others look about it does not matter to the element.
+    pub fn frame(&self) -> (Point, [Vector; 3]) {
+        const UP: Vector = [0.0, 0.0, 1.0];
+        match *self {
+            Shape::Line2 { point, direction }
+            | Shape::Line { point, direction }
+            | Shape::Cylinder { point, direction, .. }
+            | Shape::Cone { point, direction, .. } => (point, upon(direction)),
+            Shape::Plane { point, normal } => (point, upon(normal)),
+            Shape::Circle2 { center, .. } | Shape::Sphere { center, .. } => (center, upon(UP)),
+            Shape::Circle { center, normal, .. } => (center, upon(normal)),
+            Shape::Ellipse2 { center, direction, .. } => (center, [direction, cross(UP, direction), UP]),
+            Shape::Torus { center, direction, .. } => (center, upon(direction)),
+        }
+    }
+    /// The two coordinates of the place nearest to `q`, which is told in the [frame](Shape::frame); they run as
+    /// [`Kind::coordinates`] says. Of an ellipse the first is the eccentric angle, and about the nearest place only.
+    pub fn coordinates(&self, q: Point) -> [f64; 2] {
+        let turn = || libm::atan2(q[1], q[0]);
+        match *self {
+            Shape::Line2 { .. } | Shape::Line { .. } => [0.0, q[2]],
+            Shape::Plane { .. } => [q[0], q[1]],
+            Shape::Circle2 { .. } | Shape::Circle { .. } => [turn(), 0.0],
+            Shape::Ellipse2 { major_radius, minor_radius, .. } => {
+                [libm::atan2(q[1] / minor_radius, q[0] / major_radius), 0.0]
+            }
+            Shape::Cylinder { .. } => [turn(), q[2]],
+            // There is no cone beyond its apex.
+            Shape::Cone { half_angle, radius, .. } => [turn(), q[2].max(-radius / libm::tan(half_angle))],
+            Shape::Sphere { .. } => [turn(), libm::atan2(q[2], libm::hypot(q[0], q[1]))],
+            Shape::Torus { major_radius, .. } => {
+                [turn(), libm::atan2(q[2], libm::hypot(q[0], q[1]) - major_radius)]
+            }
+        }
+    }
+    /// The place with these coordinates, told in the [frame](Shape::frame).
+    pub fn at(&self, [u, v]: [f64; 2]) -> Point {
+        let (sine, cosine) = libm::sincos(u);
+        // Away from the axis by `r`, along it by `z`.
+        let round = |r: f64, z: f64| [r * cosine, r * sine, z];
+        match *self {
+            Shape::Plane { .. } => [u, v, 0.0],
+            Shape::Line2 { .. } | Shape::Line { .. } => [0.0, 0.0, v],
+            Shape::Circle2 { radius, .. } | Shape::Circle { radius, .. } => round(radius, 0.0),
+            Shape::Ellipse2 { major_radius, minor_radius, .. } => {
+                [major_radius * cosine, minor_radius * sine, 0.0]
+            }
+            Shape::Cylinder { radius, .. } => round(radius, v),
+            Shape::Cone { radius, half_angle, .. } => round(radius + v * libm::tan(half_angle), v),
+            Shape::Sphere { radius, .. } => round(radius * libm::cos(v), radius * libm::sin(v)),
+            Shape::Torus { major_radius, minor_radius, .. } => {
+                round(major_radius + minor_radius * libm::cos(v), minor_radius * libm::sin(v))
+            }
+        }
+    }
+}
+
+/// Three axes of which the last is `w`.
+pub fn upon(w: Vector) -> [Vector; 3] {
+    let (v, _) = unit(cross(w, least_axis(w))).unwrap_or(([0.0, 1.0, 0.0], 1.0));
+    [cross(v, w), v, w]
+}
+
+/// From an axis to `p`.
+fn across(p: Point, point: Point, direction: Vector) -> Vector {
+    let q = minus(p, point);
+    minus(q, times(dot(q, direction), direction))
 }
 
 /// Distance from an axis, and coordinate along it.
@@ -160,4 +260,83 @@ fn off_axis(p: Point, point: Point, direction: Vector) -> (f64, f64) {
     let q = minus(p, point);
     // The vector product keeps the digits of small distances; subtracting squares would not.
     (norm(cross(q, direction)), dot(q, direction))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Coordinate;
+    use super::*;
+
+    fn one_of_each() -> [Shape; 10] {
+        let (c, w, flat) = ([1.0, 2.0, 3.0], [0.6, 0.0, 0.8], [0.8, 0.6, 0.0]);
+        let cone = Shape::Cone {
+            apex: minus(c, times(10.0, w)),
+            direction: w,
+            half_angle: 0.3,
+            point: c,
+            radius: 10.0 * libm::tan(0.3),
+        };
+        [
+            Shape::Line2 { point: [1.0, 2.0, 0.0], direction: flat },
+            Shape::Line { point: c, direction: w },
+            Shape::Plane { point: c, normal: w },
+            Shape::Circle2 { center: [1.0, 2.0, 0.0], radius: 4.0 },
+            Shape::Circle { center: c, normal: w, radius: 4.0 },
+            Shape::Ellipse2 {
+                center: [1.0, 2.0, 0.0],
+                direction: flat,
+                major_radius: 5.0,
+                minor_radius: 2.0,
+            },
+            Shape::Sphere { center: c, radius: 4.0 },
+            Shape::Cylinder { point: c, direction: w, radius: 4.0 },
+            cone,
+            Shape::Torus { center: c, direction: w, major_radius: 9.0, minor_radius: 2.0 },
+        ]
+    }
+
+    /// The list has every kind, each once.
+    #[test]
+    fn each_kind_once() {
+        assert_eq!(one_of_each().map(|shape| shape.kind()), Kind::ALL);
+    }
+
+    #[test]
+    fn a_normal_is_the_gradient_of_the_distance() {
+        for shape in one_of_each() {
+            for mut p in [[4.0, -2.0, 1.0], [-3.0, 7.0, 5.0], [1.5, 8.0, 2.0]] {
+                if shape.kind().is_flat() {
+                    p[2] = 0.0;
+                }
+                let gradient: Vector = std::array::from_fn(|k| {
+                    let at =
+                        |h: f64| shape.distance(std::array::from_fn(|j| p[j] + if j == k { h } else { 0.0 }));
+                    (at(1e-5) - at(-1e-5)) / 2e-5
+                });
+                let (found, _) = unit(shape.normal(p)).unwrap();
+                let flat = |k: usize| k == 2 && shape.kind().is_flat();
+                for k in (0..3).filter(|k| !flat(*k)) {
+                    assert!((found[k] - gradient[k]).abs() < 1e-8, "{shape:?} {found:?} {gradient:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn places_lie_on_the_element_and_have_their_coordinates() {
+        for shape in one_of_each() {
+            let (origin, axes) = shape.frame();
+            for (u, v) in [(0.3, 0.2), (-2.0, 1.1), (3.0, -0.7)] {
+                let [u, v] = std::array::from_fn(|k| match shape.kind().coordinates()[k] {
+                    Coordinate::None => 0.0,
+                    _ => [u, v][k],
+                });
+                let q = shape.at([u, v]);
+                let p = axes.iter().zip(q).fold(origin, |sum, (a, x)| plus(sum, times(x, *a)));
+                assert!(shape.distance(p).abs() < 1e-12, "{shape:?} {p:?}");
+                let back = shape.coordinates(q);
+                assert!((back[0] - u).abs() < 1e-12 && (back[1] - v).abs() < 1e-12, "{shape:?} {back:?}");
+            }
+        }
+    }
 }

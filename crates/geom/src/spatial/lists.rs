@@ -1,6 +1,6 @@
 //! Lists of neighbours, one behind the other in one array.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// For each of `count` numbers the place of its list's begin, and one more for the end; and the lists: the second of each
 /// pair, listed by the first, ascending and once each.

@@ -3,8 +3,8 @@
 //! Where few places are asked about, hardly any facet is left to be ordered for the rays.
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
-use rayon::prelude::*;
 
 /// Squares for each place, about, and at most.
 const SHARE: usize = 64;

@@ -2,7 +2,7 @@
 
 use super::sketch::Sketch;
 use super::statistics::Statistics;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Bins where the rule for their width asks for more or fewer.
 const FEWEST_BINS: f64 = 10.0;

@@ -4,7 +4,7 @@
 //! the greatest; only those in the steps that hold a wanted rank are looked at again. Counting is exact, so the
 //! result does not depend on threads.
 
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Percentiles that every summary holds.
 pub const PERCENTILES: [f64; 11] = [0.1, 1.0, 2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5, 99.0, 99.9];

@@ -7,7 +7,7 @@
 
 use super::part::Part;
 use super::quantiles::{from_key, key_of};
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Greatest relative error of a quantile: half a bin.
 pub const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 15) as f64;

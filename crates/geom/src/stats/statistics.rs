@@ -4,7 +4,7 @@ use super::moments::{CHUNK, MomentTree, Moments};
 pub use super::part::Part;
 use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
 use super::sketch::Sketch;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Why a number does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -24,9 +24,45 @@ pub struct Base {
     /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
     /// surface then has a seam there.
     pub around: bool,
+    /// How the parameters run.
+    course: Course,
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
+}
+
+/// How the parameters of a cylinder or a sphere run from the lengths along its own directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Course {
+    /// The angle where they start.
+    angle: f64,
+    /// The lengths where they start.
+    low: [f64; 2],
+    /// The extent of the first one, where the second one is the first parameter.
+    turned: Option<f64>,
+}
+
+impl Base {
+    /// The place of the base with these parameters.
+    pub(super) fn at(&self, [u, v]: [f64; 2]) -> Point {
+        let own = match self.course.turned {
+            Some(extent) => [extent - v, u],
+            None => [u, v],
+        };
+        let radius = self.radius.unwrap_or(1.0);
+        let [a, b] = [0, 1].map(|k| own[k] + self.course.low[k]);
+        let angle = a / radius + self.course.angle;
+        let round = || plus(times(libm::cos(angle), self.axes[0]), times(libm::sin(angle), self.axes[1]));
+        let off = match self.kind {
+            BaseKind::Plane | BaseKind::Xy => plus(times(u, self.axes[0]), times(v, self.axes[1])),
+            BaseKind::Cylinder => plus(times(radius, round()), times(b, self.axes[2])),
+            BaseKind::Sphere => {
+                let up = b / radius;
+                times(radius, plus(times(libm::cos(up), round()), times(libm::sin(up), self.axes[2])))
+            }
+        };
+        plus(self.origin, off)
+    }
 }
 
 /// Where a point lies over the base: two lengths along it and the height.
@@ -80,6 +116,7 @@ fn xy() -> Base {
         axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         radius: None,
         around: false,
+        course: Course::default(),
         folded_share: 0.0,
     }
 }
@@ -108,11 +145,14 @@ fn plane(points: &[Point], point: Point, normal: Vector) -> Result<(Base, Vec<Se
     Ok((Base { kind: BaseKind::Plane, origin, axes, ..xy() }, seen))
 }
 
-/// Turns angles so that the widest gap between them is where they start and end. The second answer is whether there is none.
-fn unrolled(angles: &mut [f64]) -> bool {
+/// Turns angles so that the widest gap between them is where they start and end. The answers are where they start, and whether
+/// there is no gap.
+fn unrolled(angles: &mut [f64]) -> (f64, bool) {
     let mut sorted = angles.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let (Some(first), Some(last)) = (sorted.first().copied(), sorted.last().copied()) else { return false };
+    let (Some(first), Some(last)) = (sorted.first().copied(), sorted.last().copied()) else {
+        return (0.0, false);
+    };
     let (mut start, mut widest) = (first, first + TAU - last);
     for w in sorted.windows(2) {
         if w[1] - w[0] > widest {
@@ -125,11 +165,11 @@ fn unrolled(angles: &mut [f64]) -> bool {
             *a += TAU;
         }
     }
-    widest < 0.1
+    (start, widest < 0.1)
 }
 
 /// The longer direction as the first parameter, with the same side outside.
-fn longer_first(seen: &mut [Seen]) {
+fn longer_first(seen: &mut [Seen], angle: f64) -> Course {
     let parameters: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
     let [u, v] = [range(&parameters, 0), range(&parameters, 1)];
     let turned = v.1 - v.0 > u.1 - u.0;
@@ -137,6 +177,7 @@ fn longer_first(seen: &mut [Seen]) {
         let own = [*a - u.0, *b - v.0];
         [*a, *b] = if turned { [own[1], u.1 - u.0 - own[0]] } else { own };
     }
+    Course { angle, low: [u.0, v.0], turned: turned.then_some(u.1 - u.0) }
 }
 
 fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base, Vec<Seen>) {
@@ -145,14 +186,15 @@ fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base
     let local: Vec<Vector> =
         points.iter().map(|p| minus(*p, origin)).map(|d| axes.map(|a| dot(d, a))).collect();
     let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
-    let around = unrolled(&mut angles);
+    let (start, around) = unrolled(&mut angles);
     let mut seen: Vec<Seen> = local
         .iter()
         .zip(&angles)
         .map(|(d, a)| ([radius * a, d[2]], libm::hypot(d[0], d[1]) - radius))
         .collect();
-    longer_first(&mut seen);
-    (Base { kind: BaseKind::Cylinder, origin, axes, radius: Some(radius), around, folded_share: 0.0 }, seen)
+    let course = longer_first(&mut seen, start);
+    let radius = Some(radius);
+    (Base { kind: BaseKind::Cylinder, origin, axes, radius, around, course, folded_share: 0.0 }, seen)
 }
 
 fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
@@ -163,13 +205,13 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
     let local: Vec<Vector> =
         points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();
     let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
-    let around = unrolled(&mut angles);
+    let (start, around) = unrolled(&mut angles);
     let mut seen: Vec<Seen> = local
         .iter()
         .zip(&angles)
         .map(|(d, a)| ([radius * a, radius * libm::atan2(d[2], libm::hypot(d[0], d[1]))], norm(*d) - radius))
         .collect();
-    longer_first(&mut seen);
+    let course = longer_first(&mut seen, start);
     (
         Base {
             kind: BaseKind::Sphere,
@@ -177,6 +219,7 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
             axes,
             radius: Some(radius),
             around,
+            course,
             folded_share: 0.0,
         },
         seen,

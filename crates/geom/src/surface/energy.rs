@@ -30,23 +30,46 @@ fn products(spans: &Spans, count: usize, order: usize) -> Vec<f64> {
     let p = spans.degree();
     let mut out = vec![0.0; count * (p + 1)];
     for span in 0..spans.count() {
-        let half = spans.half(span);
-        let scale = half * libm::pow(half, -2.0 * order as f64);
-        let polynomials: Vec<Vec<f64>> =
-            spans.polynomials(span).chunks_exact(p + 1).map(|c| derived(c, order)).collect();
+        let own = over_span(spans, span, order, (-1.0, 1.0));
         for a in 0..=p {
             for b in a..=p {
-                let mut sum = 0.0;
-                for (k, x) in polynomials[a].iter().enumerate() {
-                    for (l, y) in polynomials[b].iter().enumerate().filter(|(l, _)| (k + l) % 2 == 0) {
-                        sum += x * y * 2.0 / (k + l + 1) as f64;
-                    }
-                }
-                out[(spans.first(span) + a) * (p + 1) + b - a] += scale * sum;
+                out[(spans.first(span) + a) * (p + 1) + b - a] += own[a * (p + 1) + b];
             }
         }
     }
     out
+}
+
+/// Integrals of the squares of the functions.
+pub(super) fn squares(spans: &Spans) -> Vec<f64> {
+    let p = spans.degree();
+    let count = spans.first(spans.count() - 1) + p + 1;
+    products(spans, count, 0).chunks_exact(p + 1).map(|c| c[0]).collect()
+}
+
+/// Integrals of the products of two derivatives of this order, from one local coordinate of a span to another: `(degree + 1)²` numbers.
+pub(super) fn over_span(spans: &Spans, span: usize, order: usize, (from, to): (f64, f64)) -> Vec<f64> {
+    let p = spans.degree();
+    let half = spans.half(span);
+    let powers: Vec<f64> = (1..=2 * p + 1).map(|n| (power(to, n) - power(from, n)) / n as f64).collect();
+    let scale = half * libm::pow(half, -2.0 * order as f64);
+    let polynomials: Vec<Vec<f64>> =
+        spans.polynomials(span).chunks_exact(p + 1).map(|c| derived(c, order)).collect();
+    let mut out = Vec::with_capacity((p + 1) * (p + 1));
+    for a in &polynomials {
+        for b in &polynomials {
+            let mut sum = 0.0;
+            for (k, x) in a.iter().enumerate() {
+                b.iter().enumerate().for_each(|(l, y)| sum += x * y * powers[k + l]);
+            }
+            out.push(scale * sum);
+        }
+    }
+    out
+}
+
+fn power(x: f64, n: usize) -> f64 {
+    (0..n).fold(1.0, |product, _| product * x)
 }
 
 /// The derivative of a polynomial.

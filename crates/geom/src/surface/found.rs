@@ -31,6 +31,21 @@ pub enum Reached {
     Memory,
 }
 
+impl Reached {
+    /// All of them.
+    pub const ALL: [Reached; 4] = [Reached::Tolerance, Reached::Noise, Reached::Points, Reached::Memory];
+
+    /// The word for it: `tolerance`, `noise`, …
+    pub fn name(self) -> &'static str {
+        match self {
+            Reached::Tolerance => "tolerance",
+            Reached::Noise => "noise",
+            Reached::Points => "points",
+            Reached::Memory => "memory",
+        }
+    }
+}
+
 /// A surface through points, and what it keeps to.
 #[derive(Clone, Debug)]
 pub struct SurfaceFit {
@@ -46,6 +61,8 @@ pub struct SurfaceFit {
     pub unsettled: usize,
     /// Points whose foot is that of a descent from their parameters, not shown to be the nearest place.
     pub(super) doubtful: Vec<u32>,
+    /// Of what holds control points where points are few.
+    pub(super) stiffness: f64,
     /// Sum of the squared differences between the points and the surface at the parameters of the last fit, unweighted.
     pub sum_of_squares: f64,
     /// Greatest such difference.

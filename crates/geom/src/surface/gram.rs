@@ -7,12 +7,12 @@
 
 use super::stencil::Stencil;
 use crate::num::banded::dot;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
 use crate::spline::spans::Spans;
 use crate::spline::surface::Patches;
-use rayon::prelude::*;
 
 /// Points that are summed in one go by a thread.
 const ITEM: usize = 2048;
@@ -87,6 +87,15 @@ impl Binned {
     /// Cells, and how many of them hold no point.
     pub(super) fn cells(&self) -> (usize, usize) {
         (self.starts.len() - 1, self.starts.windows(2).filter(|w| w[0] == w[1]).count())
+    }
+    /// Points for a unit of area, by their weights, over the cells that have any.
+    pub(super) fn density(&self) -> f64 {
+        let area = |cell: usize| {
+            let at = [cell / self.spans[1].count(), cell % self.spans[1].count()];
+            4.0 * self.spans[0].half(at[0]) * self.spans[1].half(at[1])
+        };
+        let filled = self.starts.windows(2).enumerate().filter(|(_, w)| w[0] < w[1]);
+        self.size().1 / filled.map(|(cell, _)| area(cell)).sum::<f64>()
     }
     /// `Σ w |x|²` over the points less the center, and `Σ w`.
     pub(super) fn size(&self) -> (f64, f64) {

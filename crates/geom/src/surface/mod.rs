@@ -9,6 +9,7 @@
 //! | `base`, `rectangle`, `fold` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it |
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
+//! | `hold` | what holds the control points where points are few |
 //! | `solve` | control points; the weight of the thin-plate term |
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
 //! | `refine` | knots for a tolerance |
@@ -24,6 +25,7 @@ mod error;
 mod fold;
 mod found;
 mod gram;
+mod hold;
 mod nearest;
 mod options;
 mod pass;

@@ -4,11 +4,11 @@
 //! says that there is no nearer one ([`Patches::reach`](crate::spline::surface::Patches::reach)); for the others all of it is searched.
 
 use super::{SurfaceError, SurfaceFit};
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::basis::Knots;
 use crate::spline::surface::{FootSearch, Nurbs, Surface};
-use rayon::prelude::*;
 
 /// Points between two questions whether to stop.
 const CHUNK: usize = 256;

@@ -16,6 +16,9 @@ pub enum BaseKind {
 }
 
 impl BaseKind {
+    /// All of them.
+    pub const ALL: [BaseKind; 4] = [BaseKind::Plane, BaseKind::Xy, BaseKind::Cylinder, BaseKind::Sphere];
+
     /// The word for it: `plane`, `xy`, …
     pub fn name(self) -> &'static str {
         match self {

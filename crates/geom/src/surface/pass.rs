@@ -1,12 +1,14 @@
 //! One fit after the other: parameters of the nearest places, weights against outliers.
 
 use super::gram::Binned;
+use super::hold::Ground;
+use super::solve::Known;
 use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, plus, times};
 use crate::spline::basis::Knots;
 use crate::spline::surface::{Patches, Surface, SurfaceFoot};
-use rayon::prelude::*;
 
 /// Corrections go on while they take away this share of the root mean square.
 const GAIN: f64 = 0.01;
@@ -33,7 +35,11 @@ pub(super) fn corrected(
         parameters.clone_from(&best.feet);
         let next = weighed(points, &parameters, base, &knots, known, options, progress)?;
         // The weight of the thin plate settles with the first correction.
-        known = next.degrees_of_freedom.map(|dof| (next.fairness, dof));
+        known = next.degrees_of_freedom.map(|degrees_of_freedom| Known {
+            fairness: next.fairness,
+            degrees_of_freedom,
+            stiffness: next.stiffness,
+        });
         let (before, after) = (rms(&best.deviations), rms(&next.deviations));
         if after.is_nan() || after >= before {
             break;
@@ -57,7 +63,7 @@ fn weighed(
     parameters: &[[f64; 2]],
     base: Base,
     knots: &[Knots; 2],
-    known: Option<(f64, f64)>,
+    known: Option<Known>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
@@ -98,14 +104,15 @@ fn once(
     base: Base,
     knots: &[Knots; 2],
     weights: Option<&[f64]>,
-    known: Option<(f64, f64)>,
+    known: Option<Known>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let hull = Aabb::of(points);
     let center = times(0.5, plus(hull.min, hull.max));
     let data = Binned::new(knots, points, parameters, weights, center);
-    let solved = solve::solve(&data, known, options, progress)?;
+    let ground = Ground { knots, base: &base, points, parameters, center };
+    let solved = solve::solve(&data, &ground, known, options, progress)?;
     let counts = data.counts;
     let residuals = data.residuals(&Patches::of(data.spans.clone(), &solved.points, counts[1]));
     let control: Vec<Point> = solved.points.iter().map(|p| plus(*p, center)).collect();
@@ -131,6 +138,7 @@ fn once(
         fairness: solved.fairness,
         degrees_of_freedom: solved.degrees_of_freedom.filter(|_| options.fairness == Fairness::Auto),
         support: solved.support,
+        stiffness: solved.stiffness,
         surface,
         base,
         corrections: 0,

@@ -2,12 +2,13 @@
 
 use super::energy::thin_plate;
 use super::gram::{Binned, Sums};
+use super::hold::{self, Ground, Hold};
 use super::stencil::{Order, Stencil};
 use super::{Fairness, Options, Support, SurfaceError};
 use crate::num::banded::{Banded, BandedError, Factor};
 use crate::num::random::Random;
 use crate::progress::Progress;
-use crate::space::Point;
+use crate::space::{Point, minus};
 use crate::spline::surface::Patches;
 
 /// Control points of least squares.
@@ -17,15 +18,30 @@ pub(super) struct Solved {
     pub fairness: f64,
     pub degrees_of_freedom: Option<f64>,
     pub support: Support,
+    /// Of what holds control points where points are few.
+    pub stiffness: f64,
 }
 
 /// Least sum of the squares of a basis function over all points that holds a control point.
 const SUPPORT: f64 = 1e-4;
 
-/// Solves for the control points; `known` is a weight that was found before.
+/// What an earlier solution of much the same points has told.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    pub fairness: f64,
+    pub degrees_of_freedom: f64,
+    /// Stiffness where points are few.
+    pub stiffness: f64,
+}
+
+/// Times that the stiffness where points are few is found anew.
+const SOFTENED: usize = 2;
+
+/// Solves for the control points.
 pub(super) fn solve(
     data: &Binned,
-    known: Option<(f64, f64)>,
+    ground: &Ground,
+    known: Option<Known>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Solved, SurfaceError> {
@@ -38,18 +54,28 @@ pub(super) fn solve(
         Fairness::Weight(0.0) => Stencil::new([0, 0], [0, 0]),
         _ => thin_plate(&data.spans, data.counts),
     };
-    let system = System { data, normal, energy, right, support };
+    // A weight that was given is the only one.
+    let hold = match options.fairness {
+        Fairness::Auto => Hold::of(data, &normal, ground),
+        Fairness::Weight(_) => None,
+    };
+    let stiffness = known.map_or(hold::STIFFEST, |k| k.stiffness);
+    let mut system = System { data, normal, energy, hold, stiffness, right, support };
     let (fairness, degrees_of_freedom) = match (options.fairness, known) {
         (Fairness::Weight(w), _) => (w, None),
-        (Fairness::Auto, Some((w, dof))) => (w, Some(dof)),
+        (Fairness::Auto, Some(known)) => (known.fairness, Some(known.degrees_of_freedom)),
         (Fairness::Auto, None) => {
             let (w, dof) = system.automatic(progress)?;
             (w, Some(dof))
         }
     };
-    let factor = system.factor(fairness, progress)?;
-    let points = system.refined(&factor, fairness, progress)?;
-    Ok(Solved { points, fairness, degrees_of_freedom, support })
+    let mut points = system.refined(&system.factor(fairness, progress)?, fairness, progress)?;
+    for _ in 0..SOFTENED {
+        let Some(softer) = system.softer(&points, degrees_of_freedom, progress)? else { break };
+        system.stiffness = softer;
+        points = system.refined(&system.factor(fairness, progress)?, fairness, progress)?;
+    }
+    Ok(Solved { points, fairness, degrees_of_freedom, support, stiffness: system.stiffness })
 }
 
 /// Refuses a matrix larger than allowed.
@@ -71,6 +97,9 @@ struct System<'a> {
     data: &'a Binned,
     normal: Stencil,
     energy: Stencil,
+    hold: Option<Hold>,
+    /// Of what holds, as a share of what the points hold a control point with in the mean.
+    stiffness: f64,
     right: Vec<Point>,
     support: Support,
 }
@@ -83,8 +112,29 @@ const PROBES: usize = 12;
 const COUNTED: f64 = 1.4;
 
 impl System<'_> {
+    /// The weight of what holds control points where points are few.
+    fn held_by(&self) -> f64 {
+        self.stiffness * self.normal.trace() / self.energy.trace()
+    }
+
+    /// The stiffness that suits what these control points leave of the points, where it is much less than the one there is.
+    fn softer(
+        &self,
+        points: &[Point],
+        degrees_of_freedom: Option<f64>,
+        progress: &dyn Progress,
+    ) -> Result<Option<f64>, SurfaceError> {
+        let (Some(used), Some(_)) = (degrees_of_freedom, &self.hold) else { return Ok(None) };
+        let free = (self.data.size().1 - used).max(1.0);
+        let variance = self.left_by(points, progress)?.square / free;
+        let softer = hold::stiffness(self.data, &self.normal, variance);
+        Ok(Some(softer).filter(|s| *s < 0.5 * self.stiffness))
+    }
+
     fn factor(&self, weight: f64, progress: &dyn Progress) -> Result<Factor, SurfaceError> {
-        self.normal.with(weight, &self.energy).factor(progress).map_err(|e| match e {
+        let mut terms = vec![(weight, &self.energy)];
+        terms.extend(self.hold.iter().map(|hold| (self.held_by(), &hold.stencil)));
+        self.normal.with(&terms).factor(progress).map_err(|e| match e {
             BandedError::Cancelled(e) => e.into(),
             BandedError::NotDefinite { .. } => SurfaceError::Undetermined {
                 total: self.support.control_points,
@@ -112,10 +162,13 @@ impl System<'_> {
         weight: f64,
         progress: &dyn Progress,
     ) -> Result<Vec<Point>, SurfaceError> {
-        let mut points = self.solved(factor, &self.right);
+        let mut right = self.right.clone();
+        self.pull(&mut right, &vec![[0.0; 3]; self.right.len()], weight);
+        let mut points = self.solved(factor, &right);
         let mut before = f64::INFINITY;
         for _ in 0..8 {
-            let gradient = self.gradient(&points, weight, progress)?.0;
+            let mut gradient = self.left_by(&points, progress)?.right;
+            self.pull(&mut gradient, &points, weight);
             let step = self.solved(factor, &gradient);
             let size = largest(&step) / largest(&points).max(f64::MIN_POSITIVE);
             if size.is_nan() || size >= before {
@@ -131,20 +184,24 @@ impl System<'_> {
         Ok(points)
     }
 
-    /// `Σ w N r − weight · E p` at control points, and `Σ w |r|²`.
-    fn gradient(
-        &self,
-        points: &[Point],
-        weight: f64,
-        progress: &dyn Progress,
-    ) -> Result<(Vec<Point>, f64), SurfaceError> {
+    /// The sums of what the surface of these control points leaves of the points.
+    fn left_by(&self, points: &[Point], progress: &dyn Progress) -> Result<Sums, SurfaceError> {
         let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
-        let Sums { mut right, square, .. } = self.data.left_by(&patches, progress)?;
+        Ok(self.data.left_by(&patches, progress)?)
+    }
+
+    /// Adds what the other terms pull at these control points: `− weight · E p`, and `H (t − p)` where points are few.
+    fn pull(&self, to: &mut [Point], points: &[Point], weight: f64) {
+        let mut add = |weight: f64, pull: Vec<Point>| {
+            to.iter_mut().zip(pull).for_each(|(to, pull)| (0..3).for_each(|d| to[d] += weight * pull[d]));
+        };
         if weight > 0.0 {
-            let pull = self.energy.times(points);
-            right.iter_mut().zip(&pull).for_each(|(r, e)| (0..3).for_each(|d| r[d] -= weight * e[d]));
+            add(-weight, self.energy.times(points));
         }
-        Ok((right, square))
+        if let Some(hold) = &self.hold {
+            let off: Vec<Point> = hold.target.iter().zip(points).map(|(t, p)| minus(*t, *p)).collect();
+            add(self.held_by(), hold.stencil.times(&off));
+        }
     }
 
     /// The weight of least cross-validation, and the degrees of freedom with it.
@@ -162,23 +219,25 @@ impl System<'_> {
         };
         let first = unit * power(f64::from(start));
         let base = self.refined(&factor, first, progress)?;
-        let (gradient, square) = self.gradient(&base, 0.0, progress)?;
-        let pull = self.energy.times(&base);
+        let Sums { right: gradient, square } = self.left_by(&base, progress)?;
+        let mut start_from = gradient.clone();
+        self.pull(&mut start_from, &base, 0.0);
+        let bent = self.energy.times(&base);
         let (size, count) = self.data.size();
         let probes = self.probes(progress)?;
         let score = |weight: f64| -> Result<(f64, f64), SurfaceError> {
             let factor = self.factor(weight, progress)?;
-            let right: Vec<Point> = gradient
+            let right: Vec<Point> = start_from
                 .iter()
-                .zip(&pull)
+                .zip(&bent)
                 .map(|(g, e)| std::array::from_fn(|d| g[d] - weight * e[d]))
                 .collect();
             let change = self.solved(&factor, &right);
-            let bent = self.normal.times(&change);
+            let moved = self.normal.times(&change);
             let product = |a: &[Point], b: &[Point]| {
                 a.iter().zip(b).map(|(a, b)| (0..3).map(|d| a[d] * b[d]).sum::<f64>()).sum::<f64>()
             };
-            let left = square - 2.0 * product(&change, &gradient) + product(&change, &bent);
+            let left = square - 2.0 * product(&change, &gradient) + product(&change, &moved);
             // Rounding of the points themselves.
             let left = left.max(size * f64::EPSILON * f64::EPSILON);
             let dof = self.degrees_of_freedom(&factor, &probes);

@@ -69,8 +69,8 @@ impl Stencil {
         out
     }
 
-    /// `self + weight · other` as a matrix for the solver.
-    pub(super) fn with(&self, weight: f64, other: &Stencil) -> Banded {
+    /// `self` and the others times their weights, as a matrix for the solver.
+    pub(super) fn with(&self, others: &[(f64, &Stencil)]) -> Banded {
         let order = Order::new(self.counts);
         let mut band = Banded::new(self.counts[0] * self.counts[1], order.width(self.reach));
         let mut add = |weight: f64, from: &Stencil| {
@@ -80,8 +80,8 @@ impl Stencil {
             });
         };
         add(1.0, self);
-        if weight > 0.0 {
-            add(weight, other);
+        for (weight, other) in others.iter().filter(|(weight, _)| *weight > 0.0) {
+            add(*weight, other);
         }
         band
     }

@@ -1,9 +1,9 @@
 //! How the facets of a mesh hang together: edges, shells, and every place where they do not form a surface.
 //!
-//! No list of edges is made. Each vertex is looked at on its own: its facets name their next and previous corner there,
-//! and an edge to `w` shows as `w` among the next or the previous ones. Where next and previous match one to one in a
-//! single ring, all is in order, which comparisons of sixteen numbers at a time see at once. Everything else is
-//! sorted and counted. Each edge counts at its lower end.
+//! No list of edges is made. Each vertex is examined on its own. Every facet at it has a next and a previous corner there; an
+//! edge to vertex `w` means that `w` is among these. The vertex is in order if the next corners and the previous corners
+//! match one to one and form a single ring; comparisons of sixteen numbers at a time find that out. Every other vertex takes
+//! the general way: its corners are sorted and counted. Each edge is counted at its lower end.
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 use super::EdgeAt;
@@ -12,12 +12,12 @@ use super::same::{Row, Same, W};
 use super::union::Sets;
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::lanes_x86::{A16, Z16};
-use rayon::prelude::*;
 
 /// Where a mesh is not a surface, in the order of the lower vertex of the edge, and the parts it falls into.
 #[derive(Default)]

@@ -7,9 +7,9 @@ use super::union::Sets;
 use super::weld::{self, WeldError};
 use crate::mesh::Mesh;
 use crate::num::predicates;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::simd::Level;
-use rayon::prelude::*;
 
 /// How the facets of a welded mesh hang together.
 ///
@@ -59,7 +59,7 @@ pub enum TopologyError {
 
 /// What makes a facet count or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Shape {
+enum FacetState {
     Fine,
     Collinear,
     Repeated,
@@ -84,24 +84,25 @@ impl Topology {
         weld::check_corners(mesh)?;
         let finite = mesh.positions.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
         let shape = |f: &[u32; 3]| shape(mesh, f, finite);
-        let odd: Vec<(u32, Shape)> = (mesh.faces.par_chunks(fans::CHUNK).enumerate())
+        let odd: Vec<(u32, FacetState)> = (mesh.faces.par_chunks(fans::CHUNK).enumerate())
             .filter(|_| !progress.cancelled())
             .flat_map_iter(|(i, part)| {
                 let first = (i * fans::CHUNK) as u32;
                 let numbered = (first..).zip(part);
-                numbered.map(|(i, f)| (i, shape(f))).filter(|(_, s)| *s != Shape::Fine)
+                numbered.map(|(i, f)| (i, shape(f))).filter(|(_, s)| *s != FacetState::Fine)
             })
             .collect();
-        let of_shape = |wanted: Shape| odd.iter().filter(|(_, s)| *s == wanted).map(|(i, _)| *i).collect();
+        let of_shape =
+            |wanted: FacetState| odd.iter().filter(|(_, s)| *s == wanted).map(|(i, _)| *i).collect();
         let counts = |f: &[u32; 3]| {
-            f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && (finite || shape(f) != Shape::NotFinite)
+            f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && (finite || shape(f) != FacetState::NotFinite)
         };
         let fans = Fans::new(mesh.positions.len(), &mesh.faces, counts, progress);
         let sets = Sets::new(mesh.faces.len());
         let found = connect::connect(mesh, &fans, &sets, level, progress);
         let (shells, shell_of) = sets.numbered(|i| counts(&mesh.faces[i as usize]));
         let (repeated_vertex, not_finite): (Vec<u32>, Vec<u32>) =
-            (of_shape(Shape::Repeated), of_shape(Shape::NotFinite));
+            (of_shape(FacetState::Repeated), of_shape(FacetState::NotFinite));
         Ok(Topology {
             edges: found.edges,
             counting_facets: mesh.faces.len() - repeated_vertex.len() - not_finite.len(),
@@ -111,7 +112,7 @@ impl Topology {
             non_manifold_vertices: found.non_manifold_vertices,
             duplicate_facets: found.duplicates,
             repeated_vertex,
-            collinear: of_shape(Shape::Collinear),
+            collinear: of_shape(FacetState::Collinear),
             not_finite,
             shells,
             shell_of,
@@ -129,7 +130,8 @@ impl Topology {
         if progress.cancelled() { Err(Cancelled.into()) } else { Ok(topology) }
     }
 
-    /// After vertices that no facet uses have gone from the mesh; `None` where facets do not count, which might use some.
+    /// The topology after the vertices that no facet uses have been removed from the mesh. `None` where some facets do not count: these
+    /// might use such vertices.
     pub(crate) fn compacted(&self) -> Option<Topology> {
         if self.counting_facets < self.shell_of.len() {
             return None;
@@ -185,15 +187,15 @@ impl Topology {
 }
 
 #[inline(always)]
-fn shape(mesh: &Mesh, face: &[u32; 3], finite: bool) -> Shape {
+fn shape(mesh: &Mesh, face: &[u32; 3], finite: bool) -> FacetState {
     let corners = face.map(|v| &mesh.positions[v as usize]);
     if !finite && corners.into_iter().flatten().any(|x| !x.is_finite()) {
-        Shape::NotFinite
+        FacetState::NotFinite
     } else if face[0] == face[1] || face[1] == face[2] || face[2] == face[0] {
-        Shape::Repeated
+        FacetState::Repeated
     } else if predicates::is_flat(corners) {
-        Shape::Collinear
+        FacetState::Collinear
     } else {
-        Shape::Fine
+        FacetState::Fine
     }
 }

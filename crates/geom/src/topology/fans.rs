@@ -4,8 +4,8 @@
 //! corner the number of the next one at the same vertex. Building it takes one atomic exchange a corner.
 
 use crate::memory::{atomics, large_pages};
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Facets or vertices of one task.

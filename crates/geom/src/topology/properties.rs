@@ -7,8 +7,8 @@
 use super::Topology;
 use crate::mesh::Mesh;
 use crate::num::sum::{Sum, Sums};
+use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
-use rayon::prelude::*;
 
 const CHUNK: usize = 1 << 13;
 

@@ -3,8 +3,8 @@
 use super::connected::Topology;
 use super::fans::{CHUNK, Fans, Spoke};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Silent;
-use rayon::prelude::*;
 
 /// A facet at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +16,8 @@ pub(crate) struct Side {
     pub up: bool,
 }
 
-/// Hands to `take` the sides at each edge of these faces of so many vertices, ascending. Of what `take` refuses, the answer for the least edge.
+/// Calls `take` with the sides at each edge of these faces, ascending; the faces name vertices below `vertices`. Where `take` returns
+/// errors, the one of the least edge is returned.
 ///
 /// Linear, but for vertices with very many facets. Faces must not name a vertex twice.
 pub(crate) fn each_edge<E: Send>(

@@ -1,7 +1,7 @@
 //! Disjoint sets that several threads join at once.
 
 use crate::memory::atomics;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Members set up, or numbered, by one task.

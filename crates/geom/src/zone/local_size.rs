@@ -6,10 +6,10 @@
 
 use crate::fit::eigen;
 use crate::frame::Pose;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use crate::spatial::neighbours::PointTree;
-use rayon::prelude::*;
 
 /// Points that the other end is interpolated among.
 const AMONG: usize = 8;

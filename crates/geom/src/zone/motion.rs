@@ -7,10 +7,10 @@
 use super::datum::Freedom;
 use super::error::{ZoneError, sane};
 use crate::fit::{Function, lowest};
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Aabb, Point, Vector, cross, minus, norm, plus, times};
-use rayon::prelude::*;
 
 /// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient: a unit vector
 /// where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that came to lie

@@ -92,7 +92,7 @@ impl Characteristic for LineProfile {
 
 /// The lines of a surface in the planes across a direction.
 struct Lines {
-    surface: trueness_geom::feature::Surface,
+    surface: trueness_geom::feature::NominalSurface,
     across: Vector,
     search: Search,
 }

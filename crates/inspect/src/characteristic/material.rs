@@ -98,7 +98,7 @@ pub(super) fn oriented(m: &Measuring, start: Rigid, free: Freedom, axis: Axis) -
     let distance = |_: usize, p: Point| Some(asked.distance(&axis, p));
     let search = Search { start, free, middle: 0.0, floating: false, outer: true };
     let found = placed(asked.points(), &distance, &search, m.progress)?;
-    told(m, &asked, &found)
+    result_at(m, &asked, &found)
 }
 
 /// The value of an axis that belongs at `place` across z of the datum system, where it or its last datum has a requirement.
@@ -132,7 +132,7 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
         }
     };
     let found = shift.best(start, telling(free), feature)?;
-    let mut value = told(m, &asked, &found)?;
+    let mut value = result_at(m, &asked, &found)?;
     value.parts.push(("datum_virtual_size", datum.size));
     Ok(value)
 }
@@ -155,7 +155,7 @@ pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
 }
 
 /// The value and its bonus where the points came to lie.
-fn told(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> {
+fn result_at(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> {
     let far = asked.points().get(found.max.1).copied();
     let mut value = Value { diametral: true, witness: far.into_iter().collect(), ..Value::default() };
     let Asked::Surface { boundary, .. } = asked else {

@@ -4,7 +4,7 @@ use super::kind::{Measuring, Question, Refusal, refuse};
 use super::located::frame;
 use super::value::{Missing, Value};
 use crate::plan::{Class, ZoneOffset};
-use trueness_geom::feature::{Nominal, Surface};
+use trueness_geom::feature::{Nominal, NominalSurface};
 use trueness_geom::rigid::Rigid;
 use trueness_geom::zone::datum::Freedom;
 use trueness_geom::zone::motion::{Placed, Search};
@@ -24,7 +24,7 @@ pub(super) fn check(q: &Question) -> Result<(), Refusal> {
 }
 
 /// The theoretically exact surface.
-pub(super) fn surface(m: &Measuring) -> Result<Surface, Missing> {
+pub(super) fn surface(m: &Measuring) -> Result<NominalSurface, Missing> {
     let nominal = m.feature().nominal.as_ref();
     let none = || Missing::Impossible("the feature has no theoretically exact surface".into());
     nominal.and_then(Nominal::surface).ok_or_else(none)

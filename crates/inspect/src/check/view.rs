@@ -3,6 +3,7 @@
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
+use trueness_geom::check::{Kind, Shows};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, plus, unit};
 use trueness_geom::topology::Topology;
@@ -13,30 +14,6 @@ pub struct View<'a> {
     mesh: &'a Mesh,
     /// The defects, in the order of the document's kinds found, item by item.
     pub marks: Vec<Marks>,
-}
-
-/// How the vertices of an item are drawn.
-#[derive(Clone, Copy, PartialEq)]
-enum Drawing {
-    Dots,
-    Line,
-    Ring,
-    /// The first vertex lies on the edge between the others.
-    DotOnLine,
-    Facets,
-    /// All facets connected with the first.
-    Shell,
-}
-
-fn drawing(kind: &str) -> Drawing {
-    match kind {
-        "holes" => Drawing::Ring,
-        "boundary_edges" | "cracks" | "non_manifold_edges" | "inconsistent_orientation" => Drawing::Line,
-        "t_junctions" => Drawing::DotOnLine,
-        "non_manifold_vertices" | "unshared_vertices" => Drawing::Dots,
-        "inside_out_shells" | "islands" => Drawing::Shell,
-        _ => Drawing::Facets,
-    }
 }
 
 impl<'a> View<'a> {
@@ -64,34 +41,40 @@ impl<'a> View<'a> {
 }
 
 /// The listed defects of each kind found in a mesh.
-pub(crate) fn groups(found: &[(&str, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
+pub(crate) fn groups(found: &[(&Kind, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
     let mut shells = Shells::default();
-    let group = |(n, (kind, defects)): (usize, &(&str, &Defects))| MarkGroup {
-        key: format!("defect.{kind}"),
+    let group = |(n, (kind, defects)): (usize, &(&Kind, &Defects))| MarkGroup {
+        key: format!("defect.{}", kind.name),
         color: category(n),
-        items: defects.items.iter().map(|item| mark(mesh, drawing(kind), item, &mut shells)).collect(),
+        items: defects.items.iter().map(|item| mark(mesh, kind.shows, item, &mut shells)).collect(),
     };
     found.iter().enumerate().map(group).collect()
 }
 
-fn mark(mesh: &Mesh, drawing: Drawing, item: &Item, shells: &mut Shells) -> Mark {
+fn mark(mesh: &Mesh, shows: Shows, item: &Item, shells: &mut Shells) -> Mark {
     let place = |v: &u32| mesh.positions.get(*v as usize).copied();
     let vertices: Vec<Point> = item.vertices.iter().filter_map(place).collect();
-    let normal = if drawing == Drawing::Ring { opening(&vertices) } else { normal(mesh, &item.facets) };
+    let normal = if shows == Shows::Ring { opening(&vertices) } else { normal(mesh, &item.facets) };
     let mut mark = Mark { normal, ..Mark::default() };
-    match (drawing, &vertices[..]) {
-        (Drawing::Dots, all) => mark.points.extend(all),
-        (Drawing::Line, all) => mark.add_line(all, false),
-        (Drawing::Ring, all) => mark.add_line(all, true),
-        (Drawing::DotOnLine, [dot, line @ ..]) => {
-            mark.points.push(*dot);
-            mark.add_line(line, false);
-        }
-        _ if drawing == Drawing::Shell => {
+    let facets = |mark: &mut Mark| {
+        item.facets.iter().filter_map(|f| corners(mesh, *f)).for_each(|t| mark.add_facet(t));
+    };
+    match shows {
+        Shows::Points => mark.points.extend(&vertices),
+        Shows::Line => mark.add_line(&vertices, false),
+        Shows::Ring => mark.add_line(&vertices, true),
+        Shows::PointAndLine => match &vertices[..] {
+            [point, line @ ..] => {
+                mark.points.push(*point);
+                mark.add_line(line, false);
+            }
+            [] => facets(&mut mark),
+        },
+        Shows::Shell => {
             let facets = shells.of(mesh, item.facets.first().copied());
             mark.triangles.extend(facets.into_iter().filter_map(|f| corners(mesh, f)));
         }
-        _ => item.facets.iter().filter_map(|f| corners(mesh, *f)).for_each(|t| mark.add_facet(t)),
+        Shows::Facets => facets(&mut mark),
     }
     mark.finite()
 }

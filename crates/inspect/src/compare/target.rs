@@ -12,7 +12,7 @@ use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::along::Along;
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
-use trueness_geom::deviation::surface::{Disagreement, Surface, SurfaceOptions};
+use trueness_geom::deviation::surface::{Disagreement, ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::{Point, Vector, times};
@@ -22,7 +22,7 @@ use trueness_geom::topology::{Soundness, TopologyError};
 /// A reference ready to be measured against.
 pub enum Target<'a> {
     /// The nearest facet counts.
-    Facets { surface: Box<Surface>, mesh: &'a Mesh, along: Option<Along> },
+    Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh, along: Option<Along> },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
 }
@@ -112,7 +112,7 @@ impl<'a> Target<'a> {
     ) -> Result<Target<'a>, ReferenceError> {
         match (reference.splines, tree) {
             (None, Some(tree)) => {
-                let surface = Surface::new(tree, reference.mesh, &options.surface, progress)?;
+                let surface = ReferenceSurface::new(tree, reference.mesh, &options.surface, progress)?;
                 let along =
                     options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
                 Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh, along })
@@ -252,7 +252,11 @@ impl Splines<'_> {
 }
 
 /// The lines that are asked for, ready to be measured along.
-fn along(lines: &Lines, surface: &Surface, progress: &dyn Progress) -> Result<Along, ReferenceError> {
+fn along(
+    lines: &Lines,
+    surface: &ReferenceSurface,
+    progress: &dyn Progress,
+) -> Result<Along, ReferenceError> {
     Ok(match lines.rule() {
         AlongRule::Direction(d) => Along::Direction(d),
         AlongRule::Measured => Along::Measured(lines.normals()),

@@ -4,7 +4,7 @@
 //! for in the end is picked from these, so a single bad region does not fill the list however many points it has.
 
 use crate::tolerance::badness;
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, minus, norm};
 
 /// Cells along each side.

@@ -1,6 +1,6 @@
 //! Distances of points from an element.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::shape::Shape;
 use trueness_geom::space::Point;
 

@@ -4,8 +4,8 @@ use crate::report::Mark;
 use crate::results::fit::Extent;
 use std::f64::consts::TAU;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::shape::Shape;
-use trueness_geom::space::{Point, Vector, plus, times};
+use trueness_geom::shape::{Coordinate, Shape};
+use trueness_geom::space::{Point, plus, times};
 
 /// Steps of a full turn.
 const STEPS: f64 = 144.0;
@@ -21,18 +21,19 @@ pub fn element(shape: &Shape, extent: &Extent) -> (Mesh, Mark) {
     let across = |v: f64, n: usize| -> Vec<Point> { between(extent.u, n).map(|u| place(u, v)).collect() };
     let up = |u: f64, n: usize| -> Vec<Point> { between(extent.v, n).map(|v| place(u, v)).collect() };
     let mut lines = Mark::default();
-    let (n, m) = match shape {
-        Shape::Line2 { .. } | Shape::Line { .. } => {
+    let (n, m) = match shape.kind().coordinates() {
+        [Coordinate::None, _] => {
             lines.add_line(&up(0.0, 1), false);
             return (Mesh::default(), lines);
         }
-        Shape::Circle2 { .. } | Shape::Circle { .. } | Shape::Ellipse2 { .. } => {
+        [_, Coordinate::None] => {
             lines.add_line(&across(0.0, steps(extent.u)), false);
             return (Mesh::default(), lines);
         }
-        Shape::Plane { .. } => (1, 1),
-        Shape::Cylinder { .. } | Shape::Cone { .. } => (steps(extent.u), 1),
-        Shape::Sphere { .. } | Shape::Torus { .. } => (steps(extent.u), steps(extent.v)),
+        kinds => {
+            let steps = |k: usize, range| if kinds[k] == Coordinate::Length { 1 } else { steps(range) };
+            (steps(0, extent.u), steps(1, extent.v))
+        }
     };
     for v in [v0, v1] {
         lines.add_line(&across(v, n), false);
@@ -41,10 +42,11 @@ pub fn element(shape: &Shape, extent: &Extent) -> (Mesh, Mark) {
     let sides: Vec<f64> =
         if full { (0..4).map(|k| u0 + f64::from(k) * TAU / 4.0).collect() } else { vec![u0, u1] };
     sides.into_iter().for_each(|u| lines.add_line(&up(u, m), false));
-    if matches!(shape, Shape::Sphere { .. }) && v0 < 0.0 {
+    let [round, along] = shape.kind().coordinates();
+    if along == Coordinate::Latitude && v0 < 0.0 {
         lines.add_line(&across(0.0, n), false);
     }
-    if matches!(shape, Shape::Cylinder { .. } | Shape::Cone { .. }) {
+    if (round, along) == (Coordinate::Turn, Coordinate::Length) {
         let more = BEYOND * (v1 - v0);
         let at = |v: f64| plus(extent.origin, times(v, extent.axes[2]));
         lines.add_line(&[at(v0 - more), at(v1 + more)], false);
@@ -72,26 +74,9 @@ fn between([from, to]: [f64; 2], n: usize) -> impl Iterator<Item = f64> {
 }
 
 fn place(shape: &Shape, extent: &Extent, u: f64, v: f64) -> Point {
+    let [x, y, z] = shape.at([u, v]);
     let [a, b, w] = extent.axes;
-    let (sine, cosine) = libm::sincos(u);
-    let add = |x: f64, y: f64, z: f64| -> Vector { plus(plus(times(x, a), times(y, b)), times(z, w)) };
-    // Away from the axis by `r`, along it by `z`.
-    let round = |r: f64, z: f64| add(r * cosine, r * sine, z);
-    let offset = match *shape {
-        Shape::Plane { .. } => add(u, v, 0.0),
-        Shape::Line2 { .. } | Shape::Line { .. } => times(v, w),
-        Shape::Circle2 { radius, .. } | Shape::Circle { radius, .. } => round(radius, 0.0),
-        Shape::Ellipse2 { major_radius, minor_radius, .. } => {
-            add(major_radius * cosine, minor_radius * sine, 0.0)
-        }
-        Shape::Cylinder { radius, .. } => round(radius, v),
-        Shape::Cone { radius, half_angle, .. } => round(radius + v * libm::tan(half_angle), v),
-        Shape::Sphere { radius, .. } => round(radius * libm::cos(v), radius * libm::sin(v)),
-        Shape::Torus { major_radius, minor_radius, .. } => {
-            round(major_radius + minor_radius * libm::cos(v), minor_radius * libm::sin(v))
-        }
-    };
-    plus(extent.origin, offset)
+    plus(extent.origin, plus(plus(times(x, a), times(y, b)), times(z, w)))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use crate::results::fit::Extent;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use trueness_geom::shape::Shape;
-use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
+use trueness_geom::shape::{Coordinate, Shape, upon};
+use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// Cells of the circle in which points are looked for.
 const CELLS: usize = 360;
@@ -18,61 +18,35 @@ pub fn extent(shape: &Shape, points: &[Point]) -> Option<Extent> {
     let (origin, axes) = frame(shape, points);
     let local = move |p: &Point| {
         let q = minus(*p, origin);
-        axes.map(|a| dot(q, a))
+        shape.coordinates(axes.map(|a| dot(q, a)))
     };
-    let all = || points.iter().map(local);
-    let turn = || arc(all().map(|q| libm::atan2(q[1], q[0])), points.len());
-    let along = |k: usize| range(all().map(|q| q[k]), local(first)[k]);
-    let (u, v) = match *shape {
-        Shape::Plane { .. } => (along(0), along(1)),
-        Shape::Line2 { .. } | Shape::Line { .. } => ([0.0; 2], along(2)),
-        Shape::Circle2 { .. } | Shape::Circle { .. } => (turn(), [0.0; 2]),
-        Shape::Ellipse2 { major_radius, minor_radius, .. } => (
-            arc(all().map(|q| libm::atan2(q[1] / minor_radius, q[0] / major_radius)), points.len()),
-            [0.0; 2],
-        ),
-        Shape::Cylinder { .. } => (turn(), along(2)),
-        Shape::Cone { half_angle, radius, .. } => {
-            // There is no cone beyond its apex.
-            let apex = -radius / libm::tan(half_angle);
-            (turn(), along(2).map(|v| v.max(apex)))
-        }
-        Shape::Sphere { .. } => {
-            let low = all().map(|q| libm::atan2(q[2], libm::hypot(q[0], q[1]))).fold(FRAC_PI_2, f64::min);
-            ([0.0, TAU], if low < WHOLE { [-FRAC_PI_2, FRAC_PI_2] } else { [low, FRAC_PI_2] })
-        }
-        Shape::Torus { major_radius, .. } => {
-            let around = all().map(|q| libm::atan2(q[2], libm::hypot(q[0], q[1]) - major_radius));
-            (turn(), arc(around, points.len()))
+    let all = |k: usize| points.iter().map(move |p| local(p)[k]);
+    let of = |k: usize, coordinate: Coordinate| match coordinate {
+        Coordinate::None => [0.0; 2],
+        Coordinate::Length => range(all(k), local(first)[k]),
+        Coordinate::Turn => arc(all(k), points.len()),
+        Coordinate::Latitude => {
+            let low = all(k).fold(FRAC_PI_2, f64::min);
+            [if low < WHOLE { -FRAC_PI_2 } else { low }, FRAC_PI_2]
         }
     };
-    Some(Extent { origin, axes, u, v })
+    let [u, v] = shape.kind().coordinates();
+    // A cap goes all round.
+    let around = if v == Coordinate::Latitude { [0.0, TAU] } else { of(0, u) };
+    Some(Extent { origin, axes, u: around, v: of(1, v) })
 }
 
-/// Where the element's coordinates are counted from.
+/// Where the element's coordinates are counted from: of a plane along the points, of a sphere from the equator under them.
 fn frame(shape: &Shape, points: &[Point]) -> (Point, [Vector; 3]) {
-    let up = [0.0, 0.0, 1.0];
-    match *shape {
-        Shape::Line2 { point, direction } | Shape::Line { point, direction } => (point, upon(direction)),
-        Shape::Plane { point, normal } => (point, longest_first(upon(normal), point, points)),
-        Shape::Circle2 { center, .. } => (center, upon(up)),
-        Shape::Circle { center, normal, .. } => (center, upon(normal)),
-        Shape::Ellipse2 { center, direction, .. } => (center, [direction, cross(up, direction), up]),
-        Shape::Sphere { center, .. } => {
-            let middle = points.iter().fold([0.0; 3], |sum, p| plus(sum, minus(*p, center)));
-            (center, upon(unit(middle).map_or(up, |(w, _)| w)))
+    let (origin, axes) = shape.frame();
+    match shape.kind().coordinates() {
+        [Coordinate::Length, Coordinate::Length] => (origin, longest_first(axes, origin, points)),
+        [_, Coordinate::Latitude] => {
+            let middle = points.iter().fold([0.0; 3], |sum, p| plus(sum, minus(*p, origin)));
+            (origin, unit(middle).map_or(axes, |(w, _)| upon(w)))
         }
-        Shape::Cylinder { point, direction, .. } | Shape::Cone { point, direction, .. } => {
-            (point, upon(direction))
-        }
-        Shape::Torus { center, direction, .. } => (center, upon(direction)),
+        _ => (origin, axes),
     }
-}
-
-/// Three axes of which the last is `w`.
-fn upon(w: Vector) -> [Vector; 3] {
-    let (v, _) = unit(cross(w, least_axis(w))).unwrap_or(([0.0, 1.0, 0.0], 1.0));
-    [cross(v, w), v, w]
 }
 
 /// Turned about the last axis so that the points spread most along the first.

@@ -25,7 +25,7 @@ const UPON: f64 = 5.0;
 /// But no farther than this share of the distance up to which points are sought.
 const FARTHEST: f64 = 0.25;
 /// So many times the distance up to which points are sought, or within which they lie upon the reference, a wall may be off its place.
-const ASTRAY: f64 = 3.0;
+const WALL_REACH: f64 = 3.0;
 /// A piece is of the reference if this share of its points is.
 const MOST: f64 = 0.75;
 /// Distances that differ by less than this share of the size of the reference are the same.
@@ -131,7 +131,7 @@ impl<'a> Belonging<'a> {
             return Ok(vec![]);
         }
         let tree = Tree::build_watched(&others, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let reach = ASTRAY * near.distance.max(UPON * self.median);
+        let reach = WALL_REACH * near.distance.max(UPON * self.median);
         let angle = |a: Vector, b: Vector| libm::acos(dot(a, b).abs().min(1.0));
         let mut known = vec![];
         for piece in &pieces {

@@ -10,7 +10,7 @@ use crate::results::align::AlignNote;
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
-use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, overall};
+use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word, overall};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::fit::Method;
@@ -151,7 +151,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
     };
     FeatureRecord {
         id: taken.id.clone(),
-        shape: taken.class.word().into(),
+        shape: Word(taken.class),
         source: source.into(),
         points: taken.points.len() as u64,
         coverage: taken.coverage,
@@ -159,7 +159,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
             .coverage
             .is_none()
             .then(|| "there is no nominal area, or no measured one".into()),
-        method: plan.method.name().into(),
+        method: Word(plan.method),
         parameters,
         uncertainty: u,
         uncertainty_reason: u_reason,
@@ -204,10 +204,10 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let limits = spec.limits.widened(measured.map_or(0.0, |v| v.bonus));
     let (lower, upper) = limits.range();
     let zone = match (nominal, measured) {
-        (Some(_), _) => "value",
-        _ if spec.kind.word() == "texture" => "value",
-        (None, Some(v)) if v.diametral => "diameter",
-        _ => "width",
+        (Some(_), _) => ZoneForm::Value,
+        _ if spec.kind.word() == "texture" => ZoneForm::Value,
+        (None, Some(v)) if v.diametral => ZoneForm::Diameter,
+        (None, _) => ZoneForm::Width,
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
@@ -220,7 +220,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
     let unknown = unknown.then(|| UNKNOWN.to_string());
     let with_others = found.with_others[n].as_ref();
-    let told = left_out::told(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
+    let judged_with =
+        left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
     CharacteristicRecord {
         id: spec.id.clone(),
         kind: spec.kind.word().into(),
@@ -228,7 +229,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         feature: spec.features.iter().map(id).collect::<Vec<_>>().join(JOINED),
         datums: spec.datums.iter().map(|d| d.name(&plan.features)).collect(),
         modifiers: modifiers(spec),
-        zone: zone.into(),
+        zone: Word(zone),
         nominal,
         tolerance,
         lower,
@@ -238,7 +239,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         uncertainty: uncertainty.map(|u| u.expanded),
         uncertainty_source: uncertainty.map(|u| u.source.into()),
         decision_rule: rule.word().into(),
-        verdict: told.verdict,
+        verdict: judged_with.verdict,
         reason: value.as_ref().err().cloned(),
         utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
@@ -249,7 +250,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         notes: measured
             .map_or(vec![], |v| v.notes.clone())
             .into_iter()
-            .chain(told.notes)
+            .chain(judged_with.notes)
             .chain(unknown)
             .collect(),
         standard: spec.kind.standard().into(),

@@ -82,18 +82,18 @@ fn over_gaps(cloud: &[Point], taken: &[Point], nominal: &Nominal, near: &Nearnes
     let others: Vec<Point> = far.iter().map(|f| f.0).collect();
     let beyond = PointTree::new(&others);
     let gap = GAP * (area / taken.len() as f64).sqrt();
-    let is_told = |n: usize, (p, off, way): &(Point, f64, Vector)| {
+    let counts = |n: usize, (p, off, way): &(Point, f64, Vector)| {
         let foot = minus(*p, times(*off, *way));
         let is_gap = own.nearest(&foot).is_none_or(|(square, _)| square > gap * gap);
         let last = |n: Vec<Neighbour>, count: usize| n.get(count - 1).map_or(f64::INFINITY, |n| n.0);
         let reach = last(own.k_nearest(p, OWN, None), OWN);
         is_gap || last(beyond.k_nearest(p, OTHERS, Some(n as u32)), OTHERS) > reach
     };
-    far.iter().enumerate().filter(|(n, f)| is_told(*n, f)).map(|(_, f)| f.1.abs()).collect()
+    far.iter().enumerate().filter(|(n, f)| counts(*n, f)).map(|(_, f)| f.1.abs()).collect()
 }
 
 /// A verdict, and what is to be said of the points that were left out.
-pub(super) struct Told {
+pub(super) struct Judged {
     pub verdict: Verdict,
     pub notes: Vec<String>,
 }
@@ -103,16 +103,16 @@ pub(super) struct Told {
 ///
 /// What lies where the feature is and was not judged leaves no pass: nothing is proven by the others alone. Nor does what was
 /// taken for other surfaces by nothing but the cloud itself, if it would change the verdict.
-pub(super) fn told(
+pub(super) fn judge_left_out(
     plan: &Plan,
     found: &Inspection,
     spec: &Spec,
     judged: Verdict,
     with_others: Option<(&Result<Value, String>, Verdict)>,
-) -> Told {
-    let mut told = Told { verdict: judged, notes: vec![] };
+) -> Judged {
+    let mut result = Judged { verdict: judged, notes: vec![] };
     if judged == Verdict::NotMeasured {
-        return told;
+        return result;
     }
     let features: Vec<&Taken> =
         spec.numbers(&plan.features).into_iter().map(|n| &found.features[n]).collect();
@@ -122,16 +122,16 @@ pub(super) fn told(
         } else {
             "lie where nothing else of it was measured"
         };
-        told.notes.push(format!(
+        result.notes.push(format!(
             "feature \"{}\": {} measured points, up to {:.3} mm off, {where_to} and are left out as farther than its extract \
              distance of {:.3} mm; give a larger one to judge them",
             taken.id, out.points, out.farthest, out.limit
         ));
         if judged == Verdict::Pass {
-            told.verdict = Verdict::Undecided;
+            result.verdict = Verdict::Undecided;
         }
     }
-    let Some((value, verdict)) = with_others else { return told };
+    let Some((value, verdict)) = with_others else { return result };
     let mut known = true;
     for taken in features.iter().filter(|t| !t.others.points.is_empty()) {
         let count = taken.others.points.len();
@@ -141,7 +141,7 @@ pub(super) fn told(
             "face another way and go on beyond it, as walls and bores do"
         };
         known &= taken.others.on_reference;
-        told.notes.push(format!(
+        result.notes.push(format!(
             "feature \"{}\": {count} points within its reach {why} and are left out",
             taken.id
         ));
@@ -152,12 +152,12 @@ pub(super) fn told(
             Err(why) => format!("there would be no value: {why}"),
         };
         let remedy = if known { "" } else { "; a reference, or a margin that keeps them out, decides it" };
-        told.notes.push(format!("with the points of other surfaces {value}{remedy}"));
+        result.notes.push(format!("with the points of other surfaces {value}{remedy}"));
         if !known {
-            told.verdict = Verdict::Undecided;
+            result.verdict = Verdict::Undecided;
         }
     }
-    told
+    result
 }
 
 /// To the micrometre.

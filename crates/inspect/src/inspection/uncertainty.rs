@@ -8,9 +8,9 @@ use super::measure::measured;
 use super::take::again;
 use crate::characteristic::{Taken, Value};
 use crate::plan::{Noise, Plan, Spec};
-use rayon::prelude::*;
 use std::collections::HashMap;
 use trueness_geom::num::random::Random;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector};
 

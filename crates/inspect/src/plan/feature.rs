@@ -33,6 +33,19 @@ pub enum Class {
 }
 
 impl Class {
+    /// All of them.
+    pub const ALL: [Class; 9] = [
+        Class::Point,
+        Class::Line,
+        Class::Plane,
+        Class::Circle,
+        Class::Sphere,
+        Class::Cylinder,
+        Class::Cone,
+        Class::Torus,
+        Class::Surface,
+    ];
+
     /// The word for it.
     pub fn word(self) -> &'static str {
         match self {

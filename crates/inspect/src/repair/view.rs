@@ -39,7 +39,7 @@ pub fn by_step(document: &RepairDocument) -> Vec<(&str, Vec<&Change>)> {
 impl<'a> View<'a> {
     /// Of the repair that the document is of; `name` is shown to the reader.
     pub fn new(document: &RepairDocument, name: &'a str, before: &'a Mesh, after: &'a Mesh) -> View<'a> {
-        let surface = Surface { mesh: after, tree: Tree::build(after).ok() };
+        let surface = MendedMesh { mesh: after, tree: Tree::build(after).ok() };
         let steps = by_step(document).into_iter().enumerate();
         let groups = steps.map(|(n, (step, changes))| MarkGroup {
             key: format!("step.{step}"),
@@ -81,12 +81,12 @@ impl<'a> View<'a> {
 }
 
 /// The mended surface, to tell which way it looks somewhere.
-struct Surface<'a> {
+struct MendedMesh<'a> {
     mesh: &'a Mesh,
     tree: Option<Tree>,
 }
 
-impl Surface<'_> {
+impl MendedMesh<'_> {
     fn dot(&self, change: &Change) -> Mark {
         let (points, normal) = (vec![change.position], self.normal(&change.position));
         Mark { points, normal, ..Mark::default() }.finite()

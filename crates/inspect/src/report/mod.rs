@@ -9,7 +9,6 @@
 
 mod documents;
 mod error;
-mod html;
 mod input;
 mod marks;
 mod number;
@@ -19,6 +18,7 @@ mod payload;
 mod picture;
 mod text;
 mod up;
+mod values;
 
 pub use documents::{Answer, flat};
 pub use error::ReportError;

@@ -47,7 +47,7 @@ impl Style {
     }
 
     /// A number as 1.5e−7, with `decimals` digits after the decimal sign.
-    pub fn scientific(self, value: f64, decimals: usize) -> String {
+    pub fn exponent(self, value: f64, decimals: usize) -> String {
         let text = format!("{value:.decimals$e}");
         text.replace('.', &self.decimal().to_string()).replace('-', "\u{2212}")
     }
@@ -58,6 +58,12 @@ impl Style {
         let zero = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
         if value > 0.0 && !zero { format!("+{text}") } else { text }
     }
+}
+
+/// Digits after the point that show two digits of an uncertainty.
+pub fn decimals(uncertainty: Option<f64>, without: usize) -> usize {
+    let u = uncertainty.filter(|u| *u > 0.0 && u.is_finite());
+    u.map_or(without, |u| (1.0 - libm::log10(u).floor()).clamp(1.0, 9.0) as usize)
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! The page's words in four languages.
 
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// A language of the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +41,9 @@ impl Language {
 
 /// The word for `key`; the key itself where the table has none, which a test forbids.
 pub fn word(key: &str, language: Language) -> &str {
-    lines().find(|columns| columns[0] == key).map_or(key, |columns| columns[1 + language as usize])
+    static WORDS: LazyLock<BTreeMap<&str, [&str; 4]>> =
+        LazyLock::new(|| lines().map(|[key, words @ ..]| (key, words)).collect());
+    WORDS.get(key).map_or(key, |words| words[language as usize])
 }
 
 /// The whole table as `{language: {key: word}}`, for the script.

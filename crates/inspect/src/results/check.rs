@@ -1,11 +1,11 @@
 //! `trueness/check/1`: size and defects of a mesh.
 
 use super::Bounds;
-use super::InputRecord;
+use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::check::KINDS;
+use trueness_geom::check::{KINDS, Kind, Severity};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/check/1";
@@ -86,7 +86,7 @@ pub struct Tolerances {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Defects {
     /// `error` where the mesh is not sound, `warning` where something may be meant otherwise.
-    pub severity: String,
+    pub severity: Word<Severity>,
     /// Their number; `null` where they were not looked for.
     pub count: Option<u64>,
     /// There are more than `count`: they were not counted to the end.
@@ -123,17 +123,17 @@ pub struct Item {
 
 impl CheckDocument {
     /// Kinds that were found, as [`found`] orders them.
-    pub fn found(&self) -> Vec<(&'static str, &Defects)> {
+    pub fn found(&self) -> Vec<(&'static Kind, &Defects)> {
         found(&self.defects)
     }
 }
 
 /// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
 /// which the check tells them.
-pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static str, &Defects)> {
-    let all = KINDS.iter().filter_map(|k| Some((k.name, defects.get(k.name)?)));
+pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static Kind, &Defects)> {
+    let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
     let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
     let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);
-    found.sort_by_key(|(kind, d)| (d.severity != "error", follows(kind)));
+    found.sort_by_key(|(kind, d)| (d.severity.0, follows(kind.name)));
     found
 }

@@ -1,11 +1,13 @@
 //! `trueness/curvature/1`: curvatures of a mesh or cloud, place by place.
 
-use super::InputRecord;
+use super::word::named;
 use super::{Histogram, Statistics};
+use super::{InputRecord, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueness_geom::curvature::NoCurvature;
 use trueness_geom::spline::surface::Bend;
 
 /// Name of this document's schema.
@@ -23,7 +25,7 @@ pub struct CurvatureDocument {
     /// The file read.
     pub inputs: Vec<InputRecord>,
     /// What has curvatures: `vertices` of a mesh or `points` of a cloud.
-    pub places: String,
+    pub places: Word<PlaceKind>,
     /// Degree of the polynomials fitted to the neighbourhoods.
     pub degree: u64,
     /// What was taken into a neighbourhood.
@@ -34,7 +36,7 @@ pub struct CurvatureDocument {
     /// convex body whose normals point outward.
     pub sign: String,
     /// Where the side of the normals comes from: `facets`, or `neighbors` in a cloud.
-    pub normals: String,
+    pub normals: Word<NormalSource>,
     /// Of a cloud: parts that hang together, each with its normals to one side; 0 of a mesh.
     pub parts: u64,
     /// All vertices or points.
@@ -42,7 +44,7 @@ pub struct CurvatureDocument {
     /// Those that have curvatures.
     pub count: u64,
     /// Those that have none, by reason: `not_finite`, `unused`, `not_a_surface`, `boundary`, `few_neighbors`, `undetermined`, `folded`.
-    pub without: BTreeMap<String, u64>,
+    pub without: BTreeMap<Word<NoCurvature>, u64>,
     /// Mean curvature, the mean of the principal curvatures, 1/mm.
     pub mean: Quantity,
     /// Gaussian curvature, their product, 1/mm².
@@ -62,6 +64,36 @@ pub struct CurvatureDocument {
     /// Distance of the farthest neighbour.
     pub reach: Range,
 }
+
+/// What has curvatures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceKind {
+    /// The vertices of a mesh.
+    Vertices,
+    /// The points of a cloud.
+    Points,
+}
+
+named!(PlaceKind, "kind of place", [PlaceKind::Vertices, PlaceKind::Points], |kind| match kind {
+    PlaceKind::Vertices => "vertices",
+    PlaceKind::Points => "points",
+});
+
+/// Where the side of the normals comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NormalSource {
+    /// The facets of a mesh.
+    Facets,
+    /// The neighbors in a cloud.
+    Neighbors,
+}
+
+named!(NormalSource, "source of normals", [NormalSource::Facets, NormalSource::Neighbors], |source| {
+    match source {
+        NormalSource::Facets => "facets",
+        NormalSource::Neighbors => "neighbors",
+    }
+});
 
 /// What was taken into a neighbourhood.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

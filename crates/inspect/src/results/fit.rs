@@ -1,13 +1,13 @@
 //! `trueness/fit/1`: an element fitted to points.
 
 use super::Histogram;
-use super::{InputRecord, UNITS, VERSION};
+use super::{InputRecord, UNITS, VERSION, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::fit::Fit;
-use trueness_geom::shape::Parameter;
+use trueness_geom::fit::{Fit, Method};
+use trueness_geom::shape::{Kind, Parameter};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/fit/1";
@@ -24,11 +24,11 @@ pub struct FitDocument {
     /// The file read.
     pub inputs: Vec<InputRecord>,
     /// `line`, `plane`, `circle`, `ellipse`, `sphere`, `cylinder`, `cone` or `torus`.
-    pub shape: String,
+    pub shape: Word<Kind>,
     /// True if the element lies in the plane z = 0, as points of two columns do.
     pub planar: bool,
     /// `gaussian`, `minimum-zone`, `minimum-circumscribed`, `maximum-inscribed` or `robust`.
-    pub method: String,
+    pub method: Word<Method>,
     /// The element, by names: `point`, `direction`, `normal`, `center`, `apex`, `radius`, `half_angle`,
     /// `major_radius`, `minor_radius`, as the shape has them.
     pub parameters: BTreeMap<String, Number>,
@@ -149,6 +149,11 @@ pub(crate) fn uncertainty(fit: &Fit) -> (Option<BTreeMap<String, Number>>, Optio
 }
 
 impl FitDocument {
+    /// Which element it is, in the plane or in space.
+    pub fn kind(&self) -> Kind {
+        Kind::named(self.shape.name(), self.planar).unwrap_or(*self.shape)
+    }
+
     /// The document of a fit to the points of `inputs`.
     pub fn new(fit: &Fit, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
         let residuals = &fit.residuals;
@@ -160,9 +165,9 @@ impl FitDocument {
             version: VERSION.into(),
             units: UNITS.into(),
             inputs,
-            shape: fit.shape.kind().name().into(),
+            shape: Word(fit.shape.kind()),
             planar: fit.shape.kind().is_flat(),
-            method: fit.method.name().into(),
+            method: Word(fit.method),
             parameters: named(fit.shape.parameters()),
             uncertainty,
             uncertainty_reason,
@@ -197,9 +202,8 @@ impl FitDocument {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueness_geom::fit::{Method, Options, fit};
+    use trueness_geom::fit::{Options, fit};
     use trueness_geom::progress::Silent;
-    use trueness_geom::shape::Kind;
 
     #[test]
     fn a_document_is_read_back_as_it_was_written() {
@@ -215,7 +219,7 @@ mod tests {
             let document = FitDocument::new(&fit, vec![], 0);
             let text = serde_json::to_string(&document).unwrap();
             let back: FitDocument = serde_json::from_str(&text).unwrap();
-            assert_eq!(back.parameters, document.parameters);
+            assert_eq!((back.parameters.clone(), back.kind()), (document.parameters.clone(), Kind::Circle2));
             let value: serde_json::Value = serde_json::from_str(&text).unwrap();
             assert_eq!(value["shape"], "circle");
             assert_eq!(value["parameters"]["center"].as_array().unwrap().len(), 3);

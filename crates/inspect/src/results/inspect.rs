@@ -4,12 +4,15 @@ use super::align::AlignNote;
 use super::compare::Comparison;
 use super::fit::Number;
 use super::verdict::rank;
-use super::{InputRecord, Verdict};
+use super::word::named;
+use super::{InputRecord, Verdict, Word};
+use crate::plan::Class;
 use crate::plan::text::{MaterialWord, SizeWord};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueness_geom::fit::Method;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/inspect/1";
@@ -92,7 +95,7 @@ pub struct FeatureRecord {
     /// Its name.
     pub id: String,
     /// `point`, `line`, `plane`, `circle`, `sphere`, `cylinder`, `cone` or `torus`.
-    pub shape: String,
+    pub shape: Word<Class>,
     /// Where it comes from: `points`, `nominal`, `seed` or `derived`.
     pub source: String,
     /// Number of its points.
@@ -103,7 +106,7 @@ pub struct FeatureRecord {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub coverage_reason: Option<String>,
     /// How its element was associated.
-    pub method: String,
+    pub method: Word<Method>,
     /// The element, by names, as in a fit; null where there is none.
     pub parameters: Option<BTreeMap<String, Number>>,
     /// Standard uncertainty of each parameter by the points' scatter.
@@ -171,7 +174,7 @@ pub struct CharacteristicRecord {
     /// datums' association, the parameter.
     pub modifiers: Vec<String>,
     /// Form of the zone: `width`, `diameter` or `value` (a dimension or parameter).
-    pub zone: String,
+    pub zone: Word<ZoneForm>,
     /// Nominal value of a dimension.
     pub nominal: Option<f64>,
     /// Width or diameter of the zone; the greatest allowed value.
@@ -211,7 +214,34 @@ pub struct CharacteristicRecord {
     pub standard: String,
 }
 
+/// Form of the zone of a characteristic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ZoneForm {
+    /// Between two lines, planes or surfaces.
+    Width,
+    /// Within a circle, cylinder or sphere.
+    Diameter,
+    /// None: a dimension or parameter.
+    Value,
+}
+
+named!(
+    ZoneForm,
+    "form of a zone",
+    [ZoneForm::Width, ZoneForm::Diameter, ZoneForm::Value],
+    |form| match form {
+        ZoneForm::Width => "width",
+        ZoneForm::Diameter => "diameter",
+        ZoneForm::Value => "value",
+    }
+);
+
 impl CharacteristicRecord {
+    /// Whether the zone is a diameter.
+    pub fn diametral(&self) -> bool {
+        *self.zone == ZoneForm::Diameter
+    }
+
     /// The toleranced features: one, or two planes of a size.
     pub fn features(&self) -> Vec<&str> {
         self.feature.split(JOINED).collect()

@@ -15,16 +15,18 @@ pub mod repair;
 pub mod research;
 pub mod section;
 pub mod segment;
-mod statistics;
+pub mod statistics;
 pub mod surface;
 pub mod trend;
 mod verdict;
+mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::Verdict;
 pub(crate) use verdict::overall;
+pub use word::{Named, Word};
 
 /// Name and JSON schema of every result document, as kept under `docs/schema/`.
 pub fn schemas() -> Vec<(&'static str, String)> {

@@ -8,12 +8,14 @@ mod nominal;
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
-pub use nominal::{Against, NominalRecord, WorstRecord};
+pub use nominal::{Against, NominalRecord, Positive, WorstRecord};
 
-use super::{InputRecord, UNITS, VERSION};
+use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty};
+use trueness_geom::section::{
+    Continuity, Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty,
+};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
@@ -34,7 +36,7 @@ pub struct SectionDocument {
     /// Standard deviation of the points across the contour, where it was given.
     pub noise_given: Option<f64>,
     /// Continuity of all joins, where it was asked for: `g0`, `g1` or `g2`.
-    pub continuity_given: Option<String>,
+    pub continuity_given: Option<Word<Continuity>>,
     /// Where the plane of the section lies in space; of several, the first.
     pub frame: FrameRecord,
     /// The planes that a mesh or cloud was cut by; of points in order none.
@@ -253,7 +255,7 @@ pub struct JoinRecord {
     /// The same place in space.
     pub position: [f64; 3],
     /// `g0` (a corner), `g1` (a common tangent) or `g2` (and, as far as the data can tell, a common curvature).
-    pub continuity: String,
+    pub continuity: Word<Continuity>,
     /// The join lies between these two places, at the confidence `level`.
     pub interval: [[f64; 2]; 2],
     /// Standard uncertainty along the contour; of a corner, the greatest of any direction.
@@ -280,7 +282,7 @@ impl SectionDocument {
             inputs,
             level: options.level,
             noise_given: options.noise,
-            continuity_given: options.continuity.map(|c| c.name().into()),
+            continuity_given: options.continuity.map(Word),
             frame: sections.first().map_or(none, |s| s.frame),
             planes,
             contours: contours.collect(),
@@ -360,7 +362,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         .map(|join| JoinRecord {
             point: join.point,
             position: frame.place(join.point),
-            continuity: join.continuity.name().into(),
+            continuity: Word(join.continuity),
             interval: join.interval,
             std_uncertainty: join.uncertainty,
             interval_open: join.open,

@@ -2,11 +2,12 @@
 
 use super::Bounds;
 use super::fit::{Number, named, uncertainty};
-use super::{InputRecord, UNITS, VERSION};
+use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trueness_geom::segment::{Options, Region, Segmentation};
+use trueness_geom::shape::Kind;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/segment/1";
@@ -60,7 +61,7 @@ pub struct RegionRecord {
     /// Its number, from 0; the label of its facets or points.
     pub number: u64,
     /// `plane`, `cylinder`, `cone`, `sphere` or `torus`.
-    pub shape: String,
+    pub shape: Word<Kind>,
     /// The element by least squares, by names, as in a fit.
     pub parameters: BTreeMap<String, Number>,
     /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate.
@@ -133,7 +134,7 @@ fn record(number: usize, region: &Region, pieces: PieceKind, members: Option<Vec
     let area = (pieces == PieceKind::Facets).then_some(region.area);
     RegionRecord {
         number: number as u64,
-        shape: region.fit.shape.kind().name().into(),
+        shape: Word(region.fit.shape.kind()),
         parameters: named(region.fit.shape.parameters()),
         uncertainty,
         uncertainty_reason,

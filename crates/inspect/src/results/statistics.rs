@@ -87,6 +87,58 @@ statistics! {
     kurtosis kurtosis_reason,
 }
 
+/// A statistic in a table for people: what it is called, and its value.
+pub type TableRow = (&'static str, fn(&Statistics) -> Option<f64>);
+
+/// The statistics of a table for people, in its order.
+pub const TABLE_ROWS: &[TableRow] = &[
+    ("mean", |s| s.mean),
+    ("standard deviation σ", |s| s.std_dev),
+    ("6 σ", |s| s.six_sigma),
+    ("variance", |s| s.variance),
+    ("coefficient of variation", |s| s.cv),
+    ("root mean square", |s| s.rms),
+    ("mean of |d|", |s| s.mean_abs),
+    ("median", |s| s.median),
+    ("MAD", |s| s.mad),
+    ("min", |s| s.min),
+    ("max", |s| s.max),
+    ("range", |s| s.range),
+    ("skewness", |s| s.skewness),
+    ("excess kurtosis", |s| s.kurtosis),
+    ("0.1 %", |s| s.percentiles.p0_1),
+    ("1 %", |s| s.percentiles.p1),
+    ("2.5 %", |s| s.percentiles.p2_5),
+    ("5 %", |s| s.percentiles.p5),
+    ("25 %", |s| s.percentiles.p25),
+    ("75 %", |s| s.percentiles.p75),
+    ("95 %", |s| s.percentiles.p95),
+    ("97.5 %", |s| s.percentiles.p97_5),
+    ("99 %", |s| s.percentiles.p99),
+    ("99.9 %", |s| s.percentiles.p99_9),
+];
+
+/// A statistic on a page: key in the table of words, digits beyond the scale's, whether it is signed, number and reason.
+pub type PageRow = (&'static str, usize, bool, fn(&Statistics) -> (Option<f64>, Option<&str>));
+
+/// The statistics of a page, in its order.
+pub const PAGE_ROWS: [PageRow; 14] = [
+    ("mean", 1, true, |s| (s.mean, s.mean_reason.as_deref())),
+    ("std_dev", 1, false, |s| (s.std_dev, s.std_dev_reason.as_deref())),
+    ("rms", 1, false, |s| (s.rms, s.rms_reason.as_deref())),
+    ("mean_abs", 1, false, |s| (s.mean_abs, s.mean_abs_reason.as_deref())),
+    ("min", 0, true, |s| (s.min, s.min_reason.as_deref())),
+    ("max", 0, true, |s| (s.max, s.max_reason.as_deref())),
+    ("range_width", 0, false, |s| (s.range, s.range_reason.as_deref())),
+    ("median", 1, true, |s| (s.median, s.median_reason.as_deref())),
+    ("p5", 0, true, |s| (s.percentiles.p5, None)),
+    ("p95", 0, true, |s| (s.percentiles.p95, None)),
+    ("six_sigma", 1, false, |s| (s.six_sigma, s.six_sigma_reason.as_deref())),
+    ("cv", 0, false, |s| (s.cv, s.cv_reason.as_deref())),
+    ("skewness", 0, true, |s| (s.skewness, s.skewness_reason.as_deref())),
+    ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
+];
+
 /// Percentiles, linearly interpolated between order statistics (Hyndman & Fan's type 7, as NumPy's default).
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names say it")]

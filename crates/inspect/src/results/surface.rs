@@ -1,12 +1,13 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
-use super::InputRecord;
 use super::curvature::{BendRecord, Range};
 use super::{Histogram, Statistics};
+use super::{InputRecord, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueness_geom::surface::{BaseKind, Reached};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
@@ -82,7 +83,7 @@ pub struct KnotsRecord {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct BaseRecord {
     /// `plane`, `xy`, `cylinder` or `sphere`.
-    pub kind: String,
+    pub kind: Word<BaseKind>,
     /// Of a plane the corner of the minimum bounding rectangle, of a cylinder a place of its axis, of a sphere its center.
     pub origin: [f64; 3],
     /// Right-handed unit axes: of a plane the longer side, the shorter side and the normal; of a cylinder the third is its axis; of a
@@ -133,7 +134,7 @@ pub struct ToleranceRecord {
     /// Points beyond it.
     pub outside: u64,
     /// Why no more knots were set: `tolerance`, `noise`, `points` or `memory`.
-    pub stopped_by: String,
+    pub stopped_by: Word<Reached>,
 }
 
 /// Curvatures, positive where the surface bends towards its normal; `null` where no place has any.

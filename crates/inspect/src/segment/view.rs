@@ -9,6 +9,11 @@ use trueness_geom::space::{Point, Vector, cross, minus, plus, unit};
 
 /// What belongs to no region.
 const NONE: Rgb = [0xb9, 0xb4, 0xaa];
+/// The color of a region, by its number, or of what belongs to none: the same on the page and in files.
+pub fn color(region: Option<usize>) -> Rgb {
+    region.map_or(NONE, category)
+}
+
 /// The lines between regions.
 const LINE: Rgb = [0x22, 0x26, 0x2b];
 
@@ -49,13 +54,13 @@ impl<'a> View<'a> {
 
     /// A mesh or cloud for each region, in the order of the regions, then the rest if there is any.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
-        let names = self.document.regions.iter().map(|r| r.shape.as_str()).chain([""]);
+        let names = self.document.regions.iter().map(|r| r.shape.name()).chain([""]);
         (self.parts.iter().zip(names).enumerate())
             .filter(|(_, (part, _))| !part.positions.is_empty())
             .map(|(n, (part, name))| ViewObject {
                 role: ViewRole::Part,
                 name,
-                color: Some(if n < self.document.regions.len() { category(n) } else { NONE }),
+                color: Some(color(Some(n).filter(|n| *n < self.document.regions.len()))),
                 comparison: None,
                 geometry: match part.faces.is_empty() {
                     true => Geometry::Points(&part.positions),

@@ -68,7 +68,7 @@ fn row(name: &str, defects: &Defects) -> Option<Vec<String>> {
         None => Some(vec![name, "not asked for".into()]),
         Some(count) => {
             let at_least = if defects.at_least { "at least " } else { "" };
-            let mut row = vec![name, defects.severity.clone(), format!("{at_least}{}", grouped(count))];
+            let mut row = vec![name, defects.severity.to_string(), format!("{at_least}{}", grouped(count))];
             if let Some(largest) = defects.items.iter().max_by(|a, b| a.size.total_cmp(&b.size)) {
                 row.push(fixed(largest.size, 4));
                 row.extend(largest.position.map(|x| fixed(x, 4)));

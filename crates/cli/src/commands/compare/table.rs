@@ -6,6 +6,7 @@ use trueness_inspect::results::compare::{
     AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
 };
 use trueness_inspect::results::research::{Finding, Research, Test};
+use trueness_inspect::results::statistics::TABLE_ROWS;
 
 /// The whole text.
 pub fn text(d: &CompareDocument) -> String {
@@ -178,34 +179,6 @@ fn places(c: &Comparison) -> impl Iterator<Item = String> {
     })
 }
 
-type Row = (&'static str, fn(&Statistics) -> Option<f64>);
-const ROWS: &[Row] = &[
-    ("mean", |s| s.mean),
-    ("standard deviation σ", |s| s.std_dev),
-    ("6 σ", |s| s.six_sigma),
-    ("variance", |s| s.variance),
-    ("coefficient of variation", |s| s.cv),
-    ("root mean square", |s| s.rms),
-    ("mean of |d|", |s| s.mean_abs),
-    ("median", |s| s.median),
-    ("MAD", |s| s.mad),
-    ("min", |s| s.min),
-    ("max", |s| s.max),
-    ("range", |s| s.range),
-    ("skewness", |s| s.skewness),
-    ("excess kurtosis", |s| s.kurtosis),
-    ("0.1 %", |s| s.percentiles.p0_1),
-    ("1 %", |s| s.percentiles.p1),
-    ("2.5 %", |s| s.percentiles.p2_5),
-    ("5 %", |s| s.percentiles.p5),
-    ("25 %", |s| s.percentiles.p25),
-    ("75 %", |s| s.percentiles.p75),
-    ("95 %", |s| s.percentiles.p95),
-    ("97.5 %", |s| s.percentiles.p97_5),
-    ("99 %", |s| s.percentiles.p99),
-    ("99.9 %", |s| s.percentiles.p99_9),
-];
-
 /// One reference: statistics in rows, sides in columns.
 fn one(c: &Comparison) -> String {
     let has_sign = c.sign.method != "none";
@@ -222,7 +195,7 @@ fn one(c: &Comparison) -> String {
         std::iter::once(name.to_string()).chain(sides.iter().map(|s| f(s))).collect::<Vec<String>>()
     };
     rows.push(line("points", &|s| grouped(s.count)));
-    for (name, get) in ROWS {
+    for (name, get) in TABLE_ROWS {
         rows.push(line(name, &|s| get(s).map(number).unwrap_or_else(|| "–".into())));
     }
     let mut out = columns(&rows);

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::curvature::{Kind, View, document, reason, without};
+use trueness_inspect::curvature::{Kind, View, document, without};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::curvature::CurvatureDocument;
@@ -159,22 +159,28 @@ fn nothing(found: &Curvatures, of_mesh: bool) -> String {
     let Some((most, _)) = reasons.iter().max_by_key(|(_, count)| **count) else {
         return "it holds nothing that could have a curvature".into();
     };
-    let remedy = match most.as_str() {
-        "boundary" => "--boundary gives them values from one side",
-        "few_neighbors" => "give a smaller --degree or --neighbors, or a larger --radius",
-        "undetermined" if !of_mesh => {
+    let remedy = match **most {
+        NoCurvature::Boundary => "--boundary gives them values from one side",
+        NoCurvature::FewNeighbors => "give a smaller --degree or --neighbors, or a larger --radius",
+        NoCurvature::Undetermined if !of_mesh => {
             "they lie on lines or at one place; give a larger --radius or more --neighbors"
         }
-        _ => "`trueness check` tells what is wrong with a mesh",
+        NoCurvature::Undetermined
+        | NoCurvature::NotFinite
+        | NoCurvature::Unused
+        | NoCurvature::NotASurface
+        | NoCurvature::Folded => "`trueness check` tells what is wrong with a mesh",
     };
-    let told: Vec<String> =
-        reasons.iter().map(|(reason, count)| format!("{count} {}", reason.replace('_', " "))).collect();
+    let told: Vec<String> = reasons
+        .iter()
+        .map(|(reason, count)| format!("{count} {}", reason.name().replace('_', " ")))
+        .collect();
     format!("no place has a curvature ({}); {remedy}", told.join(", "))
 }
 
 /// The words for the reasons in files; the first is of those that have a value.
 fn reasons() -> Vec<&'static str> {
-    [""].into_iter().chain(NoCurvature::ALL.map(reason)).collect()
+    [""].into_iter().chain(NoCurvature::ALL.map(NoCurvature::name)).collect()
 }
 
 fn write(

@@ -4,12 +4,15 @@ use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_d
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::curvature::Kind;
-use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place, Range};
+use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place, PlaceKind, Range};
 
 /// The document as text.
 pub fn table(document: &CurvatureDocument) -> String {
     let mut out = read::notes(&document.inputs);
-    let what = if document.places == "vertices" { VERTICES } else { POINTS };
+    let what = match *document.places {
+        PlaceKind::Vertices => VERTICES,
+        PlaceKind::Points => POINTS,
+    };
     let around = match document.neighborhood {
         Neighborhood::Count { neighbors } => format!("at least {} neighbors", grouped(neighbors)),
         Neighborhood::Radius { radius } => format!("all within {radius} mm"),
@@ -44,7 +47,8 @@ pub fn table(document: &CurvatureDocument) -> String {
         let _ = writeln!(out, "{}", spread(name, range, unit));
     }
     for (reason, count) in &document.without {
-        let _ = writeln!(out, "! {} without a value: {}", counted(*count, what), reason.replace('_', " "));
+        let _ =
+            writeln!(out, "! {} without a value: {}", counted(*count, what), reason.name().replace('_', " "));
     }
     out.push_str("positive where the surface bends towards its normal; normals by the ");
     match document.parts {

@@ -103,7 +103,7 @@ fn deviation(out: &mut String, c: &Comparison) {
 }
 
 fn row(c: &CharacteristicRecord) -> Vec<String> {
-    let sign = if c.zone == "diameter" { "∅" } else { "" };
+    let sign = if c.diametral() { "∅" } else { "" };
     let allowed = match (c.nominal, c.lower) {
         (Some(nominal), Some(lower)) => {
             // The limit deviations as the plan has them, not the rounding of their sums.

@@ -5,7 +5,7 @@ use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::results::section::{
     AirfoilMeasures, AirfoilRecord, ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord,
-    NominalRecord, SectionDocument, SegmentRecord,
+    NominalRecord, Positive, SectionDocument, SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -199,7 +199,7 @@ fn joins(contour: &ContourRecord) -> String {
         let length = ((c - a) * (c - a) + (d - b) * (d - b)).sqrt();
         rows.push(vec![
             (n + 1).to_string(),
-            join.continuity.clone(),
+            join.continuity.to_string(),
             fixed(join.point[0], 6),
             fixed(join.point[1], 6),
             scientific(join.std_uncertainty, 2),
@@ -279,9 +279,9 @@ fn trailing(m: &AirfoilMeasures) -> (String, String) {
 
 /// How the points differ from the nominal.
 fn nominal(found: &NominalRecord) -> String {
-    let side = match found.positive.as_str() {
-        "outside" => "+ outside",
-        _ => "+ left of the nominal",
+    let side = match *found.positive {
+        Positive::Outside => "+ outside",
+        Positive::Left => "+ left of the nominal",
     };
     let mut out = format!("deviation from {} ({}), {side}\n", found.path, found.outline);
     let mut rows =

@@ -3,6 +3,7 @@
 use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
+use trueness_geom::surface::Reached;
 use trueness_inspect::results::curvature::Range;
 use trueness_inspect::results::surface::SurfaceDocument;
 
@@ -57,18 +58,18 @@ pub fn table(document: &SurfaceDocument) -> String {
         let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
     }
     if let Some(tolerance) = &document.tolerance {
-        let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, &tolerance.stopped_by));
+        let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, *tolerance.stopped_by));
     }
     out.push_str(&curvature(document));
     out
 }
 
-fn reached(value: f64, outside: u64, stopped_by: &str) -> String {
+fn reached(value: f64, outside: u64, stopped_by: Reached) -> String {
     let why = match stopped_by {
-        "noise" => "more knots would follow the noise of the points",
-        "points" => "there are too few points for more knots",
-        "memory" => "more knots would take more memory than allowed",
-        _ => return format!("tolerance {value}: reached, all points are within"),
+        Reached::Noise => "more knots would follow the noise of the points",
+        Reached::Points => "there are too few points for more knots",
+        Reached::Memory => "more knots would take more memory than allowed",
+        Reached::Tolerance => return format!("tolerance {value}: reached, all points are within"),
     };
     format!("tolerance {value}: not reached, {} beyond it; {why}", counted(outside, POINTS))
 }

@@ -1,6 +1,6 @@
 //! Faces and triangle strips, in text or in bytes.
 
-use super::header::{Element, Encoding, Kind};
+use super::header::{Element, Encoding, PropertyType};
 use crate::{
     assemble::Faces,
     error::{Fault, Located, Result},
@@ -24,7 +24,7 @@ pub(super) fn is_faces(element: &Element) -> bool {
 fn indices(element: &Element) -> Option<usize> {
     INDICES.iter().find_map(|name| {
         let (i, property) = element.property(name)?;
-        matches!(property.kind, Kind::List { .. }).then_some(i)
+        matches!(property.kind, PropertyType::List { .. }).then_some(i)
     })
 }
 
@@ -33,8 +33,8 @@ pub(super) fn row_length(feed: &mut Feed, element: &Element, order: Order) -> Re
     let mut length = 0usize;
     for property in &element.properties {
         let (count, size) = match property.kind {
-            Kind::One(s) => (1, s.size()),
-            Kind::List { count, item } => {
+            PropertyType::One(s) => (1, s.size()),
+            PropertyType::List { count, item } => {
                 let bytes = feed.ahead(length + count.size())?;
                 let Some(bytes) = bytes.get(length..).filter(|b| b.len() >= count.size()) else {
                     return Ok(None);
@@ -136,8 +136,8 @@ impl<'a> Bytes<'a> {
     fn row(&mut self, element: &Element, wanted: Option<usize>, out: &mut Vec<f64>) -> Result<bool> {
         for (i, property) in element.properties.iter().enumerate() {
             let (count, item) = match property.kind {
-                Kind::One(scalar) => (1.0, scalar),
-                Kind::List { count, item } => {
+                PropertyType::One(scalar) => (1.0, scalar),
+                PropertyType::List { count, item } => {
                     let at = self.at;
                     let Some(bytes) = self.take(count.size()) else { return Ok(false) };
                     let n = count.get(bytes, self.order);
@@ -164,8 +164,7 @@ impl<'a> Bytes<'a> {
 /// The common case: nothing but triangles of 32-bit numbers. False, and nothing done, if it is not that.
 fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut Faces) -> bool {
     const ROW: usize = 13;
-    let list =
-        |k: &Kind| matches!(k, Kind::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
+    let list = |k: &PropertyType| matches!(k, PropertyType::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
     let one = element.name == "face"
         && matches!(&element.properties[..], [p] if list(&p.kind) && is_faces(element));
     let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(ROW)) else {
@@ -225,7 +224,7 @@ fn short(element: &Element, present: u64, line: u64) -> Located {
 fn text_row(line: &[u8], element: &Element, wanted: usize, out: &mut Vec<f64>) -> Option<()> {
     let mut words = words(line);
     for (i, property) in element.properties.iter().enumerate().take(wanted + 1) {
-        let Kind::List { .. } = property.kind else {
+        let PropertyType::List { .. } = property.kind else {
             words.next()?;
             continue;
         };

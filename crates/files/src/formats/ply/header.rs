@@ -17,7 +17,7 @@ pub(super) enum Encoding {
 
 /// What a property holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum PropertyType {
     One(Scalar),
     /// A count and so many numbers.
     List {
@@ -30,7 +30,7 @@ pub(super) enum Kind {
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub name: String,
-    pub kind: Kind,
+    pub kind: PropertyType,
 }
 
 /// A table of the file.
@@ -49,16 +49,16 @@ impl Element {
     /// Bytes of a row, if all rows have the same.
     pub fn stride(&self) -> Option<usize> {
         let size = |p: &Property| match p.kind {
-            Kind::One(s) => Some(s.size()),
-            Kind::List { .. } => None,
+            PropertyType::One(s) => Some(s.size()),
+            PropertyType::List { .. } => None,
         };
         self.properties.iter().map(size).sum()
     }
     /// Least number of bytes of a row.
     pub fn least_stride(&self) -> usize {
         let size = |p: &Property| match p.kind {
-            Kind::One(s) => s.size(),
-            Kind::List { count, .. } => count.size(),
+            PropertyType::One(s) => s.size(),
+            PropertyType::List { count, .. } => count.size(),
         };
         self.properties.iter().map(size).sum()
     }
@@ -188,9 +188,9 @@ fn property(line: &[u8], number: u64) -> Result<Property> {
         if matches!(count, Scalar::F32 | Scalar::F64) {
             return Err(wrong());
         }
-        Kind::List { count, item }
+        PropertyType::List { count, item }
     } else {
-        Kind::One(scalar(first).ok_or_else(wrong)?)
+        PropertyType::One(scalar(first).ok_or_else(wrong)?)
     };
     let name = words.next().ok_or_else(wrong)?;
     Ok(Property { name: text(name), kind })

@@ -19,7 +19,7 @@ use crate::{
     scalar::{Order, Scalar},
     source::Source,
 };
-use header::{Element, Encoding, Header, Kind};
+use header::{Element, Encoding, Header, PropertyType};
 use loose::LoosePoints;
 use trueness_geom::{cloud::PointStream, space::Point};
 
@@ -145,7 +145,7 @@ fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[u
     let mut found = [0; 3];
     for (name, found) in names.into_iter().zip(&mut found) {
         match vertex.property(name) {
-            Some((i, p)) if matches!(p.kind, Kind::One(_)) => *found = i,
+            Some((i, p)) if matches!(p.kind, PropertyType::One(_)) => *found = i,
             _ => {
                 let names: Vec<&str> = vertex.properties.iter().map(|p| p.name.as_str()).collect();
                 let found = if names.is_empty() { "no properties".into() } else { names.join(", ") };
@@ -155,7 +155,7 @@ fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[u
         }
     }
     let last = found.iter().max().copied().unwrap_or(0);
-    if vertex.properties[..last].iter().any(|p| matches!(p.kind, Kind::List { .. })) {
+    if vertex.properties[..last].iter().any(|p| matches!(p.kind, PropertyType::List { .. })) {
         let what = "a list before the coordinates of a vertex cannot be read:".into();
         let remedy = "let the program that wrote this put x, y, z first";
         return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
@@ -221,7 +221,7 @@ impl Points {
                 window,
             )));
         };
-        let size = |k: &Kind| if let Kind::One(s) = k { *s } else { Scalar::U8 };
+        let size = |k: &PropertyType| if let PropertyType::One(s) = k { *s } else { Scalar::U8 };
         let place = |i: usize| {
             let before = vertex.properties[..i].iter().map(|p| size(&p.kind).size()).sum();
             (before, size(&vertex.properties[i].kind))

@@ -11,7 +11,7 @@ use crate::{
     lines::{line_end, line_of, without_mark},
     number::number,
 };
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 
 /// Bytes of one part.
 const PART: usize = 1 << 20;

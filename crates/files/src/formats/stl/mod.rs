@@ -15,7 +15,7 @@ use crate::{
 };
 use binary::{HEADER, RECORD};
 use facet::Facet;
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 
 /// STL, binary and ASCII.
 pub(crate) const STL: Format = Format {

@@ -10,7 +10,7 @@ use crate::{
     feed::Feed,
     lines::{count_lines, parts},
 };
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// Bytes parsed at a time by one thread: they stay in its cache.

@@ -252,7 +252,7 @@ fn a_quote_left_open_in_the_first_row_is_refused() {
 #[test]
 #[ignore = "known fault: 94 of 14,112 ways are read where they should be refused, nearly all with commas as separators and as decimal or thousands signs in one file"]
 fn every_way_of_writing_is_read_to_the_numbers_written_or_refused() {
-    use rayon::prelude::*;
+    use trueness_geom::parallel::prelude::*;
     let ways = every_way();
     let judged: Vec<_> = ways.par_iter().map(judged).collect();
     let wrong: Vec<&String> = judged.iter().filter_map(|j| j.as_ref().err()).collect();

@@ -6,8 +6,8 @@ use crate::{
     number::push_number,
     write::sink::{Block, Layout, PointsSink},
 };
-use rayon::prelude::*;
 use std::io::Write;
+use trueness_geom::parallel::prelude::*;
 
 /// Rows made into text by one task.
 const CHUNK: usize = 1 << 13;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::arrange::cut::Piece;
 use crate::arrange::cutting::cutting;
-use crate::arrange::points::Place;
+use crate::arrange::points::ExactPoint;
 use num_bigint::BigInt;
 
 /// Random triangles with corners in whole numbers.
@@ -20,7 +20,7 @@ fn soup(random: &mut Random, facets: usize, size: u64) -> Mesh {
 /// Coordinates of a place as fractions of whole numbers: numerators and the common denominator. Found by walking down the
 /// continued fraction of its bounds would need care; a place of the arrangement of whole numbers below 2^5 has a small
 /// denominator, and is found by trying them all.
-fn fraction(place: &Place) -> [BigInt; 4] {
+fn fraction(place: &ExactPoint) -> [BigInt; 4] {
     let p = place.nearest();
     let fits = |w: &i64| {
         p.iter().all(|x| {

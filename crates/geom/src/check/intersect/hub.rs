@@ -1,11 +1,11 @@
 //! Pairs of facets of which one lies at a vertex that very many have in common.
 //!
-//! The boxes of such facets all overlap at that vertex, the hub, and long thin ones overlap with much else: they settle
-//! nothing. But seen from the hub a facet is an arc of a great circle, from the direction of one corner to that of the
-//! other; any other facet is seen as a triangle of the sphere, and two facets that meet outside the hub meet where the
-//! one is seen through the other. So boxes around what is seen are compared, however long or short the facets are, and
-//! those around the facets; `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do two
-//! fans that do not lie upon each other.
+//! The boxes of such facets all overlap at that vertex, the *hub*, and the boxes of long thin facets overlap many others: boxes
+//! exclude next to nothing. Directions exclude more. Projected from the hub onto a sphere around it, a facet at the hub is an
+//! arc of a great circle, from the direction of one corner to that of the other; any other facet is a triangle of the sphere.
+//! Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the directions
+//! and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do
+//! two fans that do not lie upon each other.
 //!
 //! Facets at one edge of very many are a hub of their own, a [`Book`].
 

@@ -1,11 +1,15 @@
 //! All pairs of facets that cross, touch or overlap where they should not.
 //!
-//! *Tree*: each node inherits the list of nodes of its own level whose boxes overlap its parent's, and passes on those
-//! that overlap its children; eight boxes in one comparison. No walk ever starts at the root. At the bottom the
-//! children are triangles. *Filter*: most of the pairs left are settled in single precision, neighbours and strangers
-//! alike (see `filter`). *Exact*: the rest is decided by `meet`. *Hubs*: facets at vertices with very many, whose boxes
-//! all overlap, are not in the tree; they are searched in a way of their own (see `hub`), among each other and against
-//! the facets of the tree. *Copies*: of facets with the same three corners only the first is searched (see `pairs`).
+//! The search has four parts:
+//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box, and keeps
+//!    those that overlap its own; eight boxes in one comparison. So no search begins at the root. The children of the lowest
+//!    nodes are triangles.
+//! 2. *Filter.* Most of the pairs left are excluded in single precision, whether the triangles share corners or not (`filter`).
+//! 3. *Exact.* The rest is decided by `meet`.
+//! 4. *Hubs.* The boxes of all facets at a vertex overlap there. Facets at a vertex with very many are therefore not in the
+//!    tree. They are searched separately, among each other and against the facets of the tree (`hub`).
+//!
+//! Of several facets with the same three corners only the first is searched (`pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod book;
@@ -21,6 +25,7 @@ mod tree;
 pub(crate) mod views;
 
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::simd::Level;
 use crate::simd::lanes::Plain;
@@ -31,7 +36,6 @@ use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
 use pairs::{Copies, Pairs, Wanted};
-use rayon::prelude::*;
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use tree::{Boxes, Leaf, Tree, W};
@@ -99,7 +103,8 @@ pub fn first_self_intersections(
     if found.count <= search.most {
         return Ok(found);
     }
-    // Which were found by then hangs on the threads: once more with one, for as many as are listed.
+    // Which pairs were found before the end depends on the threads. So it is searched once more, on one thread and in a fixed order, for
+    // as many pairs as are listed.
     let few = Search { most: limit.saturating_sub(1), alone: true, ..search };
     let first = with(&few, progress, Level::detect())?.first;
     Ok(Crossings { count: search.most, at_least: true, first })
@@ -195,7 +200,7 @@ struct Search<'a> {
     limit: usize,
     /// Beyond so many pairs there is no need to find more.
     most: usize,
-    /// On one thread, in an order of its own: what was found when there is no need for more is always the same.
+    /// On one thread, in a fixed order: where the search ends early, it has found the same pairs every time.
     alone: bool,
 }
 
@@ -215,9 +220,10 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     around_hubs(&walk, &hubs, some, &mut pairs);
     if !tree.leaves.is_empty() && !walk.is_over() {
         let top = tree.levels.len() - 1;
-        match level {
+        match level.min(Level::detect()) {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => avx2(&walk, top, 0, &[0], &mut pairs),
+            // SAFETY: `Level::detect` found these instructions.
+            Level::Avx2 | Level::Avx512 => unsafe { avx2(&walk, top, 0, &[0], &mut pairs) },
             _ => plain(&walk, top, 0, &[0], &mut pairs),
         }
     }
@@ -284,22 +290,24 @@ struct Walk<'a> {
     found: AtomicUsize,
 }
 
-type Deeper = for<'a> fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
+/// [`Walk::descend`] for one level of instructions.
+///
+/// # Safety
+/// The processor has these instructions.
+type Deeper = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
 fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
     unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
 }
 
+/// # Safety
+/// The processor has the instructions named here.
 #[cfg(target_arch = "x86_64")]
-fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-    #[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
-    fn run(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
-        // SAFETY: the instructions are those of this function.
-        unsafe { walk.descend::<A8>(level, i, list, out, avx2) }
-    }
-    // SAFETY: reached from `with` only, for a level that the processor has.
-    unsafe { run(walk, level, i, list, out) }
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt")]
+unsafe fn avx2(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs) {
+    // SAFETY: the instructions are those of this function.
+    unsafe { walk.descend::<A8>(level, i, list, out, avx2) }
 }
 
 #[inline(always)]
@@ -315,7 +323,7 @@ impl Walk<'_> {
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
     ///
     /// # Safety
-    /// The processor has the instructions of `L`.
+    /// The processor has the instructions of `L` and of `deeper`.
     #[inline(always)]
     unsafe fn descend<L: Masks>(
         &self,
@@ -336,7 +344,8 @@ impl Walk<'_> {
                 next.clear();
                 // SAFETY: handed on.
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-                deeper(self, level - 1, i * W + a, &next, out);
+                // SAFETY: the instructions of `deeper` are those of `L`.
+                unsafe { deeper(self, level - 1, i * W + a, &next, out) };
             }
             if level == 1 {
                 self.progress.advance((children.len() * W) as u64);
@@ -351,12 +360,16 @@ impl Walk<'_> {
             lists.push((i * W + a, next));
         }
         if self.alone {
-            return lists.into_iter().for_each(|(child, next)| deeper(self, level - 1, child, &next, out));
+            // SAFETY: as above.
+            let one =
+                |(child, next): (usize, Vec<u32>)| unsafe { deeper(self, level - 1, child, &next, out) };
+            return lists.into_iter().for_each(one);
         }
         let wanted = out.wanted;
         let parts = lists.into_par_iter().map(|(child, next)| {
             let mut part = Pairs::new(wanted);
-            deeper(self, level - 1, child, &next, &mut part);
+            // SAFETY: as above.
+            unsafe { deeper(self, level - 1, child, &next, &mut part) };
             part
         });
         parts.collect::<Vec<_>>().into_iter().for_each(|part| out.append(part));

@@ -8,10 +8,10 @@
 
 use crate::memory::{Shared, large_pages, prefetch};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
 use crate::topology::Topology;
-use rayon::prelude::*;
 
 /// Triangles of a leaf, children of a node: what one vector holds.
 pub(super) const W: usize = 8;

@@ -21,7 +21,7 @@ fn same_as_brute(mesh: &Mesh, points: &[Point], direction: impl Fn(usize) -> Vec
 
 #[test]
 fn lines_meet_what_trying_all_faces_meets() {
-    let d = &mut Dice(1);
+    let d = &mut TestRandom(1);
     let lumps = soup(d, 400, |d| {
         let (at, size) = (d.point(10.0), 10f64.powf(d.unit() * 3.0));
         std::array::from_fn(|_| plus(at, d.point(size)))
@@ -41,7 +41,7 @@ fn lines_meet_what_trying_all_faces_meets() {
 #[test]
 fn no_line_slips_through_at_edges_and_corners() {
     // Lines to places of a closed mesh: they meet it, whatever the rounding; at corners, in edges, within faces.
-    let d = &mut Dice(2);
+    let d = &mut TestRandom(2);
     for turn in 0..40 {
         // The first two lie so that nothing is rounded, and lines go through edges and corners exactly.
         let exact = turn < 2;
@@ -71,7 +71,7 @@ fn a_sphere_and_a_plane_in_closed_form() {
     let z = |x: f64| 0.3 * x + 2.0;
     let positions = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[x, y]| [x, y, z(x)]).to_vec();
     let tree = Tree::build(&Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3]] }).unwrap();
-    let d = &mut Dice(3);
+    let d = &mut TestRandom(3);
     for _ in 0..200 {
         let p = d.point(8.0);
         let found = tree.crossing(&p, [0.0, 0.0, -7.0], f64::INFINITY).unwrap().unwrap();
@@ -112,7 +112,7 @@ fn what_is_too_far_or_has_no_direction_is_not_met() {
 
 #[test]
 fn any_number_of_threads_gives_the_same() {
-    let d = &mut Dice(4);
+    let d = &mut TestRandom(4);
     let mesh = sphere(40, 3.0, [0.0; 3]);
     let tree = Tree::build(&mesh).unwrap();
     let points: Vec<Point> = (0..20_000).map(|_| d.point(4.0)).collect();

@@ -6,7 +6,7 @@ use crate::progress::Cancelled;
 use crate::space::{minus, norm, times};
 
 /// Points of every kind around `mesh`: on its corners, edges and faces, near, and far.
-fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
+fn around(mesh: &Mesh, d: &mut TestRandom, n: usize) -> Vec<Point> {
     let bounds = mesh.bounds();
     let size = bounds.sides().into_iter().fold(1e-300, f64::max);
     let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
@@ -35,7 +35,7 @@ fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
     points
 }
 
-fn check(name: &str, mesh: Mesh, d: &mut Dice, n: usize) {
+fn check(name: &str, mesh: Mesh, d: &mut TestRandom, n: usize) {
     let tree = Tree::build(&mesh).unwrap();
     let points = around(&mesh, d, n);
     let want: Vec<_> = points.iter().map(|p| brute::closest(&mesh, p)).collect();
@@ -82,14 +82,14 @@ fn place_is_right(mesh: &Mesh, p: &Point, want: (f64, u32), got: &Closest) {
 
 #[test]
 fn soups_equal_brute_force() {
-    let d = &mut Dice(1);
-    let large = |d: &mut Dice| std::array::from_fn(|_| d.point(1.0));
+    let d = &mut TestRandom(1);
+    let large = |d: &mut TestRandom| std::array::from_fn(|_| d.point(1.0));
     for (name, faces, points) in
         [("one", 1, 400), ("eight", 8, 400), ("nine", 9, 400), ("crossing", 700, 1500)]
     {
         check(name, soup(d, faces, large), d, points);
     }
-    let small = |d: &mut Dice| {
+    let small = |d: &mut TestRandom| {
         let c = d.point(10.0);
         std::array::from_fn(|_| plus(c, d.point(0.2)))
     };
@@ -99,9 +99,9 @@ fn soups_equal_brute_force() {
 /// Few points make one wide block, whose outer points have other winners than its centre.
 #[test]
 fn wide_blocks_equal_brute_force() {
-    let d = &mut Dice(7);
+    let d = &mut TestRandom(7);
     for round in 0..3000 {
-        let small = |d: &mut Dice| {
+        let small = |d: &mut TestRandom| {
             let c = d.point([0.5, 2.0, 3.0][round % 3]);
             std::array::from_fn(|_| plus(c, d.point(0.02)))
         };
@@ -117,24 +117,24 @@ fn wide_blocks_equal_brute_force() {
 
 #[test]
 fn degenerate_triangles_equal_brute_force() {
-    let d = &mut Dice(4);
-    let thin = |d: &mut Dice, width: f64| {
+    let d = &mut TestRandom(4);
+    let thin = |d: &mut TestRandom, width: f64| {
         let (c, e) = (d.point(10.0), d.point(3.0));
         [c, plus(c, e), plus(plus(c, times(0.4, e)), d.point(width))]
     };
     check("needles", soup(d, 1000, |d| thin(d, 1e-7)), d, 700);
-    let any_width = |d: &mut Dice| {
+    let any_width = |d: &mut TestRandom| {
         let width = 10f64.powf(-4.0 + 8.0 * d.unit()).min(1.0);
         thin(d, width)
     };
     check("slivers at the limit of the plane", soup(d, 1000, any_width), d, 1500);
-    let segment = |d: &mut Dice| {
+    let segment = |d: &mut TestRandom| {
         let (c, e) = (d.point(10.0), d.point(1.0));
         [c, plus(c, e), if d.unit() > 0.0 { c } else { plus(c, times(0.5, e)) }]
     };
     check("segments", soup(d, 1000, segment), d, 700);
     // As in drawings: what is left of a side after taking its part along another is rounding that points along it.
-    let on_a_line = |d: &mut Dice| {
+    let on_a_line = |d: &mut TestRandom| {
         let whole = |p: Point| p.map(f64::round);
         let (c, e) = (whole(d.point(20.0)), whole(d.point(3.0)));
         [c, plus(c, times(2.0, e)), plus(c, e)]
@@ -146,7 +146,7 @@ fn degenerate_triangles_equal_brute_force() {
 
 #[test]
 fn closed_meshes_equal_brute_force() {
-    let d = &mut Dice(5);
+    let d = &mut TestRandom(5);
     let mut tripled = sphere(12, 5.0, [0.0; 3]);
     tripled.faces = [&tripled.faces[..]; 3].concat();
     check("each face three times", tripled, d, 1000);
@@ -163,7 +163,7 @@ fn closed_meshes_equal_brute_force() {
 
 #[test]
 fn any_size_and_place_equals_brute_force() {
-    let d = &mut Dice(6);
+    let d = &mut TestRandom(6);
     check("at 1e6", sphere(40, 100.0, [1e6, -1e6, 1e6]), d, 2000);
     check("tiny", sphere(30, 1e-12, [0.0; 3]), d, 1000);
     check("minute", sphere(30, 1e-30, [0.0; 3]), d, 1000);
@@ -181,9 +181,9 @@ fn any_size_and_place_equals_brute_force() {
 
 #[test]
 fn same_bytes_whatever_the_threads_and_the_order() {
-    let d = &mut Dice(2);
+    let d = &mut TestRandom(2);
     let mesh = sphere(100, 50.0, [3.0; 3]);
-    let near = |d: &mut Dice| plus([3.0; 3], times(50.05, d.direction()));
+    let near = |d: &mut TestRandom| plus([3.0; 3], times(50.05, d.direction()));
     let points: Vec<Point> = (0..60_000).map(|i| if i % 2 == 0 { d.point(80.0) } else { near(d) }).collect();
     let ask = |threads: usize, points: &[Point]| {
         in_pool(threads, || hits(&Tree::build(&mesh).unwrap(), points, &Query::default()))
@@ -191,7 +191,7 @@ fn same_bytes_whatever_the_threads_and_the_order() {
     let one = ask(1, &points);
     assert_eq!(one, ask(2, &points));
     assert_eq!(one, ask(5, &points));
-    // Another cloud: other blocks, other warm starts.
+    // Another cloud: other blocks, other places to begin at.
     let backwards: Vec<Point> = points.iter().rev().copied().collect();
     let mut other = ask(3, &backwards[..40_000]);
     other.extend(ask(2, &backwards[40_000..]));
@@ -273,7 +273,7 @@ fn needles_keep_their_digits() {
     let place = |[x, y]: Flat, z: i64| -> Point {
         [[1, -8, 4], [4, 4, 7], [-8, 1, 4]].map(|row: [i64; 3]| (row[0] * x + row[1] * y + row[2] * z) as f64)
     };
-    let d = &mut Dice(31);
+    let d = &mut TestRandom(31);
     let mut inside = 0;
     for case in 0..20_000 {
         let long = 1i64 << 44;

@@ -20,7 +20,7 @@ fn answer_within(mesh: &Mesh, points: &[Point], max_distance: f64) -> usize {
 
 #[test]
 fn points_within_are_exact_and_points_beyond_have_no_answer() {
-    let d = &mut Dice(11);
+    let d = &mut TestRandom(11);
     for mesh in [sphere(30, 100.0, [0.0; 3]), sphere(8, 100.0, [1e6; 3]), cube(150.0)] {
         let middle = mesh.positions[0];
         let mut points: Vec<Point> = (0..400).map(|_| plus(middle, d.point(300.0))).collect();

@@ -16,9 +16,9 @@ use std::f64::consts::PI;
 use std::sync::Mutex;
 
 /// Small repeatable generator (SplitMix64).
-pub struct Dice(pub u64);
+pub struct TestRandom(pub u64);
 
-impl Dice {
+impl TestRandom {
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E3779B97F4A7C15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58476D1CE4E5B9);
@@ -95,7 +95,7 @@ pub fn cube(size: f64) -> Mesh {
 }
 
 /// `n` triangles without a common vertex.
-pub fn soup(d: &mut Dice, n: usize, triangle: impl Fn(&mut Dice) -> [Point; 3]) -> Mesh {
+pub fn soup(d: &mut TestRandom, n: usize, triangle: impl Fn(&mut TestRandom) -> [Point; 3]) -> Mesh {
     let positions = (0..n).flat_map(|_| triangle(d)).collect();
     Mesh { positions, faces: (0..n as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect() }
 }

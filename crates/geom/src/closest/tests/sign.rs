@@ -6,7 +6,7 @@ use crate::space::norm;
 
 #[test]
 fn signs_agree_with_the_winding_number() {
-    let d = &mut Dice(3);
+    let d = &mut TestRandom(3);
     for mesh in [cube(1.0), sphere(40, 1.0, [0.2; 3])] {
         let tree = Tree::build(&mesh).unwrap();
         let (signs, winding) = (Signs::new(&tree), Winding::new(&tree));
@@ -23,7 +23,7 @@ fn signs_agree_with_the_winding_number() {
 #[test]
 fn sharp_corners_and_edges_have_the_right_side() {
     // A blade of 3 degrees and a spike: where the normal of the closest face alone goes wrong most often.
-    let d = &mut Dice(8);
+    let d = &mut TestRandom(8);
     for width in [0.05, 0.5, 3.0] {
         let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, width, 0.0], [0.7, 0.3 * width, 1.0]];
         let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
@@ -46,7 +46,7 @@ fn sharp_corners_and_edges_have_the_right_side() {
 /// However far away a point is, it is outside; of a mesh that is inside out, inside.
 #[test]
 fn far_away_is_outside() {
-    let d = &mut Dice(12);
+    let d = &mut TestRandom(12);
     let mut mesh = sphere(20, 7.0, [3.0; 3]);
     for outward in [1.0, -1.0] {
         let tree = Tree::build(&mesh).unwrap();
@@ -66,7 +66,7 @@ fn far_away_is_outside() {
 
 #[test]
 fn size_of_signed_distances_is_that_of_unsigned_ones() {
-    let d = &mut Dice(9);
+    let d = &mut TestRandom(9);
     let tree = Tree::build(&sphere(30, 1.0, [0.0; 3])).unwrap();
     let points: Vec<Point> = (0..5000).map(|_| d.point(1.5)).collect();
     let unsigned = tree.distances(&points, &Query::default(), &Silent).unwrap();
@@ -102,7 +102,7 @@ fn free_edges_hold_what_is_beside_the_mesh() {
     assert!(matches!(holds([-1.0, -1.0, -1.0]), (false, Feature::Vertex(_))), "before an inner corner");
     assert_eq!(FreeEdges::new(&Tree::build(&cube(1.0)).unwrap()).count(), 0);
     // Without shared vertices every edge is free.
-    let soup = soup(&mut Dice(1), 10, |d| std::array::from_fn(|_| d.point(1.0)));
+    let soup = soup(&mut TestRandom(1), 10, |d| std::array::from_fn(|_| d.point(1.0)));
     assert_eq!(FreeEdges::new(&Tree::build(&soup).unwrap()).count(), 30);
 }
 

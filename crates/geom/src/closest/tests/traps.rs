@@ -56,7 +56,7 @@ fn a_thousand_runs_give_the_same_numbers() {
 /// CloudCompare 1976: wrong side near the planes of the faces.
 #[test]
 fn everything_outside_a_box_is_positive() {
-    let d = &mut Dice(76);
+    let d = &mut TestRandom(76);
     let mut points = vec![];
     while points.len() < 30_000 {
         let mut p = d.point(3.0);
@@ -110,7 +110,7 @@ fn doubled_opposite_face() {
     mesh.faces.push(mesh.faces[3]);
     let tree = Tree::build(&mesh).unwrap();
     assert!(Signs::new(&tree).loose_edges() > 0, "flagged");
-    let d = &mut Dice(644);
+    let d = &mut TestRandom(644);
     let points: Vec<Point> = (0..2000).map(|_| plus([0.5; 3], d.point(1.0))).collect();
     let numbers = Winding::new(&tree).numbers(&points, &Silent).unwrap();
     for (p, w) in points.iter().zip(numbers) {
@@ -127,7 +127,7 @@ fn fractional_winding_leaves_the_size_alone() {
     mesh.faces.truncate(6);
     let tree = Tree::build(&mesh).unwrap();
     let (signs, winding) = (Signs::new(&tree), Winding::new(&tree));
-    let d = &mut Dice(2348);
+    let d = &mut TestRandom(2348);
     let points: Vec<Point> = (0..2000).map(|_| plus([0.5; 3], d.point(1.0))).collect();
     let numbers = winding.numbers(&points, &Silent).unwrap();
     assert!(numbers.iter().any(|w| (0.2..0.8).contains(w)));

@@ -25,7 +25,7 @@ fn error(mesh: &Mesh, points: &[Point]) -> (f64, f64) {
 }
 
 /// Points in and around a mesh, some near its surface.
-fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
+fn around(mesh: &Mesh, d: &mut TestRandom, n: usize) -> Vec<Point> {
     let bounds = mesh.bounds();
     let size = bounds.sides().into_iter().fold(0.0, f64::max);
     let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
@@ -41,7 +41,7 @@ fn around(mesh: &Mesh, d: &mut Dice, n: usize) -> Vec<Point> {
 /// However far away, and at places that stand for "no data" in files: an answer, and that of all places outside.
 #[test]
 fn far_away_nothing_winds_around_a_point() {
-    let d = &mut Dice(41);
+    let d = &mut TestRandom(41);
     for (mesh, size) in
         [(cube(1.0), 1.0), (cube(2.0), 2.0), (cube(100.0), 100.0), (sphere(20, 3.0, [0.0; 3]), 3.0)]
     {
@@ -63,7 +63,7 @@ fn far_away_nothing_winds_around_a_point() {
 }
 
 /// Name, mesh, and how often it covers itself.
-fn meshes(d: &mut Dice) -> Vec<(&'static str, Mesh, f64)> {
+fn meshes(d: &mut TestRandom) -> Vec<(&'static str, Mesh, f64)> {
     let mut open = sphere(60, 40.0, [1000.0; 3]);
     open.faces.truncate(5000);
     let mut thrice = sphere(30, 1.0, [0.0; 3]);
@@ -85,7 +85,7 @@ fn meshes(d: &mut Dice) -> Vec<(&'static str, Mesh, f64)> {
 
 #[test]
 fn differs_little_from_the_sum_of_all_solid_angles() {
-    let d = &mut Dice(12);
+    let d = &mut TestRandom(12);
     for (name, mesh, layers) in meshes(d) {
         let (worst, mean) = error(&mesh, &around(&mesh, d, 1500));
         assert!(
@@ -97,7 +97,7 @@ fn differs_little_from_the_sum_of_all_solid_angles() {
 
 #[test]
 fn is_above_a_limit_where_the_definition_is() {
-    let d = &mut Dice(16);
+    let d = &mut TestRandom(16);
     let mut narrow = 0;
     for (name, mesh, layers) in meshes(d) {
         let points = around(&mesh, d, 1500);
@@ -118,7 +118,7 @@ fn is_above_a_limit_where_the_definition_is() {
 
 #[test]
 fn a_single_leaf_is_summed_to_single_precision() {
-    let d = &mut Dice(13);
+    let d = &mut TestRandom(13);
     for _ in 0..100 {
         let mesh = soup(d, 8, |d| std::array::from_fn(|_| d.point(1.0)));
         let points: Vec<Point> = (0..20).map(|_| d.point(1.5)).collect();
@@ -164,7 +164,7 @@ fn points_on_corners_and_edges_have_a_number() {
 
 #[test]
 fn does_not_depend_on_neighbours_or_threads() {
-    let d = &mut Dice(14);
+    let d = &mut TestRandom(14);
     let mesh = sphere(40, 1.0, [0.0; 3]);
     let tree = Tree::build(&mesh).unwrap();
     let winding = Winding::new(&tree);
@@ -182,7 +182,7 @@ fn does_not_depend_on_neighbours_or_threads() {
 /// To the last bit, also on the surface, where the last bit decides the side.
 #[test]
 fn instruction_sets_agree() {
-    let d = &mut Dice(15);
+    let d = &mut TestRandom(15);
     let mesh = sphere(40, 1.0, [0.0; 3]);
     let tree = Tree::build(&mesh).unwrap();
     let winding = Winding::new(&tree);

@@ -3,7 +3,7 @@
 use super::super::sign_choice::SignReason;
 use super::*;
 use crate::check::tests::{add, inverted};
-use crate::closest::tests::{Dice, cube, sphere};
+use crate::closest::tests::{TestRandom, cube, sphere};
 use crate::deviation::along::Along;
 use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
@@ -11,7 +11,7 @@ use crate::topology::tests::block;
 
 fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, Vec<f64>, Disagreement) {
     let tree = Tree::build(mesh).unwrap();
-    let surface = Surface::new(&tree, mesh, &options, &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, mesh, &options, &Silent).unwrap();
     let deviations = surface.deviations(points, &Silent).unwrap();
     (*surface.sign(), deviations, surface.disagreement(points, &Silent).unwrap())
 }
@@ -95,7 +95,7 @@ fn on_the_wrong_side(mesh: &Mesh, points: &[Point]) -> (SignChoice, usize) {
 
 #[test]
 fn overlapping_shells_are_signed_by_what_winds_around_a_point() {
-    let d = &mut Dice(21);
+    let d = &mut TestRandom(21);
     let mut overlapping = 0;
     for case in 0..12 {
         let mut mesh = Mesh::default();
@@ -116,7 +116,7 @@ fn overlapping_shells_are_signed_by_what_winds_around_a_point() {
 /// Shells in shells, each one either way round; and apart from each other, where boxes overlap or not.
 #[test]
 fn nested_shells_are_material_or_cavities() {
-    let d = &mut Dice(22);
+    let d = &mut TestRandom(22);
     for inwards in 0..8 {
         let mut mesh = Mesh::default();
         for (i, radius) in [3.0, 2.0, 1.0].into_iter().enumerate() {
@@ -144,7 +144,7 @@ fn nested_shells_are_material_or_cavities() {
 /// Two cubes that share a wall: of the two facets there, each looks away from one of them.
 #[test]
 fn shells_that_touch_are_signed_by_winding_number() {
-    let d = &mut Dice(23);
+    let d = &mut TestRandom(23);
     let mut mesh = block(3, 1.0);
     add(&mut mesh, &block(2, 1.0), [1.0, 0.0, 0.0]);
     let points: Vec<Point> = (0..3000).map(|_| plus([1.0, 0.5, 0.5], d.point(1.2))).collect();
@@ -173,7 +173,7 @@ fn deviations_along_lines() {
     let mesh = cube(1.0);
     let tree = Tree::build(&mesh).unwrap();
     let options = SurfaceOptions { max_distance: 2.5, ..SurfaceOptions::default() };
-    let surface = Surface::new(&tree, &mesh, &options, &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &options, &Silent).unwrap();
     // Over the top; beside it; inside, nearest to the bottom; too far from everything; in reach, but not along the line.
     let points = [[0.5, 0.5, 1.25], [1.5, 0.25, 0.5], [0.5, 0.5, 0.25], [0.5, 0.5, 4.0], [0.5, 0.5, 3.0]];
     let ask = |start, along: &Along| {
@@ -203,8 +203,8 @@ fn normals_of_the_reference_are_those_of_the_nearest_place() {
     let center = [1.0, 2.0, 3.0];
     let mesh = sphere(60, 5.0, center);
     let tree = Tree::build(&mesh).unwrap();
-    let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
-    let d = &mut Dice(7);
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let d = &mut TestRandom(7);
     let points: Vec<Point> = (0..500).map(|_| plus(center, d.point(6.0))).collect();
     let normals = surface.normals(&Silent).unwrap();
     let along = surface.map_along(0, &points, &normals, &Silent, |_, d, _| d).unwrap();
@@ -216,7 +216,7 @@ fn normals_of_the_reference_are_those_of_the_nearest_place() {
     }
     let (mesh, beside) = (cube(1.0), [[1.3, 0.4, 1.1]]);
     let tree = Tree::build(&mesh).unwrap();
-    let surface = Surface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let found = surface
         .map_along(0, &beside, &surface.normals(&Silent).unwrap(), &Silent, |_, d, c| (d, *c.unwrap()));
     let (d, crossing) = found.unwrap()[0];

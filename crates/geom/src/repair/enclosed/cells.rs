@@ -5,13 +5,13 @@
 //! over: a segment that ends a hair too early leaves one slab of a hair's height uncut.
 
 /// A place of the plane.
-pub(super) type Place = [f64; 2];
+pub(super) type Point2 = [f64; 2];
 
 /// A piece that no segment cuts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
-    pub centre: Place,
-    pub corners: [Place; 4],
+    pub centre: Point2,
+    pub corners: [Point2; 4],
     pub area: f64,
 }
 
@@ -20,7 +20,7 @@ const MOST: usize = 30_000_000;
 
 /// The triangle without the segments; what they do beyond it does not count. `None` where that would be too much work.
 /// Cost: slabs times segments; there are two slabs for each segment and one for each crossing.
-pub(super) fn cells(triangle: &[Place; 3], segments: &[[Place; 2]]) -> Option<Vec<Cell>> {
+pub(super) fn cells(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<Vec<Cell>> {
     let heights = heights(triangle, segments)?;
     let mut cells = vec![];
     let mut across = vec![];
@@ -53,7 +53,7 @@ pub(super) fn cells(triangle: &[Place; 3], segments: &[[Place; 2]]) -> Option<Ve
 }
 
 /// Where slabs begin and end, ascending.
-fn heights(triangle: &[Place; 3], segments: &[[Place; 2]]) -> Option<Vec<f64>> {
+fn heights(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<Vec<f64>> {
     let mut heights: Vec<f64> = triangle.iter().map(|p| p[1]).collect();
     let (low, high) =
         heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(*y), h.max(*y)));
@@ -82,7 +82,7 @@ struct Passing {
 }
 
 impl Passing {
-    fn of([a, b]: &[Place; 2], [low, y, high]: [f64; 3]) -> Option<Passing> {
+    fn of([a, b]: &[Point2; 2], [low, y, high]: [f64; 3]) -> Option<Passing> {
         let at = |y: f64| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
         ((a[1] < y) != (b[1] < y)).then(|| Passing { low: at(low), middle: at(y), high: at(high) })
     }
@@ -100,9 +100,9 @@ impl Passing {
 }
 
 /// Height of the place where two segments cross.
-fn crossing([a, b]: &[Place; 2], [c, d]: &[Place; 2]) -> Option<f64> {
+fn crossing([a, b]: &[Point2; 2], [c, d]: &[Point2; 2]) -> Option<f64> {
     let cross =
-        |o: &Place, p: &Place, q: &Place| (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+        |o: &Point2, p: &Point2, q: &Point2| (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
     let (from, to) = (cross(c, d, a), cross(c, d, b));
     let (start, end) = (cross(a, b, c), cross(a, b, d));
     let differ = |p: f64, q: f64| p < 0.0 && q > 0.0 || p > 0.0 && q < 0.0;
@@ -120,15 +120,15 @@ mod tests {
         let random = &mut Random::new(9);
         for turn in 0..20 {
             let (cos, sin) = (f64::from(turn).cos(), f64::from(turn).sin());
-            let turned = |[x, y]: Place| [x * cos - y * sin, x * sin + y * cos];
-            let triangle: [Place; 3] =
+            let turned = |[x, y]: Point2| [x * cos - y * sin, x * sin + y * cos];
+            let triangle: [Point2; 3] =
                 std::array::from_fn(|_| turned([5.0 * random.unit(), 5.0 * random.unit()]));
             let [a, b, c] = triangle;
             let whole = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
             let line = |k: i32| {
                 [[[f64::from(k), -1.0], [f64::from(k), 6.0]], [[-1.0, f64::from(k)], [6.0, f64::from(k)]]]
             };
-            let lines: Vec<[Place; 2]> = (0..6).flat_map(line).map(|s| s.map(turned)).collect();
+            let lines: Vec<[Point2; 2]> = (0..6).flat_map(line).map(|s| s.map(turned)).collect();
             let found = cells(&triangle, &lines).unwrap();
             let sum: f64 = found.iter().map(|c| c.area).sum();
             assert!((sum - whole).abs() < 1e-13, "{turn}: {sum} {whole}");

@@ -16,13 +16,13 @@ use crate::check::Known;
 use crate::check::nesting::Container;
 use crate::mesh::Mesh;
 use crate::num::sum::Sums;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, norm, plus, times};
 use crate::topology::union::Sets;
 use crate::topology::{EdgeAt, Properties, Topology};
-use cells::{Cell, Place, cells};
+use cells::{Cell, Point2, cells};
 use meeting::{Facet, Meeting, meeting};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
@@ -315,7 +315,7 @@ impl Solid<'_> {
             }
         }
         let found = cells(&facet.local.map(|p| flat(&p)), &segments).ok_or(NotEnclosed::Tangle)?;
-        let place = |p: Place| plus(self.centre, lifted(&facet, vector, axis, p));
+        let place = |p: Point2| plus(self.centre, lifted(&facet, vector, axis, p));
         let part = |Cell { centre, corners, area }: Cell| Part {
             facet: f,
             at: place(centre),

@@ -51,7 +51,7 @@ struct Trial {
     /// Area, mm², of the largest patch it may get.
     limit: f64,
     /// A step has made it.
-    is_torn: bool,
+    is_own_hole: bool,
     /// Where its facets are while they are in the mesh.
     facets: Range<u32>,
 }
@@ -71,7 +71,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         shell_of.truncate(facets as usize);
         for trial in &mut trials {
             trial.facets = trial.patch.as_ref().map_or(0..0, |patch| insert(work, patch));
-            let shell = if trial.is_torn { u32::MAX } else { trial.ring.shell };
+            let shell = if trial.is_own_hole { u32::MAX } else { trial.ring.shell };
             shell_of.extend(trial.facets.clone().map(|_| shell));
         }
         let bad = misfits(work, facets, &shell_of)?;
@@ -113,9 +113,9 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let mut trials = vec![];
     for ring in rings {
         work.go_on()?;
-        let is_torn = work.is_torn(&ring.vertices);
-        let limit = if is_torn { f64::INFINITY } else { limit(work, &ring) };
-        let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, is_torn, facets: 0..0 };
+        let is_own_hole = work.is_own_hole(&ring.vertices);
+        let limit = if is_own_hole { f64::INFINITY } else { limit(work, &ring) };
+        let mut trial = Trial { ring, way: 0, patch: None, limit: f64::INFINITY, is_own_hole, facets: 0..0 };
         propose(&Site { work, known }, &mut trial);
         trial.limit = limit;
         trials.push(trial);
@@ -123,7 +123,7 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let open: BTreeSet<u32> =
         trials.iter().filter(|trial| trial.is_too_large(work)).map(|trial| trial.ring.shell).collect();
     for trial in &mut trials {
-        if !trial.is_torn && open.contains(&trial.ring.shell) {
+        if !trial.is_own_hole && open.contains(&trial.ring.shell) {
             trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
         }
         if trial.is_too_large(work) || flat::is_border(work, &trial.ring, &sheets) {
@@ -155,23 +155,23 @@ pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
     small.flat_map(|ring| sides(&ring)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
 }
 
-/// Tears out the facets around torn holes that nothing fits, so that the next round may find something that does: what was
-/// torn out of two bodies that cross leaves rims so near to each other that patches would cross again.
+/// Cuts out the facets around holes that a step has cut and no patch fits, so that the next round may find a patch: where two
+/// bodies cross, the rims that cutting leaves lie so near to each other that patches would cross again.
 fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
-    let rings = rings.filter(|ring| work.is_torn(&ring.vertices));
+    let rings = rings.filter(|ring| work.is_own_hole(&ring.vertices));
     let mut removed: Vec<u32> =
         rings.flat_map(|ring| &ring.vertices).flat_map(|v| known.topology.facets_at_vertex(*v)).collect();
     removed.sort_unstable();
     removed.dedup();
     let area = removed.iter().map(|&f| finding::area(work.corners(f))).sum::<f64>();
-    if removed.is_empty() || area > work.may_widen {
-        work.may_widen = 0.0;
+    if removed.is_empty() || area > work.state.handover.widening_left {
+        work.state.handover.widening_left = 0.0;
         return;
     }
-    work.may_widen -= area;
-    work.widened = true;
+    work.state.handover.widening_left -= area;
+    work.state.handover.has_widened = true;
     work.log(STEP.name, "holes widened that nothing fits", work.middle(removed[0]), removed.len(), area);
-    work.tear(&removed);
+    work.cut_out(&removed);
 }
 
 /// Finds the next patch for the hole, if there is one and the hole is not too large.
@@ -197,7 +197,7 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
 }
 
 /// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending. What crosses facets
-/// of another shell fits, if shells will be united; `shell_of` has no shell for patches of what a step has torn.
+/// of another shell fits, if shells will be united; `shell_of` has no shell for patches of holes that a step has cut.
 fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, RepairError> {
     let all = work.mesh().faces.len() as u32;
     let asked: Vec<bool> = (0..all).map(|f| f >= first).collect();

@@ -25,7 +25,7 @@ pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
 }
 
 /// What the steps come to, even if it is worse.
-pub(super) fn unguarded<'a>(mesh: &Mesh, options: &'a Options) -> Attempt<'a> {
+pub(super) fn unguarded(mesh: &Mesh, options: &Options) -> Attempt {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let before = check::check(mesh, None, &check_options, &Silent).unwrap();
     let start = Work::new(mesh.clone(), options, &Silent).unwrap();

@@ -2,8 +2,8 @@
 
 pub(super) mod parts;
 
-use super::grow::Terms;
-use super::surface::Band;
+use super::grow::Context;
+use super::pieces::Band;
 use super::{KINDS, Options, SegmentError, Segmentation, cloud, facets, mesh};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
@@ -24,10 +24,10 @@ pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> 
     ]
 }
 
-/// Calls `with` with the terms of a mesh with noise of 0.01 mm.
-pub(super) fn terms<T>(mesh: &Mesh, with: impl FnOnce(&Terms) -> T) -> T {
+/// Calls `with` with the context of a mesh with noise of 0.01 mm.
+pub(super) fn context<T>(mesh: &Mesh, with: impl FnOnce(&Context) -> T) -> T {
     let surface = facets::surface(mesh);
-    with(&Terms {
+    with(&Context {
         surface: &surface,
         kinds: &KINDS,
         band: Band { distance: 0.08, cosine: 30f64.to_radians().cos() },

@@ -11,11 +11,11 @@ use super::cells::{Bent, Grid, Part};
 use super::closest::{SurfaceFoot, descend};
 use super::patches::Jet;
 use super::tree::{Boxes, CellId};
-use crate::closest::{Place, QueryError, check_points, closest_point, squared_distance};
+use crate::closest::{PointOfTriangle, QueryError, check_points, closest_point, squared_distance};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
-use rayon::prelude::*;
 
 /// Places nearer by less than this share of the surfaces' size are not looked for once a minimum is found.
 pub const SHARE: f64 = 1e-9;
@@ -404,7 +404,7 @@ impl Piece {
     }
     /// Parameters of the place of a facet nearest to a point.
     fn parameters(&self, p: &Point, half: usize) -> [f64; 2] {
-        let Place { barycentric: [_, second, third], .. } = closest_point(p, &self.facets()[half]);
+        let PointOfTriangle { barycentric: [_, second, third], .. } = closest_point(p, &self.facets()[half]);
         let share = if half == 0 { [second + third, third] } else { [second, second + third] };
         [0, 1].map(|k| self.from[k] + share[k] * (self.to[k] - self.from[k]))
     }

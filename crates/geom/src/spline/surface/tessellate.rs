@@ -2,10 +2,10 @@
 
 use super::{Patches, Surface};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, norm};
 use crate::spline::value::Value;
-use rayon::prelude::*;
 
 /// A surface as a mesh.
 #[derive(Clone, Debug)]

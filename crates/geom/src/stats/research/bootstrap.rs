@@ -14,7 +14,7 @@ use super::super::statistics::Missing;
 use crate::num::random::Random;
 use crate::num::special::{normal_below, normal_quantile};
 use crate::num::sum::Sum;
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 
 /// Most values that are drawn one by one.
 pub const DIRECT: usize = 20_000;

@@ -5,7 +5,7 @@
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::{normal_below, student_p};
-use rayon::prelude::*;
+use crate::parallel::prelude::*;
 use std::f64::consts::{LN_2, PI};
 
 /// Kinds of distributions.

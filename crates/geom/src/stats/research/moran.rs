@@ -5,9 +5,9 @@
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::normal_p;
+use crate::parallel::prelude::*;
 use crate::space::Point;
 use crate::spatial::neighbours::PointTree;
-use rayon::prelude::*;
 
 /// How to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,14 +6,14 @@
 //! position; coordinates are compared where they lie (in the caller's file, for example), so a slot is four bytes.
 //! A thread that meets a position represented by a later item than its own takes the slot over and leaves a forwarding
 //! entry; following those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch
-//! ahead: the table is larger than any cache, and waiting for it is what a weld does.
+//! ahead: the table is larger than any cache, and most of the time of a weld is spent waiting for memory.
 
 use super::bits::Bits;
 use super::error::{MOST_FACETS, WeldError};
 use crate::memory::{atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
 use crate::space::Point;
-use rayon::prelude::*;
 use std::sync::atomic::{
     AtomicU32, AtomicUsize,
     Ordering::{AcqRel, Acquire, Relaxed},
@@ -105,7 +105,7 @@ pub(crate) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     if facets > MOST_FACETS {
         return Err(WeldError::TooManyFacets { facets });
     }
-    // Nearly always all is well, and the largest number says so soonest.
+    // Nearly always all numbers are in range, and the largest of them shows it fastest.
     let largest = |part: &[[u32; 3]]| part.as_flattened().iter().fold(0, |most: u32, v| most.max(*v));
     let largest = mesh.faces.par_chunks(CHUNK).map(largest).max();
     if largest.is_none_or(|v| (v as usize) < vertices) {
@@ -252,7 +252,7 @@ fn number<P: Position>(item: &(impl Fn(usize) -> P + Sync), first: Vec<AtomicU32
 /// Whether no two vertices are at one place.
 fn are_distinct(mesh: &Mesh) -> Result<bool, WeldError> {
     check_corners(mesh)?;
-    // More can be named by no face.
+    // Faces cannot name more.
     let named = mesh.positions.len().min(u32::MAX as usize - 1);
     let first = first_of_its_kind(named, named, &|v: usize| mesh.positions[v].normal());
     Ok(first.par_iter().enumerate().all(|(v, first)| first.load(Relaxed) as usize == v))
@@ -271,8 +271,8 @@ pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
     Ok(if welded.positions.len() == this.positions.len() { this.clone() } else { welded })
 }
 
-/// Of several vertices at one place facets name the first: where numbers lie too far apart, a vertex added beside another
-/// may have come to lie upon it.
+/// The mesh whose facets name the first of several vertices at one place. Far from the origin, rounding can put a vertex that was
+/// added beside another at the same place.
 pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
     if are_distinct(&of)? {
         return Ok(of);
@@ -287,7 +287,7 @@ pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
     Ok(of)
 }
 
-/// Without those vertices beyond the first `keep` that no facet uses; the others keep their order.
+/// The mesh without the vertices that no facet uses, but always with the first `keep`; the others keep their order.
 pub(crate) fn compact(mesh: Mesh, keep: usize) -> Mesh {
     let mut number: Vec<u32> = vec![u32::MAX; mesh.positions.len()];
     mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);

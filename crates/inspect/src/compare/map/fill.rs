@@ -1,7 +1,7 @@
 //! Values for vertices beside those that have one.
 
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{minus, norm};
 
 /// Gives each vertex without a value (NaN) that of the vertex nearest along the edges that has one, if the way is no longer than

@@ -2,8 +2,8 @@
 
 use super::bisection::Bisection;
 use crate::tolerance::{Tolerance, badness};
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, cross, minus, norm};
 
 /// Cuts of the reference's facets, at most: beyond, more detail cannot be seen and costs room in the report.

@@ -6,9 +6,9 @@ use super::creases;
 use super::fill::fill;
 use super::point_map::{Flagged, PointMap, place, worse};
 use crate::spacing::spacing;
-use rayon::prelude::*;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, cross, dot, minus, norm};
 
 /// Longest edge of a drawn piece over the spacing of the points: there are then about as many vertices as points.
@@ -273,17 +273,21 @@ fn least_share(part: &[[f64; 3]; 3], place: [f64; 3]) -> f64 {
 
 /// The nearest places of the points that the pieces show.
 fn feet(reference: &Mesh, map: &PointMap) -> Vec<Point> {
-    let of = |open: &mut Vec<u32>, face: u32| -> Vec<Point> {
-        let mut feet = vec![];
-        open.push(face);
-        while let Some(node) = open.pop() {
-            open.extend(map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
-            let kept = map.worst[node as usize];
-            if !kept.deviation.is_nan() {
-                feet.push(place(reference, face, kept.weights()));
+    const PART: usize = 1 << 10;
+    let count = reference.faces.len();
+    let of = |part: usize| -> Vec<Point> {
+        let (mut open, mut feet) = (vec![], vec![]);
+        for face in (part * PART..count.min((part + 1) * PART)).map(|f| f as u32) {
+            open.push(face);
+            while let Some(node) = open.pop() {
+                open.extend(map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
+                let kept = map.worst[node as usize];
+                if !kept.deviation.is_nan() {
+                    feet.push(place(reference, face, kept.weights()));
+                }
             }
         }
         feet
     };
-    (0..reference.faces.len() as u32).into_par_iter().map_init(Vec::new, of).flatten_iter().collect()
+    (0..count.div_ceil(PART)).into_par_iter().flat_map_iter(of).collect()
 }

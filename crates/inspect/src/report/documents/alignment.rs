@@ -1,8 +1,10 @@
 //! How the measured part was brought to its reference: the same section in every report that aligns.
 
-use super::super::html::Html;
-use super::super::page::blocks::{fact, section};
+use super::super::number::Style;
+use super::super::page::parts::{fact, section};
+use super::super::values::Text;
 use crate::results::align::AlignNote;
+use maud::{Markup, html};
 
 /// What there is to be said of an alignment.
 pub struct Facts<'a> {
@@ -18,31 +20,21 @@ pub struct Facts<'a> {
     pub warnings: &'a [AlignNote],
 }
 
-/// Writes the section.
-pub fn alignment(h: &mut Html, of: &Facts) {
-    section(h, "alignment", |h| {
-        h.raw("<dl class=\"facts pairs\">");
-        fact(h, "method", |h| {
-            h.word(&format!("align.{}", of.method));
-        });
-        if let Some(rms) = of.rms {
-            fact(h, "rms", |h| {
-                h.number(rms, 4, false).raw("\u{a0}mm");
-            });
-        }
-        if let Some(greatest) = of.greatest {
-            fact(h, "align.greatest", |h| {
-                h.number(greatest, 4, false).raw("\u{a0}mm");
-            });
-        }
-        if let Some(points) = of.left_out {
-            fact(h, "align.left_out", |h| {
-                h.count(points);
-            });
-        }
-        h.raw("</dl>");
-        for warning in of.warnings {
-            h.raw("<p class=\"note\"><strong class=\"warning\">⚠</strong> ").text(&warning.text).raw("</p>");
-        }
-    });
+/// The section.
+pub fn alignment(s: Style, of: &Facts) -> Markup {
+    section(
+        s,
+        "alignment",
+        html! {
+            dl.facts.pairs {
+                (fact(s, "method", s.word(format!("align.{}", of.method))))
+                @if let Some(rms) = of.rms { (fact(s, "rms", html! { (s.number(rms, 4)) "\u{a0}mm" })) }
+                @if let Some(greatest) = of.greatest {
+                    (fact(s, "align.greatest", html! { (s.number(greatest, 4)) "\u{a0}mm" }))
+                }
+                @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
+            }
+            @for warning in of.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
+        },
+    )
 }

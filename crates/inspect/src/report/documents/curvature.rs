@@ -1,12 +1,14 @@
 //! The page of curvatures: a map for each of them, where they are greatest and least, how well they are known.
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use super::{Head, Map, Pick, Subject};
 use crate::curvature::Kind;
-use crate::results::curvature::{CurvatureDocument, Neighborhood, Place, Range};
+use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Range};
 use crate::scale::Scale;
+use maud::{Markup, Render, html};
 use serde_json::Value;
+use trueness_geom::curvature::NoCurvature;
 
 impl Subject for CurvatureDocument {
     fn head(&self) -> Head<'_> {
@@ -25,66 +27,39 @@ impl Subject for CurvatureDocument {
         "picture.curvature"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        for (n, kind) in Kind::ALL.into_iter().enumerate() {
-            let found = self.quantity(kind);
-            let (all, digits) = (&found.statistics, found.scale.decimals as usize);
-            h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{n}\""));
-            h.raw(if n == 0 { ">" } else { " hidden>" });
-            key_number(h, words(kind)[0], "lead", |h| {
-                h.optional(all.median, all.median_reason.as_deref(), digits, true).raw("\u{a0}");
-                h.raw(kind.unit());
-            });
-            key_number(h, "most_within", "", |h| {
-                let p = &all.percentiles;
-                h.optional(p.p2_5, None, digits, true).raw("\u{2009}…\u{2009}");
-                h.optional(p.p97_5, None, digits, true);
-            });
-            key_number(h, "range", "", |h| {
-                h.optional(all.min, all.min_reason.as_deref(), digits, true).raw("\u{2009}…\u{2009}");
-                h.optional(all.max, all.max_reason.as_deref(), digits, true);
-            });
-            let without = self.total - self.count;
-            for (key, count) in [(self.word(), self.count), ("without", without)] {
-                if key != "without" || count > 0 {
-                    key_number(h, key, if key == "without" { "warn" } else { "" }, |h| {
-                        h.count(count);
-                    });
+    fn numbers(&self, s: Style) -> Markup {
+        html! { @for (n, kind) in Kind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } }
+    }
+
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "quantities", quantities(s, self)))
+            (section(s, "extremes", extremes(s, self)))
+            (section(s, "known", known(s, self)))
+            @if !self.without.is_empty() { (section(s, "without", html! {
+                dl.facts.pairs {
+                    @for (reason, count) in &self.without { (fact(s, reason_key(**reason), s.count(*count))) }
                 }
-            }
-            h.raw("</dl>");
+            })) }
         }
     }
 
-    fn list(&self, h: &mut Html) {
-        section(h, "quantities", |h| quantities(h, self));
-        section(h, "extremes", |h| extremes(h, self));
-        section(h, "known", |h| known(h, self));
-        if !self.without.is_empty() {
-            section(h, "without", |h| {
-                h.raw("<dl class=\"facts pairs\">");
-                for (reason, count) in &self.without {
-                    fact(h, reason_key(reason), |h| {
-                        h.count(*count);
-                    });
-                }
-                h.raw("</dl>");
-            });
+    fn method(&self, s: Style) -> Markup {
+        let facets = *self.normals == NormalSource::Facets;
+        html! {
+            p { (s.word("method.curvature.text")) }
+            p { (s.word(if facets { "method.curvature.facets" } else { "method.curvature.cloud" })) }
         }
     }
 
-    fn method(&self, h: &mut Html) {
-        h.raw("<p>").word("method.curvature.text").raw("</p>");
-        let key = if self.normals == "facets" { "method.curvature.facets" } else { "method.curvature.cloud" };
-        h.raw("<p>").word(key).raw("</p>");
-    }
-
-    fn how(&self, h: &mut Html) {
-        h.word("method.curvature").raw(" · ").word("degree").raw("\u{a0}").count(self.degree);
+    fn how(&self, s: Style) -> Markup {
+        html! {
+            (s.word("method.curvature")) " · " (s.word("degree")) "\u{a0}" (s.count(self.degree))
+        }
     }
 
     fn points(&self) -> Option<u64> {
-        (self.places == "points").then_some(self.total)
+        (*self.places == PlaceKind::Points).then_some(self.total)
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -131,7 +106,10 @@ impl Subject for CurvatureDocument {
 
 impl CurvatureDocument {
     fn word(&self) -> &'static str {
-        if self.places == "vertices" { "vertices.title" } else { "points" }
+        match *self.places {
+            PlaceKind::Vertices => "vertices.title",
+            PlaceKind::Points => "points",
+        }
     }
 }
 
@@ -145,15 +123,15 @@ pub fn words(kind: Kind) -> [&'static str; 3] {
     }
 }
 
-fn reason_key(reason: &str) -> &'static str {
+fn reason_key(reason: NoCurvature) -> &'static str {
     match reason {
-        "not_finite" => "reason.not_finite",
-        "unused" => "reason.unused",
-        "not_a_surface" => "reason.no_surface",
-        "boundary" => "reason.boundary",
-        "few_neighbors" => "reason.few_neighbors",
-        "folded" => "reason.folded",
-        _ => "reason.undetermined",
+        NoCurvature::NotFinite => "reason.not_finite",
+        NoCurvature::Unused => "reason.unused",
+        NoCurvature::NotASurface => "reason.no_surface",
+        NoCurvature::Boundary => "reason.boundary",
+        NoCurvature::FewNeighbors => "reason.few_neighbors",
+        NoCurvature::Folded => "reason.folded",
+        NoCurvature::Undetermined => "reason.undetermined",
     }
 }
 
@@ -171,96 +149,113 @@ fn ends(d: &CurvatureDocument, kind: Kind) -> [(&Place, f64); 2] {
     })
 }
 
+/// The key numbers of a curvature, those of map `n`.
+fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: Kind) -> Markup {
+    let found = CurvatureDocument::quantity(d, kind);
+    let (all, p) = (&found.statistics, &found.statistics.percentiles);
+    let value = |x| s.optional(x, found.scale.decimals as usize).signed();
+    let without = d.total - d.count;
+    html! {
+        dl.key-numbers data-comparison=(n) hidden[n > 0] {
+            (key_number(s, words(kind)[0], "lead", html! {
+                (value(all.median).because(all.median_reason.as_deref())) "\u{a0}" (kind.unit())
+            }))
+            (key_number(s, "most_within", "", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
+            (key_number(s, "range", "", html! {
+                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
+                (value(all.max).because(all.max_reason.as_deref()))
+            }))
+            (key_number(s, d.word(), "", s.count(d.count)))
+            @if without > 0 { (key_number(s, "without", "warn", s.count(without))) }
+        }
+    }
+}
+
 /// Every curvature in a row, which shows its map.
-fn quantities(h: &mut Html, d: &CurvatureDocument) {
-    choose_head(h, ["p2_5", "median", "p97_5"]);
-    for (n, kind) in Kind::ALL.into_iter().enumerate() {
+fn quantities(s: Style, d: &CurvatureDocument) -> Markup {
+    let row = |kind: Kind| {
         let found = CurvatureDocument::quantity(d, kind);
         let p = &found.statistics.percentiles;
-        choose_row(
-            h,
-            n,
-            words(kind)[0],
-            [p.p2_5, p.p50, p.p97_5],
-            found.scale.decimals as usize,
-            kind.unit(),
-        );
-    }
-    h.raw("</tbody></table>");
+        let digits = found.scale.decimals as usize;
+        Choice { key: words(kind)[0], values: [p.p2_5, p.p50, p.p97_5], digits, unit: kind.unit() }
+    };
+    choices(s, ["p2_5", "median", "p97_5"], Kind::ALL.into_iter().map(row))
 }
 
-/// Begins a table of quantities, of which one is shown.
-pub fn choose_head(h: &mut Html, columns: [&str; 3]) {
-    h.raw("<table class=\"choose quantities\"><thead><tr><th></th>");
-    for key in columns {
-        h.raw("<th class=\"r\">").word(key).raw("</th>");
-    }
-    h.raw("</tr></thead><tbody>");
+/// A quantity of which a map can be shown, with three of its values.
+pub struct Choice {
+    /// Key of its word.
+    pub key: &'static str,
+    /// What stands in the three columns.
+    pub values: [Option<f64>; 3],
+    /// Their digits after the point.
+    pub digits: usize,
+    /// Their unit.
+    pub unit: &'static str,
 }
 
-/// A quantity with three of its values; its row shows map number `map`.
-pub fn choose_row(h: &mut Html, map: usize, key: &str, values: [Option<f64>; 3], digits: usize, unit: &str) {
-    let current = if map == 0 { "true" } else { "false" };
-    h.raw(&format!("<tr data-choose=\"{map}\" aria-selected=\"{current}\"><td>")).word(key);
-    h.raw(" <span class=\"unit\">").raw(unit).raw("</span></td>");
-    for value in values {
-        h.raw("<td class=\"r\">").optional(value, None, digits, true).raw("</td>");
-    }
-    h.raw("</tr>");
-}
-
-fn extremes(h: &mut Html, d: &CurvatureDocument) {
-    for (n, kind) in Kind::ALL.into_iter().enumerate() {
-        let digits = CurvatureDocument::quantity(d, kind).scale.decimals as usize;
-        h.raw(&format!("<div data-comparison=\"{n}\"")).raw(if n == 0 { ">" } else { " hidden>" });
-        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("value");
-        h.raw("</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>");
-        for (k, (place, value)) in ends(d, kind).into_iter().enumerate() {
-            h.raw(&format!("<tr data-pick=\"{}\"><td title=\"{}\">", 2 * n + k, place.index));
-            h.word(if k == 0 { "max" } else { "min" }).raw("</td><td class=\"r\">");
-            h.number(value, digits, true).raw("</td>");
-            place_cells(h, place.position);
-            h.raw("</tr>");
+/// A table of quantities, of which one is shown, in the order of their maps; the columns by the keys of their words.
+pub fn choices(s: Style, columns: [&str; 3], rows: impl Iterator<Item = Choice>) -> Markup {
+    html! {
+        table.choose.quantities {
+            thead { tr { th {} @for key in columns { th.r { (s.word(key)) } } } }
+            tbody {
+                @for (map, Choice { key, values, digits, unit }) in rows.enumerate() {
+                    tr data-choose=(map) aria-selected=(map == 0) {
+                        td { (s.word(key)) " " span.unit { (unit) } }
+                        @for value in values { td.r { (s.optional(value, digits).signed()) } }
+                    }
+                }
+            }
         }
-        h.raw("</tbody></table></div>");
+    }
+}
+
+fn extremes(s: Style, d: &CurvatureDocument) -> Markup {
+    html! {
+        @for (n, kind) in Kind::ALL.into_iter().enumerate() {
+            @let digits = CurvatureDocument::quantity(d, kind).scale.decimals as usize;
+            div data-comparison=(n) hidden[n > 0] {
+                table.pick {
+                    thead { tr { th {} th.r { (s.word("value")) } (place_heads()) } }
+                    tbody {
+                        @for (k, (place, value)) in ends(d, kind).into_iter().enumerate() {
+                            tr data-pick=(2 * n + k) {
+                                td title=(place.index) { (s.word(if k == 0 { "max" } else { "min" })) }
+                                td.r { (s.number(value, digits).signed()) }
+                                (place_cells(s, place.position))
+                            }
+                        }
+                    }
+                }
+            }
+        }
     }
 }
 
 /// A size, however small.
-fn plain(h: &mut Html, x: f64) {
-    if x == 0.0 || x >= 0.1 {
-        h.number(x, 3, false);
-    } else {
-        h.scientific(x, 1);
-    }
+fn plain(s: Style, x: f64) -> Markup {
+    if x == 0.0 || x >= 0.1 { s.number(x, 3).render() } else { s.scientific(x, 1).render() }
 }
 
 /// How the neighbourhoods were, and what the fits say of themselves.
-fn known(h: &mut Html, d: &CurvatureDocument) {
-    h.raw("<dl class=\"facts pairs\">");
-    fact(h, "degree", |h| {
-        h.count(d.degree);
-    });
-    fact(h, "neighborhood", |h| match d.neighborhood {
-        Neighborhood::Count { neighbors } => {
-            h.raw("≥\u{a0}").count(neighbors).raw(" ").word("neighbors");
+fn known(s: Style, d: &CurvatureDocument) -> Markup {
+    let range = |range: &Range, unit: &str| {
+        html! { (plain(s, range.median)) " (≤\u{a0}" (plain(s, range.max)) ")\u{a0}" (unit) }
+    };
+    html! {
+        dl.facts.pairs {
+            (fact(s, "degree", s.count(d.degree)))
+            (fact(s, "neighborhood", html! {
+                @match d.neighborhood {
+                    Neighborhood::Count { neighbors } => { "≥\u{a0}" (s.count(neighbors)) " " (s.word("neighbors")) }
+                    Neighborhood::Radius { radius } => { "≤\u{a0}" (s.number(radius, 3)) "\u{a0}mm" }
+                }
+            }))
+            (fact(s, "curvature.uncertainty", range(&d.uncertainty, "mm⁻¹")))
+            (fact(s, "residual", range(&d.residual, "mm")))
+            (fact(s, "reach", range(&d.reach, "mm")))
         }
-        Neighborhood::Radius { radius } => {
-            h.raw("≤\u{a0}").number(radius, 3, false).raw("\u{a0}mm");
-        }
-    });
-    let rows: [(&str, &Range, &str); 3] = [
-        ("curvature.uncertainty", &d.uncertainty, "\u{a0}mm⁻¹"),
-        ("residual", &d.residual, "\u{a0}mm"),
-        ("reach", &d.reach, "\u{a0}mm"),
-    ];
-    for (key, range, unit) in rows {
-        fact(h, key, |h| {
-            plain(h, range.median);
-            h.raw(" (≤\u{a0}");
-            plain(h, range.max);
-            h.raw(")").raw(unit);
-        });
+        p.note { (s.word("known.text")) }
     }
-    h.raw("</dl><p class=\"note\">").word("known.text").raw("</p>");
 }

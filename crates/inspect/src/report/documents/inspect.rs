@@ -1,14 +1,16 @@
 //! The page of an inspection: the verdict, every characteristic with its value, the features.
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, badge, fact, key_number, section};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, badge, fact, key_number, section};
 use super::super::page::symbols::{datum_name, path, requirement, symbol};
+use super::super::values::{Name, Optional, Percent, Text};
 use super::alignment::{Facts, alignment};
 use super::{Frame, Head, Map, Pick, Subject, compare};
 use crate::results::Verdict;
-use crate::results::compare::Comparison;
+use crate::results::compare::{Comparison, ToleranceShares};
 use crate::results::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument};
 use crate::scale::Scale;
+use maud::{Markup, html};
 use serde_json::Value;
 
 impl Subject for InspectDocument {
@@ -28,90 +30,62 @@ impl Subject for InspectDocument {
         "picture.inspect"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let n = &self.counts;
-        h.raw("<dl class=\"key-numbers\">");
+    fn numbers(&self, s: Style) -> Markup {
         let regions = self.deviation.as_ref().filter(|d| !d.regions.is_empty());
-        let within =
-            self.deviation.as_ref().filter(|d| d.regions.is_empty()).and_then(|d| d.tolerance.as_ref());
-        let judged = within.is_some() || regions.is_some();
-        let outside = judged && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
-        let key = if regions.is_some() { "regions.pass" } else { "deviations.within" };
-        let share = |h: &mut Html| {
-            if let Some(c) = regions {
-                compare::passing(h, c);
-            }
-            if let Some(t) = within {
-                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-                if t.required < 1.0 {
-                    h.raw(" <small>(≥\u{a0}").percent(t.required, 2).raw(")</small>");
+        let within = self.deviation.as_ref().filter(|_| regions.is_none()).and_then(|d| d.tolerance.as_ref());
+        let outside = (within.is_some() || regions.is_some())
+            && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+        // Where the deviations alone fail, they lead.
+        let alone = outside && self.counts.fail == 0;
+        let share = |t| html! { (share(s, t)) @if t.required < 1.0 { " " small { (required(s, t)) } } };
+        let all = s.len(&self.characteristics);
+        html! {
+            dl.key-numbers {
+                @if let Some(c) = regions.filter(|_| alone) {
+                    (key_number(s, "regions.pass", "lead", compare::passing(s, c)))
+                }
+                @if let Some(t) = within.filter(|_| alone) { (key_number(s, "deviations.within", "lead", share(t))) }
+                @for (key, class, count) in counts(self, !alone) {
+                    (key_number(s, key, class, html! {
+                        (s.count(count)) @if class == "lead" { " " small { "/\u{a0}" (all) } }
+                    }))
+                }
+                (key_number(s, "characteristics", "", all))
+                @if let Some(c) = regions.filter(|_| !alone) {
+                    (key_number(s, "regions.pass", if outside { "warn" } else { "" }, compare::passing(s, c)))
+                }
+                @if let Some(t) = within.filter(|_| !alone) {
+                    (key_number(s, "deviations.within", if outside { "warn" } else { "" }, share(t)))
                 }
             }
-        };
-        // The worst verdict leads, with how many of all have it; where the deviations alone fail, they do.
-        let alone = outside && n.fail == 0;
-        let mut lead = !alone;
-        if alone {
-            key_number(h, key, "lead", share);
         }
-        for (word, count, class) in [
-            ("verdict.fail", n.fail, "warn"),
-            ("verdict.undecided", n.undecided, "warn"),
-            ("verdict.not_measured", n.not_measured, "warn"),
-            ("verdict.pass", n.pass, ""),
-        ] {
-            if count > 0 || word == "verdict.pass" {
-                let leads = count > 0 && std::mem::take(&mut lead);
-                key_number(h, word, if leads { "lead" } else { class }, |h| {
-                    h.count(count);
-                    if leads {
-                        h.raw(" <small>/\u{a0}").count(self.characteristics.len() as u64).raw("</small>");
-                    }
-                });
-            }
-        }
-        key_number(h, "characteristics", "", |h| {
-            h.count(self.characteristics.len() as u64);
-        });
-        if judged && !alone {
-            key_number(h, key, if outside { "warn" } else { "" }, share);
-        }
-        h.raw("</dl>");
     }
 
-    fn list(&self, h: &mut Html) {
-        section(h, "characteristics", |h| characteristics(h, self));
-        if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
-            deviations(h, c, scale.decimals as usize, self.characteristics.len());
-        }
-        section(h, "features", |h| features(h, self));
+    fn list(&self, s: Style) -> Markup {
         let (of, left_out) = (&self.alignment, None);
-        alignment(
-            h,
-            &Facts {
-                method: &of.method,
-                rms: of.rms,
-                greatest: of.greatest,
-                left_out,
-                warnings: &of.warnings,
-            },
-        );
+        html! {
+            (section(s, "characteristics", characteristics(s, self)))
+            @if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
+                (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
+            }
+            (section(s, "features", features(s, self)))
+            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, left_out, warnings: &of.warnings }))
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        h.raw("<p>").word("method.inspect.text").raw("</p><p>");
-        h.word(&format!("decision.{}.text", self.decision_rule)).raw("</p><ul>");
+    fn method(&self, s: Style) -> Markup {
         let mut standards: Vec<&str> = self.characteristics.iter().map(|c| c.standard.as_str()).collect();
         standards.sort_unstable();
         standards.dedup();
-        for standard in standards {
-            h.raw("<li>").text(standard).raw("</li>");
+        html! {
+            p { (s.word("method.inspect.text")) }
+            p { (s.word(format!("decision.{}.text", self.decision_rule))) }
+            ul { @for standard in standards { li { (Text(standard)) } } }
         }
-        h.raw("</ul>");
     }
 
-    fn how(&self, h: &mut Html) {
-        h.word("decision").raw(": ").word(&format!("decision.{}", self.decision_rule));
+    fn how(&self, s: Style) -> Markup {
+        html! { (s.word("decision")) ": " (s.word(format!("decision.{}", self.decision_rule))) }
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -147,7 +121,7 @@ fn frame(c: &CharacteristicRecord) -> Frame {
     Frame {
         id: c.id.clone(),
         sign: path(&c.kind),
-        diametral: c.zone == "diameter",
+        diametral: c.diametral(),
         lower: c.lower,
         upper: c.requirement().map_or(c.upper, |(tolerance, _)| tolerance),
         material: c.requirement().map(|(_, material)| material.word()),
@@ -158,107 +132,131 @@ fn frame(c: &CharacteristicRecord) -> Frame {
     }
 }
 
+/// How many characteristics have each verdict, the worst first, with the class of that number: the worst one leads, if they do.
+fn counts(d: &InspectDocument, mut lead: bool) -> Vec<(&'static str, &'static str, u64)> {
+    let n = &d.counts;
+    let all = [
+        ("verdict.fail", n.fail, "warn"),
+        ("verdict.undecided", n.undecided, "warn"),
+        ("verdict.not_measured", n.not_measured, "warn"),
+        ("verdict.pass", n.pass, ""),
+    ];
+    let shown = all.into_iter().filter(|(key, count, _)| *count > 0 || *key == "verdict.pass");
+    shown
+        .map(|(key, count, class)| {
+            let leads = count > 0 && std::mem::take(&mut lead);
+            (key, if leads { "lead" } else { class }, count)
+        })
+        .collect()
+}
+
+/// The share of the deviations within tolerance.
+fn share<'a>(s: Style, t: &'a ToleranceShares) -> Optional<'a, Percent> {
+    s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())
+}
+
+/// The share that is asked for.
+fn required(s: Style, t: &ToleranceShares) -> Markup {
+    html! { "(≥\u{a0}" (s.percent(t.required, 2)) ")" }
+}
+
 /// Three columns, so that the verdict stands in view beside the part: what and of which feature, value over what is allowed,
 /// verdict.
-fn characteristics(h: &mut Html, d: &InspectDocument) {
-    h.raw("<table class=\"pick\"><thead><tr><th>").word("feature").raw("</th><th class=\"r\">");
-    h.word("value").raw("<br><small>").word("allowed").raw("</small></th><th>").word("verdict");
-    h.raw("</th></tr></thead><tbody>");
-    for (n, c) in d.rows().into_iter().enumerate() {
-        h.raw(&format!("<tr data-pick=\"{n}\"><td>")).name(&c.id).raw(" ");
-        symbol(h, &c.kind);
-        h.word(&format!("kind.{}", c.kind));
-        for letters in c.letters() {
-            h.raw(" ").text(letters);
-        }
-        h.raw("<br><small>").name(&c.feature);
-        for datum in &c.datums {
-            h.raw(" | ");
-            datum_name(h, datum);
-        }
-        h.raw("</small></td><td class=\"r\">");
-        h.optional(c.value, c.reason.as_deref(), digits(c), false);
-        if let Some(u) = c.uncertainty {
-            h.raw(" ±\u{a0}").number(u, digits(c), false);
-        }
-        h.raw("<br><small>");
-        allowed(h, c);
-        h.raw("</small></td><td>");
-        badge(h, c.verdict.into());
-        h.raw("</td></tr>");
-        for note in c.reason.iter().chain(&c.notes) {
-            h.raw("<tr><td colspan=\"3\" class=\"note\">").text(note).raw("</td></tr>");
+fn characteristics(s: Style, d: &InspectDocument) -> Markup {
+    html! {
+        table.pick {
+            thead {
+                tr {
+                    th { (s.word("feature")) }
+                    th.r { (s.word("value")) br; small { (s.word("allowed")) } }
+                    th { (s.word("verdict")) }
+                }
+            }
+            tbody {
+                @for (n, c) in d.rows().into_iter().enumerate() {
+                    tr data-pick=(n) {
+                        td {
+                            (Name(&c.id)) " " (symbol(&c.kind)) (s.word(format!("kind.{}", c.kind)))
+                            @for letters in c.letters() { " " (Text(letters)) }
+                            br;
+                            small { (Name(&c.feature)) @for datum in &c.datums { " | " (datum_name(datum)) } }
+                        }
+                        td.r {
+                            (s.optional(c.value, digits(c)).because(c.reason.as_deref()))
+                            @if let Some(u) = c.uncertainty { " ±\u{a0}" (s.number(u, digits(c))) }
+                            br; small { (allowed(s, c)) }
+                        }
+                        td { (badge(s, c.verdict.into())) }
+                    }
+                    @for note in c.reason.iter().chain(&c.notes) { tr { td colspan="3" class="note" { (Text(note)) } } }
+                }
+            }
         }
     }
-    h.raw("</tbody></table>");
 }
 
 /// The deviations from the reference: the verdict, the worst places, the statistics.
-fn deviations(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
-    section(h, "deviations", |h| {
-        h.raw("<dl class=\"facts pairs\">");
-        if let Some(verdict) = c.verdict {
-            fact(h, "verdict", |h| badge(h, verdict.into()));
-        }
-        if let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) {
-            fact(h, "tolerance", |h| {
-                h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
-            });
-            fact(h, "within", |h| {
-                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-                if t.required < 1.0 {
-                    h.raw(" (≥\u{a0}").percent(t.required, 2).raw(")");
+fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Markup {
+    let all = c.deviation.all.count + c.excluded.values().sum::<u64>();
+    let limit = |x| s.number(x, decimals).signed();
+    html! {
+        (section(s, "deviations", html! {
+            dl.facts.pairs {
+                @if let Some(verdict) = c.verdict { (fact(s, "verdict", badge(s, verdict.into()))) }
+                @if let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) {
+                    (fact(s, "tolerance", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))
+                    (fact(s, "within", html! { (share(s, t)) @if t.required < 1.0 { " " (required(s, t)) } }))
                 }
-            });
-        }
-        let all = c.deviation.all.count + c.excluded.values().sum::<u64>();
-        fact(h, "excluded", |h| compare::excluded(h, c, all));
-        compare::rules(h, c, decimals);
-        h.raw("</dl>");
-        for warning in &c.warnings {
-            h.raw("<p class=\"note\">⚠ ").text(&warning.text).raw("</p>");
-        }
-    });
-    compare::regions(h, c, decimals);
-    compare::worst(h, c, decimals, first_pick);
-    compare::statistics(h, c, decimals);
+                (fact(s, "excluded", compare::excluded(s, c, all)))
+                (compare::rules(s, c, decimals))
+            }
+            @for warning in &c.warnings { p.note { "⚠ " (Text(&warning.text)) } }
+        }))
+        (compare::regions(s, c, decimals))
+        (compare::worst(s, c, decimals, first_pick))
+        (compare::statistics(s, c, decimals))
+    }
 }
 
 fn digits(c: &CharacteristicRecord) -> usize {
     if c.unit == "mm" { 4 } else { 3 }
 }
 
-fn allowed(h: &mut Html, c: &CharacteristicRecord) {
-    match (c.nominal, c.lower) {
-        (Some(_), Some(lower)) => {
-            h.number(lower, digits(c), false).raw(" … ").number(c.upper, digits(c), false);
-        }
-        _ => {
-            h.raw(if c.zone == "diameter" { "≤\u{a0}⌀" } else { "≤\u{a0}" }).number(
-                c.upper,
-                digits(c),
-                false,
-            );
-            if let Some((t, material)) = c.requirement() {
-                h.raw(" (").number(t, digits(c), false).raw("\u{a0}");
-                requirement(h, material.word());
-                h.raw(")");
+fn allowed(s: Style, c: &CharacteristicRecord) -> Markup {
+    let limit = |x| s.number(x, digits(c));
+    html! {
+        @match (c.nominal, c.lower) {
+            (Some(_), Some(lower)) => { (limit(lower)) " … " (limit(c.upper)) }
+            _ => {
+                (if c.diametral() { "≤\u{a0}⌀" } else { "≤\u{a0}" }) (limit(c.upper))
+                @if let Some((t, material)) = c.requirement() {
+                    " (" (limit(t)) "\u{a0}" (requirement(material.word())) ")"
+                }
             }
         }
     }
 }
 
-fn features(h: &mut Html, d: &InspectDocument) {
-    h.raw("<table><thead><tr><th></th><th class=\"r\">").word("points").raw("</th><th class=\"r\">");
-    h.word("form_error").raw("</th><th class=\"r\">").word("coverage").raw("</th></tr></thead><tbody>");
-    for f in &d.features {
-        h.raw("<tr><td>").name(&f.id).raw(" ");
-        h.word(&format!("shape.{}", f.shape)).raw("</td><td class=\"r\">").count(f.points);
-        h.raw("</td><td class=\"r\">").optional(f.form_error, reason(f), 4, false);
-        h.raw("</td><td class=\"r\">").optional_percent(f.coverage, f.coverage_reason.as_deref(), 1);
-        h.raw("</td></tr>");
+fn features(s: Style, d: &InspectDocument) -> Markup {
+    html! {
+        table {
+            thead {
+                tr {
+                    th {} th.r { (s.word("points")) } th.r { (s.word("form_error")) } th.r { (s.word("coverage")) }
+                }
+            }
+            tbody {
+                @for f in &d.features {
+                    tr {
+                        td { (Name(&f.id)) " " (s.word(format!("shape.{}", f.shape))) }
+                        td.r { (s.count(f.points)) }
+                        td.r { (s.optional(f.form_error, 4).because(reason(f))) }
+                        td.r { (s.optional_percent(f.coverage, 1).because(f.coverage_reason.as_deref())) }
+                    }
+                }
+            }
+        }
     }
-    h.raw("</tbody></table>");
 }
 
 fn reason(f: &FeatureRecord) -> Option<&str> {

@@ -1,14 +1,17 @@
 //! The page of a repair: what was changed and where, the mesh before and after, and what it cost.
 
-use super::super::html::Html;
-use super::super::page::blocks::{
-    Headline, Tone, fact, key_number, not_printed, pick_row, place_cells, section, swatch,
+use super::super::number::Style;
+use super::super::page::parts::{
+    Headline, Tone, fact, key_number, listed, not_printed, place_cells, place_heads, row_class, section,
+    swatch,
 };
 use super::super::text::word;
+use super::super::values::{Name, Text};
 use super::{Head, Pick, Subject};
 use crate::repair::{GONE, NEW, by_step};
 use crate::results::repair::{Change, Distances, RepairDocument, State};
 use crate::scale::palette::category;
+use maud::{Markup, Render, html};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -37,56 +40,52 @@ impl Subject for RepairDocument {
         "picture.repair"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        h.raw("<dl class=\"key-numbers\">");
-        let counts = [
-            ("changes", self.change_count),
-            ("facets.added", self.facets.added),
-            ("facets.removed", self.facets.removed),
-            ("vertices.moved", self.vertices.moved),
-        ];
-        for (key, count) in counts {
-            key_number(h, key, if key == "changes" { "lead" } else { "" }, |h| {
-                h.count(count);
-            });
-        }
+    fn numbers(&self, s: Style) -> Markup {
         // Of the surface that bounds: what goes inside of a body changes no part. The list has both.
         let introduced = self.deviation.as_ref().map(|d| d.added.max.max(d.removed.max));
-        if let Some(d) = self.effect.surface.or(introduced) {
-            key_number(h, "deviation.introduced", "", |h| {
-                length(h, d);
-            });
+        let warn = |warn: bool| if warn { "warn" } else { "" };
+        html! {
+            dl.key-numbers {
+                (key_number(s, "changes", "lead", s.count(self.change_count)))
+                (key_number(s, "facets.added", "", s.count(self.facets.added)))
+                (key_number(s, "facets.removed", "", s.count(self.facets.removed)))
+                (key_number(s, "vertices.moved", "", s.count(self.vertices.moved)))
+                @if let Some(d) = self.effect.surface.or(introduced) {
+                    (key_number(s, "deviation.introduced", "", length(s, d)))
+                }
+                @if let Some(change) = self.effect.volume_change {
+                    (key_number(s, "volume.change", warn(self.effect.changed), html! {
+                        (s.number(change, 3).signed()) "\u{a0}mm³"
+                    }))
+                }
+                (key_number(s, "file.written", warn(self.output.sound == Some(false)), html! {
+                    @match self.output.sound {
+                        Some(true) => { "✓\u{a0}" (s.word("sound.short")) }
+                        Some(false) => { "⚠\u{a0}" (s.word("not_sound")) }
+                        None => "–",
+                    }
+                }))
+            }
         }
-        if let Some(change) = self.effect.volume_change {
-            let class = if self.effect.changed { "warn" } else { "" };
-            key_number(h, "volume.change", class, |h| {
-                h.number(change, 3, true).raw("\u{a0}mm³");
-            });
+    }
+
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "changes", changes(s, self)))
+            (section(s, "before_after", states(s, self)))
+            (section(s, "deviation.introduced", deviation(s, self)))
         }
-        let class = if self.output.sound == Some(false) { "warn" } else { "" };
-        key_number(h, "file.written", class, |h| {
-            match self.output.sound {
-                Some(true) => h.raw("✓\u{a0}").word("sound.short"),
-                Some(false) => h.raw("⚠\u{a0}").word("not_sound"),
-                None => h.raw("–"),
-            };
-        });
-        h.raw("</dl>");
     }
 
-    fn list(&self, h: &mut Html) {
-        section(h, "changes", |h| changes(h, self));
-        section(h, "before_after", |h| states(h, self));
-        section(h, "deviation.introduced", |h| deviation(h, self));
+    fn method(&self, s: Style) -> Markup {
+        html! {
+            p { (s.word("method.repair.text")) }
+            p { (s.word("method.repair.file")) " " (Name(&self.output.path)) }
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        h.raw("<p>").word("method.repair.text").raw("</p><p>").word("method.repair.file").raw(" ");
-        h.name(&self.output.path).raw("</p>");
-    }
-
-    fn how(&self, h: &mut Html) {
-        h.word("method.repair");
+    fn how(&self, s: Style) -> Markup {
+        s.word("method.repair").render()
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -122,83 +121,71 @@ impl Subject for RepairDocument {
     }
 }
 
-fn length(h: &mut Html, x: f64) {
-    h.number(x, if x > 0.0 && x < 0.1 { 6 } else { 3 }, false).raw("\u{a0}mm");
+fn length(s: Style, x: f64) -> Markup {
+    html! { (s.number(x, if x > 0.0 && x < 0.1 { 6 } else { 3 })) "\u{a0}mm" }
 }
 
-fn changes(h: &mut Html, d: &RepairDocument) {
+fn changes(s: Style, d: &RepairDocument) -> Markup {
     let steps = by_step(d);
-    if steps.is_empty() {
-        h.raw("<p>").word("changes.none").raw("</p>");
-    }
     // The places of a step have its colour, the facets that came and went have their own.
-    let (came, went) = (d.facets.added > 0, d.facets.removed > 0);
-    if came || went {
-        h.raw("<p class=\"note\">");
-        for (_, color, key) in
-            [(came, NEW, "facets.new"), (went, GONE, "facets.gone")].iter().filter(|(any, ..)| *any)
-        {
-            swatch(h, *color);
-            h.raw(" ").word(key).raw(" ");
-        }
-        h.raw("</p>\n");
-    }
-    let open = if steps.len() == 1 { " open" } else { "" };
-    let mut first = 0;
-    for (n, (step, changes)) in steps.into_iter().enumerate() {
-        h.raw(&format!("<details class=\"kind\"{open}><summary>"));
-        swatch(h, category(n));
-        h.raw("<span class=\"kind-name\">").word(&format!("step.{step}")).raw("</span><strong>");
-        h.count(changes.len() as u64).raw("</strong></summary>\n");
-        // What is the same in every row is said once.
-        let what = changes.first().map_or("", |c| &c.what);
-        let same = changes.iter().all(|c| c.what == what);
-        if same {
-            h.raw("<p class=\"note\">");
-            done(h, what);
-            h.raw("</p>");
-        }
-        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">");
-        h.word("facets.title").raw(
-            "</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>",
-        );
-        let rows = changes.len().min(LISTED);
-        for (k, change) in changes.iter().take(rows).enumerate() {
-            pick_row(h, k, first + k);
-            h.raw("<td>");
-            if same {
-                h.text(&(k + 1).to_string());
-            } else {
-                done(h, &change.what);
+    let came_and_went = [(d.facets.added, NEW, "facets.new"), (d.facets.removed, GONE, "facets.gone")];
+    let starts = steps.iter().scan(0, |next, (_, changes)| {
+        let start = *next;
+        *next += changes.len().min(LISTED);
+        Some(start)
+    });
+    html! {
+        @if steps.is_empty() { p { (s.word("changes.none")) } }
+        @if came_and_went.iter().any(|(count, ..)| *count > 0) {
+            p.note {
+                @for (_, color, key) in came_and_went.into_iter().filter(|(count, ..)| *count > 0) {
+                    (swatch(color)) " " (s.word(key)) " "
+                }
             }
-            h.raw("</td><td class=\"r\">");
-            h.count(change.facets).raw("</td>");
-            place_cells(h, change.position);
-            h.raw("</tr>");
+            "\n"
         }
-        h.raw("</tbody></table>");
-        not_printed(h, rows);
-        if rows < changes.len() {
-            h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(rows as u64).raw(" / ");
-            h.count(changes.len() as u64).raw("</p>");
+        @for (n, ((name, changes), first)) in steps.iter().zip(starts).enumerate() {
+            details.kind open[steps.len() == 1] {
+                summary {
+                    (swatch(category(n))) span.kind-name { (s.word(format!("step.{name}"))) }
+                    strong { (s.len(changes)) }
+                }
+                "\n" (step(s, changes, first))
+            }
+            "\n"
         }
-        h.raw("</details>\n");
-        first += rows;
+        @if d.truncated { (listed(s, "listed.first", d.changes.len(), d.change_count)) }
     }
-    if d.truncated {
-        h.raw("<p class=\"note\">").word("listed.first").raw(" ").count(d.changes.len() as u64).raw(" / ");
-        h.count(d.change_count).raw("</p>");
+}
+
+/// The changes of one step; the numbers of their rows begin at `first`.
+fn step(s: Style, changes: &[&Change], first: usize) -> Markup {
+    let what = changes.first().map_or("", |c| &c.what);
+    let same = changes.iter().all(|c| c.what == what);
+    html! {
+        // What is the same in every row is said once.
+        @if same { p.note { (done(s, what)) } }
+        table.pick {
+            thead { tr { th {} th.r { (s.word("facets.title")) } (place_heads()) } }
+            tbody {
+                @for (k, change) in changes.iter().take(LISTED).enumerate() {
+                    tr data-pick=(first + k) class=[row_class(k)] {
+                        td { @if same { (k + 1) } @else { (done(s, &change.what)) } }
+                        td.r { (s.count(change.facets)) }
+                        (place_cells(s, change.position))
+                    }
+                }
+            }
+        }
+        (not_printed(s, changes.len().min(LISTED)))
+        (listed(s, "listed.first", changes.len().min(LISTED), changes.len() as u64))
     }
 }
 
 /// What was done, in the reader's language; as the document says it where the table has no words for it.
-fn done(h: &mut Html, what: &str) {
+fn done(s: Style, what: &str) -> Markup {
     let key = key(what);
-    if word(&key, h.language()) == key {
-        h.text(what);
-    } else {
-        h.word(&key);
-    }
+    if word(&key, s.language) == key { Text(what).render() } else { s.word(key).render() }
 }
 
 /// Key of what was done in the table of words.
@@ -207,86 +194,70 @@ fn key(what: &str) -> String {
 }
 
 /// Size and defects in two columns.
-fn states(h: &mut Html, d: &RepairDocument) {
-    h.raw("<table class=\"states\"><thead><tr><th></th><th class=\"r\">").word("before");
-    h.raw("</th><th class=\"r\">").word("after").raw("</th></tr></thead><tbody>");
-    let mut row = |key: &str, cell: &dyn Fn(&mut Html, &State)| {
-        h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
-        for state in [&d.before, &d.after] {
-            h.raw("<td class=\"r\">");
-            cell(h, state);
-            h.raw("</td>");
+fn states(s: Style, d: &RepairDocument) -> Markup {
+    let row = |key: &str, cell: &dyn Fn(&State) -> Markup| {
+        html! {
+            tr {
+                th scope="row" { (s.word(key)) }
+                @for state in [&d.before, &d.after] { td.r { (cell(state)) } }
+            }
         }
-        h.raw("</tr>");
     };
-    let yes = |h: &mut Html, yes: bool| {
-        h.raw(if yes { "✓\u{a0}" } else { "✕\u{a0}" }).word(if yes { "yes" } else { "no" });
+    let yes = |yes: bool| html! { (if yes { "✓\u{a0}" } else { "✕\u{a0}" }) (s.word(if yes { "yes" } else { "no" })) };
+    let bodies = |state| match std::ptr::eq(state, &d.before) {
+        true => d.effect.bodies_before,
+        false => d.effect.bodies_after,
     };
-    row("sound.title", &|h, s| yes(h, s.sound));
-    row("closed", &|h, s| yes(h, s.closed));
-    row("facets.title", &|h, s| {
-        h.count(s.facets);
-    });
-    row("vertices.title", &|h, s| {
-        h.count(s.vertices);
-    });
-    row("shells", &|h, s| {
-        h.count(s.shells);
-    });
-    row("bodies", &|h, s| {
-        h.count(if std::ptr::eq(s, &d.before) { d.effect.bodies_before } else { d.effect.bodies_after });
-    });
-    row("area.mm2", &|h, s| {
-        h.number(s.area, 2, false);
-    });
-    row("volume.mm3", &|h, s| {
-        h.optional(s.volume, s.volume_reason.as_deref(), 2, false);
-    });
     let kinds: BTreeSet<&String> = d.before.defects.keys().chain(d.after.defects.keys()).collect();
-    for kind in kinds {
-        row(&format!("defect.{kind}"), &|h, s| {
-            h.raw(if s.at_least.contains(kind) { "≥ " } else { "" });
-            h.count(s.defects.get(kind).copied().unwrap_or(0));
-        });
+    html! {
+        table.states {
+            thead { tr { th {} th.r { (s.word("before")) } th.r { (s.word("after")) } } }
+            tbody {
+                (row("sound.title", &|state| yes(state.sound)))
+                (row("closed", &|state| yes(state.closed)))
+                (row("facets.title", &|state| s.count(state.facets).render()))
+                (row("vertices.title", &|state| s.count(state.vertices).render()))
+                (row("shells", &|state| s.count(state.shells).render()))
+                (row("bodies", &|state| s.count(bodies(state)).render()))
+                (row("area.mm2", &|state| s.number(state.area, 2).render()))
+                (row("volume.mm3", &|state| {
+                    s.optional(state.volume, 2).because(state.volume_reason.as_deref()).render()
+                }))
+                @for kind in kinds {
+                    (row(&format!("defect.{kind}"), &|state| html! {
+                        @if state.at_least.contains(kind) { "≥ " }
+                        (s.count(state.defects.get(kind).copied().unwrap_or(0)))
+                    }))
+                }
+            }
+        }
     }
-    h.raw("</tbody></table>");
 }
 
 /// How far the surface went: what is missing, what was added.
-fn deviation(h: &mut Html, d: &RepairDocument) {
+fn deviation(s: Style, d: &RepairDocument) -> Markup {
     let Some(found) = &d.deviation else {
-        h.raw("<p>–\u{a0}").text(d.deviation_reason.as_deref().unwrap_or("")).raw("</p>");
-        return;
+        return html! { p { "–\u{a0}" (Text(d.deviation_reason.as_deref().unwrap_or(""))) } };
     };
-    h.raw("<dl class=\"facts pairs\">");
-    for (key, Distances { max, mean }) in [("surface.added", found.added), ("surface.removed", found.removed)]
-    {
-        fact(h, key, |h| {
-            h.raw("≤\u{a0}");
-            length(h, max);
-            h.raw("<br><small>").word("mean").raw(" ");
-            length(h, mean);
-            h.raw("</small>");
-        });
-    }
-    if let Some(surface) = d.effect.surface {
-        fact(h, "surface.bounding", |h| {
-            h.raw("≤\u{a0}");
-            length(h, surface);
-        });
-    }
-    fact(h, "change.limit", |h| {
-        length(h, d.effect.surface_limit);
-        if let Some(limit) = d.effect.volume_limit {
-            h.raw(", ").number(limit, 3, false).raw("\u{a0}mm³");
+    let at_most = |Distances { max, mean }| {
+        html! { "≤\u{a0}" (length(s, max)) br; small { (s.word("mean")) " " (length(s, mean)) } }
+    };
+    html! {
+        dl.facts.pairs {
+            (fact(s, "surface.added", at_most(found.added)))
+            (fact(s, "surface.removed", at_most(found.removed)))
+            @if let Some(surface) = d.effect.surface {
+                (fact(s, "surface.bounding", html! { "≤\u{a0}" (length(s, surface)) }))
+            }
+            (fact(s, "change.limit", html! {
+                (length(s, d.effect.surface_limit))
+                @if let Some(limit) = d.effect.volume_limit { ", " (s.number(limit, 3)) "\u{a0}mm³" }
+            }))
+            @if d.output.rounded_vertices > 0 {
+                (fact(s, "file.rounding", html! { "≤\u{a0}" (s.scientific(d.output.rounding, 1)) "\u{a0}mm" }))
+            }
         }
-    });
-    if d.output.rounded_vertices > 0 {
-        fact(h, "file.rounding", |h| {
-            h.raw("≤\u{a0}").scientific(d.output.rounding, 1).raw("\u{a0}mm");
-        });
     }
-    h.raw("</dl>");
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! The page of a segmentation: the elements found, each with its size and how well its points keep to it.
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, section, swatch};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, Tone, fact, key_number, section, swatch};
 use super::{Head, Pick, Subject};
 use crate::results::fit::Number;
 use crate::results::segment::{RegionRecord, SegmentDocument};
-use crate::scale::palette::category;
+use crate::segment::color;
+use maud::{Markup, Render, html};
 use serde_json::Value;
 
 impl Subject for SegmentDocument {
@@ -21,48 +22,43 @@ impl Subject for SegmentDocument {
         "picture.segment"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        h.raw("<dl class=\"key-numbers\">");
-        key_number(h, "elements", "lead", |h| {
-            h.count(self.regions.len() as u64);
-        });
-        key_number(h, "assigned", "", |h| {
-            // The same shares as in the list: of the area, or of the points of a cloud.
-            h.percent(self.regions.iter().map(|r| r.share).sum(), 1);
-        });
-        for (key, length) in [("noise", self.noise), ("tolerance.used", self.tolerance)] {
-            key_number(h, key, "", |h| {
-                micro(h, length);
-                h.raw("\u{a0}mm");
-            });
-        }
-        h.raw("</dl>");
-    }
-
-    fn list(&self, h: &mut Html) {
-        section(h, "elements", |h| elements(h, self));
-        section(h, "model", |h| {
-            h.raw("<dl class=\"facts pairs\">");
-            let pieces =
-                if self.inputs.iter().any(|i| i.facets.is_some()) { "facets.title" } else { "points" };
-            for (key, count) in [(pieces, self.count), ("pieces.none", self.unassigned)] {
-                fact(h, key, |h| {
-                    h.count(count);
-                });
+    fn numbers(&self, s: Style) -> Markup {
+        // The same shares as in the list: of the area, or of the points of a cloud.
+        let assigned = self.regions.iter().map(|r| r.share).sum();
+        html! {
+            dl.key-numbers {
+                (key_number(s, "elements", "lead", s.len(&self.regions)))
+                (key_number(s, "assigned", "", s.percent(assigned, 1)))
+                (key_number(s, "noise", "", html! { (micro(s, self.noise)) "\u{a0}mm" }))
+                (key_number(s, "tolerance.used", "", html! { (micro(s, self.tolerance)) "\u{a0}mm" }))
             }
-            fact(h, "crease", |h| {
-                h.number(self.crease.to_degrees(), 1, false).raw("°");
-            });
-            h.raw("</dl>");
-        });
+        }
     }
 
-    fn method(&self, h: &mut Html) {
-        h.raw("<p>").word("method.segment.text").raw("</p>");
+    fn list(&self, s: Style) -> Markup {
+        let mesh = self.inputs.iter().any(|i| i.facets.is_some());
+        html! {
+            (section(s, "elements", elements(s, self)))
+            (section(
+            s,
+            "model",
+            html! {
+                dl.facts.pairs {
+                    (fact(s, if mesh { "facets.title" } else { "points" }, s.count(self.count)))
+                    (fact(s, "pieces.none", s.count(self.unassigned)))
+                    (fact(s, "crease", html! { (s.number(self.crease.to_degrees(), 1)) "°" }))
+                }
+            },
+        ))
+        }
     }
 
-    fn how(&self, h: &mut Html) {
-        h.word("fit.gaussian");
+    fn method(&self, s: Style) -> Markup {
+        html! { p { (s.word("method.segment.text")) } }
+    }
+
+    fn how(&self, s: Style) -> Markup {
+        s.word("fit.gaussian").render()
     }
 
     fn seed(&self) -> Option<u64> {
@@ -91,50 +87,49 @@ impl Subject for SegmentDocument {
 }
 
 /// A small length, however small.
-fn micro(h: &mut Html, length: f64) {
-    if length > 0.0 && length < 5e-5 {
-        h.scientific(length, 1);
-    } else {
-        h.number(length, if length < 0.1 { 5 } else { 3 }, false);
+fn micro(s: Style, length: f64) -> Markup {
+    match length {
+        tiny if tiny > 0.0 && tiny < 5e-5 => s.scientific(tiny, 1).render(),
+        small if small < 0.1 => s.number(small, 5).render(),
+        length => s.number(length, 3).render(),
     }
 }
 
-fn elements(h: &mut Html, d: &SegmentDocument) {
-    h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("size");
-    h.raw("</th><th class=\"r\">").word("share.title").raw("</th><th class=\"r\">").word("rms");
-    h.raw("</th></tr></thead><tbody>");
-    for (n, region) in d.regions.iter().enumerate() {
-        h.raw(&format!("<tr data-pick=\"{n}\"><td>"));
-        swatch(h, category(n));
-        h.raw(" ").word(&format!("verdict.{}", region.shape)).raw("</td><td class=\"r\">");
-        sizes(h, region);
-        h.raw("</td><td class=\"r\">").percent(region.share, 1).raw("</td><td class=\"r\">");
-        micro(h, region.rms);
-        h.raw("</td></tr>");
+fn elements(s: Style, d: &SegmentDocument) -> Markup {
+    html! {
+        table.pick {
+            thead { tr { th {} th.r { (s.word("size")) } th.r { (s.word("share.title")) } th.r { (s.word("rms")) } } }
+            tbody {
+                @for (n, region) in d.regions.iter().enumerate() {
+                    tr data-pick=(n) {
+                        td { (swatch(color(Some(n)))) " " (s.word(format!("verdict.{}", region.shape))) }
+                        td.r { (sizes(s, region)) }
+                        td.r { (s.percent(region.share, 1)) }
+                        td.r { (micro(s, region.rms)) }
+                    }
+                }
+            }
+        }
     }
-    h.raw("</tbody></table>");
 }
 
-/// Radii and angle of an element; of a cone, whose radius is that at some place, the angle alone.
-fn sizes(h: &mut Html, region: &RegionRecord) {
+/// Radii and angle of an element; of a cone, whose radius is that at some place, the angle alone; of what has neither, its area.
+fn sizes(s: Style, region: &RegionRecord) -> Markup {
     let number = |name: &str| match region.parameters.get(name) {
         Some(Number::One(x)) => Some(*x),
         _ => None,
     };
-    match region.shape.as_str() {
-        "cone" => {
-            h.optional(number("half_angle").map(f64::to_degrees), None, 2, false).raw("°");
-        }
-        "torus" => {
-            h.raw("R ").optional(number("major_radius"), None, 3, false).raw(", r ");
-            h.optional(number("minor_radius"), None, 3, false);
-        }
-        "plane" if region.area.is_some() => {
-            h.optional(region.area, None, 1, false).raw("\u{a0}mm²");
-        }
-        "plane" => {}
-        _ => {
-            h.raw("r ").optional(number("radius"), None, 3, false);
+    let (angle, radius) = (number("half_angle"), number("radius"));
+    let radii = number("major_radius").zip(number("minor_radius"));
+    html! {
+        @if let Some(angle) = angle {
+            (s.number(angle.to_degrees(), 2)) "°"
+        } @else if let Some((major, minor)) = radii {
+            "R " (s.number(major, 3)) ", r " (s.number(minor, 3))
+        } @else if let Some(radius) = radius {
+            "r " (s.number(radius, 3))
+        } @else if let Some(area) = region.area {
+            (s.number(area, 1)) "\u{a0}mm²"
         }
     }
 }

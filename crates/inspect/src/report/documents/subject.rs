@@ -1,12 +1,13 @@
 //! A document as the page sees it.
 
-use super::super::html::Html;
+use super::super::number::Style;
 use super::super::object::ViewObject;
-use super::super::page::blocks::Headline;
+use super::super::page::parts::Headline;
 use crate::results::InputRecord;
 use crate::results::compare::{Histogram, ToleranceShares};
 use crate::scale::Scale;
 use crate::tolerance::badness;
+use maud::Markup;
 use serde::Serialize;
 use serde_json::Value;
 use trueness_geom::space::{Point, Vector};
@@ -44,14 +45,14 @@ pub trait Subject {
     /// Key of the stored picture's description.
     fn picture(&self) -> &'static str;
     /// The line of key numbers under the verdict.
-    fn numbers(&self, h: &mut Html);
+    fn numbers(&self, s: Style) -> Markup;
     /// Sections of the list, without files and method. Rows that lead to a place have `data-pick` with their number in
     /// [`Subject::picks`].
-    fn list(&self, h: &mut Html);
+    fn list(&self, s: Style) -> Markup;
     /// How it was computed, in words.
-    fn method(&self, h: &mut Html);
+    fn method(&self, s: Style) -> Markup;
     /// The same in a few words, for the foot of the page.
-    fn how(&self, h: &mut Html);
+    fn how(&self, s: Style) -> Markup;
     /// Points that were measured, where the page may show fewer.
     fn points(&self) -> Option<u64> {
         None
@@ -103,8 +104,8 @@ pub trait Drawn {
     }
     /// Of the places of the objects how many are drawn in so many bytes, and how many there are.
     fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize);
-    /// Writes the drawing, with as many places of the objects as `room` bytes hold.
-    fn draw(&self, h: &mut Html, objects: &[ViewObject], room: usize);
+    /// The drawing, with as many places of the objects as `room` bytes hold.
+    fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup;
 }
 
 /// Values that can be shown as colours.

@@ -1,8 +1,9 @@
 //! The page of a surface through points: how far the points lie from it, how it bends, what it rests on.
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, place_cells, section};
-use super::curvature::{choose_head, choose_row, words};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
+use super::super::values::Text;
+use super::curvature::{Choice, choices, words};
 use super::{Head, Map, Pick, Subject};
 use crate::curvature::Kind;
 use crate::results::Verdict;
@@ -11,7 +12,9 @@ use crate::results::curvature::Range;
 use crate::results::surface::{MapRecord, SurfaceDocument};
 use crate::scale::Scale;
 use crate::surface::FOLDED;
+use maud::{Markup, Render, html};
 use serde_json::Value;
+use trueness_geom::surface::BaseKind;
 
 impl Subject for SurfaceDocument {
     fn head(&self) -> Head<'_> {
@@ -35,44 +38,32 @@ impl Subject for SurfaceDocument {
         "picture.surface"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        deviations(h, self);
-        for (n, (kind, map)) in curvatures(self).enumerate() {
-            let digits = map.scale.decimals as usize;
-            h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{}\" hidden>", n + 1));
-            key_number(h, words(kind)[0], "lead", |h| {
-                h.optional(range(self, kind).map(|r| r.median), None, digits, true).raw("\u{a0}");
-                h.raw(kind.unit());
-            });
-            key_number(h, "range", "", |h| {
-                h.optional(range(self, kind).map(|r| r.min), None, digits, true).raw("\u{2009}…\u{2009}");
-                h.optional(range(self, kind).map(|r| r.max), None, digits, true);
-            });
-            h.raw("</dl>");
+    fn numbers(&self, s: Style) -> Markup {
+        html! {
+            (deviations(s, self))
+            @for (n, (kind, map)) in curvatures(self).enumerate() { (bend(s, self, n + 1, kind, map)) }
         }
     }
 
-    fn list(&self, h: &mut Html) {
-        if !self.warnings.is_empty() {
-            section(h, "warnings", |h| {
-                for warning in &self.warnings {
-                    h.raw("<p class=\"warning\">⚠ ").text(warning).raw("</p>");
-                }
-            });
-        }
-        section(h, "quantities", |h| quantities(h, self));
-        section(h, "worst", |h| worst(h, self));
-        section(h, "surface.title", |h| facts(h, self));
-    }
-
-    fn method(&self, h: &mut Html) {
-        for key in ["method.surface.text", "method.surface.maps"] {
-            h.raw("<p>").word(key).raw("</p>");
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            @if !self.warnings.is_empty() {
+                (section(s, "warnings", html! {
+                    @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
+                }))
+            }
+            (section(s, "quantities", quantities(s, self)))
+            (section(s, "worst", worst(s, self)))
+            (section(s, "surface.title", facts(s, self)))
         }
     }
 
-    fn how(&self, h: &mut Html) {
-        h.word("method.surface").raw(" · ").word("orthogonal");
+    fn method(&self, s: Style) -> Markup {
+        html! { p { (s.word("method.surface.text")) } p { (s.word("method.surface.maps")) } }
+    }
+
+    fn how(&self, s: Style) -> Markup {
+        html! { (s.word("method.surface")) " · " (s.word("orthogonal")) }
     }
 
     fn points(&self) -> Option<u64> {
@@ -150,95 +141,95 @@ fn range(d: &SurfaceDocument, kind: Kind) -> Option<Range> {
     }
 }
 
-fn deviations(h: &mut Html, d: &SurfaceDocument) {
+fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
     let (all, digits) = (&d.deviation, d.map.scale.decimals as usize);
-    h.raw("<dl class=\"key-numbers\" data-comparison=\"0\">");
-    key_number(h, "rms", "lead", |h| {
-        h.optional(all.rms, all.rms_reason.as_deref(), digits + 1, false).raw("\u{a0}mm");
-    });
-    key_number(h, "range", "", |h| {
-        h.optional(all.min, all.min_reason.as_deref(), digits, true).raw("\u{2009}…\u{2009}");
-        h.optional(all.max, all.max_reason.as_deref(), digits, true);
-    });
-    if let Some(tolerance) = &d.tolerance {
-        key_number(h, "tolerance", "", |h| {
-            h.raw("±").number(tolerance.value, digits, false);
-        });
-        key_number(h, "beyond", if tolerance.reached { "" } else { "warn" }, |h| {
-            h.count(tolerance.outside);
-        });
+    let value = |x| s.optional(x, digits).signed();
+    html! {
+        dl.key-numbers data-comparison="0" {
+            (key_number(s, "rms", "lead", html! {
+                (s.optional(all.rms, digits + 1).because(all.rms_reason.as_deref())) "\u{a0}mm"
+            }))
+            (key_number(s, "range", "", html! {
+                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
+                (value(all.max).because(all.max_reason.as_deref()))
+            }))
+            @if let Some(tolerance) = &d.tolerance {
+                (key_number(s, "tolerance", "", html! { "±" (s.number(tolerance.value, digits)) }))
+                (key_number(s, "beyond", if tolerance.reached { "" } else { "warn" }, s.count(tolerance.outside)))
+            }
+            (key_number(s, "points", "", s.count(all.count)))
+            @if d.outliers > 0 { (key_number(s, "outliers", "warn", s.count(d.outliers))) }
+        }
     }
-    key_number(h, "points", "", |h| {
-        h.count(all.count);
-    });
-    if d.outliers > 0 {
-        key_number(h, "outliers", "warn", |h| {
-            h.count(d.outliers);
-        });
+}
+
+/// The key numbers of a curvature, those of map `n`.
+fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: Kind, map: &MapRecord) -> Markup {
+    let range = range(d, kind);
+    let value = |x| s.optional(x, map.scale.decimals as usize).signed();
+    html! {
+        dl.key-numbers data-comparison=(n) hidden {
+            (key_number(s, words(kind)[0], "lead", html! { (value(range.map(|r| r.median))) "\u{a0}" (kind.unit()) }))
+            (key_number(s, "range", "", html! {
+                (value(range.map(|r| r.min))) "\u{2009}…\u{2009}" (value(range.map(|r| r.max)))
+            }))
+        }
     }
-    h.raw("</dl>");
 }
 
 /// Deviation and curvatures, each in a row that shows its map.
-fn quantities(h: &mut Html, d: &SurfaceDocument) {
-    choose_head(h, ["min", "median", "max"]);
+fn quantities(s: Style, d: &SurfaceDocument) -> Markup {
     let (all, digits) = (&d.deviation, d.map.scale.decimals as usize);
-    choose_row(h, 0, "deviation", [all.min, all.median, all.max], digits, "mm");
-    for (n, (kind, map)) in curvatures(d).enumerate() {
+    let first = Choice { key: "deviation", values: [all.min, all.median, all.max], digits, unit: "mm" };
+    let rest = curvatures(d).map(|(kind, map)| {
         let range = range(d, kind);
         let values = [range.map(|r| r.min), range.map(|r| r.median), range.map(|r| r.max)];
-        choose_row(h, n + 1, words(kind)[0], values, map.scale.decimals as usize, kind.unit());
-    }
-    h.raw("</tbody></table>");
-    if d.curvature.reason.is_some() {
-        h.raw("<p class=\"note\">").word("surface.no_normal").raw("</p>");
+        Choice { key: words(kind)[0], values, digits: map.scale.decimals as usize, unit: kind.unit() }
+    });
+    html! {
+        (choices(s, ["min", "median", "max"], std::iter::once(first).chain(rest)))
+        @if d.curvature.reason.is_some() { p.note { (s.word("surface.no_normal")) } }
     }
 }
 
-fn worst(h: &mut Html, d: &SurfaceDocument) {
-    h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("deviation");
-    h.raw("</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>");
-    h.raw(&format!("<tr data-pick=\"0\"><td title=\"{}\">1</td><td class=\"r\">", d.worst.point));
-    h.number(d.worst.deviation, d.map.scale.decimals as usize, true).raw("</td>");
-    place_cells(h, d.worst.position);
-    h.raw("</tr></tbody></table>");
+fn worst(s: Style, d: &SurfaceDocument) -> Markup {
+    html! {
+        table.pick {
+            thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
+            tbody {
+                tr data-pick="0" {
+                    td title=(d.worst.point) { "1" }
+                    td.r { (s.number(d.worst.deviation, d.map.scale.decimals as usize).signed()) }
+                    (place_cells(s, d.worst.position))
+                }
+            }
+        }
+    }
 }
 
 /// What the surface is made of and what it rests on.
-fn facts(h: &mut Html, d: &SurfaceDocument) {
-    h.raw("<dl class=\"facts pairs\">");
-    let by = |h: &mut Html, [a, b]: [u64; 2]| {
-        h.count(a).raw("\u{2009}×\u{2009}").count(b);
-    };
-    fact(h, "degree", |h| by(h, d.degree));
+fn facts(s: Style, d: &SurfaceDocument) -> Markup {
+    let by = |[a, b]: [u64; 2]| html! { (s.count(a)) "\u{2009}×\u{2009}" (s.count(b)) };
     let (m, n) = (d.control_points.len(), d.control_points.first().map_or(0, Vec::len));
-    fact(h, "control_points", |h| by(h, [m as u64, n as u64]));
-    fact(h, "surface.base", |h| {
-        h.word(match d.base.kind.as_str() {
-            "cylinder" => "verdict.cylinder",
-            "sphere" => "verdict.sphere",
-            "xy" => "base.xy",
-            _ => "verdict.plane",
-        });
-    });
-    fact(h, "fairness", |h| {
-        if d.fairness == 0.0 {
-            h.raw("0");
-        } else {
-            h.scientific(d.fairness, 1);
+    let base = match *d.base.kind {
+        BaseKind::Cylinder => "verdict.cylinder",
+        BaseKind::Sphere => "verdict.sphere",
+        BaseKind::Xy => "base.xy",
+        BaseKind::Plane => "verdict.plane",
+    };
+    let fairness = match d.fairness {
+        0.0 => html! { "0" },
+        fairness => s.scientific(fairness, 1).render(),
+    };
+    html! {
+        dl.facts.pairs {
+            (fact(s, "degree", by(d.degree)))
+            (fact(s, "control_points", by([m as u64, n as u64])))
+            (fact(s, "surface.base", s.word(base)))
+            (fact(s, "fairness", html! { (fairness) "\u{a0}mm²" }))
+            @if let Some(freedom) = d.degrees_of_freedom { (fact(s, "degrees_of_freedom", s.number(freedom, 1))) }
+            (fact(s, "corrections", s.count(d.corrections)))
+            (fact(s, "unsupported", s.percent(d.unsupported_share, 1)))
         }
-        h.raw("\u{a0}mm²");
-    });
-    if let Some(freedom) = d.degrees_of_freedom {
-        fact(h, "degrees_of_freedom", |h| {
-            h.number(freedom, 1, false);
-        });
     }
-    fact(h, "corrections", |h| {
-        h.count(d.corrections);
-    });
-    fact(h, "unsupported", |h| {
-        h.percent(d.unsupported_share, 1);
-    });
-    h.raw("</dl>");
 }

@@ -1,66 +1,171 @@
 //! What the script reads: manifest, words, blobs.
 
-use super::super::html::{Html, json};
-use super::super::payload::Payload;
+use super::super::documents::{Frame, Map, Pick};
+use super::super::payload::{Entry, Payload};
 use super::super::picture::{FirstView, others};
+use super::super::values::json;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
+use crate::results::compare::{Histogram, ToleranceShares};
 use crate::scale::palette::{self, Rgb};
 use crate::scale::{Mode, Scale, slot};
-use rayon::prelude::*;
-use serde_json::{Map, Value, json};
+use maud::{PreEscaped, Render, html};
+use serde::{Serialize, Serializer};
+use serde_json::Value;
+use trueness_geom::parallel::prelude::*;
+use trueness_geom::space::{Point, Vector};
 
 /// Values of the distribution that the script tells shares of a range from: exactly where these are all, else about.
 const QUANTILES: usize = 2000;
 
-/// Writes the data elements.
-pub fn data(
-    h: &mut Html,
-    input: &ReportInput,
-    payload: &Payload,
-    first: Option<&FirstView>,
-    maps: &Value,
-) -> Result<(), ReportError> {
-    let subject = input.result.subject();
-    let manifest = json!({
-        "schema": "trueness/view/1",
-        "language": input.options.language.code(),
-        "decimal": input.options.decimal,
-        "up": if input.options.up == Up::Y { "y" } else { "z" },
-        "first": first.map(|first| json!({
-            "toward": first.toward,
-            "places": first.places.iter().map(|(n, _)| n).collect::<Vec<_>>(),
-        })),
-        "scale": subject.scale(),
-        "quantity": subject.quantity(),
-        "palettes": subject.scale().map(palettes),
-        "maps": maps,
-        "picks": picks(input, first),
-        "objects": payload.objects,
-        "simplified": payload.simplified,
-        "display_error": payload.display_error,
-        "result": subject.json()?,
-    });
-    element(h, "manifest", &manifest);
-    element(h, "texts", &text::table());
-    for (n, blob) in payload.blobs.iter().enumerate() {
-        h.raw(&format!("<script type=\"application/octet-stream\" id=\"blob-{n}\">{blob}</script>\n"));
+/// `trueness/view/1`, as docs/decisions tell it.
+#[derive(Serialize)]
+struct Manifest<'a> {
+    schema: &'static str,
+    language: &'static str,
+    decimal: Option<char>,
+    up: &'static str,
+    first: Option<FirstEntry>,
+    scale: Option<&'a Scale>,
+    quantity: [&'static str; 3],
+    palettes: Option<Palettes>,
+    maps: &'a [MapEntry<'a>],
+    picks: Vec<PickEntry>,
+    objects: &'a [Entry],
+    simplified: bool,
+    display_error: f64,
+    result: Value,
+}
+
+/// What the first view shows.
+#[derive(Serialize)]
+struct FirstEntry {
+    toward: Vector,
+    /// Numbers of the picks that it was chosen for.
+    places: Vec<usize>,
+}
+
+/// A map that can be shown, with what the scale draws beside it.
+#[derive(Serialize)]
+pub struct MapEntry<'a> {
+    name: &'a str,
+    count: u64,
+    mean: Option<f64>,
+    tolerance: Option<ToleranceShares>,
+    histogram: Option<&'a Histogram>,
+    quantiles: Vec<f64>,
+    slots: Option<Vec<u64>>,
+    scale: Option<&'a Scale>,
+    palettes: Option<Palettes>,
+    quantity: Option<[&'static str; 3]>,
+}
+
+/// A place that a row of the list leads to.
+#[derive(Serialize)]
+struct PickEntry {
+    position: Point,
+    surface: Option<Point>,
+    off: bool,
+    reach: Option<f64>,
+    normal: Option<Vector>,
+    others: Vec<Point>,
+    mark: Option<usize>,
+    object: Option<usize>,
+    map: Option<usize>,
+    value: Option<f64>,
+    frame: Option<Frame>,
+}
+
+/// Every palette's colours for one scale.
+struct Palettes(Vec<(&'static str, PaletteEntry)>);
+
+impl Serialize for Palettes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, entry)| (name, entry)))
     }
-    Ok(())
+}
+
+/// Colours, six hexadecimal digits each.
+#[derive(Serialize)]
+struct PaletteEntry {
+    /// For the scale's bands.
+    bands: String,
+    /// In 256 steps, without bands.
+    ramp: String,
+    /// Below, in and above the zone.
+    go_no_go: String,
+}
+
+/// The data elements.
+pub struct Data<'a> {
+    manifest: String,
+    texts: String,
+    blobs: &'a [String],
+}
+
+impl<'a> Data<'a> {
+    /// Of a page with this payload; `first` is what its stage shows of a part.
+    pub fn of(
+        input: &ReportInput,
+        payload: &'a Payload,
+        first: Option<&FirstView>,
+        maps: &[MapEntry],
+    ) -> Result<Data<'a>, ReportError> {
+        let subject = input.result.subject();
+        let first_entry = |first: &FirstView| FirstEntry {
+            toward: first.toward,
+            places: first.places.iter().map(|(n, _)| *n).collect(),
+        };
+        let manifest = Manifest {
+            schema: "trueness/view/1",
+            language: input.options.language.code(),
+            decimal: input.options.decimal,
+            up: if input.options.up == Up::Y { "y" } else { "z" },
+            first: first.map(first_entry),
+            scale: subject.scale(),
+            quantity: subject.quantity(),
+            palettes: subject.scale().map(palettes),
+            maps,
+            picks: picks(input, first),
+            objects: &payload.objects,
+            simplified: payload.simplified,
+            display_error: payload.display_error,
+            result: subject.json()?,
+        };
+        Ok(Data { manifest: json(&manifest)?, texts: json(&text::table())?, blobs: &payload.blobs })
+    }
+}
+
+impl Render for Data<'_> {
+    fn render_to(&self, page: &mut String) {
+        for (id, json) in [("manifest", &self.manifest), ("texts", &self.texts)] {
+            html! { script type="application/json" id=(id) { (PreEscaped(json)) } "\n" }.render_to(page);
+        }
+        for (n, blob) in self.blobs.iter().enumerate() {
+            html! { script type="application/octet-stream" id={ "blob-" (n) } { (PreEscaped(blob)) } "\n" }
+                .render_to(page);
+        }
+    }
 }
 
 /// The maps that can be shown, with what the scale draws beside them.
-pub fn maps(input: &ReportInput) -> Value {
+pub fn maps<'a>(input: &'a ReportInput) -> Vec<MapEntry<'a>> {
     let subject = input.result.subject();
-    let maps = subject.maps();
-    let values: Vec<Vec<f64>> = (0..maps.len()).map(|n| sorted(input, n)).collect();
-    let all = maps.into_iter().enumerate().map(|(n, m)| {
-        json!({
-            "name": m.name, "count": m.count, "mean": m.mean, "tolerance": m.tolerance, "histogram": m.histogram,
-            "quantiles": quantiles(&values[n]), "slots": slots(&values[n], m.count, m.scale.or(subject.scale())),
-            "scale": m.scale, "palettes": m.scale.map(palettes), "quantity": m.quantity,
-        })
-    });
-    all.collect::<Vec<_>>().into()
+    let of = |(n, m): (usize, Map<'a>)| {
+        let values = sorted(input, n);
+        MapEntry {
+            name: m.name,
+            count: m.count,
+            mean: m.mean,
+            tolerance: m.tolerance,
+            histogram: m.histogram,
+            quantiles: quantiles(&values),
+            slots: slots(&values, m.count, m.scale.or(subject.scale())),
+            scale: m.scale,
+            palettes: m.scale.map(palettes),
+            quantity: m.quantity,
+        }
+    };
+    subject.maps().into_iter().enumerate().map(of).collect()
 }
 
 /// The values at hand of a map, least to greatest.
@@ -92,36 +197,36 @@ fn slots(sorted: &[f64], count: u64, scale: Option<&Scale>) -> Option<Vec<u64>> 
 }
 
 /// The places of the list, in the order of its rows.
-fn picks(input: &ReportInput, first: Option<&FirstView>) -> Value {
+fn picks(input: &ReportInput, first: Option<&FirstView>) -> Vec<PickEntry> {
     let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
-    let all = input.result.subject().picks().into_iter().enumerate().map(|(n, p)| {
-        let off = first.is_some_and(|f| f.off[n]);
-        json!({
-            "position": p.position, "surface": p.surface, "off": off, "reach": p.reach, "normal": p.normal.or_else(|| normal(p.mark)),
-            "others": others(&p, input.marks), "mark": p.mark, "object": p.object, "map": p.map, "value": p.value,
-            "frame": p.frame,
-        })
-    });
-    all.collect::<Vec<_>>().into()
+    let of = |(n, p): (usize, Pick)| PickEntry {
+        position: p.position,
+        surface: p.surface,
+        off: first.is_some_and(|f| f.off[n]),
+        reach: p.reach,
+        normal: p.normal.or_else(|| normal(p.mark)),
+        others: others(&p, input.marks),
+        mark: p.mark,
+        object: p.object,
+        map: p.map,
+        value: p.value,
+        frame: p.frame,
+    };
+    input.result.subject().picks().into_iter().enumerate().map(of).collect()
 }
 
-fn element(h: &mut Html, id: &str, value: &Value) {
-    h.raw(&format!("<script type=\"application/json\" id=\"{id}\">{}</script>\n", json(value)));
-}
-
-/// Every palette's colours for this scale's bands and, in 256 steps, without bands; and three for go / no-go.
-fn palettes(scale: &Scale) -> Value {
+fn palettes(scale: &Scale) -> Palettes {
     let hex =
         |colors: &[Rgb]| colors.iter().map(|[r, g, b]| format!("{r:02x}{g:02x}{b:02x}")).collect::<String>();
     let of = |name: &str| {
         let as_mode = |mode| Scale { mode, palette: name.into(), ..scale.clone() };
-        json!({
-            "bands": hex(&as_mode(Mode::Bands).colors()),
-            "ramp": hex(&as_mode(Mode::Continuous).ramp(256)),
-            "go_no_go": hex(&palette::colors(name, 1)),
-        })
+        PaletteEntry {
+            bands: hex(&as_mode(Mode::Bands).colors()),
+            ramp: hex(&as_mode(Mode::Continuous).ramp(256)),
+            go_no_go: hex(&palette::colors(name, 1)),
+        }
     };
-    Value::Object(Map::from_iter(palette::NAMES.map(|name| (name.to_string(), of(name)))))
+    Palettes(palette::NAMES.map(|name| (name, of(name))).into())
 }
 
 /// Evenly spaced quantiles of sorted values, all of them where they are few; empty where there are none.

@@ -1,10 +1,11 @@
 //! The flags of the stored picture, as SVG over it: for print, and for readers without scripts or WebGL.
 
 use super::super::documents::{Frame, Pick};
-use super::super::html::Html;
 use super::super::number::Style;
 use super::super::picture::{FirstView, flagged};
+use super::super::values::{Text, leaf};
 use crate::scale::Scale;
+use maud::{Markup, html};
 
 /// A flag's box, and the room between two and to the rim, in pixels of the picture.
 const WIDTH: f64 = 130.0;
@@ -33,19 +34,16 @@ struct Placed {
     start: f64,
 }
 
-/// Writes the layer. It is there without flags too, for the script to draw into.
-pub fn flags(h: &mut Html, picks: &[Pick], view: &FirstView, scale: Option<&Scale>) {
+/// The layer. It is there without flags too, for the script to draw into.
+pub fn flags(s: Style, picks: &[Pick], view: &FirstView, scale: Option<&Scale>) -> Markup {
     let [width, height] = FirstView::SIZE.map(f64::from);
-    h.raw(&format!(
-        "<svg id=\"flagged\" class=\"flagged\" viewBox=\"0 0 {width} {height}\" aria-hidden=\"true\">"
-    ));
     let valued = picks.iter().enumerate().filter(|(_, p)| flagged(p, view.mapped));
     let placed: Vec<Placed> = valued
         .enumerate()
         .map(|(n, (pick, p))| {
             let [x, y] = view.pixel(&view.ends[pick]);
             let own = match &p.frame {
-                Some(frame) => framed(h.style, frame).1,
+                Some(frame) => framed(s, frame).1,
                 None if view.off.get(pick) == Some(&true) => WIDTH + NOTE,
                 None => WIDTH,
             };
@@ -65,10 +63,14 @@ pub fn flags(h: &mut Html, picks: &[Pick], view: &FirstView, scale: Option<&Scal
         let reach = GAP + STUB + column.iter().map(|f| f.width).fold(0.0, f64::max);
         for flag in column {
             flag.start = if flag.left > GAP { width - reach } else { reach };
-            draw(h, flag, &picks[flag.pick], view, scale);
         }
     }
-    h.raw("</svg>\n");
+    html! {
+        svg id="flagged" class="flagged" viewBox={ "0 0 " (width) " " (height) } aria-hidden="true" {
+            @for flag in left.iter().chain(&right) { (draw(s, flag, &picks[flag.pick], view, scale)) }
+        }
+        "\n"
+    }
 }
 
 /// What a frame says behind its sign, and how wide its box is.
@@ -115,58 +117,75 @@ fn stack(column: &mut [Placed], height: f64) {
     }
 }
 
-fn draw(h: &mut Html, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&Scale>) {
+/// A flag with its leader.
+fn draw(s: Style, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&Scale>) -> Markup {
     let hidden = view.hidden.get(flag.pick) == Some(&true);
-    let class = if hidden { " hidden" } else { "" };
-    let (Placed { label, x, y, top, left, width, inner, start: begin, .. }, middle) =
-        (flag, flag.top + 0.5 * HEIGHT);
-    let mut line = |class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| {
-        h.raw(&format!(
-            "<line class=\"{class}\" x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\"/>"
-        ));
-    };
-    line(&format!("stub{class}"), [*inner, middle], [*begin, middle]);
-    line(&format!("leader{class}"), [*begin, middle], [*x, *y]);
     let off = view.off.get(flag.pick) == Some(&true);
-    if let Some(surface) = pick.surface.filter(|_| off) {
-        line("way", [*x, *y], view.pixel(&surface));
-    }
-    h.raw(&format!("<circle class=\"anchor\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\"/>"));
-    let verdict = pick.frame.as_ref().map_or(String::new(), |f| format!(" frame {}", f.verdict));
-    h.raw(&format!(
-        "<rect class=\"{class}{verdict}\" x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{HEIGHT}\" rx=\"5\"/>"
-    ));
-    let mut start = left + 10.0;
-    if let Some(frame) = &pick.frame {
-        h.raw(&format!("<text class=\"id{class}\" x=\"{start:.1}\" y=\"{middle:.1}\">"));
-        h.text(&frame.id).raw("</text>");
-        start += LETTER * (frame.id.chars().count() + 1) as f64;
-        if let Some(sign) = frame.sign {
-            let y = middle - 8.0;
-            h.raw(&format!(
-                "<path class=\"gdt{class}\" transform=\"translate({start:.1} {y:.1})\" d=\"{sign}\"/>"
-            ));
-            start += SIGN;
+    let class = if hidden { " hidden" } else { "" };
+    let (Placed { x, y, inner, start: begin, .. }, middle) = (flag, flag.top + 0.5 * HEIGHT);
+    let surface = pick.surface.filter(|_| off);
+    html! {
+        (line(&format!("stub{class}"), [*inner, middle], [*begin, middle]))
+        (line(&format!("leader{class}"), [*begin, middle], [*x, *y]))
+        @if let Some(surface) = surface { (line("way", [*x, *y], view.pixel(&surface))) }
+        (leaf("circle", &[("class", &"anchor"), ("cx", &places(*x)), ("cy", &places(*y)), ("r", &4.5)]))
+        @match &pick.frame {
+            Some(frame) => (written(s, flag, frame, class)),
+            None => {
+                (around(flag, class))
+                text class=(class) x=(places(flag.left + 10.0)) y=(places(middle)) {
+                    (flag.label) "\u{2002}"
+                    (s.signed(pick.value.unwrap_or(0.0), scale.map_or(3, |s| s.decimals as usize)))
+                    @if off { " " tspan data-t="flag.off" { (s.bare_word("flag.off")) } }
+                }
+            }
         }
-        h.raw(&format!("<text class=\"{class}{verdict}\" x=\"{start:.1}\" y=\"{middle:.1}\">"));
-        let text = framed(h.style, frame).0;
-        h.text(&text).raw("</text>");
-        return;
     }
-    let decimals = scale.map_or(3, |s| s.decimals as usize);
-    let value = h.style.signed(pick.value.unwrap_or(0.0), decimals);
-    h.raw(&format!("<text class=\"{class}\" x=\"{start:.1}\" y=\"{middle:.1}\">{label}\u{2002}{value}"));
-    if off {
-        h.raw(" ").raw("<tspan data-t=\"flag.off\">");
-        h.text(super::super::text::word("flag.off", h.language())).raw("</tspan>");
+}
+
+/// A length as drawings have it.
+fn places(x: f64) -> String {
+    format!("{x:.1}")
+}
+
+fn line(class: &str, from: [f64; 2], to: [f64; 2]) -> Markup {
+    let ([x1, y1], [x2, y2]) = (from.map(places), to.map(places));
+    leaf("line", &[("class", &class), ("x1", &x1), ("y1", &y1), ("x2", &x2), ("y2", &y2)])
+}
+
+/// The box of a flag.
+fn around(flag: &Placed, class: &str) -> Markup {
+    let [x, y, width] = [flag.left, flag.top, flag.width].map(places);
+    leaf(
+        "rect",
+        &[("class", &class), ("x", &x), ("y", &y), ("width", &width), ("height", &HEIGHT), ("rx", &5)],
+    )
+}
+
+/// A characteristic in its box: its name, its sign, what is allowed and what was found.
+fn written(s: Style, flag: &Placed, frame: &Frame, class: &str) -> Markup {
+    let middle = flag.top + 0.5 * HEIGHT;
+    let sign = flag.left + 10.0 + LETTER * (frame.id.chars().count() + 1) as f64;
+    let turned = format!("translate({sign:.1} {:.1})", middle - 8.0);
+    let start = sign + if frame.sign.is_some() { SIGN } else { 0.0 };
+    let verdict = format!("{class} frame {}", frame.verdict);
+    html! {
+        (around(flag, &verdict))
+        text class={ "id" (class) } x=(places(flag.left + 10.0)) y=(places(middle)) { (Text(&frame.id)) }
+        @if let Some(path) = frame.sign {
+            (leaf("path", &[("class", &format!("gdt{class}")), ("transform", &turned), ("d", &path)]))
+        }
+        text class=(verdict) x=(places(start)) y=(places(middle)) { (Text(framed(s, frame).0)) }
     }
-    h.raw("</text>");
 }
 
 /// How many of the places that the view was chosen for it does not show; the script says it of its own view.
-pub fn hidden(h: &mut Html, view: &FirstView) {
+pub fn hidden(s: Style, view: &FirstView) -> Markup {
     let hidden = view.places.iter().filter(|(_, hidden)| *hidden).count() as u64;
-    let none = if hidden == 0 { " hidden" } else { "" };
-    h.raw(&format!("<p id=\"unseen\" class=\"unseen-places\"{none}>")).word("hidden.here").raw(" ");
-    h.count(hidden).raw(" / ").count(view.places.len() as u64).raw("</p>\n");
+    html! {
+        p id="unseen" class="unseen-places" hidden[hidden == 0] {
+            (s.word("hidden.here")) " " (s.count(hidden)) " / " (s.len(&view.places))
+        }
+        "\n"
+    }
 }

@@ -1,6 +1,7 @@
 //! What the page may do: run its own script, use its own styles, show its own pictures. Nothing else, no request.
 
 use super::super::payload::base64;
+use maud::{Markup, html};
 use sha2::{Digest, Sha256};
 
 /// Letters of a running head, at most.
@@ -35,7 +36,7 @@ fn in_string(c: char) -> String {
 }
 
 /// The content security policy as a `<meta>` element; `running` is the page's own style.
-pub fn meta(running: &str) -> String {
+pub fn meta(running: &str) -> Markup {
     let hash = |text: &str| format!("'sha256-{}'", base64(&Sha256::digest(text.as_bytes())));
     let script = if trueness_viewer::BUILT { hash(trueness_viewer::SCRIPT) } else { "'none'".into() };
     let policy = [
@@ -50,7 +51,7 @@ pub fn meta(running: &str) -> String {
         "require-trusted-types-for 'script'".into(),
         "trusted-types trueness".into(),
     ];
-    format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">", policy.join("; "))
+    html! { meta http-equiv="Content-Security-Policy" content=(policy.join("; ")); }
 }
 
 #[cfg(test)]

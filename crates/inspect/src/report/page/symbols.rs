@@ -1,7 +1,8 @@
 //! Signs of characteristics as on drawings (ISO 1101:2017, table 3), drawn as paths: few fonts have them.
 
-use super::super::html::Html;
+use super::super::values::{Name, leaf};
 use crate::plan::text::MaterialWord;
+use maud::{Markup, Render, html};
 
 /// The sign of a kind of characteristic in a square of 16; none for what has no sign.
 pub fn path(kind: &str) -> Option<&'static str> {
@@ -24,31 +25,26 @@ pub fn path(kind: &str) -> Option<&'static str> {
     })
 }
 
-/// Writes the sign of a kind, if it has one; its name is to stand beside it.
-pub fn symbol(h: &mut Html, kind: &str) {
-    if let Some(path) = path(kind) {
-        h.raw(&format!(
-            "<svg class=\"gdt\" viewBox=\"0 0 16 16\" aria-hidden=\"true\"><path d=\"{path}\"/></svg> "
-        ));
+/// The sign of a kind, if it has one; its name is to stand beside it.
+pub fn symbol(kind: &str) -> Markup {
+    html! {
+        @if let Some(path) = path(kind) {
+            svg.gdt viewBox="0 0 16 16" aria-hidden="true" { (leaf("path", &[("d", &path)])) } " "
+        }
     }
 }
 
-/// Writes the letter of a material requirement in its circle (ISO 2692): few fonts have Ⓜ and Ⓛ.
-pub fn requirement(h: &mut Html, letter: &str) {
-    h.raw("<span class=\"circled\">").text(letter).raw("</span>");
+/// The letter of a material requirement in its circle (ISO 2692): few fonts have Ⓜ and Ⓛ.
+pub fn requirement(letter: &str) -> Markup {
+    html! { span.circled { (letter) } }
 }
 
-/// Writes a datum as results name it (`A`, `A-B`, `A(M)`), its material requirement as a sign.
-pub fn datum_name(h: &mut Html, datum: &str) {
+/// A datum as results name it (`A`, `A-B`, `A(M)`), its material requirement as a sign.
+pub fn datum_name(datum: &str) -> Markup {
     let end = |word: MaterialWord| Some((datum.strip_suffix(&format!("({})", word.word()))?, word));
     match [MaterialWord::M, MaterialWord::L].into_iter().find_map(end) {
-        Some((name, word)) => {
-            h.name(name).raw("\u{a0}");
-            requirement(h, word.word());
-        }
-        None => {
-            h.name(datum);
-        }
+        Some((name, word)) => html! { (Name(name)) "\u{a0}" (requirement(word.word())) },
+        None => Name(datum).render(),
     }
 }
 

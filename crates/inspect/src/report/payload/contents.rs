@@ -1,13 +1,13 @@
 //! The manifest and its blobs.
 
 use super::blob::{self, Kind, base64};
-use serde_json::Value;
+use super::entry::{Blob, Entry};
 
 /// Objects of the manifest and the blobs they name.
 #[derive(Default)]
 pub struct Payload {
     /// `objects` of the manifest.
-    pub objects: Vec<Value>,
+    pub objects: Vec<Entry>,
     /// Base64 of gzip; a blob's number is its place here.
     pub blobs: Vec<String>,
     /// Points drawn and points given, of measured clouds.
@@ -24,9 +24,9 @@ impl Payload {
         self.blobs.iter().map(String::len).sum()
     }
 
-    /// Adds a blob; gives its number.
-    pub(super) fn add(&mut self, bytes: &[u8], kind: Kind) -> usize {
+    /// Adds a blob.
+    pub(super) fn add(&mut self, bytes: &[u8], kind: Kind) -> Blob {
         self.blobs.push(base64(&blob::gzip(bytes, kind)));
-        self.blobs.len() - 1
+        Blob { blob: self.blobs.len() - 1 }
     }
 }

@@ -1,8 +1,8 @@
 //! Where vertices were left out, those that stay show the worst of what the others showed.
 
 use crate::tolerance::badness;
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, dot, minus, norm};
 
 /// For each vertex of the mesh the one that stands for it: itself if it is among `left`, else that of a neighbour along an edge,

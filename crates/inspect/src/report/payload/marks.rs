@@ -1,17 +1,17 @@
 //! Marks as blobs: their places on a grid, and for each triangle, line and dot the number of its mark.
 
-use super::super::marks::{Mark, Marks};
+use super::super::marks::{Mark, MarkGroup, Marks};
 use super::blob::Kind;
 use super::contents::Payload;
+use super::entry::{GroupEntry, MarksEntry};
 use super::grid::Grid;
 use super::planes::pack;
 use crate::scale::palette::hex;
-use rayon::prelude::*;
-use serde_json::{Value, json};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Aabb;
 
-/// Packs marks; their numbers begin at `first`.
-pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize) -> Value {
+/// Packs marks as object `id`; their numbers begin at `first`.
+pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize, id: usize) -> MarksEntry {
     let places = || marks.items().flat_map(Mark::places);
     let grid = Grid::over(&Aabb::of(places()).union(around), 16);
     // The first marks are drawn last, over the others.
@@ -40,23 +40,29 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         (0..numbers.len()).into_par_iter().map(|i| numbers[i] - if i > 0 { numbers[i - 1] } else { 0 });
     let numbers = pack(steps, 3);
     let total = |count: fn(&Mark) -> usize| marks.items().map(count).sum::<usize>();
-    let groups: Vec<Value> = marks
-        .groups
-        .iter()
-        .map(|g| json!({"key": g.key, "color": hex(g.color), "count": g.items.len()}))
-        .collect();
-    json!({
-        "role": marks.role, "kind": "marks", "vertices": all.len(), "origin": grid.origin, "step": grid.step,
-        "shown": marks.shown(), "comparison": marks.comparison, "first": first, "groups": groups, "triangles": total(counts[0]),
-        "segments": total(counts[1]), "points": total(counts[2]),
-        "positions": {"blob": part.add(&positions, Kind::Differences)}, "items": {"blob": part.add(&numbers, Kind::Differences)},
-    })
+    let group = |g: &MarkGroup| GroupEntry { key: g.key.clone(), color: hex(g.color), count: g.items.len() };
+    MarksEntry {
+        role: marks.role,
+        kind: "marks",
+        vertices: all.len(),
+        origin: grid.origin,
+        step: grid.step,
+        shown: marks.shown(),
+        comparison: marks.comparison,
+        first,
+        groups: marks.groups.iter().map(group).collect(),
+        triangles: total(counts[0]),
+        segments: total(counts[1]),
+        points: total(counts[2]),
+        positions: part.add(&positions, Kind::Differences),
+        items: part.add(&numbers, Kind::Differences),
+        id,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::super::ViewRole;
-    use super::super::super::marks::MarkGroup;
     use super::*;
 
     #[test]
@@ -67,11 +73,11 @@ mod tests {
         let group = MarkGroup { key: "x".into(), color: [1, 2, 255], items: vec![facet, dot] };
         let marks = Marks { role: ViewRole::Defects, comparison: None, groups: vec![group] };
         let mut part = Payload::default();
-        let entry = pack_marks(&mut part, &marks, &Aabb::of(&[[0.0; 3], [10.0; 3]]), 5);
-        assert_eq!([&entry["triangles"], &entry["segments"], &entry["points"]], [1, 3, 1]);
-        assert_eq!((&entry["vertices"], &entry["first"]), (&json!(3 + 6 + 1), &json!(5)));
-        assert_eq!(entry["groups"][0], json!({"key": "x", "color": "0102ff", "count": 2}));
-        assert_eq!(entry["step"], json!(10.0 / 65_535.0));
+        let entry = pack_marks(&mut part, &marks, &Aabb::of(&[[0.0; 3], [10.0; 3]]), 5, 2);
+        assert_eq!([entry.triangles, entry.segments, entry.points], [1, 3, 1]);
+        assert_eq!((entry.vertices, entry.first, entry.id), (3 + 6 + 1, 5, 2));
+        assert_eq!(entry.groups, [GroupEntry { key: "x".into(), color: "0102ff".into(), count: 2 }]);
+        assert_eq!(entry.step, 10.0 / 65_535.0);
         assert_eq!(part.blobs.len(), 2);
     }
 }

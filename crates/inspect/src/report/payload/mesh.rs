@@ -7,8 +7,8 @@ use super::order;
 use super::planes::pack;
 use super::predict::{Rule, rules};
 use super::simplify::Places;
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 
@@ -52,7 +52,7 @@ impl Ordered {
             .filter(drawable)
             .map(|f| f.map(|v| one[v as usize]))
             .filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-            .flatten_iter()
+            .flat_map_iter(|t| t)
             .collect();
         let mut error = 0.0;
         if corners.len() / 3 > wanted.limit {

@@ -6,6 +6,7 @@
 
 mod blob;
 mod contents;
+mod entry;
 mod field;
 mod gather;
 mod grid;
@@ -21,6 +22,7 @@ mod simplify;
 
 pub use blob::{base64, zlib};
 pub use contents::Payload;
+pub use entry::Entry;
 pub use field::NoValue;
 pub use packed::Purpose;
 
@@ -28,9 +30,9 @@ use super::marks::Marks;
 use super::picture::first_view;
 use super::{ReportError, ViewObject};
 use blob::Kind;
+use entry::{LevelEntry, PlacesEntry};
 use packed::{Packed, Quality, coarse_grid_is_fine, pack_object};
-use rayon::prelude::*;
-use serde_json::{Value, json};
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Of what would just fit, so that it does.
@@ -86,16 +88,14 @@ fn with_levels(packed: Vec<Packed>, purpose: &Purpose) -> Result<Payload, Report
         let levels = mesh.map_or(Ok(vec![]), |m| mesh::levels(&m, purpose.progress))?;
         let blobs: Vec<String> =
             levels.par_iter().map(|(code, ..)| base64(&blob::gzip(code, Kind::Code))).collect();
-        let entries: Vec<Value> = levels
-            .iter()
-            .zip(part.blobs.len()..)
-            .map(
-                |((_, triangles, error), blob)| json!({"triangles": triangles, "error": error, "blob": blob}),
-            )
-            .collect();
+        let entry =
+            |((_, triangles, error), blob)| LevelEntry { triangles, error, code: entry::Blob { blob } };
+        let entries = levels.into_iter().zip(part.blobs.len()..).map(entry).collect();
         part.blobs.extend(blobs);
-        if !entries.is_empty() {
-            part.objects[0]["levels"] = entries.into();
+        if let [Entry::Object(object)] = &mut part.objects[..]
+            && let PlacesEntry::Mesh { levels, .. } = &mut object.places
+        {
+            *levels = entries;
         }
         Ok(part)
     };
@@ -109,9 +109,8 @@ fn pack_all_marks(objects: &[ViewObject], marks: &[Marks]) -> Payload {
     let around = objects.first().map_or(Aabb::EMPTY, |o| Aabb::of(o.places().iter().filter(finite)));
     let mut first = 0;
     for (n, m) in marks.iter().enumerate() {
-        let mut entry = marks::pack_marks(&mut part, m, &around, first);
-        entry["id"] = json!(objects.len() + n);
-        part.objects.push(entry);
+        let entry = marks::pack_marks(&mut part, m, &around, first, objects.len() + n);
+        part.objects.push(Entry::Marks(entry));
         first += m.items().count();
     }
     part
@@ -123,40 +122,18 @@ fn finite(p: &&Point) -> bool {
 
 fn pack_at(objects: &[ViewObject], purpose: &Purpose, quality: Quality) -> Result<Vec<Packed>, ReportError> {
     let shown = first_view(objects);
-    let one = |(id, object): (usize, &ViewObject)| {
-        let mut packed = pack_object(object, purpose, quality)?;
-        packed.part.objects[0]["id"] = json!(id);
-        packed.part.objects[0]["shown"] = json!(shown.contains(&id));
-        Ok(packed)
-    };
+    let one =
+        |(id, object): (usize, &ViewObject)| pack_object(object, (id, shown.contains(&id)), purpose, quality);
     objects.par_iter().enumerate().map(one).collect()
 }
 
 /// Appends a part, whose blobs get later numbers.
 fn join(mut all: Payload, part: Payload) -> Payload {
     let shift = all.blobs.len();
-    all.objects.extend(part.objects.into_iter().map(|mut object| {
-        renumber(&mut object, shift);
-        object
-    }));
+    all.objects.extend(part.objects.into_iter().map(|entry| entry.shifted(shift)));
     all.blobs.extend(part.blobs);
     all.points = (all.points.0 + part.points.0, all.points.1 + part.points.1);
     all.display_error = all.display_error.max(part.display_error);
     all.simplified |= part.simplified;
     all
-}
-
-fn renumber(value: &mut Value, shift: usize) {
-    match value {
-        Value::Object(entries) => {
-            for (key, inner) in entries.iter_mut() {
-                match inner.as_u64() {
-                    Some(n) if key == "blob" => *inner = json!(n as usize + shift),
-                    _ => renumber(inner, shift),
-                }
-            }
-        }
-        Value::Array(list) => list.iter_mut().for_each(|inner| renumber(inner, shift)),
-        _ => {}
-    }
 }

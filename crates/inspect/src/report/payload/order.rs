@@ -1,6 +1,6 @@
 //! Orders of triangles: along a curve through space, and so that few vertices are in use at a time.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Aabb;
 

@@ -3,14 +3,13 @@
 use super::super::{Geometry, ReportError, ViewObject, ViewRole};
 use super::blob::Kind;
 use super::contents::Payload;
-use super::field::{Codes, NoValue};
+use super::entry::{CountEntry, Entry, FieldEntry, ObjectEntry, PlacesEntry};
+use super::field::Codes;
 use super::grid::Grid;
 use super::mesh::{self, MeshBytes, Ordered, Wanted};
 use super::{gather, planes, points};
-use crate::scale::palette::hex;
-use rayon::prelude::*;
-use serde_json::{Value, json};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
@@ -102,8 +101,13 @@ pub fn coarse_grid_is_fine(object: &ViewObject) -> bool {
     Grid::over(&mesh.bounds(), 14).step <= median / 8.0
 }
 
-/// Packs an object.
-pub fn pack_object(object: &ViewObject, purpose: &Purpose, quality: Quality) -> Result<Packed, ReportError> {
+/// Packs an object, which has the number `id`; `shown`: by the first view.
+pub fn pack_object(
+    object: &ViewObject,
+    (id, shown): (usize, bool),
+    purpose: &Purpose,
+    quality: Quality,
+) -> Result<Packed, ReportError> {
     let mut part = Payload::default();
     let (entry, mesh) = match object.geometry {
         Geometry::Mesh(mesh) => {
@@ -112,7 +116,7 @@ pub fn pack_object(object: &ViewObject, purpose: &Purpose, quality: Quality) -> 
         }
         Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
     };
-    part.objects.push(entry);
+    part.objects.push(Entry::Object(ObjectEntry { display_error: part.display_error, id, shown, ..entry }));
     Ok(Packed { part, mesh })
 }
 
@@ -122,7 +126,7 @@ fn pack_mesh(
     mesh: &Mesh,
     purpose: &Purpose,
     quality: Quality,
-) -> Result<(Value, Ordered), ReportError> {
+) -> Result<(ObjectEntry, Ordered), ReportError> {
     let keep = kept(object);
     // Places that show gathered points lie together on purpose where faces meet.
     let wanted = Wanted { keep: &keep, limit: quality.triangles.max(4), join: object.gathered.is_none() };
@@ -134,8 +138,8 @@ fn pack_mesh(
     }
     part.simplified = ordered.error > 0.0;
     part.display_error = ordered.error + grid.error();
-    let triangles = json!({"blob": part.add(&bytes.triangles, Kind::Code)});
-    let positions = json!({"blob": part.add(&bytes.positions, Kind::Differences)});
+    let corners = part.add(&bytes.triangles, Kind::Code);
+    let positions = part.add(&bytes.positions, Kind::Differences);
     let mut reach = object.gathered.map(|g| g.reach);
     let owners = reach.filter(|_| part.simplified).map(|r| {
         let owners = gather::owners(mesh, &ordered.source);
@@ -151,20 +155,19 @@ fn pack_mesh(
             None => field.at(v),
         };
         let packed = bytes.field(&codes, |v| at(ordered.source[v as usize] as usize));
-        fields.push(field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences)));
+        fields.push(FieldEntry::new(field.comparison, codes, part.add(&packed, Kind::Differences)));
     }
-    let entry = entry(
-        object,
-        "mesh",
-        &grid,
-        (ordered.positions.len(), object.gathered.map_or(mesh.positions.len(), |g| g.vertices)),
-        json!({
-            "triangles": ordered.triangles.len(), "source_triangles": mesh.faces.len(), "reach": reach,
-            "corners": triangles, "positions": positions, "levels": [], "fields": fields,
-            "display_error": part.display_error,
-        }),
-    );
-    Ok((entry, ordered))
+    let places = PlacesEntry::Mesh {
+        triangles: ordered.triangles.len(),
+        source_triangles: mesh.faces.len(),
+        reach,
+        corners,
+        positions,
+        levels: vec![],
+    };
+    let given = object.gathered.map_or(mesh.positions.len(), |g| g.vertices);
+    let entry = ObjectEntry::new(object, &grid, (ordered.positions.len(), given), places);
+    Ok((ObjectEntry { fields, ..entry }, ordered))
 }
 
 fn pack_points(
@@ -173,7 +176,7 @@ fn pack_points(
     points: &[Point],
     purpose: &Purpose,
     quality: Quality,
-) -> Result<Value, ReportError> {
+) -> Result<ObjectEntry, ReportError> {
     let finite: Vec<u32> =
         (0u32..).zip(points).filter(|(_, p)| p.iter().all(|x| x.is_finite())).map(|(i, _)| i).collect();
     let grid = Grid::over(&Aabb::of(finite.iter().map(|i| &points[*i as usize])), quality.bits);
@@ -192,8 +195,8 @@ fn pack_points(
             planes::pack(differences, 2)
         })
         .collect();
-    let positions = json!({"blob": part.add(&positions, Kind::Differences)});
-    let fields: Vec<Value> = object
+    let positions = part.add(&positions, Kind::Differences);
+    let fields = object
         .fields
         .iter()
         .map(|field| {
@@ -205,42 +208,16 @@ fn pack_points(
             let differences =
                 (0..count).into_par_iter().map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
             let packed = planes::pack(differences, codes.bytes);
-            field_entry(field.comparison, &codes, part.add(&packed, Kind::Differences))
+            FieldEntry::new(field.comparison, codes, part.add(&packed, Kind::Differences))
         })
         .collect();
     part.display_error = grid.error();
     if object.role == ViewRole::Measured {
         part.points = (count, points.len());
     }
-    let ends: Vec<Value> = levels.ends.iter().map(|e| json!({"points": e})).collect();
-    Ok(entry(
-        object,
-        "points",
-        &grid,
-        (count, points.len()),
-        json!({
-            "positions": positions, "levels": ends, "fields": fields, "display_error": part.display_error,
-        }),
-    ))
-}
-
-fn entry(object: &ViewObject, kind: &str, grid: &Grid, (shown, given): (usize, usize), rest: Value) -> Value {
-    let mut entry = json!({
-        "role": object.role, "name": object.name, "color": hex(object.color()), "kind": kind, "comparison": object.comparison,
-        "vertices": shown, "source_vertices": given, "origin": grid.origin, "step": grid.step,
-    });
-    if let (Some(all), Value::Object(rest)) = (entry.as_object_mut(), rest) {
-        all.extend(rest);
-    }
-    entry
-}
-
-fn field_entry(comparison: usize, codes: &Codes, blob: usize) -> Value {
-    let reasons = NoValue::ALL.map(|r| (codes.no_value(r).to_string(), json!(r.name())));
-    json!({
-        "comparison": comparison, "name": "deviation", "unit": "mm", "bits": 8 * codes.bytes,
-        "step": codes.step, "blob": blob, "no_value": serde_json::Map::from_iter(reasons),
-    })
+    let levels = levels.ends.iter().map(|end| CountEntry { points: *end }).collect();
+    let places = PlacesEntry::Points { positions, levels };
+    Ok(ObjectEntry { fields, ..ObjectEntry::new(object, &grid, (count, points.len()), places) })
 }
 
 /// The points or vertices with the greatest deviations, over all fields, and those that the result names.

@@ -1,10 +1,10 @@
 //! Integers near their prediction as bytes that compress well.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::{Loop, Source};
 
 /// The differences `value - prediction` modulo 2^(8·`width`), folded so that small ones of either sign are small
 /// (0, −1, 1, −2 → 0, 1, 2, 3), as `width` planes of bytes, the lowest first.
-pub fn pack(differences: impl IndexedParallelIterator<Item = i32>, width: usize) -> Vec<u8> {
+pub fn pack(differences: Loop<impl Source<Item = i32>>, width: usize) -> Vec<u8> {
     let folded: Vec<u32> = differences.map(|d| fold(d, width)).collect();
     (0..width).flat_map(|plane| folded.iter().map(move |d| (d >> (8 * plane)) as u8)).collect()
 }
@@ -18,6 +18,7 @@ fn fold(difference: i32, width: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trueness_geom::parallel::prelude::*;
 
     #[test]
     fn small_differences_are_small() {
@@ -29,6 +30,6 @@ mod tests {
 
     #[test]
     fn planes_lie_one_after_the_other() {
-        assert_eq!(pack([1, 256, -1].into_par_iter(), 2), [2, 0, 1, 0, 2, 0]);
+        assert_eq!(pack([1, 256, -1].par_iter().copied(), 2), [2, 0, 1, 0, 2, 0]);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Stopping after any level leaves an even subsample, so a level of detail is no more than a number of points.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 
 /// Points of the first level.
 const COARSEST: usize = 2048;

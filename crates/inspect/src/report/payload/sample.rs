@@ -7,8 +7,8 @@ use super::super::{Geometry, ReportError, ViewField, ViewObject};
 use super::field::NoValue;
 use super::mesh;
 use super::packed::{LEVEL_BYTES, MOST_POINTS, Purpose, Quality, coarse_grid_is_fine, pack_object};
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Places of an object up to which it is packed whole.
@@ -39,7 +39,8 @@ pub fn quality(
     let room = SAFELY * budget as f64;
     let packed = |quality: Quality| -> Result<Vec<f64>, ReportError> {
         let bytes = |(object, sample): (&ViewObject, &Sample)| {
-            let packed = pack_object(&sample.object(object), purpose, quality.times(sample.share))?;
+            let packed =
+                pack_object(&sample.object(object), (0, true), purpose, quality.times(sample.share))?;
             let rims = if sample.share < 1.0 { RIMS } else { 1.0 };
             Ok(packed.part.len() as f64 / (rims * sample.share))
         };
@@ -226,7 +227,7 @@ mod tests {
                 let purpose = Purpose { ranges: &[0.2], zone: None, progress: &Silent };
                 for budget in [300_000, 700_000] {
                     let quality = quality(Quality::all(&objects), &objects, &purpose, budget).unwrap();
-                    let packed = pack_object(&objects[0], &purpose, quality).unwrap();
+                    let packed = pack_object(&objects[0], (0, true), &purpose, quality).unwrap();
                     let share = packed.expected() as f64 / budget as f64;
                     let all = quality.points.max(quality.triangles) >= Quality::all(&objects).points;
                     assert!(share <= 1.0 && (all || share > 0.88), "{share} of {budget}, noise {noise}");

@@ -5,7 +5,7 @@
 
 use super::order;
 use meshopt::{SimplifyOptions, VertexDataAdapter};
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 

@@ -1,6 +1,7 @@
 //! The samples of a picture: what is nearest at each.
 
-use rayon::prelude::*;
+use trueness_geom::parallel::prelude::*;
+use trueness_geom::parallel::{Loop, Source};
 
 /// Samples a pixel and side.
 pub const FINE: u32 = 2;
@@ -59,7 +60,7 @@ impl Canvas {
     }
 
     /// The rows in pieces that can be drawn on at the same time.
-    pub fn bands(&mut self) -> impl IndexedParallelIterator<Item = Band<'_>> {
+    pub fn bands(&mut self) -> Loop<impl Source<Item = Band<'_>>> {
         let (width, height) = (self.width, self.height);
         let size = (width * BAND).max(1) as usize;
         let depth = self.depth.par_chunks_mut(size).zip(self.color.par_chunks_mut(size));

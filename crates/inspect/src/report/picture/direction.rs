@@ -10,8 +10,8 @@ use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
 use super::shown::{mapped, shown_objects};
 use crate::spacing::spacing;
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// Places that the view is chosen for, at most.

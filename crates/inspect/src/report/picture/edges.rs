@@ -2,8 +2,8 @@
 
 use super::camera::Camera;
 use super::canvas::{Band, Canvas, FINE};
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, unit};
 
 /// Cosine of the angle (30 degrees) between facets beyond which they have an edge between them.

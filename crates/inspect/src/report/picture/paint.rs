@@ -6,8 +6,8 @@ use super::edges::{self, smooth_normals};
 use crate::scale::palette::Rgb;
 use crate::scale::{NO_VALUE, Scale};
 use crate::spacing::spacing;
-use rayon::prelude::*;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, unit};
 

@@ -1,11 +1,27 @@
 //! How a section differs from that of a nominal.
 
+use super::super::Word;
 use super::super::compare::{BySide, Histogram};
+use super::super::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trueness_geom::section::OffNominal;
 use trueness_geom::stats::statistics::Summary;
+
+/// Where deviations from a nominal are positive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Positive {
+    /// Outside of the material within closed outlines.
+    Outside,
+    /// To the left of open outlines.
+    Left,
+}
+
+named!(Positive, "side", [Positive::Outside, Positive::Left], |side| match side {
+    Positive::Outside => "outside",
+    Positive::Left => "left",
+});
 
 /// Deviations of the points of a section from the section of a nominal.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -15,7 +31,7 @@ pub struct NominalRecord {
     /// What was measured against: `facets` (the cut of a mesh) or `contour` (the segments found in a row of points).
     pub outline: String,
     /// Positive deviations: `outside` of the material within closed outlines, or to the `left` of open ones.
-    pub positive: String,
+    pub positive: Word<Positive>,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
     /// Points left out, by reason: `beyond_end` of an open outline, `no_outline` in their plane.
@@ -84,7 +100,7 @@ impl NominalRecord {
         NominalRecord {
             path: path.into(),
             outline: outline.into(),
-            positive: if closed { "outside" } else { "left" }.into(),
+            positive: Word(if closed { Positive::Outside } else { Positive::Left }),
             deviation: BySide::of(&summary),
             excluded,
             histogram: Histogram::counted(&summary.all, &values),

@@ -2,9 +2,10 @@
 
 use super::datums::{Datums, parted};
 use super::xml::{Value, Xml, decimal};
+use trueness_inspect::plan::Class;
 use trueness_inspect::plan::text::MaterialWord;
-use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_inspect::results::{Named, Verdict};
 
 /// Numbers of what is said of a characteristic for all parts.
 #[derive(Clone, Copy)]
@@ -24,7 +25,7 @@ impl Ids {
 /// What QIF calls a kind. User defined is what it does not know, areal texture, and what it wants more of than a result has: of the
 /// profile of a line the normal of its plane as numbers.
 fn name(document: &InspectDocument, c: &CharacteristicRecord) -> &'static str {
-    let shape = document.features.iter().find(|f| f.id == c.feature).map(|f| f.shape.as_str());
+    let shape = document.features.iter().find(|f| f.id == c.feature).map(|f| *f.shape);
     match c.kind.as_str() {
         "straightness" => "Straightness",
         "flatness" => "Flatness",
@@ -39,8 +40,8 @@ fn name(document: &InspectDocument, c: &CharacteristicRecord) -> &'static str {
         "symmetry" => "Symmetry",
         "circular-runout" => "CircularRunout",
         "total-runout" => "TotalRunout",
-        "size" if c.features().len() > 1 || shape == Some("plane") => "Width",
-        "size" if shape == Some("sphere") => "SphericalDiameter",
+        "size" if c.features().len() > 1 || shape == Some(Class::Plane) => "Width",
+        "size" if shape == Some(Class::Sphere) => "SphericalDiameter",
         "size" => "Diameter",
         "distance" => "DistanceBetween",
         "angle" => "AngleBetween",
@@ -58,14 +59,14 @@ pub fn definition(
     datums: &Datums,
 ) {
     let name = name(document, c);
-    let shape = document.features.iter().find(|f| f.id == c.feature).map_or("", |f| f.shape.as_str());
+    let shape = document.features.iter().find(|f| f.id == c.feature).map(|f| *f.shape);
     let id = ("id", ids.definition.to_string());
     x.element(&format!("{name}CharacteristicDefinition"), &[id], |x| {
         x.attributes(&asked(c));
         x.leaf("Name", &c.id);
         let frame = datums.frame(&c.datums);
         let zone = |x: &mut Xml, zone: &str| x.element("ZoneShape", &[], |x| x.empty(zone, &[]));
-        let diametral = c.zone == "diameter";
+        let diametral = c.diametral();
         match name {
             "Width" | "SphericalDiameter" | "Diameter" | "DistanceBetween" | "AngleBetween" => limits(x, c),
             "UserDefinedLinear" => limits(x, c),
@@ -89,7 +90,7 @@ pub fn definition(
                 zone(
                     x,
                     match shape {
-                        "sphere" | "point" if diametral => "SphericalZone",
+                        Some(Class::Sphere | Class::Point) if diametral => "SphericalZone",
                         _ if diametral => "DiametricalZone",
                         _ => "NonDiametricalZone",
                     },
@@ -215,7 +216,7 @@ fn asked(c: &CharacteristicRecord) -> Vec<(&'static str, Value)> {
         ("kind", c.kind.as_str().into()),
         ("feature", c.feature.as_str().into()),
         ("standard", c.standard.as_str().into()),
-        ("zone", c.zone.as_str().into()),
+        ("zone", c.zone.name().into()),
     ];
     for (name, words) in [("datums", &c.datums), ("modifiers", &c.modifiers)] {
         if !words.is_empty() {

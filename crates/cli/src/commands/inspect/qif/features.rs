@@ -1,21 +1,23 @@
 //! Features as they were measured.
 
 use super::xml::{Value, Xml, decimal, three};
+use trueness_inspect::plan::Class;
+use trueness_inspect::results::Named;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::inspect::FeatureRecord;
 
 /// Writes a feature under `id`, of the part `component`.
 pub fn measured(x: &mut Xml, f: &FeatureRecord, id: u32, component: u32) {
-    let name = match f.shape.as_str() {
-        "plane" => "PlaneFeatureMeasurement",
-        "cylinder" => "CylinderFeatureMeasurement",
-        "cone" => "ConeFeatureMeasurement",
-        "sphere" => "SphereFeatureMeasurement",
-        "torus" => "TorusFeatureMeasurement",
-        "circle" => "CircleFeatureMeasurement",
-        "line" | "edge" => "LineFeatureMeasurement",
-        "point" => "PointFeatureMeasurement",
-        _ => "OtherShapeFeatureMeasurement",
+    let name = match *f.shape {
+        Class::Plane => "PlaneFeatureMeasurement",
+        Class::Cylinder => "CylinderFeatureMeasurement",
+        Class::Cone => "ConeFeatureMeasurement",
+        Class::Sphere => "SphereFeatureMeasurement",
+        Class::Torus => "TorusFeatureMeasurement",
+        Class::Circle => "CircleFeatureMeasurement",
+        Class::Line => "LineFeatureMeasurement",
+        Class::Point => "PointFeatureMeasurement",
+        Class::Surface => "OtherShapeFeatureMeasurement",
     };
     x.element(name, &[("id", id.to_string())], |x| {
         x.attributes(&attributes(f));
@@ -56,57 +58,57 @@ fn geometry(x: &mut Xml, f: &FeatureRecord) {
     };
     let twice = |name: &str| one(f, name).map(|r| decimal(2.0 * r));
     let form = f.form_error.map(decimal);
-    match f.shape.as_str() {
-        "plane" => {
+    match *f.shape {
+        Class::Plane => {
             leaf(x, "Location", place(f, "point"));
             leaf(x, "Normal", place(f, "normal"));
             leaf(x, "Form", form);
         }
-        "cylinder" => {
+        Class::Cylinder => {
             axis(x, "point");
             leaf(x, "Diameter", twice("radius"));
             leaf(x, "Form", form);
         }
-        "cone" => {
+        Class::Cone => {
             // The diameter is that at the axis point.
             axis(x, "point");
             leaf(x, "Diameter", twice("radius"));
             leaf(x, "HalfAngle", one(f, "half_angle").map(|a| decimal(a.to_degrees())));
             leaf(x, "Form", form);
         }
-        "sphere" => {
+        Class::Sphere => {
             leaf(x, "Location", place(f, "center"));
             leaf(x, "Diameter", twice("radius"));
             leaf(x, "Form", form);
         }
-        "torus" => {
+        Class::Torus => {
             leaf(x, "Location", place(f, "center"));
             leaf(x, "AxisVector", place(f, "direction"));
             leaf(x, "MinorDiameter", twice("minor_radius"));
             leaf(x, "MajorDiameter", twice("major_radius"));
         }
-        "circle" => {
+        Class::Circle => {
             leaf(x, "Location", place(f, "center"));
             leaf(x, "Normal", place(f, "normal").or_else(|| place(f, "direction")));
             leaf(x, "Diameter", twice("radius"));
             leaf(x, "Form", form);
         }
-        "line" | "edge" => {
+        Class::Line => {
             leaf(x, "Location", place(f, "point"));
             leaf(x, "Direction", place(f, "direction"));
             leaf(x, "Form", form);
         }
-        "point" => leaf(x, "Location", place(f, "point").or_else(|| place(f, "center"))),
-        _ => {}
+        Class::Point => leaf(x, "Location", place(f, "point").or_else(|| place(f, "center"))),
+        Class::Surface => {}
     }
 }
 
 /// What QIF has no element for.
 fn attributes(f: &FeatureRecord) -> Vec<(&'static str, Value)> {
     let mut all: Vec<(&'static str, Value)> = vec![
-        ("shape", f.shape.as_str().into()),
+        ("shape", f.shape.name().into()),
         ("source", f.source.as_str().into()),
-        ("method", f.method.as_str().into()),
+        ("method", f.method.name().into()),
         ("points", (f.points as f64).into()),
     ];
     let numbers = [("form_error", f.form_error), ("rms", f.rms), ("coverage", f.coverage)];

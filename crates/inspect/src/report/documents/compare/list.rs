@@ -1,7 +1,8 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::{badge, fact, file_name, place_cells, section};
+use super::super::super::number::Style;
+use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section, series};
+use super::super::super::values::{Name, Text};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
@@ -9,144 +10,134 @@ use crate::results::Verdict;
 use crate::results::check::found;
 use crate::results::compare::{
     AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
-    ToleranceShares,
+    ToleranceShares, Worst,
 };
+use crate::results::statistics::PAGE_ROWS;
+use maud::{Markup, Render, html};
 
-/// Writes all sections.
-pub fn list(h: &mut Html, result: &CompareDocument) {
-    if result.comparisons.len() > 1 {
-        ranking(h, result);
-    }
-    let mut first_pick = 0;
-    for (n, c) in result.comparisons.iter().enumerate() {
-        let hidden = if n == 0 { "" } else { " hidden" };
-        h.raw(&format!("<div class=\"comparison\" data-comparison=\"{n}\"{hidden}>\n"));
-        if result.comparisons.len() > 1 {
-            h.raw("<p class=\"against\">")
-                .word("reference")
-                .raw(" ")
-                .name(file_name(&c.reference))
-                .raw("</p>");
+/// All sections.
+pub fn list(s: Style, result: &CompareDocument) -> Markup {
+    // Rows lead to the worst places, then to the defects, comparison by comparison.
+    let found: Vec<_> = result.comparisons.iter().map(|c| found(&c.soundness.findings)).collect();
+    let starts = result.comparisons.iter().zip(&found).scan(0, |next, (c, found)| {
+        let start = *next;
+        *next += c.worst.len() + check::picks(found, 0).len();
+        Some(start)
+    });
+    let several = result.comparisons.len() > 1;
+    let decimals = result.scale.decimals as usize;
+    html! {
+        @if several { (ranking(s, result)) }
+        @for (n, ((c, found), first)) in result.comparisons.iter().zip(&found).zip(starts).enumerate() {
+            div.comparison data-comparison=(n) hidden[n > 0] {
+                "\n"
+                @if several { p.against { (s.word("reference")) " " (Name(file_name(&c.reference))) } }
+                (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals)) (trust(s, result, c))
+                @if !found.is_empty() {
+                    (section(s, "reference.defects", check::kinds(s, found, first + c.worst.len())))
+                }
+            }
+            "\n"
         }
-        worst(h, c, result.scale.decimals as usize, first_pick);
-        first_pick += c.worst.len();
-        regions(h, c, result.scale.decimals as usize);
-        statistics(h, c, result.scale.decimals as usize);
-        trust(h, result, c);
-        let found = found(&c.soundness.findings);
-        if !found.is_empty() {
-            section(h, "reference.defects", |h| check::kinds(h, &found, first_pick));
-            first_pick += check::picks(&found, 0).len();
+        @if let Some(a) = &result.alignment {
+            (alignment(s, &Facts {
+                method: "best-fit",
+                rms: Some(a.rms),
+                greatest: None,
+                left_out: Some(a.left_out),
+                warnings: &a.warnings,
+            }))
         }
-        h.raw("</div>\n");
-    }
-    if let Some(a) = &result.alignment {
-        let (rms, left_out) = (Some(a.rms), Some(a.left_out));
-        alignment(h, &Facts { method: "best-fit", rms, greatest: None, left_out, warnings: &a.warnings });
     }
 }
 
 /// Several references side by side, the nearest first.
-fn ranking(h: &mut Html, result: &CompareDocument) {
+fn ranking(s: Style, result: &CompareDocument) -> Markup {
     let decimals = result.scale.decimals as usize + 1;
     let mut order: Vec<usize> = (0..result.comparisons.len()).collect();
     order.sort_by_key(|i| result.comparisons[*i].rank);
-    section(h, "ranking", |h| {
-        h.raw("<table class=\"choose\"><thead><tr><th></th><th>")
-            .word("reference")
-            .raw("</th><th class=\"r\">")
-            .word("rms");
-        h.raw("</th><th class=\"r\">").word("within.short").raw("</th></tr></thead><tbody>");
-        for i in order {
-            let c = &result.comparisons[i];
-            let current = if i == 0 { "true" } else { "false" };
-            h.raw(&format!("<tr data-choose=\"{i}\" aria-selected=\"{current}\"><td>{}</td><td>", c.rank));
-            h.name(file_name(&c.reference)).raw("</td><td class=\"r\">");
-            h.optional(c.deviation.all.rms, c.deviation.all.rms_reason.as_deref(), decimals, false)
-                .raw("</td><td class=\"r\">");
-            match (&c.tolerance, c.verdict) {
-                (_, Some(v)) if !c.regions.is_empty() => {
-                    badge(h, headline(Some(v)));
-                    h.raw(" ");
-                    passing(h, c);
-                }
-                (Some(t), Some(v)) => {
-                    badge(h, headline(Some(v)));
-                    h.raw(" ").optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-                }
-                _ => {
-                    h.raw("–");
+    section(
+        s,
+        "ranking",
+        html! {
+            table.choose {
+                thead { tr { th {} th { (s.word("reference")) } th.r { (s.word("rms")) } th.r { (s.word("within.short")) } } }
+                tbody {
+                    @for i in order {
+                        @let c = &result.comparisons[i];
+                        @let all = &c.deviation.all;
+                        tr data-choose=(i) aria-selected=(i == 0) {
+                            td { (c.rank) }
+                            td { (Name(file_name(&c.reference))) }
+                            td.r { (s.optional(all.rms, decimals).because(all.rms_reason.as_deref())) }
+                            td.r {
+                                @match (&c.tolerance, c.verdict) {
+                                    (_, Some(v)) if !c.regions.is_empty() => {
+                                        (badge(s, headline(Some(v)))) " " (passing(s, c))
+                                    }
+                                    (Some(t), Some(v)) => {
+                                        (badge(s, headline(Some(v)))) " "
+                                        (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref()))
+                                    }
+                                    _ => "–",
+                                }
+                            }
+                        }
+                    }
                 }
             }
-            h.raw("</td></tr>");
-        }
-        h.raw("</tbody></table>");
-        paired(h, result);
-    });
+            (paired(s, result))
+        },
+    )
 }
 
 /// Whether the better reference is better by more than chance.
-fn paired(h: &mut Html, result: &CompareDocument) {
-    let decimals = result.scale.decimals as usize + 2;
-    let name = |i: usize| result.comparisons.get(i).map_or("", |c| file_name(&c.reference));
-    for p in &result.paired {
-        let Some(mean) = p.mean_difference else { continue };
-        h.raw("<p class=\"note\">")
-            .name(name(p.better))
-            .raw(" ")
-            .word("nearer_than")
-            .raw(" ")
-            .name(name(p.other));
-        h.raw(" ").word("by").raw(" ").number(mean.abs(), decimals, false).raw("\u{a0}mm");
-        if let Some([l, u]) = p.interval {
-            h.raw(" (95\u{a0}%: ").number(l.abs().min(u.abs()), decimals, false).raw("\u{2009}…\u{2009}");
-            h.number(l.abs().max(u.abs()), decimals, false).raw(")");
+fn paired(s: Style, result: &CompareDocument) -> Markup {
+    let length = |x: f64| s.number(x, result.scale.decimals as usize + 2);
+    let name = |i: usize| Name(result.comparisons.get(i).map_or("", |c| file_name(&c.reference)));
+    html! {
+        @for (p, mean) in result.paired.iter().filter_map(|p| Some((p, p.mean_difference?))) {
+            p.note {
+                (name(p.better)) " " (s.word("nearer_than")) " " (name(p.other)) " " (s.word("by")) " "
+                (length(mean.abs())) "\u{a0}mm"
+                @if let Some([l, u]) = p.interval {
+                    " (95\u{a0}%: " (length(l.abs().min(u.abs()))) "\u{2009}…\u{2009}" (length(l.abs().max(u.abs()))) ")"
+                }
+            }
         }
-        h.raw("</p>");
     }
 }
 
-pub fn worst(h: &mut Html, c: &Comparison, decimals: usize, first_pick: usize) {
+/// The worst places; nothing where there are none.
+pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Markup {
     if c.worst.is_empty() {
-        return;
+        return Markup::default();
     }
-    section(h, "worst", |h| {
-        h.raw("<table class=\"pick\"><thead><tr><th></th><th class=\"r\">").word("deviation").raw(
-            "</th><th class=\"r\">x</th><th class=\"r\">y</th><th class=\"r\">z</th></tr></thead><tbody>",
-        );
-        for (n, w) in c.worst.iter().enumerate() {
-            let region = w.region.as_ref().and_then(|id| c.regions.iter().find(|r| r.id == *id));
-            let zone = region.map(|r| &r.tolerance).or(c.tolerance.as_ref());
-            let outside = zone.is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower);
-            let class = if outside { " class=\"out\"" } else { "" };
-            h.raw(&format!("<tr data-pick=\"{}\"{class}><td>{}</td><td class=\"r\">", first_pick + n, n + 1));
-            h.number(w.deviation, decimals, true).raw("</td>");
-            place_cells(h, w.point);
-            h.raw("</tr>");
-        }
-        h.raw("</tbody></table>");
-    });
+    // Each by the tolerance of its own region.
+    let outside = |w: &Worst| {
+        let region = w.region.as_ref().and_then(|id| c.regions.iter().find(|r| r.id == *id));
+        let zone = region.map(|r| &r.tolerance).or(c.tolerance.as_ref());
+        zone.is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower)
+    };
+    section(
+        s,
+        "worst",
+        html! {
+            table.pick {
+                thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
+                tbody {
+                    @for (n, w) in c.worst.iter().enumerate() {
+                        tr data-pick=(first_pick + n) class=[outside(w).then_some("out")] {
+                            td { (n + 1) }
+                            td.r { (s.number(w.deviation, decimals).signed()) }
+                            (place_cells(s, w.point))
+                        }
+                    }
+                }
+            }
+        },
+    )
 }
-
-/// A row of the table of statistics: key in the table of words, digits beyond the scale's, signed, number and reason.
-type Row = (&'static str, usize, bool, fn(&Statistics) -> (Option<f64>, Option<&str>));
-
-const ROWS: [Row; 14] = [
-    ("mean", 1, true, |s| (s.mean, s.mean_reason.as_deref())),
-    ("std_dev", 1, false, |s| (s.std_dev, s.std_dev_reason.as_deref())),
-    ("rms", 1, false, |s| (s.rms, s.rms_reason.as_deref())),
-    ("mean_abs", 1, false, |s| (s.mean_abs, s.mean_abs_reason.as_deref())),
-    ("min", 0, true, |s| (s.min, s.min_reason.as_deref())),
-    ("max", 0, true, |s| (s.max, s.max_reason.as_deref())),
-    ("range_width", 0, false, |s| (s.range, s.range_reason.as_deref())),
-    ("median", 1, true, |s| (s.median, s.median_reason.as_deref())),
-    ("p5", 0, true, |s| (s.percentiles.p5, None)),
-    ("p95", 0, true, |s| (s.percentiles.p95, None)),
-    ("six_sigma", 1, false, |s| (s.six_sigma, s.six_sigma_reason.as_deref())),
-    ("cv", 0, false, |s| (s.cv, s.cv_reason.as_deref())),
-    ("skewness", 0, true, |s| (s.skewness, s.skewness_reason.as_deref())),
-    ("kurtosis", 0, true, |s| (s.kurtosis, s.kurtosis_reason.as_deref())),
-];
 
 /// Digits after the decimal sign with which a number fits its column: from a thousand on six in all.
 fn column_digits(value: Option<f64>, wanted: usize) -> usize {
@@ -159,178 +150,169 @@ fn column_digits(value: Option<f64>, wanted: usize) -> usize {
 }
 
 /// How many of the regions pass.
-pub fn passing(h: &mut Html, c: &Comparison) {
+pub fn passing(s: Style, c: &Comparison) -> Markup {
     let pass = c.regions.iter().filter(|r| r.verdict == Verdict::Pass).count();
-    h.count(pass as u64).raw(" <small>/\u{a0}").count(c.regions.len() as u64).raw("</small>");
+    html! { (s.count(pass as u64)) " " small { "/\u{a0}" (s.count(c.regions.len() as u64)) } }
 }
 
-/// The regions with their tolerances, shares and verdicts, and all other points.
-pub fn regions(h: &mut Html, c: &Comparison, decimals: usize) {
+/// The regions with their tolerances, shares and verdicts, and all other points; nothing where there are none.
+pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
     if c.regions.is_empty() {
-        return;
+        return Markup::default();
     }
-    section(h, "regions", |h| {
-        h.raw("<table class=\"statistics\"><thead><tr><th>").word("region").raw("</th><th class=\"r\">");
-        h.word("tolerance").raw("</th><th class=\"r\">").word("points").raw("</th><th class=\"r\">");
-        h.word("within.short").raw("</th><th></th></tr></thead><tbody>");
-        let mut row = |name: Option<&str>, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
-            h.raw("<tr><th scope=\"row\">");
-            match name {
-                Some(name) => h.name(name),
-                None => h.word("regions.others"),
-            };
-            h.raw("</th><td class=\"r\">").number(t.lower, decimals, true).raw("\u{2009}…\u{2009}");
-            h.number(t.upper, decimals, true).raw("</td><td class=\"r\">").count(points);
-            h.raw("</td><td class=\"r\">").optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-            h.raw("</td><td>");
-            if let Some(verdict) = verdict {
-                badge(h, verdict.into());
+    let limit = |x| s.number(x, decimals).signed();
+    let row = |name: Markup, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
+        html! {
+            tr {
+                th scope="row" { (name) }
+                td.r { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }
+                td.r { (s.count(points)) }
+                td.r { (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())) }
+                td { @if let Some(verdict) = verdict { (badge(s, verdict.into())) } }
             }
-            h.raw("</td></tr>");
-        };
-        for r in &c.regions {
-            row(Some(&r.id), &r.tolerance, r.deviation.count, Some(r.verdict));
         }
-        if let Some(t) = &c.tolerance {
-            let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
-            let of = |share| if share >= t.required { Verdict::Pass } else { Verdict::Fail };
-            row(None, t, rest, t.inside.map(of));
-        }
-        h.raw("</tbody></table><p class=\"note\">").word("regions.means").raw("</p>");
-    });
+    };
+    let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
+    let judged = |t: &ToleranceShares| {
+        let of = |share| if share >= t.required { Verdict::Pass } else { Verdict::Fail };
+        t.inside.map(of)
+    };
+    section(
+        s,
+        "regions",
+        html! {
+            table.statistics {
+                thead {
+                    tr {
+                        th { (s.word("region")) } th.r { (s.word("tolerance")) } th.r { (s.word("points")) }
+                        th.r { (s.word("within.short")) } th {}
+                    }
+                }
+                tbody {
+                    @for r in &c.regions {
+                        (row(html! { (Name(&r.id)) }, &r.tolerance, r.deviation.count, Some(r.verdict)))
+                    }
+                    @if let Some(t) = &c.tolerance {
+                        (row(html! { (s.word("regions.others")) }, t, rest, judged(t)))
+                    }
+                }
+            }
+            p.note { (s.word("regions.means")) }
+        },
+    )
 }
 
-pub fn statistics(h: &mut Html, c: &Comparison, decimals: usize) {
-    section(h, "statistics", |h| {
-        in_words(h, c);
-        by_side(h, &c.deviation, decimals);
-    });
+/// The deviations in words and numbers.
+pub fn statistics(s: Style, c: &Comparison, decimals: usize) -> Markup {
+    section(s, "statistics", html! { (in_words(s, c)) (by_side(s, &c.deviation, decimals)) })
 }
 
 /// The statistics of all deviations and of each side, as a table.
-pub fn by_side(h: &mut Html, deviation: &BySide, decimals: usize) {
+pub fn by_side(s: Style, deviation: &BySide, decimals: usize) -> Markup {
     let sides = [&deviation.all, &deviation.positive, &deviation.negative];
-    h.raw("<table class=\"statistics\"><thead><tr><th></th><th class=\"r\">").word("all");
-    h.raw("</th><th class=\"r\">")
-        .word("plus")
-        .raw("</th><th class=\"r\">")
-        .word("minus")
-        .raw("</th></tr></thead><tbody>");
-    h.raw("<tr><th scope=\"row\">").word("points").raw("</th>");
-    for s in sides {
-        h.raw("<td class=\"r\">").count(s.count).raw("</td>");
-    }
-    h.raw("</tr>");
-    for (key, more, signed, of) in ROWS {
-        h.raw("<tr><th scope=\"row\">").word(key).raw("</th>");
-        for s in sides {
-            let (value, reason) = of(s);
-            let digits = column_digits(value, decimals + more);
-            h.raw("<td class=\"r\">").optional(value, reason, digits, signed).raw("</td>");
+    let cell = |of: &dyn Fn(&Statistics) -> Markup| html! { @for side in sides { td.r { (of(side)) } } };
+    html! {
+        table.statistics {
+            thead { tr { th {} @for key in ["all", "plus", "minus"] { th.r { (s.word(key)) } } } }
+            tbody {
+                tr { th scope="row" { (s.word("points")) } (cell(&|side| s.count(side.count).render())) }
+                @for (key, more, signed, of) in PAGE_ROWS {
+                    tr {
+                        th scope="row" { (s.word(key)) }
+                        (cell(&|side| {
+                            let (value, reason) = of(side);
+                            let value = s.optional(value, column_digits(value, decimals + more)).because(reason);
+                            if signed { value.signed().render() } else { value.render() }
+                        }))
+                    }
+                }
+            }
         }
-        h.raw("</tr>");
     }
-    h.raw("</tbody></table>");
 }
 
 /// What the numbers rest on: the points left out, the sign, the reference's soundness.
-fn trust(h: &mut Html, result: &CompareDocument, c: &Comparison) {
-    section(h, "trust", |h| {
-        h.raw("<dl class=\"facts\">");
-        fact(h, "excluded", |h| {
-            excluded(h, c, result.measured.count);
-            if let Some(d) = result.max_distance {
-                h.raw(" (> ").number(d, 1, false).raw("\u{a0}mm)");
+fn trust(s: Style, result: &CompareDocument, c: &Comparison) -> Markup {
+    section(
+        s,
+        "trust",
+        html! {
+            dl.facts {
+                (fact(s, "excluded", html! {
+                    (excluded(s, c, result.measured.count))
+                    @if let Some(d) = result.max_distance { " (> " (s.number(d, 1)) "\u{a0}mm)" }
+                }))
+                @if let Some(angle) = result.facing {
+                    (fact(s, "facing", html! { "≤\u{a0}" (s.number(angle.to_degrees(), 1)) "°" }))
+                }
+                (rules(s, c, result.scale.decimals as usize))
+                @for warning in &c.warnings {
+                    (fact(s, warning_key(warning.kind), html! {
+                        strong.warning { "⚠ " (s.number(warning.value, 3)) } br; small { (Text(&warning.text)) }
+                    }))
+                }
+                (fact(s, "sign.method", sign(s, &c.sign)))
+                @if c.surfaces.is_none() { (fact(s, "soundness", soundness(s, c))) }
+                @if let Some(p) = &c.paper_vs_exact {
+                    (fact(s, "paper_differs", html! {
+                        (s.count(p.differing)) " / " (s.count(p.count)) ", ≤ " (s.number(p.max_difference, 4)) "\u{a0}mm"
+                    }))
+                }
             }
-        });
-        if let Some(angle) = result.facing {
-            fact(h, "facing", |h| {
-                h.raw("≤\u{a0}").number(angle.to_degrees(), 1, false).raw("°");
-            });
-        }
-        rules(h, c, result.scale.decimals as usize);
-        for warning in &c.warnings {
-            fact(h, warning_key(warning.kind), |h| {
-                h.raw("<strong class=\"warning\">⚠ ")
-                    .number(warning.value, 3, false)
-                    .raw("</strong><br><small>");
-                h.text(&warning.text).raw("</small>");
-            });
-        }
-        fact(h, "sign.method", |h| sign(h, &c.sign));
-        if c.surfaces.is_none() {
-            fact(h, "soundness", |h| soundness(h, c));
-        }
-        if let Some(p) = &c.paper_vs_exact {
-            fact(h, "paper_differs", |h| {
-                h.count(p.differing)
-                    .raw(" / ")
-                    .count(p.count)
-                    .raw(", ≤ ")
-                    .number(p.max_difference, 4, false)
-                    .raw("\u{a0}mm");
-            });
-        }
-        h.raw("</dl>");
-    });
+        },
+    )
 }
 
 /// How many of `all` points are left out, by reason.
-pub fn excluded(h: &mut Html, c: &Comparison, all: u64) {
-    h.count(c.excluded.values().sum()).raw(" / ").count(all);
-    for (reason, count) in c.excluded.iter().filter(|(_, count)| **count > 0) {
-        h.raw("<br>").word(&format!("reason.{}", known(reason))).raw(": ").count(*count);
+pub fn excluded(s: Style, c: &Comparison, all: u64) -> Markup {
+    html! {
+        (s.count(c.excluded.values().sum())) " / " (s.count(all))
+        @for (reason, count) in c.excluded.iter().filter(|(_, count)| **count > 0) {
+            br; (s.word(format!("reason.{}", known(reason)))) ": " (s.count(*count))
+        }
     }
 }
 
 /// Along what the deviations are, and what the rules for outliers and coverage gave, where they were asked.
-pub fn rules(h: &mut Html, c: &Comparison, decimals: usize) {
-    if let Some(a) = &c.along {
-        fact(h, "along", |h| along(h, a));
-    }
-    if let Some(o) = &c.outliers {
-        fact(h, "outliers", |h| outliers(h, o, decimals));
-    }
-    if let Some(covered) = &c.coverage {
-        fact(h, "uncovered", |h| uncovered(h, covered));
+pub fn rules(s: Style, c: &Comparison, decimals: usize) -> Markup {
+    html! {
+        @if let Some(a) = &c.along { (fact(s, "along", along(s, a))) }
+        @if let Some(o) = &c.outliers { (fact(s, "outliers", outliers(s, o, decimals))) }
+        @if let Some(covered) = &c.coverage { (fact(s, "uncovered", uncovered(s, covered))) }
     }
 }
 
 /// Along what lines deviations are.
-fn along(h: &mut Html, a: &AlongRecord) {
-    match a.direction {
-        Some(d) => {
-            for (n, x) in d.into_iter().enumerate() {
-                h.raw(if n > 0 { "; " } else { "" }).number(x, 4, false);
-            }
+fn along(s: Style, a: &AlongRecord) -> Markup {
+    let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
+    html! {
+        @match a.direction {
+            Some(direction) => { (series(s, direction, "; ", 4)) }
+            None => { (s.word(key)) }
         }
-        None => {
-            let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
-            h.word(key);
-        }
+        br; small { (s.word("along.means")) }
     }
-    h.raw("<br><small>").word("along.means").raw("</small>");
 }
 
 /// A rule for outliers, and the limits that it gave.
-fn outliers(h: &mut Html, o: &OutliersRecord, decimals: usize) {
-    h.text(&o.rule).raw(": ").count(o.count);
-    match (o.lower, o.upper) {
-        (Some(lower), Some(upper)) => {
-            h.raw(" (< ").number(lower, decimals + 1, true).raw(", > ").number(upper, decimals + 1, true);
-            h.raw("\u{a0}mm)");
-        }
-        _ => {
-            h.raw("<br><small>").text(o.limits_reason.as_deref().unwrap_or_default()).raw("</small>");
+fn outliers(s: Style, o: &OutliersRecord, decimals: usize) -> Markup {
+    let limit = |x| s.number(x, decimals + 1).signed();
+    html! {
+        (Text(&o.rule)) ": " (s.count(o.count))
+        @match (o.lower, o.upper) {
+            (Some(lower), Some(upper)) => { " (< " (limit(lower)) ", > " (limit(upper)) "\u{a0}mm)" }
+            _ => { br; small { (Text(o.limits_reason.as_deref().unwrap_or_default())) } }
         }
     }
 }
 
 /// What part of the reference no point covers: grey in the map.
-fn uncovered(h: &mut Html, c: &CoverageRecord) {
-    h.optional_percent(c.uncovered_share, c.uncovered_share_reason.as_deref(), 2).raw(" (");
-    h.number(c.uncovered, 1, false).raw(" / ").number(c.area, 1, false).raw("\u{a0}mm²)<br><small>");
-    h.word("reason.not_measured").raw(" (≤\u{a0}").number(c.reach, 2, false).raw("\u{a0}mm)</small>");
+fn uncovered(s: Style, c: &CoverageRecord) -> Markup {
+    html! {
+        (s.optional_percent(c.uncovered_share, 2).because(c.uncovered_share_reason.as_deref()))
+        " (" (s.number(c.uncovered, 1)) " / " (s.number(c.area, 1)) "\u{a0}mm²)"
+        br; small { (s.word("reason.not_measured")) " (≤\u{a0}" (s.number(c.reach, 2)) "\u{a0}mm)" }
+    }
 }
 
 const REASONS: [&str; 7] =
@@ -341,30 +323,33 @@ fn known(reason: &str) -> &str {
     if REASONS.contains(&reason) { reason } else { "excluded" }
 }
 
-fn sign(h: &mut Html, s: &SignRecord) {
-    h.word(&sign_key(s)).raw("<br><small>").text(&s.reason).raw("</small>");
-    if let Some(share) = s.disagreement {
-        h.raw("<br><small>").word("disagreement").raw(": ").percent(share, 3).raw("</small>");
+fn sign(s: Style, sign: &SignRecord) -> Markup {
+    html! {
+        (s.word(sign_key(sign))) br; small { (Text(&sign.reason)) }
+        @if let Some(share) = sign.disagreement {
+            br; small { (s.word("disagreement")) ": " (s.percent(share, 3)) }
+        }
     }
 }
 
-fn soundness(h: &mut Html, c: &Comparison) {
-    let s = &c.soundness;
-    if s.sound {
-        h.raw("✓ ").word("sound");
-        return;
+fn soundness(s: Style, c: &Comparison) -> Markup {
+    let found = &c.soundness;
+    if found.sound {
+        return html! { "✓ " (s.word("sound")) };
     }
-    h.raw("<strong class=\"warning\">⚠ ").word("not_sound").raw("</strong>");
     let counts = [
-        ("boundary_edges", s.boundary_edges),
-        ("non_manifold_edges", s.non_manifold_edges),
-        ("non_manifold_vertices", s.non_manifold_vertices),
-        ("duplicate_facets", s.duplicate_facets),
-        ("degenerate_facets", s.degenerate_facets),
-        ("inconsistent_edges", s.inconsistent_edges),
+        ("boundary_edges", found.boundary_edges),
+        ("non_manifold_edges", found.non_manifold_edges),
+        ("non_manifold_vertices", found.non_manifold_vertices),
+        ("duplicate_facets", found.duplicate_facets),
+        ("degenerate_facets", found.degenerate_facets),
+        ("inconsistent_edges", found.inconsistent_edges),
     ];
-    for (key, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
-        h.raw("<br>").word(key).raw(": ").count(count);
+    html! {
+        strong.warning { "⚠ " (s.word("not_sound")) }
+        @for (key, count) in counts.into_iter().filter(|(_, count)| *count > 0) {
+            br; (s.word(key)) ": " (s.count(count))
+        }
+        br; small { (s.word("not_sound.means")) }
     }
-    h.raw("<br><small>").word("not_sound.means").raw("</small>");
 }

@@ -5,13 +5,14 @@ mod words;
 
 pub use list::{by_side, excluded, passing, regions, rules, statistics, worst};
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, key_number};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, key_number};
 use super::{Head, Map, Pick, Subject, check};
 use crate::results::align::AlignedTo;
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison, Worst};
 use crate::scale::Scale;
+use maud::{Markup, html};
 use serde_json::Value;
 use words::{headline, sign_key, warning_key};
 
@@ -32,28 +33,26 @@ impl Subject for CompareDocument {
         "picture.alt"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        for (n, comparison) in self.comparisons.iter().enumerate() {
-            numbers(h, (comparison, n), self.scale.decimals as usize, self.alignment.as_ref());
-        }
+    fn numbers(&self, s: Style) -> Markup {
+        let (digits, aligned) = (self.scale.decimals as usize, self.alignment.as_ref());
+        html! { @for (n, c) in self.comparisons.iter().enumerate() { (numbers(s, (c, n), digits, aligned)) } }
     }
 
-    fn list(&self, h: &mut Html) {
-        list::list(h, self);
+    fn list(&self, s: Style) -> Markup {
+        list::list(s, self)
     }
 
-    fn method(&self, h: &mut Html) {
+    fn method(&self, s: Style) -> Markup {
         let text = if self.method == "paper" { "method.paper.text" } else { "method.exact.text" };
         // The map is one of points, if they were not a mesh's own vertices.
         let points = (self.measured.kind != "vertices").then_some("method.points.text");
-        for key in [text, "method.sign.text", "method.map.text"].into_iter().chain(points) {
-            h.raw("<p>").word(key).raw("</p>");
-        }
+        let keys = [text, "method.sign.text", "method.map.text"].into_iter().chain(points);
+        html! { @for key in keys { p { (s.word(key)) } } }
     }
 
-    fn how(&self, h: &mut Html) {
+    fn how(&self, s: Style) -> Markup {
         let method = if self.method == "paper" { "method.paper" } else { "method.exact" };
-        h.word(method).raw(" · ").word("sign.method").raw(": ").word(&sign_key(&self.sign));
+        html! { (s.word(method)) " · " (s.word("sign.method")) ": " (s.word(sign_key(&self.sign))) }
     }
 
     fn points(&self) -> Option<u64> {
@@ -106,68 +105,57 @@ pub fn pick(w: &Worst, n: usize) -> Pick {
 }
 
 /// The line of key numbers for one comparison; the script shows the one chosen.
-fn numbers(h: &mut Html, (c, n): (&Comparison, usize), decimals: usize, aligned: Option<&AlignedTo>) {
+fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Option<&AlignedTo>) -> Markup {
     let all = &c.deviation.all;
-    let shown = if n == 0 { "" } else { " hidden" };
-    h.raw(&format!("<dl class=\"key-numbers\" data-comparison=\"{n}\"{shown}>"));
-    match &c.tolerance {
-        _ if !c.regions.is_empty() => key_number(h, "regions.pass", "lead", |h| list::passing(h, c)),
-        Some(t) => {
-            key_number(h, "within", "lead", |h| {
-                h.optional_percent(t.inside, t.inside_reason.as_deref(), 2);
-            });
-            key_number(h, "tolerance", "", |h| {
-                h.number(t.lower, decimals, true).raw("\u{2009}…\u{2009}").number(t.upper, decimals, true);
-            });
-            if t.required < 1.0 {
-                key_number(h, "required", "", |h| {
-                    h.raw("≥\u{a0}").percent(t.required, 2);
-                });
+    let excluded: u64 = c.excluded.values().sum();
+    let value = |x| s.optional(x, decimals).signed();
+    html! {
+        dl.key-numbers data-comparison=(n) hidden[n > 0] {
+            (lead(s, c, decimals))
+            (key_number(s, "range", "", html! {
+                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
+                (value(all.max).because(all.max_reason.as_deref()))
+            }))
+            (key_number(s, "mean", "", s.optional(all.mean, decimals + 1).signed().because(all.mean_reason.as_deref())))
+            (key_number(s, "std_dev", "", s.optional(all.std_dev, decimals + 1).because(all.std_dev_reason.as_deref())))
+            (key_number(s, "points", "", s.count(all.count)))
+            (key_number(s, "excluded", if excluded > 0 { "warn" } else { "" }, s.count(excluded)))
+            (key_number(s, "sign.method", "", s.word(sign_key(&c.sign))))
+            @if c.soundness.sound {
+                (key_number(s, "soundness", "", html! { "✓\u{a0}" (s.word("sound.short")) }))
+            } @else {
+                (key_number(s, "soundness", "warn", html! { "⚠\u{a0}" (s.word("not_sound")) }))
+            }
+            @if let Some(a) = aligned {
+                (key_number(s, "alignment", if a.sound() { "" } else { "warn" }, html! {
+                    @if !a.sound() { "⚠\u{a0}" } (s.word("rms")) "\u{a0}" (s.number(a.rms, decimals + 1))
+                }))
+            }
+            @for warning in &c.warnings {
+                (key_number(s, warning_key(warning.kind), "warn", html! { "⚠\u{a0}" (s.number(warning.value, 3)) }))
             }
         }
-        None => key_number(h, "most_within", "lead", |h| {
-            let p = &all.percentiles;
-            h.optional(p.p2_5, None, decimals, true)
-                .raw("\u{2009}…\u{2009}")
-                .optional(p.p97_5, None, decimals, true);
-        }),
     }
-    key_number(h, "range", "", |h| {
-        h.optional(all.min, all.min_reason.as_deref(), decimals, true).raw("\u{2009}…\u{2009}");
-        h.optional(all.max, all.max_reason.as_deref(), decimals, true);
-    });
-    let mut optional = |key, value, reason: &Option<String>, signed| {
-        key_number(h, key, "", |h| {
-            h.optional(value, reason.as_deref(), decimals + 1, signed);
-        });
-    };
-    optional("mean", all.mean, &all.mean_reason, true);
-    optional("std_dev", all.std_dev, &all.std_dev_reason, false);
-    let excluded: u64 = c.excluded.values().sum();
-    for (key, count) in [("points", all.count), ("excluded", excluded)] {
-        let class = if key == "excluded" && count > 0 { "warn" } else { "" };
-        key_number(h, key, class, |h| {
-            h.count(count);
-        });
+}
+
+/// How many points keep to the tolerance; without one, between what most of them lie.
+fn lead(s: Style, c: &Comparison, decimals: usize) -> Markup {
+    let p = &c.deviation.all.percentiles;
+    let value = |x| s.optional(x, decimals).signed();
+    let limit = |x| s.number(x, decimals).signed();
+    html! {
+        @match &c.tolerance {
+            _ if !c.regions.is_empty() => (key_number(s, "regions.pass", "lead", passing(s, c))),
+            Some(t) => {
+                (key_number(s, "within", "lead", s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())))
+                (key_number(s, "tolerance", "", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))
+                @if t.required < 1.0 {
+                    (key_number(s, "required", "", html! { "≥\u{a0}" (s.percent(t.required, 2)) }))
+                }
+            }
+            None => {
+                (key_number(s, "most_within", "lead", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
+            }
+        }
     }
-    key_number(h, "sign.method", "", |h| {
-        h.word(&sign_key(&c.sign));
-    });
-    let (class, sign, state) =
-        if c.soundness.sound { ("", "✓\u{a0}", "sound.short") } else { ("warn", "⚠\u{a0}", "not_sound") };
-    key_number(h, "soundness", class, |h| {
-        h.raw(sign).word(state);
-    });
-    if let Some(a) = aligned {
-        let (class, sign) = if a.sound() { ("", "") } else { ("warn", "⚠\u{a0}") };
-        key_number(h, "alignment", class, |h| {
-            h.raw(sign).word("rms").raw("\u{a0}").number(a.rms, decimals + 1, false);
-        });
-    }
-    for warning in &c.warnings {
-        key_number(h, warning_key(warning.kind), "warn", |h| {
-            h.raw("⚠\u{a0}").number(warning.value, 3, false);
-        });
-    }
-    h.raw("</dl>");
 }

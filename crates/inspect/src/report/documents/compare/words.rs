@@ -1,8 +1,9 @@
 //! Words and keys that a page of a comparison has in several places.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::{Headline, Tone};
+use super::super::super::number::Style;
+use super::super::super::page::parts::{Headline, Tone};
 use crate::results::compare::{Comparison, SignRecord, WarningKind};
+use maud::{Markup, html};
 
 /// A verdict, or that there was no tolerance.
 pub(super) fn headline(verdict: Option<crate::results::Verdict>) -> Headline {
@@ -23,13 +24,19 @@ pub(super) fn warning_key(kind: WarningKind) -> &'static str {
 }
 
 /// The map in one sentence, for those who cannot see it.
-pub(super) fn in_words(h: &mut Html, c: &Comparison) {
-    let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) else { return };
-    let (Some(inside), Some(above), Some(below)) = (t.inside, t.above, t.below) else { return };
-    h.raw("<p class=\"words\">");
-    for (n, (key, share)) in [("within", inside), ("above", above), ("below", below)].into_iter().enumerate()
-    {
-        h.raw(if n > 0 { " · " } else { "" }).word(key).raw(" ").percent(share, 2);
+pub(super) fn in_words(s: Style, c: &Comparison) -> Markup {
+    let shares = c
+        .tolerance
+        .as_ref()
+        .filter(|_| c.regions.is_empty())
+        .and_then(|t| Some([t.inside?, t.above?, t.below?]));
+    html! {
+        @if let Some(shares) = shares {
+            p.words {
+                @for (n, (key, share)) in ["within", "above", "below"].into_iter().zip(shares).enumerate() {
+                    @if n > 0 { " · " } (s.word(key)) " " (s.percent(share, 2))
+                }
+            }
+        }
     }
-    h.raw("</p>");
 }

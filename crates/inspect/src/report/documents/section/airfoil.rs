@@ -1,70 +1,53 @@
 //! The block of measures of airfoils.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::fact;
-use super::tables::{decimals, small};
+use super::super::super::number::{Style, decimals};
+use super::super::super::page::parts::fact;
+use super::super::super::values::Text;
 use crate::results::section::{AirfoilMeasures, AirfoilRecord};
+use maud::{Markup, Render, html};
 
 /// Profiles that are shown.
 const LISTED: usize = 60;
 
 /// Every contour as a profile, or why it is none.
-pub fn airfoils(h: &mut Html, all: &[AirfoilRecord]) {
-    for found in all.iter().take(LISTED) {
-        if all.len() > 1 {
-            h.raw("<h3>").word("contour").raw(&format!("\u{a0}{}</h3>", found.contour + 1));
-        }
-        match &found.measures {
-            Some(measures) => facts(h, measures),
-            None => {
-                let reason = found.measures_reason.as_deref().unwrap_or_default();
-                h.raw("<p class=\"note\">").text(reason).raw("</p>");
+pub fn airfoils(s: Style, all: &[AirfoilRecord]) -> Markup {
+    html! {
+        @for found in all.iter().take(LISTED) {
+            @if all.len() > 1 { h3 { (s.word("contour")) "\u{a0}" (found.contour + 1) } }
+            @match &found.measures {
+                Some(measures) => { (facts(s, measures)) }
+                None => { p.note { (Text(found.measures_reason.as_deref().unwrap_or_default())) } }
             }
         }
+        p.note { (s.word("airfoil.text")) }
     }
-    h.raw("<p class=\"note\">").word("airfoil.text").raw("</p>");
 }
 
-fn facts(h: &mut Html, m: &AirfoilMeasures) {
-    let length = |h: &mut Html, x: f64, u: Option<f64>| {
-        h.number(x, decimals(u, 4), false);
-        if let Some(u) = u {
-            h.raw("\u{a0}±\u{a0}");
-            small(h, u);
+fn facts(s: Style, m: &AirfoilMeasures) -> Markup {
+    let length = |x: f64, u: Option<f64>| {
+        html! {
+            (s.number(x, decimals(u, 4))) @if let Some(u) = u { "\u{a0}±\u{a0}" (s.small(u)) } "\u{a0}mm"
         }
-        h.raw("\u{a0}mm");
     };
-    let at = |h: &mut Html, share: f64| {
-        h.raw(" (");
-        h.percent(share, 1).raw(")");
+    let radius = |x: Option<f64>, u: Option<f64>, reason: &Option<String>| match x {
+        Some(x) => length(x, u),
+        None => s.optional(None, 0).because(reason.as_deref()).render(),
     };
-    h.raw("<dl class=\"facts pairs\">");
-    fact(h, "airfoil.chord", |h| {
-        length(h, m.chord, None);
-        h.raw(" · ∠\u{a0}").number(m.chord_angle.to_degrees(), 4, false).raw("°");
-    });
-    fact(h, "airfoil.thickness", |h| {
-        length(h, m.thickness, Some(m.thickness_uncertainty));
-        at(h, m.thickness_at);
-    });
-    fact(h, "airfoil.camber", |h| {
-        length(h, m.camber, None);
-        at(h, m.camber_at);
-    });
-    fact(h, "airfoil.leading", |h| match m.leading_radius {
-        Some(radius) => length(h, radius, m.leading_radius_uncertainty),
-        None => {
-            h.optional(None, m.leading_radius_reason.as_deref(), 0, false);
+    let at = |share: f64| html! { " (" (s.percent(share, 1)) ")" };
+    html! {
+        dl.facts.pairs {
+            (fact(s, "airfoil.chord", html! {
+                (length(m.chord, None)) " · ∠\u{a0}" (s.number(m.chord_angle.to_degrees(), 4)) "°"
+            }))
+            (fact(s, "airfoil.thickness", html! {
+                (length(m.thickness, Some(m.thickness_uncertainty))) (at(m.thickness_at))
+            }))
+            (fact(s, "airfoil.camber", html! { (length(m.camber, None)) (at(m.camber_at)) }))
+            (fact(s, "airfoil.leading",
+                radius(m.leading_radius, m.leading_radius_uncertainty, &m.leading_radius_reason)))
+            (fact(s, "airfoil.trailing",
+                radius(m.trailing_radius, m.trailing_radius_uncertainty, &m.trailing_radius_reason)))
+            @if let Some(gap) = m.trailing_thickness { (fact(s, "airfoil.gap", length(gap, None))) }
         }
-    });
-    fact(h, "airfoil.trailing", |h| match m.trailing_radius {
-        Some(radius) => length(h, radius, m.trailing_radius_uncertainty),
-        None => {
-            h.optional(None, m.trailing_radius_reason.as_deref(), 0, false);
-        }
-    });
-    if let Some(gap) = m.trailing_thickness {
-        fact(h, "airfoil.gap", |h| length(h, gap, None));
     }
-    h.raw("</dl>");
 }

@@ -2,11 +2,11 @@
 //!
 //! The axes are stretched to the room there is; the words stand around the figure, so that they are not.
 
-use super::super::super::html::Html;
-use super::super::super::text::word;
+use super::super::super::number::Style;
+use super::super::super::values::leaf;
 use super::pieces::kind;
-use super::tables::small;
 use crate::results::section::{ContourRecord, JoinRecord};
+use maud::{Markup, html};
 use std::fmt::Write;
 
 /// Width of the figure, and half its height, in units of its own.
@@ -43,56 +43,56 @@ impl Axes {
     }
 }
 
-/// Writes the figure of contour `number`; of several all but the first wait to be asked for.
-pub fn course(h: &mut Html, number: usize, contour: &ContourRecord) {
+/// The figure of contour `number`; of several all but the first wait to be asked for.
+pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
     let axes = Axes::of(contour);
-    let hidden = if number > 0 { " hidden" } else { "" };
-    h.raw(&format!("<figure class=\"course\" data-contour=\"{number}\"{hidden}><figcaption>"));
-    h.word("residuals").raw(", mm · ").word("contour").raw(&format!(" {}</figcaption>", number + 1));
-    h.raw("<div class=\"course-y\"><span>+");
-    small(h, axes.range).raw("</span><span>0</span><span>\u{2212}");
-    small(h, axes.range).raw("</span>");
-    h.raw(&format!(
-        "</div><svg viewBox=\"0 {} {WIDTH} {}\" preserveAspectRatio=\"none\" data-length=\"{}\" data-range=\"{}\" \
-         role=\"img\"><title>",
-        -HALF,
-        2.0 * HALF,
-        axes.length,
-        axes.range
-    ));
-    h.text(word("course.title", h.language())).raw("</title>");
-    let mut start = 0.0;
-    for (segment, join) in contour.segments.iter().zip(&contour.joins) {
-        start += segment.length;
-        interval(h, &axes, join, start);
+    let stations = contour.segments.iter().scan(0.0, |start, segment| {
+        *start += segment.length;
+        Some(*start)
+    });
+    html! {
+        figure.course data-contour=(number) hidden[number > 0] {
+            figcaption { (s.word("residuals")) ", mm · " (s.word("contour")) " " (number + 1) }
+            div.course-y {
+                span { "+" (s.small(axes.range)) } span { "0" } span { "\u{2212}" (s.small(axes.range)) }
+            }
+            svg viewBox={ "0 " (-HALF) " " (WIDTH) " " (2.0 * HALF) } preserveAspectRatio="none"
+                data-length=(axes.length) data-range=(axes.range) role="img" {
+                title { (s.bare_word("course.title")) }
+                @for (join, station) in contour.joins.iter().zip(stations) { (interval(&axes, join, station)) }
+                @for sigma in [-2.0, 2.0] {
+                    (path("sigma", &format!("M0 {:.3}H{WIDTH}", axes.y(sigma * contour.noise))))
+                }
+                (path("zero", &format!("M0 0H{WIDTH}")))
+                (points(&axes, contour))
+            }
+            div.course-x { span { "0" } (s.word("course.along")) (s.number(axes.length, 2)) }
+        }
+        "\n"
     }
-    for sigma in [-2.0, 2.0] {
-        let y = axes.y(sigma * contour.noise);
-        h.raw(&format!("<path class=\"sigma\" d=\"M0 {y:.3}H{WIDTH}\"/>"));
-    }
-    h.raw(&format!("<path class=\"zero\" d=\"M0 0H{WIDTH}\"/>"));
-    points(h, &axes, contour);
-    h.raw("</svg><div class=\"course-x\"><span>0</span>").word("course.along");
-    h.number(axes.length, 2, false).raw("</div></figure>\n");
+}
+
+fn path(class: &str, d: &str) -> Markup {
+    leaf("path", &[("class", &class), ("d", &d)])
 }
 
 /// A join, and how far to either side it may lie. That of a corner lies across the contour too; its length is shown.
-fn interval(h: &mut Html, axes: &Axes, join: &JoinRecord, station: f64) {
+fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
     let far = |p: [f64; 2]| libm::hypot(p[0] - join.point[0], p[1] - join.point[1]);
     let [from, to] = [station - far(join.interval[0]), station + far(join.interval[1])].map(|s| axes.x(s));
-    let x = axes.x(station);
-    h.raw(&format!(
-        "<rect class=\"interval\" x=\"{from:.3}\" y=\"{}\" width=\"{:.3}\" height=\"{}\"/>\
-         <path class=\"join\" d=\"M{x:.3} {}V{HALF}\"/>",
-        -HALF,
-        to - from,
-        2.0 * HALF,
-        -HALF
-    ));
+    let [x, width] = [from, to - from].map(|x| format!("{x:.3}"));
+    let (y, height) = (-HALF, 2.0 * HALF);
+    html! {
+        (leaf(
+            "rect",
+            &[("class", &"interval"), ("x", &x), ("y", &y), ("width", &width), ("height", &height)],
+        ))
+        (path("join", &format!("M{:.3} {}V{HALF}", axes.x(station), -HALF)))
+    }
 }
 
 /// Points by the kind of their segment; outliers at the rim where they are beyond it.
-fn points(h: &mut Html, axes: &Axes, contour: &ContourRecord) {
+fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
     let mut paths: [(&str, String); 4] = ["line", "arc", "spline", "outlier"].map(|k| (k, String::new()));
     let mut columns: Vec<[Option<[f64; 2]>; 4]> = vec![[None; 4]; COLUMNS];
     let many = contour.residuals.len() > DOTS;
@@ -119,7 +119,7 @@ fn points(h: &mut Html, axes: &Axes, contour: &ContourRecord) {
             }
         }
     }
-    for (name, d) in paths.iter().filter(|(_, d)| !d.is_empty()) {
-        h.raw(&format!("<path class=\"dots k-{name}\" d=\"{d}\"/>"));
+    html! {
+        @for (name, d) in paths.iter().filter(|(_, d)| !d.is_empty()) { (path(&format!("dots k-{name}"), d)) }
     }
 }

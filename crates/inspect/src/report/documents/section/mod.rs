@@ -9,13 +9,12 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub(super) use tables::{decimals, small};
-
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, fact, key_number, section};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, Tone, fact, key_number, section};
 use super::{Drawn, Head, Pick, Subject};
 use crate::report::ViewObject;
 use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
+use maud::{Markup, html};
 use serde_json::Value;
 use trueness_geom::space::Point;
 
@@ -39,10 +38,9 @@ impl Subject for SectionDocument {
         "picture.section"
     }
 
-    fn numbers(&self, h: &mut Html) {
+    fn numbers(&self, s: Style) -> Markup {
         let count = |f: &dyn Fn(&ContourRecord) -> usize| self.contours.iter().map(f).sum::<usize>() as u64;
-        h.raw("<dl class=\"key-numbers\">");
-        for (key, class, n) in [
+        let counts = [
             ("segments", "lead", count(&|c| c.segments.len())),
             ("joins", "", count(&|c| c.joins.len())),
             ("contours", "", self.contours.len() as u64),
@@ -50,65 +48,48 @@ impl Subject for SectionDocument {
             ("outliers", "warn", count(&|c| c.outliers.len())),
             ("gaps", "warn", count(&|c| c.gaps.len())),
             ("segments.astray", "warn", count(&|c| c.astray.len())),
-        ] {
-            if n > 0 {
-                key_number(h, key, class, |h| {
-                    h.count(n);
-                });
+        ];
+        html! {
+            dl.key-numbers {
+                @for (key, class, n) in counts.into_iter().filter(|(.., n)| *n > 0) {
+                    (key_number(s, key, class, s.count(n)))
+                }
+                @if let [one] = &self.contours[..] {
+                    (key_number(s, "noise", "", html! { (s.small(one.noise)) "\u{a0}mm" }))
+                }
             }
-        }
-        if let [one] = &self.contours[..] {
-            key_number(h, "noise", "", |h| {
-                tables::small(h, one.noise).raw("\u{a0}mm");
-            });
-        }
-        h.raw("</dl>");
-    }
-
-    fn list(&self, h: &mut Html) {
-        section(h, "contours", |h| tables::contours(h, self));
-        if self.dimensions.count > 0 {
-            section(h, "dimensions", |h| tables::dimensions(h, &self.dimensions));
-        }
-        if let Some(airfoils) = &self.airfoils {
-            section(h, "airfoil", |h| airfoil::airfoils(h, airfoils));
-        }
-        if let Some(nominal) = &self.nominal {
-            section(h, "nominal.section", |h| tables::nominal(h, nominal));
-        }
-        if let Some(methods) = &self.methods {
-            section(h, "methods", |h| tables::methods(h, methods));
-        }
-        if !self.planes.is_empty() {
-            section(h, "planes", |h| tables::planes(h, &self.planes));
-        }
-        section(h, "model", |h| {
-            h.raw("<dl class=\"facts pairs\">");
-            fact(h, "level", |h| {
-                h.percent(self.level, 1);
-            });
-            if let Some(noise) = self.noise_given {
-                fact(h, "noise.given", |h| {
-                    tables::small(h, noise).raw("\u{a0}mm");
-                });
-            }
-            if let Some(continuity) = &self.continuity_given {
-                fact(h, "continuity.given", |h| {
-                    h.word(&format!("join.{continuity}"));
-                });
-            }
-            h.raw("</dl>");
-        });
-    }
-
-    fn method(&self, h: &mut Html) {
-        for key in ["method.section.text", "method.section.join", "method.section.comb"] {
-            h.raw("<p>").word(key).raw("</p>");
         }
     }
 
-    fn how(&self, h: &mut Html) {
-        h.word("fit.gaussian").raw(" · ").word("orthogonal");
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "contours", tables::contours(s, self)))
+            @if self.dimensions.count > 0 { (section(s, "dimensions", tables::dimensions(s, &self.dimensions))) }
+            @if let Some(airfoils) = &self.airfoils { (section(s, "airfoil", airfoil::airfoils(s, airfoils))) }
+            @if let Some(nominal) = &self.nominal { (section(s, "nominal.section", tables::nominal(s, nominal))) }
+            @if let Some(methods) = &self.methods { (section(s, "methods", tables::methods(s, methods))) }
+            @if !self.planes.is_empty() { (section(s, "planes", tables::planes(s, &self.planes))) }
+            (section(s, "model", html! {
+                dl.facts.pairs {
+                    (fact(s, "level", s.percent(self.level, 1)))
+                    @if let Some(noise) = self.noise_given {
+                        (fact(s, "noise.given", html! { (s.small(noise)) "\u{a0}mm" }))
+                    }
+                    @if let Some(continuity) = &self.continuity_given {
+                        (fact(s, "continuity.given", s.word(format!("join.{continuity}"))))
+                    }
+                }
+            }))
+        }
+    }
+
+    fn method(&self, s: Style) -> Markup {
+        let keys = ["method.section.text", "method.section.join", "method.section.comb"];
+        html! { @for key in keys { p { (s.word(key)) } } }
+    }
+
+    fn how(&self, s: Style) -> Markup {
+        html! { (s.word("fit.gaussian")) " · " (s.word("orthogonal")) }
     }
 
     fn points(&self) -> Option<u64> {
@@ -145,21 +126,25 @@ impl Drawn for SectionDocument {
         (shown, count(objects))
     }
 
-    fn draw(&self, h: &mut Html, objects: &[ViewObject], room: usize) {
+    fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup {
         let stride = stride(objects, room);
-        h.raw("<div id=\"drawing\" class=\"drawing\">\n");
-        for (n, sheet) in sheet::sheets(self).iter().enumerate() {
-            let plane = sheet.plane.map_or_else(String::new, |p| format!(" data-plane=\"{p}\""));
-            let hidden = if n > 0 { " hidden" } else { "" };
-            h.raw(&format!("<div class=\"sheet\"{plane}{hidden}>\n"));
-            sheet.draw(h, self, objects, stride);
-            h.raw("</div>\n");
+        html! {
+            div id="drawing" class="drawing" {
+                "\n"
+                @for (n, sheet) in sheet::sheets(self).iter().enumerate() {
+                    div.sheet data-plane=[sheet.plane] hidden[n > 0] {
+                        "\n" (sheet.draw(s, self, objects, stride))
+                    }
+                    "\n"
+                }
+            }
+            "\n"
+            div id="courses" class="courses" {
+                "\n"
+                @for (n, contour) in self.contours.iter().enumerate() { (course::course(s, n, contour)) }
+            }
+            "\n"
         }
-        h.raw("</div>\n<div id=\"courses\" class=\"courses\">\n");
-        for (n, contour) in self.contours.iter().enumerate() {
-            course::course(h, n, contour);
-        }
-        h.raw("</div>\n");
     }
 }
 

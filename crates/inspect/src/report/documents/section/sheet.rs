@@ -4,13 +4,15 @@
 //! which browsers draw, has digits enough; y points down in SVG and is negated. Strokes and signs keep their size on the
 //! screen however near one looks.
 
-use super::super::super::html::Html;
-use super::super::super::text::word;
+use super::super::super::number::Style;
+use super::super::super::values::leaf;
 use super::path::{Path, Tooth, teeth};
 use super::pieces::{kind, pick_numbers};
 use crate::report::ViewObject;
 use crate::results::section::{ContourRecord, SectionDocument};
+use maud::{Markup, html};
 use std::fmt::Write;
+use trueness_geom::section::Continuity;
 
 /// Length of the longest tooth of the comb, in sizes of the drawing.
 const COMB: f64 = 0.1;
@@ -105,50 +107,54 @@ fn tip(tooth: &Tooth, comb: f64) -> [f64; 2] {
 }
 
 impl Sheet<'_> {
-    /// Writes the drawing; of the measured points every `stride`-th, or none.
+    /// The drawing; of the measured points every `stride`-th, or none.
     pub fn draw(
         &self,
-        h: &mut Html,
+        s: Style,
         document: &SectionDocument,
         objects: &[ViewObject],
         stride: Option<usize>,
-    ) {
+    ) -> Markup {
         let plan = Plan::of(self);
         let ([w, v], [x, y]) = (plan.half, plan.middle);
-        h.raw(&format!(
-            "<svg class=\"plan\" viewBox=\"{} {} {} {}\" data-origin=\"{x} {y}\" role=\"img\"><title>",
-            -w,
-            -v,
-            2.0 * w,
-            2.0 * v
-        ));
-        h.text(word("picture.section", h.language())).raw("</title>\n");
-        for (n, (_, contour)) in self.contours.iter().enumerate() {
-            comb(h, &plan, n, contour);
-        }
-        for (number, _) in &self.contours {
-            if let Some((object, stride)) = objects.get(*number).zip(stride) {
-                dots(h, &plan, object, stride);
-            }
-        }
         let numbers = pick_numbers(document);
-        for (n, (number, contour)) in self.contours.iter().enumerate() {
-            for (i, (segment, path)) in contour.segments.iter().zip(&plan.paths[n]).enumerate() {
-                let mark = numbers[*number] + i;
-                h.raw(&format!("<path class=\"segment k-{}\" data-mark=\"{mark}\" d=\"", kind(segment)));
-                h.raw(&draw(&plan, path)).raw("\"/>\n");
+        let total: usize = self.contours.iter().map(|(_, c)| c.joins.len()).sum();
+        html! {
+            svg.plan viewBox={ (-w) " " (-v) " " (2.0 * w) " " (2.0 * v) } data-origin={ (x) " " (y) } role="img" {
+                title { (s.bare_word("picture.section")) }
+                "\n"
+                @for (n, (_, contour)) in self.contours.iter().enumerate() { (comb(&plan, n, contour)) }
+                @for (number, _) in &self.contours {
+                    @if let Some((object, stride)) = objects.get(*number).zip(stride) {
+                        (leaf("path", &[("class", &"dots"), ("d", &dots(&plan, object, stride))])) "\n"
+                    }
+                }
+                @for ((number, contour), paths) in self.contours.iter().zip(&plan.paths) {
+                    (segments(&plan, contour, paths, numbers[*number]))
+                }
+                @for (number, contour) in &self.contours {
+                    (joins(&plan, contour, numbers[*number] + contour.segments.len(), total <= NUMBERED))
+                }
+            }
+            "\n"
+            @if plan.curvature > 0.0 {
+                @let radius = 1.0 / plan.curvature;
+                p.comb-scale {
+                    (s.word("comb.scale")) " " (s.number(plan.curvature, digits(plan.curvature))) "\u{a0}mm⁻¹ (r "
+                    (s.number(radius, digits(radius))) "\u{a0}mm)"
+                }
+                "\n"
             }
         }
-        let total: usize = self.contours.iter().map(|(_, c)| c.joins.len()).sum();
-        for (number, contour) in &self.contours {
-            joins(h, &plan, contour, numbers[*number] + contour.segments.len(), total <= NUMBERED);
-        }
-        h.raw("</svg>\n");
-        if plan.curvature > 0.0 {
-            h.raw("<p class=\"comb-scale\">").word("comb.scale").raw(" ");
-            h.number(plan.curvature, digits(plan.curvature), false).raw("\u{a0}mm⁻¹ (r ");
-            let radius = 1.0 / plan.curvature;
-            h.number(radius, digits(radius), false).raw("\u{a0}mm)</p>\n");
+    }
+}
+
+/// The segments of a contour; their marks are numbered from `first`.
+fn segments(plan: &Plan, contour: &ContourRecord, paths: &[Path], first: usize) -> Markup {
+    html! {
+        @for (i, (segment, path)) in contour.segments.iter().zip(paths).enumerate() {
+            @let class = format!("segment k-{}", kind(segment));
+            (leaf("path", &[("class", &class), ("data-mark", &(first + i)), ("d", &draw(plan, path))])) "\n"
         }
     }
 }
@@ -176,22 +182,25 @@ fn draw(plan: &Plan, path: &Path) -> String {
 }
 
 /// Teeth of a contour's segments, and the line over their tips.
-fn comb(h: &mut Html, plan: &Plan, n: usize, contour: &ContourRecord) {
-    for (segment, teeth) in contour.segments.iter().zip(&plan.teeth[n]) {
+fn comb(plan: &Plan, n: usize, contour: &ContourRecord) -> Markup {
+    let of = |teeth: &[Tooth]| {
         let (mut d, mut over) = (String::new(), String::new());
         for (i, tooth) in teeth.iter().enumerate() {
             let ([x, y], [u, v]) = (plan.at(tooth.at), plan.at(tip(tooth, plan.comb)));
             let _ = write!(d, "M{x:.6} {y:.6}L{u:.6} {v:.6}");
             let _ = write!(over, "{}{u:.6} {v:.6}", if i == 0 { "M" } else { "L" });
         }
-        if !d.is_empty() {
-            h.raw(&format!("<path class=\"comb k-{}\" d=\"{d}{over}\"/>\n", kind(segment)));
+        d + &over
+    };
+    html! {
+        @for (segment, teeth) in contour.segments.iter().zip(&plan.teeth[n]).filter(|(_, t)| !t.is_empty()) {
+            (leaf("path", &[("class", &format!("comb k-{}", kind(segment))), ("d", &of(teeth))])) "\n"
         }
     }
 }
 
 /// Measured points: dots of one path.
-fn dots(h: &mut Html, plan: &Plan, object: &ViewObject, stride: usize) {
+fn dots(plan: &Plan, object: &ViewObject, stride: usize) -> String {
     // A ten-millionth of the drawing: finer than what can be seen of it however near one looks.
     let size = plan.half[0].max(plan.half[1]);
     let decimals = (7.0 - libm::log10(size).floor()).clamp(0.0, 12.0) as usize;
@@ -200,27 +209,26 @@ fn dots(h: &mut Html, plan: &Plan, object: &ViewObject, stride: usize) {
         let [x, y] = plan.at([p[0], p[1]]);
         let _ = write!(d, "M{x:.decimals$} {y:.decimals$}h0");
     }
-    h.raw(&format!("<path class=\"dots\" d=\"{d}\"/>\n"));
+    d
 }
 
 /// Where each join may lie, and its sign with its number.
-fn joins(h: &mut Html, plan: &Plan, contour: &ContourRecord, first: usize, numbered: bool) {
-    for (n, join) in contour.joins.iter().enumerate() {
-        let [[a, b], [c, d]] = join.interval.map(|p| plan.at(p));
-        let reach = libm::hypot(c - a, d - b);
-        h.raw(&format!("<path class=\"interval\" d=\"M{a} {b} L{c} {d}\"/>\n"));
-        let [x, y] = plan.at(join.point);
-        h.raw(&format!(
-            "<g class=\"join {}\" data-mark=\"{}\" data-at=\"{x} {y}\" data-reach=\"{reach}\" transform=\"translate({x} {y}) scale({})\">",
-            join.continuity,
-            first + n,
-            plan.pixel()
-        ));
-        h.raw(match join.continuity.as_str() {
-            "g0" => "<path d=\"M0 -5 L5 0 L0 5 L-5 0 Z\"/>",
-            _ => "<circle r=\"4.5\"/>",
-        });
-        let hidden = if numbered { "" } else { " visibility=\"hidden\"" };
-        h.raw(&format!("<text x=\"8\" y=\"-7\"{hidden}>{}</text></g>\n", n + 1));
+fn joins(plan: &Plan, contour: &ContourRecord, first: usize, numbered: bool) -> Markup {
+    html! {
+        @for (n, join) in contour.joins.iter().enumerate() {
+            @let [[a, b], [c, d]] = join.interval.map(|p| plan.at(p));
+            @let [x, y] = plan.at(join.point);
+            (leaf("path", &[("class", &"interval"), ("d", &format!("M{a} {b} L{c} {d}"))])) "\n"
+            g class={ "join " (join.continuity) } data-mark=(first + n) data-at={ (x) " " (y) }
+                data-reach=(libm::hypot(c - a, d - b))
+                transform={ "translate(" (x) " " (y) ") scale(" (plan.pixel()) ")" } {
+                @match *join.continuity {
+                    Continuity::G0 => { (leaf("path", &[("d", &"M0 -5 L5 0 L0 5 L-5 0 Z")])) }
+                    Continuity::G1 | Continuity::G2 => { (leaf("circle", &[("r", &4.5)])) }
+                }
+                text x="8" y="-7" visibility=[(!numbered).then_some("hidden")] { (n + 1) }
+            }
+            "\n"
+        }
     }
 }

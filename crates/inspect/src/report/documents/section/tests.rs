@@ -1,6 +1,5 @@
 //! What is drawn against the exact values of the document.
 
-use super::super::super::number::Style;
 use super::pieces::kind;
 use super::*;
 use crate::report::Language;
@@ -33,9 +32,8 @@ fn document(points: &[[f64; 2]]) -> SectionDocument {
 }
 
 fn drawn(document: &SectionDocument, places: &[Point], room: usize) -> String {
-    let mut h = Html::new(Style { language: Language::En, decimal: None });
-    document.draw(&mut h, &[ViewObject::measured(places)], room);
-    h.finish()
+    let style = Style { language: Language::En, decimal: None };
+    document.draw(style, &[ViewObject::measured(places)], room).into_string()
 }
 
 /// The values of an attribute of all elements of a class.

@@ -2,14 +2,15 @@
 //!
 //! The chart is stretched to the room there is; words and numbers stand in drawings of their own around it, so that they are not.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::{Headline, badge};
+use super::super::super::number::Style;
+use super::super::super::page::parts::{Headline, badge};
 use super::super::super::page::symbols::{datum_name, symbol};
-use super::super::super::text::word;
+use super::super::super::values::{Name, Text, leaf};
 use super::axes::{Axes, HEIGHT, WIDTH};
-use super::gutter::{Line, gutter, lines, number};
+use super::gutter::{Line, gutter, lines};
 use crate::results::Verdict;
 use crate::results::trend::{TrendDocument, TrendRecord};
+use maud::{Markup, html};
 use std::fmt::Write;
 
 /// Width of the numbers on the left, pixels.
@@ -19,29 +20,31 @@ const MANY: usize = 150;
 /// The verdicts in the order in which their dots are drawn, the worst on top.
 pub const ORDER: [Verdict; 4] = [Verdict::NotMeasured, Verdict::Pass, Verdict::Undecided, Verdict::Fail];
 
-/// Writes the chart of characteristic `n`, with `below` under it.
-pub fn chart(h: &mut Html, document: &TrendDocument, n: usize, below: impl FnOnce(&mut Html, &Axes)) {
+/// The chart of characteristic `n`, with `below` under it.
+pub fn chart(s: Style, document: &TrendDocument, n: usize, axes: &Axes, below: Markup) -> Markup {
     let c = &document.characteristics[n];
-    let axes = Axes::of(c);
-    h.raw(&format!("<figure class=\"chart\" id=\"course-{n}\" data-of=\"{n}\" data-decimals=\"{}\"><figcaption><span class=\"of-what\">", axes.decimals));
-    h.name(&c.id).raw(" ");
-    symbol(h, &c.kind);
-    h.word(&format!("kind.{}", c.kind)).raw(" <small>").name(&c.feature);
-    for datum in &c.datums {
-        h.raw(" | ");
-        datum_name(h, datum);
+    let lines = lines(c, axes);
+    html! {
+        figure.chart id={ "course-" (n) } data-of=(n) data-decimals=(axes.decimals) {
+            figcaption {
+                span.of-what {
+                    (Name(&c.id)) " " (symbol(&c.kind)) (s.word(format!("kind.{}", c.kind))) " "
+                    small {
+                        (Name(&c.feature))
+                        @for datum in &c.datums { " | " (datum_name(datum)) }
+                    }
+                }
+                span.unit { (Text(unit(c))) }
+                (badge(s, Headline::from(c.verdict())))
+            }
+            "\n"
+            div.around {
+                (values(s, axes)) (plot(s, c, axes, &lines)) (gutter(s, axes, &lines)) (parts(s, axes))
+            }
+            "\n" (below)
+        }
+        "\n"
     }
-    h.raw("</small></span><span class=\"unit\">").text(unit(c)).raw("</span>");
-    badge(h, Headline::from(c.verdict()));
-    h.raw("</figcaption>\n<div class=\"around\">");
-    let lines = lines(c, &axes);
-    values(h, &axes);
-    plot(h, c, &axes, &lines);
-    gutter(h, &axes, &lines);
-    parts(h, &axes);
-    h.raw("</div>\n");
-    below(h, &axes);
-    h.raw("</figure>\n");
 }
 
 /// What the values of a characteristic are in.
@@ -54,71 +57,71 @@ pub fn unit(c: &TrendRecord) -> &str {
 }
 
 /// Round values on the left.
-fn values(h: &mut Html, axes: &Axes) {
-    h.raw(&format!(
-        "<svg class=\"values\" width=\"{LEFT}\" height=\"{HEIGHT}\" viewBox=\"0 0 {LEFT} {HEIGHT}\">"
-    ));
+fn values(s: Style, axes: &Axes) -> Markup {
     let (ticks, decimals) = axes.ticks();
-    for value in ticks {
-        let y = axes.y(value, HEIGHT);
-        h.raw(&format!("<path d=\"M{} {y:.2}H{LEFT}\"/>", LEFT - 4.0));
-        let place = format!(" x=\"{}\" y=\"{:.2}\"", LEFT - 7.0, y.clamp(6.0, HEIGHT - 6.0));
-        number(h, "text", &place, value, decimals);
-    }
-    h.raw("</svg>");
-}
-
-/// Numbers of parts below.
-fn parts(h: &mut Html, axes: &Axes) {
-    h.raw("<span class=\"corner\">")
-        .word("part")
-        .raw("</span><svg class=\"numbers-of-parts\" height=\"18\">");
-    for part in axes.numbered() {
-        let place = format!(" x=\"{:.3}%\" y=\"13\"", axes.x(part, 100.0));
-        number(h, "text", &place, part as f64 + 1.0, 0);
-    }
-    h.raw("</svg>");
-}
-
-fn plot(h: &mut Html, c: &TrendRecord, axes: &Axes, lines: &[Line]) {
-    let many = if axes.parts > MANY { " many" } else { "" };
-    h.raw(&format!(
-        "<svg class=\"plot{many}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" preserveAspectRatio=\"none\" data-from=\"{}\" \
-         data-to=\"{}\" data-parts=\"{}\" role=\"img\"><title>",
-        axes.from, axes.to, axes.parts
-    ));
-    h.text(word("chart.title", h.language())).raw(": ").text(&c.id).raw("</title>");
-    band(h, c, axes, HEIGHT);
-    for line in lines.iter().filter(|l| axes.holds(l.value)) {
-        h.raw(&format!("<path class=\"{}\" d=\"M0 {:.3}H{WIDTH}\"/>", line.name, axes.y(line.value, HEIGHT)));
-    }
-    let missing = (0..axes.parts).filter(|n| c.values[*n].is_none());
-    let d: String = missing.map(|n| format!("M{:.3} 0V{HEIGHT}", axes.x(n, WIDTH))).collect();
-    if !d.is_empty() {
-        h.raw(&format!("<path class=\"missing\" d=\"{d}\"/>"));
-    }
-    course(h, c, axes, [WIDTH, HEIGHT]);
-    whiskers(h, c, axes);
-    let mut out: Vec<usize> = c.out_of_control.iter().filter_map(|o| usize::try_from(o.part).ok()).collect();
-    out.dedup();
-    let d = dots(c, axes, |n| out.binary_search(&n).is_ok());
-    if !d.is_empty() {
-        h.raw(&format!("<path class=\"ring\" d=\"{d}\"/><path class=\"ring-within\" d=\"{d}\"/>"));
-    }
-    for verdict in ORDER {
-        let d = dots(c, axes, |n| c.verdicts.get(n) == Some(&verdict));
-        if !d.is_empty() {
-            h.raw(&format!("<path class=\"dots {}\" d=\"{d}\"/>", Headline::from(verdict).key));
-            if verdict == Verdict::Undecided {
-                h.raw(&format!("<path class=\"hole\" d=\"{d}\"/>"));
+    html! {
+        svg.values width=(LEFT) height=(HEIGHT) viewBox={ "0 0 " (LEFT) " " (HEIGHT) } {
+            @for value in ticks {
+                @let y = axes.y(value, HEIGHT);
+                (leaf("path", &[("d", &format!("M{} {y:.2}H{LEFT}", LEFT - 4.0))]))
+                text x=(LEFT - 7.0) y=(format!("{:.2}", y.clamp(6.0, HEIGHT - 6.0))) data-n=(value) data-d=(decimals) {
+                    (s.fixed(value, decimals))
+                }
             }
         }
     }
-    h.raw("</svg>");
+}
+
+/// Numbers of parts below.
+fn parts(s: Style, axes: &Axes) -> Markup {
+    html! {
+        span.corner { (s.word("part")) }
+        svg.numbers-of-parts height="18" {
+            @for part in axes.numbered() {
+                text x=(format!("{:.3}%", axes.x(part, 100.0))) y="13" data-n=(part + 1) data-d="0" {
+                    (s.fixed(part as f64 + 1.0, 0))
+                }
+            }
+        }
+    }
+}
+
+fn plot(s: Style, c: &TrendRecord, axes: &Axes, lines: &[Line]) -> Markup {
+    let missing: String = (0..axes.parts)
+        .filter(|n| c.values[*n].is_none())
+        .map(|n| format!("M{:.3} 0V{HEIGHT}", axes.x(n, WIDTH)))
+        .collect();
+    let mut out: Vec<usize> = c.out_of_control.iter().filter_map(|o| usize::try_from(o.part).ok()).collect();
+    out.dedup();
+    let rings = dots(c, axes, FROM_FOOT, |n| out.binary_search(&n).is_ok());
+    html! {
+        svg.plot.many[axes.parts > MANY] viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } preserveAspectRatio="none"
+            data-from=(axes.from) data-to=(axes.to) data-parts=(axes.parts) role="img" {
+            title { (s.bare_word("chart.title")) ": " (Text(&c.id)) }
+            (band(c, axes, HEIGHT))
+            @for line in lines.iter().filter(|l| axes.holds(l.value)) {
+                (path(line.name, &format!("M0 {:.3}H{WIDTH}", axes.y(line.value, HEIGHT))))
+            }
+            (path("missing", &missing))
+            (course(c, axes, [WIDTH, HEIGHT]))
+            (path("whiskers", &whiskers(c, axes)))
+            (path("ring", &rings)) (path("ring-within", &rings))
+            @for verdict in ORDER {
+                @let d = dots(c, axes, FROM_FOOT, |n| c.verdicts.get(n) == Some(&verdict));
+                (path(&format!("dots {}", Headline::from(verdict).key), &d))
+                @if verdict == Verdict::Undecided { (path("hole", &d)) }
+            }
+        }
+    }
+}
+
+/// A path, if there is one.
+fn path(class: &str, d: &str) -> Markup {
+    if d.is_empty() { Markup::default() } else { leaf("path", &[("class", &class), ("d", &d)]) }
 }
 
 /// What is allowed: a band, of a material requirement one that each part has for itself.
-pub fn band(h: &mut Html, c: &TrendRecord, axes: &Axes, height: f64) {
+pub fn band(c: &TrendRecord, axes: &Axes, height: f64) -> Markup {
     let foot = c.lower.map_or(height, |l| axes.y(l, height).clamp(0.0, height));
     let within = |upper: f64| axes.y(upper, height).clamp(0.0, height);
     match (&c.own_upper, c.upper) {
@@ -130,23 +133,24 @@ pub fn band(h: &mut Html, c: &TrendRecord, axes: &Axes, height: f64) {
                 let _ = write!(area, "L{:.3} {y:.3}H{:.3}", x - half, x + half);
                 let _ = write!(line, "M{:.3} {y:.3}H{:.3}", x - half, x + half);
             }
-            h.raw(&format!(
-                "<path class=\"allowed\" d=\"{area}V{foot:.3}Z\"/><path class=\"limit\" d=\"{line}\"/>"
-            ));
+            let _ = write!(area, "V{foot:.3}Z");
+            let limit = leaf("path", &[("class", &"limit"), ("d", &line)]);
+            html! { (leaf("path", &[("class", &"allowed"), ("d", &area)])) (limit) }
         }
         (None, Some(upper)) => {
             let y = within(upper);
-            let height = (foot - y).max(0.0);
-            h.raw(&format!(
-                "<rect class=\"allowed\" x=\"0\" y=\"{y:.3}\" width=\"{WIDTH}\" height=\"{height:.3}\"/>"
-            ));
+            let [y, height] = [y, (foot - y).max(0.0)].map(|x| format!("{x:.3}"));
+            leaf(
+                "rect",
+                &[("class", &"allowed"), ("x", &0), ("y", &y), ("width", &WIDTH), ("height", &height)],
+            )
         }
-        (None, None) => {}
+        (None, None) => Markup::default(),
     }
 }
 
 /// The line from value to value; it is broken where one is missing.
-pub fn course(h: &mut Html, c: &TrendRecord, axes: &Axes, [width, height]: [f64; 2]) {
+pub fn course(c: &TrendRecord, axes: &Axes, [width, height]: [f64; 2]) -> Markup {
     let (mut d, mut open) = (String::new(), false);
     for (n, value) in c.values.iter().enumerate() {
         match value {
@@ -158,30 +162,28 @@ pub fn course(h: &mut Html, c: &TrendRecord, axes: &Axes, [width, height]: [f64;
             None => open = false,
         }
     }
-    if !d.is_empty() {
-        h.raw(&format!("<path class=\"course-line\" d=\"{d}\"/>"));
-    }
+    path("course-line", &d)
 }
 
-fn whiskers(h: &mut Html, c: &TrendRecord, axes: &Axes) {
-    let Some(all) = &c.uncertainties else { return };
+fn whiskers(c: &TrendRecord, axes: &Axes) -> String {
     let mut d = String::new();
-    for (n, (value, u)) in c.values.iter().zip(all).enumerate() {
+    for (n, (value, u)) in c.values.iter().zip(c.uncertainties.iter().flatten()).enumerate() {
         if let (Some(v), Some(u)) = (value, u) {
             let [low, high] = [v - u, v + u].map(|y| axes.y(y, HEIGHT));
             let _ = write!(d, "M{:.3} {low:.3}V{high:.3}", axes.x(n, WIDTH));
         }
     }
-    if !d.is_empty() {
-        h.raw(&format!("<path class=\"whiskers\" d=\"{d}\"/>"));
-    }
+    d
 }
 
+/// Height of a chart, and of the dots of parts without a value over its foot.
+const FROM_FOOT: [f64; 2] = [HEIGHT, 7.0];
+
 /// The dots of some parts; of those without a value at the foot.
-fn dots(c: &TrendRecord, axes: &Axes, which: impl Fn(usize) -> bool) -> String {
+pub fn dots(c: &TrendRecord, axes: &Axes, [height, foot]: [f64; 2], which: impl Fn(usize) -> bool) -> String {
     let mut d = String::new();
     for (n, value) in c.values.iter().enumerate().filter(|(n, _)| which(*n)) {
-        let y = value.map_or(HEIGHT - 7.0, |v| axes.y(v, HEIGHT));
+        let y = value.map_or(height - foot, |v| axes.y(v, height));
         let _ = write!(d, "M{:.3} {y:.3}h0", axes.x(n, WIDTH));
     }
     d

@@ -1,69 +1,68 @@
 //! The numbers under a chart, and the parts that are out of control.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::file_name;
-use super::super::section::{decimals, small};
+use super::super::super::number::{Style, decimals};
+use super::super::super::page::parts::file_name;
+use super::super::super::values::{Name, Number, Optional};
 use super::axes::Axes;
 use crate::results::trend::{IndexRecord, RuleRecord, TrendDocument, TrendRecord};
+use maud::{Markup, Render, html};
 
 /// Parts out of control that are listed.
 const LISTED: usize = 12;
 
-/// Writes the numbers of a characteristic.
-pub fn facts(h: &mut Html, document: &TrendDocument, c: &TrendRecord, axes: &Axes) {
-    h.raw("<dl class=\"measures\">");
-    fact(h, "chart.measured", |h| {
-        h.count(c.measured).raw("\u{a0}/\u{a0}").count(c.values.len() as u64);
-    });
-    fact(h, "mean", |h| {
-        h.optional(c.mean, None, axes.decimals, false);
-    });
-    for (key, sigma) in [("std_dev", c.std_dev), ("chart.within", c.std_dev_within)] {
-        fact(h, key, |h| match sigma {
-            Some(s) if s > 0.0 && s < 1e-5 => {
-                small(h, s);
-            }
-            s => {
-                h.optional(s, None, decimals(s, 0).max(axes.decimals.min(6)), false);
-            }
-        });
-    }
-    fact(h, "range", |h| {
-        h.optional(c.min, None, axes.decimals, false).raw("\u{2009}…\u{2009}");
-        h.optional(c.max, None, axes.decimals, false);
-    });
-    fact(h, "chart.moving", |h| {
-        h.optional(c.control.map(|k| k.moving_range), c.course_reason.as_deref(), axes.decimals, false);
-        if let Some(k) = &c.control {
-            h.raw(" (≤\u{a0}").number(k.moving_range_upper, axes.decimals, false).raw(")");
+/// The numbers of a characteristic.
+pub fn facts(s: Style, document: &TrendDocument, c: &TrendRecord, axes: &Axes) -> Markup {
+    let value = |x| s.optional(x, axes.decimals);
+    let no_course = c.course_reason.as_deref();
+    let no_index = no_course.or(c.capability_reason.as_deref());
+    let indices = [("Cp", "cp", c.cp), ("Cpk", "cpk", c.cpk), ("Pp", "pp", c.pp), ("Ppk", "ppk", c.ppk)];
+    html! {
+        dl.measures {
+            (fact(s, "chart.measured", html! { (s.count(c.measured)) "\u{a0}/\u{a0}" (s.len(&c.values)) }))
+            (fact(s, "mean", value(c.mean)))
+            (fact(s, "std_dev", deviation(s, c.std_dev, axes)))
+            (fact(s, "chart.within", deviation(s, c.std_dev_within, axes)))
+            (fact(s, "range", html! { (value(c.min)) "\u{2009}…\u{2009}" (value(c.max)) }))
+            (fact(s, "chart.moving", html! {
+                (value(c.control.map(|k| k.moving_range)).because(no_course))
+                @if let Some(k) = &c.control { " (≤\u{a0}" (s.number(k.moving_range_upper, axes.decimals)) ")" }
+            }))
         }
-    });
-    h.raw("</dl>\n<dl class=\"measures\">");
-    for (name, value) in [("Cp", c.cp), ("Cpk", c.cpk), ("Pp", c.pp), ("Ppk", c.ppk)] {
-        h.raw(&format!("<div><dt>{name}</dt><dd data-index=\"{}\">", name.to_ascii_lowercase()));
-        index(h, value, c.course_reason.as_deref().or(c.capability_reason.as_deref()));
-        if let Some(i) = value {
-            h.raw(" <small>(").number(i.low, 2, false).raw("\u{2009}…\u{2009}");
-            h.number(i.high, 2, false).raw(")</small>");
+        "\n"
+        dl.measures {
+            @for (name, key, value) in indices {
+                div {
+                    dt { (name) }
+                    dd data-index=(key) {
+                        (index(s, value).because(no_index))
+                        @if let Some(i) = value {
+                            " " small { "(" (s.number(i.low, 2)) "\u{2009}…\u{2009}" (s.number(i.high, 2)) ")" }
+                        }
+                    }
+                }
+            }
         }
-        h.raw("</dd></div>");
+        "\n"
+        @if let Some(key) = reason(c) { p.note { (s.word(key)) } "\n" }
+        (signals(s, document, c))
     }
-    h.raw("</dl>\n");
-    if let Some(key) = reason(c) {
-        h.raw("<p class=\"note\">").word(key).raw("</p>\n");
-    }
-    signals(h, document, c);
 }
 
-fn fact(h: &mut Html, key: &str, value: impl FnOnce(&mut Html)) {
-    h.raw("<div><dt>").word(key).raw("</dt><dd>");
-    value(h);
-    h.raw("</dd></div>");
+fn fact(s: Style, key: &str, value: impl Render) -> Markup {
+    html! { div { dt { (s.word(key)) } dd { (value) } } }
+}
+
+/// A standard deviation, however small.
+fn deviation(s: Style, sigma: Option<f64>, axes: &Axes) -> Markup {
+    match sigma {
+        Some(tiny) if tiny > 0.0 && tiny < 1e-5 => s.small(tiny),
+        sigma => s.optional(sigma, decimals(sigma, 0).max(axes.decimals.min(6))).render(),
+    }
 }
 
 /// An index of capability without its interval.
-pub fn index(h: &mut Html, value: Option<IndexRecord>, reason: Option<&str>) {
-    h.optional(value.map(|i| i.value), reason, 2, false);
+pub fn index(s: Style, value: Option<IndexRecord>) -> Optional<'static, Number> {
+    s.optional(value.map(|i| i.value), 2)
 }
 
 /// Key of the words for why some of the numbers are missing.
@@ -84,7 +83,7 @@ fn reason(c: &TrendRecord) -> Option<&'static str> {
 }
 
 /// The parts that are out of control, in their order, with the rules that say so.
-fn signals(h: &mut Html, document: &TrendDocument, c: &TrendRecord) {
+fn signals(s: Style, document: &TrendDocument, c: &TrendRecord) -> Markup {
     let mut parts: Vec<(u64, Vec<RuleRecord>)> = Vec::new();
     for o in &c.out_of_control {
         match parts.last_mut() {
@@ -93,34 +92,30 @@ fn signals(h: &mut Html, document: &TrendDocument, c: &TrendRecord) {
         }
     }
     if parts.is_empty() {
-        return;
+        return Markup::default();
     }
-    h.raw("<table class=\"pick signals\"><caption class=\"warning\">◎ ")
-        .word("verdict.out_of_control")
-        .raw(" ");
-    h.count(parts.len() as u64).raw("</caption><tbody>");
-    for (part, rules) in parts.iter().take(LISTED) {
-        let number = *part as usize;
-        let name = document.parts.get(number).map_or("", |p| file_name(&p.name));
-        h.raw(&format!("<tr data-pick=\"{part}\"><td class=\"r\">"))
-            .count(part + 1)
-            .raw("</td><td>")
-            .name(name);
-        h.raw("</td><td class=\"r\">");
-        h.optional(c.values.get(number).copied().flatten(), None, Axes::of(c).decimals, false)
-            .raw("</td><td>");
-        for (n, rule) in rules.iter().enumerate() {
-            h.raw(if n > 0 { "; " } else { "" }).word(key(*rule));
+    let name = |n: usize| document.parts.get(n).map_or("", |p| file_name(&p.name));
+    let value = |n: usize| s.optional(c.values.get(n).copied().flatten(), Axes::of(c).decimals);
+    html! {
+        table.pick.signals {
+            caption.warning { "◎ " (s.word("verdict.out_of_control")) " " (s.len(&parts)) }
+            tbody {
+                @for (part, rules) in parts.iter().take(LISTED) {
+                    tr data-pick=(part) {
+                        td.r { (s.count(part + 1)) }
+                        td { (Name(name(*part as usize))) }
+                        td.r { (value(*part as usize)) }
+                        td {
+                            @for (n, rule) in rules.iter().enumerate() { @if n > 0 { "; " } (s.word(key(*rule))) }
+                        }
+                    }
+                }
+            }
         }
-        h.raw("</td></tr>");
-    }
-    h.raw("</tbody></table>\n");
-    if parts.len() > LISTED {
-        h.raw("<p class=\"note\">+\u{a0}")
-            .count((parts.len() - LISTED) as u64)
-            .raw(" ")
-            .word("chart.more")
-            .raw("</p>\n");
+        "\n"
+        @if parts.len() > LISTED {
+            p.note { "+\u{a0}" (s.count((parts.len() - LISTED) as u64)) " " (s.word("chart.more")) } "\n"
+        }
     }
 }
 

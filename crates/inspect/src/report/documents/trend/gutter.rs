@@ -1,9 +1,10 @@
 //! What the lines of a chart are: words and values beside it, each with a stroke to its line.
 
-use super::super::super::html::Html;
-use super::super::super::text::word;
+use super::super::super::number::Style;
+use super::super::super::values::leaf;
 use super::axes::{Axes, HEIGHT, needed};
 use crate::results::trend::TrendRecord;
+use maud::{Markup, html};
 
 /// Width, and height of a label, in pixels.
 const WIDTH: f64 = 132.0;
@@ -46,11 +47,8 @@ pub fn lines(c: &TrendRecord, axes: &Axes) -> Vec<Line> {
     all
 }
 
-/// Writes the labels, each as near to its line as the others let it.
-pub fn gutter(h: &mut Html, axes: &Axes, lines: &[Line]) {
-    h.raw(&format!(
-        "<svg class=\"gutter\" width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\">"
-    ));
+/// The labels, each as near to its line as the others let it.
+pub fn gutter(s: Style, axes: &Axes, lines: &[Line]) -> Markup {
     let mut order: Vec<(&Line, f64)> =
         lines.iter().map(|l| (l, axes.y(l.value, HEIGHT).clamp(0.0, HEIGHT))).collect();
     order.sort_by(|a, b| b.0.value.total_cmp(&a.0.value));
@@ -66,27 +64,24 @@ pub fn gutter(h: &mut Html, axes: &Axes, lines: &[Line]) {
         *middle = middle.min(limit - 0.5 * LABEL);
         limit = *middle - 0.5 * LABEL;
     }
-    for ((line, y), middle) in order.iter().zip(middles) {
-        let arrow = match axes.holds(line.value) {
-            true => {
-                h.raw(&format!("<path class=\"{}\" d=\"M0 {y:.2}L{STROKE} {middle:.2}\"/>", line.name));
-                ""
-            }
-            false if line.value > axes.to => "↑ ",
-            false => "↓ ",
-        };
-        let x = STROKE + 3.0;
-        h.raw(&format!("<text class=\"{}\" x=\"{x}\" y=\"{middle:.2}\">{arrow}", line.name));
-        h.raw(&format!("<tspan data-t=\"{}\">", line.key));
-        h.text(word(line.key, h.language())).raw("</tspan> ");
-        number(h, "tspan", "", line.value, line.decimals);
-        h.raw("</text>");
+    html! {
+        svg.gutter width=(WIDTH) height=(HEIGHT) viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } {
+            @for ((line, y), middle) in order.iter().zip(middles) { (label(s, axes, line, *y, middle)) }
+        }
     }
-    h.raw("</svg>");
 }
 
-/// A number in a drawing, which the script can write in another language's way.
-pub fn number(h: &mut Html, element: &str, attributes: &str, value: f64, decimals: usize) {
-    let text = h.style.fixed(value, decimals);
-    h.raw(&format!("<{element}{attributes} data-n=\"{value}\" data-d=\"{decimals}\">{text}</{element}>"));
+/// A label with its stroke, or with an arrow where its line is beyond the chart.
+fn label(s: Style, axes: &Axes, line: &Line, y: f64, middle: f64) -> Markup {
+    let held = axes.holds(line.value);
+    let stroke = format!("M0 {y:.2}L{STROKE} {middle:.2}");
+    html! {
+        @if held { (leaf("path", &[("class", &line.name), ("d", &stroke)])) }
+        text class=(line.name) x=(STROKE + 3.0) y=(format!("{middle:.2}")) {
+            @if !held { (if line.value > axes.to { "↑ " } else { "↓ " }) }
+            tspan data-t=(line.key) { (s.bare_word(line.key)) }
+            " "
+            tspan data-n=(line.value) data-d=(line.decimals) { (s.fixed(line.value, line.decimals)) }
+        }
+    }
 }

@@ -9,12 +9,15 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-use super::super::html::Html;
-use super::super::page::blocks::{Headline, Tone, key_number, section};
+use super::super::number::Style;
+use super::super::page::parts::{Headline, Tone, key_number, section};
+use super::super::values::{Name, Text, leaf};
 use super::{Drawn, Head, Pick, Subject};
 use crate::report::ViewObject;
 use crate::results::Verdict;
 use crate::results::trend::TrendDocument;
+use axes::Axes;
+use maud::{Markup, html};
 use serde_json::Value;
 
 impl Subject for TrendDocument {
@@ -38,65 +41,49 @@ impl Subject for TrendDocument {
         "chart.title"
     }
 
-    fn numbers(&self, h: &mut Html) {
-        let count = |v: Verdict| self.parts.iter().filter(|p| p.verdict == v).count() as u64;
-        let all = self.parts.len() as u64;
-        let mut lead = true;
-        h.raw("<dl class=\"key-numbers\">");
-        for (key, verdict) in [
-            ("verdict.fail", Verdict::Fail),
-            ("verdict.undecided", Verdict::Undecided),
-            ("verdict.not_measured", Verdict::NotMeasured),
-            ("verdict.pass", Verdict::Pass),
-        ] {
-            let n = count(verdict);
-            if n > 0 || verdict == Verdict::Pass {
-                let leads = n > 0 && std::mem::take(&mut lead);
-                let warn = if verdict == Verdict::Pass { "" } else { "warn" };
-                key_number(h, key, if leads { "lead" } else { warn }, |h| {
-                    h.count(n).raw(" <small>/\u{a0}").count(all);
-                    if all > 1 {
-                        h.raw(" ").word("parts.of");
-                    }
-                    h.raw("</small>");
-                });
+    fn numbers(&self, s: Style) -> Markup {
+        let (all, number) = (self.parts.len() as u64, self.characteristics.len() as u64);
+        let astray = self.characteristics.iter().filter(|c| !c.out_of_control.is_empty()).count() as u64;
+        let known = self.characteristics.iter().filter_map(|c| Some((c.ppk?.value, &c.id)));
+        let least = known.min_by(|a, b| a.0.total_cmp(&b.0));
+        html! {
+            dl.key-numbers {
+                @for (key, class, count) in counts(self) {
+                    (key_number(s, key, class, html! {
+                        (s.count(count)) " "
+                        small { "/\u{a0}" (s.count(all)) @if all > 1 { " " (s.word("parts.of")) } }
+                    }))
+                }
+                @if astray > 0 {
+                    (key_number(s, "verdict.out_of_control", "warn", html! {
+                        (s.count(astray)) " " small { "/\u{a0}" (s.count(number)) }
+                    }))
+                }
+                (key_number(s, "characteristics", "", s.count(number)))
+                @if let Some((least, id)) = least {
+                    (key_number(s, "chart.least", "", html! { (s.number(least, 2)) " " small { (Name(id)) } }))
+                }
             }
         }
-        let number = self.characteristics.len() as u64;
-        let astray = self.characteristics.iter().filter(|c| !c.out_of_control.is_empty()).count() as u64;
-        if astray > 0 {
-            key_number(h, "verdict.out_of_control", "warn", |h| {
-                h.count(astray).raw(" <small>/\u{a0}").count(number).raw("</small>");
-            });
-        }
-        key_number(h, "characteristics", "", |h| {
-            h.count(number);
-        });
-        let known = self.characteristics.iter().filter_map(|c| Some((c.ppk?.value, &c.id)));
-        if let Some((least, id)) = known.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            key_number(h, "chart.least", "", |h| {
-                h.number(least, 2, false).raw(" <small>").name(id).raw("</small>");
-            });
-        }
-        h.raw("</dl>");
     }
 
-    fn list(&self, h: &mut Html) {
-        for warning in &self.warnings {
-            h.raw("<p class=\"warning\">⚠ ").text(warning).raw("</p>");
-        }
-        section(h, "parts", |h| parts::parts(h, self));
-        parts::results(h, &self.inputs);
-    }
-
-    fn method(&self, h: &mut Html) {
-        for key in ["method.trend.text", "method.trend.rules", "method.trend.index"] {
-            h.raw("<p>").word(key).raw("</p>");
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
+            (section(s, "parts", parts::parts(s, self)))
+            (section(s, "files", parts::results(s, &self.inputs)))
         }
     }
 
-    fn how(&self, h: &mut Html) {
-        h.raw("ISO 7870-2 · ISO 22514-2 · ").word("level").raw(" ").percent(self.confidence, 0);
+    fn method(&self, s: Style) -> Markup {
+        let keys = ["method.trend.text", "method.trend.rules", "method.trend.index"];
+        html! { @for key in keys { p { (s.word(key)) } } }
+    }
+
+    fn how(&self, s: Style) -> Markup {
+        html! {
+            "ISO 7870-2 · ISO 22514-2 · " (s.word("level")) " " (s.percent(self.confidence, 0))
+        }
     }
 
     /// One for each part: a row leads to its place in all charts.
@@ -122,40 +109,69 @@ impl Drawn for TrendDocument {
         (0, 0)
     }
 
-    fn draw(&self, h: &mut Html, _: &[ViewObject], _: usize) {
+    fn draw(&self, s: Style, _: &[ViewObject], _: usize) -> Markup {
         let rows = self.rows();
-        h.raw("<div id=\"charts\">\n");
-        legend(h, self);
-        if rows.len() > 1 {
-            overview::overview(h, self, &rows);
+        html! {
+            div id="charts" {
+                "\n" (legend(s, self))
+                @if rows.len() > 1 { (overview::overview(s, self, &rows)) }
+                @for n in rows {
+                    @let axes = Axes::of(&self.characteristics[n]);
+                    (chart::chart(s, self, n, &axes, facts::facts(s, self, &self.characteristics[n], &axes)))
+                }
+            }
+            "\n"
         }
-        for n in rows {
-            chart::chart(h, self, n, |h, axes| facts::facts(h, self, &self.characteristics[n], axes));
-        }
-        h.raw("</div>\n");
     }
 }
 
+/// How many parts have each verdict, the worst first, with the class of that number; the worst of all leads.
+fn counts(document: &TrendDocument) -> Vec<(&'static str, &'static str, u64)> {
+    let mut lead = true;
+    let of = |(key, verdict): (&'static str, Verdict)| {
+        let n = document.parts.iter().filter(|p| p.verdict == verdict).count() as u64;
+        let leads = n > 0 && std::mem::take(&mut lead);
+        let class = match (leads, verdict) {
+            (true, _) => "lead",
+            (false, Verdict::Pass) => "",
+            (false, _) => "warn",
+        };
+        (n > 0 || verdict == Verdict::Pass).then_some((key, class, n))
+    };
+    let all = [
+        ("verdict.fail", Verdict::Fail),
+        ("verdict.undecided", Verdict::Undecided),
+        ("verdict.not_measured", Verdict::NotMeasured),
+        ("verdict.pass", Verdict::Pass),
+    ];
+    all.into_iter().filter_map(of).collect()
+}
+
 /// What the dots mean, as far as there are such.
-fn legend(h: &mut Html, document: &TrendDocument) {
-    h.raw("<p class=\"legend\">");
-    for verdict in chart::ORDER.into_iter().rev() {
-        if document.characteristics.iter().any(|c| c.verdicts.contains(&verdict)) {
-            let key = Headline::from(verdict).key;
-            let hole = if verdict == Verdict::Undecided { "<path class=\"hole\" d=\"M7 7h0\"/>" } else { "" };
-            h.raw(&format!(
-                "<span><svg class=\"plot\" width=\"14\" height=\"14\" viewBox=\"0 0 14 14\" aria-hidden=\"true\">\
-                 <path class=\"dots {key}\" d=\"M7 7h0\"/>{hole}</svg> "
-            ));
-            h.word(&format!("verdict.{key}")).raw("</span> ");
+fn legend(s: Style, document: &TrendDocument) -> Markup {
+    let dot = |classes: &[&str]| {
+        html! {
+            svg.plot width="14" height="14" viewBox="0 0 14 14" aria-hidden="true" {
+                @for class in classes { (leaf("path", &[("class", class), ("d", &"M7 7h0")])) }
+            }
         }
+    };
+    let seen = |v: &Verdict| document.characteristics.iter().any(|c| c.verdicts.contains(v));
+    html! {
+        p.legend {
+            @for verdict in chart::ORDER.into_iter().rev().filter(seen) {
+                @let key = Headline::from(verdict).key;
+                @let dots = format!("dots {key}");
+                span {
+                    @if verdict == Verdict::Undecided { (dot(&[&dots, "hole"])) } @else { (dot(&[&dots])) }
+                    " " (s.word(format!("verdict.{key}")))
+                }
+                " "
+            }
+            @if !document.in_control {
+                span { (dot(&["ring", "ring-within"])) " " (s.word("verdict.out_of_control")) } " "
+            }
+        }
+        "\n"
     }
-    if !document.in_control {
-        h.raw(
-            "<span><svg class=\"plot\" width=\"14\" height=\"14\" viewBox=\"0 0 14 14\" aria-hidden=\"true\">\
-             <path class=\"ring\" d=\"M7 7h0\"/><path class=\"ring-within\" d=\"M7 7h0\"/></svg> ",
-        );
-        h.word("verdict.out_of_control").raw("</span> ");
-    }
-    h.raw("</p>\n");
 }

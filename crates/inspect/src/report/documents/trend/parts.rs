@@ -1,9 +1,11 @@
 //! The parts with their verdicts, the worst first, and the results that were read.
 
-use super::super::super::html::Html;
-use super::super::super::page::blocks::{Headline, badge, file_name, not_printed, pick_row, section};
+use super::super::super::number::Style;
+use super::super::super::page::parts::{Headline, badge, file_name, not_printed, row_class};
+use super::super::super::values::{Name, Text};
 use crate::results::Verdict;
-use crate::results::trend::{ResultInput, TrendDocument};
+use crate::results::trend::{ResultInput, TrendDocument, TrendRecord};
+use maud::{Markup, html};
 
 /// Parts that are listed, and characteristics named of one.
 const LISTED: usize = 1000;
@@ -12,87 +14,76 @@ const NAMED: usize = 40;
 const OPEN: usize = 12;
 
 /// Every part with its verdict and those characteristics that it does not pass.
-pub fn parts(h: &mut Html, document: &TrendDocument) {
+pub fn parts(s: Style, document: &TrendDocument) -> Markup {
     let rows = document.worst_parts();
-    h.raw("<table class=\"pick parts\"><thead><tr><th class=\"r\"></th><th>").word("part").raw("</th><th>");
-    h.word("verdict").raw("</th></tr></thead><tbody>");
-    for (row, n) in rows.iter().take(LISTED).enumerate() {
-        let part = &document.parts[*n];
-        pick_row(h, row, *n);
-        h.raw("<td class=\"r\">").count(*n as u64 + 1).raw("</td><td>").name(file_name(&part.name));
-        failing(h, document, *n);
-        h.raw("</td><td>");
-        badge(h, Headline::from(part.verdict));
-        h.raw("</td></tr>");
-    }
-    h.raw("</tbody></table>");
-    not_printed(h, rows.len().min(LISTED));
-    if rows.len() > LISTED {
-        h.raw("<p class=\"note\">+\u{a0}")
-            .count((rows.len() - LISTED) as u64)
-            .raw(" ")
-            .word("chart.more")
-            .raw("</p>");
+    let shown = rows.len().min(LISTED);
+    html! {
+        table.pick.parts {
+            thead { tr { th.r {} th { (s.word("part")) } th { (s.word("verdict")) } } }
+            tbody {
+                @for (row, n) in rows.iter().take(shown).enumerate() {
+                    @let part = &document.parts[*n];
+                    tr data-pick=(n) class=[row_class(row)] {
+                        td.r { (s.count(*n as u64 + 1)) }
+                        td { (Name(file_name(&part.name))) (failing(s, document, *n)) }
+                        td { (badge(s, Headline::from(part.verdict))) }
+                    }
+                }
+            }
+        }
+        (not_printed(s, shown))
+        @if rows.len() > shown {
+            p.note { "+\u{a0}" (s.count((rows.len() - shown) as u64)) " " (s.word("chart.more")) }
+        }
     }
 }
 
 /// What of a part does not pass, or is out of control; each leads to its chart.
-fn failing(h: &mut Html, document: &TrendDocument, part: usize) {
-    let mut named = 0;
-    let mut more = 0u64;
-    h.raw("<span class=\"of-part\">");
-    for verdict in [Verdict::Fail, Verdict::Undecided, Verdict::NotMeasured] {
-        for (n, c) in document.characteristics.iter().enumerate() {
-            if c.verdicts.get(part) != Some(&verdict) {
-                continue;
+fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
+    let all = || document.characteristics.iter().enumerate();
+    let bad: Vec<(Verdict, usize, &TrendRecord)> = [Verdict::Fail, Verdict::Undecided, Verdict::NotMeasured]
+        .into_iter()
+        .flat_map(|verdict| {
+            let have = all().filter(move |(_, c)| c.verdicts.get(part) == Some(&verdict));
+            have.map(move |(n, c)| (verdict, n, c))
+        })
+        .collect();
+    let room = NAMED.saturating_sub(bad.len());
+    let astray = all().filter(|(_, c)| c.out_of_control.iter().any(|o| o.part == part as u64)).take(room);
+    let deviation = document.parts[part].deviation.filter(|v| *v != Verdict::Pass);
+    html! {
+        span.of-part {
+            @for (verdict, n, c) in bad.iter().take(NAMED) {
+                @let Headline { key, tone } = Headline::from(*verdict);
+                a class={ "v-" (tone.name()) } href={ "#course-" (n) } data-verdict=(key) {
+                    (tone.icon()) "\u{a0}" (Name(&c.id))
+                }
+                " "
             }
-            named += 1;
-            if named > NAMED {
-                more += 1;
-                continue;
+            @if let Some(verdict) = deviation {
+                @let Headline { tone, .. } = Headline::from(verdict);
+                span class={ "v-" (tone.name()) } { (tone.icon()) "\u{a0}" (s.word("deviations")) } " "
             }
-            let Headline { key, tone } = verdict.into();
-            h.raw(&format!("<a class=\"v-{}\" href=\"#course-{n}\" data-verdict=\"{key}\">", tone.name()));
-            h.raw(tone.icon()).raw("\u{a0}").name(&c.id).raw("</a> ");
+            @if bad.len() > NAMED { "+\u{a0}" (s.count((bad.len() - NAMED) as u64)) " " }
+            @for (n, c) in astray { a.warning href={ "#course-" (n) } { "◎\u{a0}" (Name(&c.id)) } " " }
         }
     }
-    if let Some(verdict) = document.parts[part].deviation.filter(|v| *v != Verdict::Pass) {
-        let Headline { tone, .. } = verdict.into();
-        h.raw(&format!("<span class=\"v-{}\">{}\u{a0}", tone.name(), tone.icon()))
-            .word("deviations")
-            .raw("</span> ");
-    }
-    if more > 0 {
-        h.raw("+\u{a0}").count(more).raw(" ");
-    }
-    for (n, c) in document.characteristics.iter().enumerate() {
-        if c.out_of_control.iter().any(|o| o.part == part as u64) && named < NAMED {
-            named += 1;
-            h.raw(&format!("<a class=\"warning\" href=\"#course-{n}\">◎\u{a0}")).name(&c.id).raw("</a> ");
-        }
-    }
-    h.raw("</span>");
 }
 
 /// The results read, with what tells that they are these.
-pub fn results(h: &mut Html, inputs: &[ResultInput]) {
-    section(h, "files", |h| {
-        let open = if inputs.len() <= OPEN { " open" } else { "" };
-        h.raw(&format!("<details class=\"kind\"{open}><summary><span class=\"kind-name\">"))
-            .word("chart.results");
-        h.raw("</span><strong>").count(inputs.len() as u64).raw("</strong></summary>");
-        for (n, input) in inputs.iter().enumerate() {
-            h.raw("<div class=\"file\"><p>").count(n as u64 + 1).raw(" ").name(&input.path);
-            h.raw("</p><p class=\"note\">")
-                .text(&input.format)
-                .raw(" · ")
-                .count(input.bytes)
-                .raw("\u{a0}B</p>");
-            if let Some(hash) = &input.sha256 {
-                h.raw("<p class=\"hash\"><abbr>SHA-256</abbr> <code>").text(hash).raw("</code></p>");
+pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
+    html! {
+        details.kind open[inputs.len() <= OPEN] {
+            summary { span.kind-name { (s.word("chart.results")) } strong { (s.len(inputs)) } }
+            @for (n, input) in inputs.iter().enumerate() {
+                div.file {
+                    p { (s.count(n as u64 + 1)) " " (Name(&input.path)) }
+                    p.note { (Text(&input.format)) " · " (s.count(input.bytes)) "\u{a0}B" }
+                    @if let Some(hash) = &input.sha256 {
+                        p.hash { abbr { "SHA-256" } " " code { (Text(hash)) } }
+                    }
+                }
             }
-            h.raw("</div>");
         }
-        h.raw("</details>");
-    });
+    }
 }

@@ -1,19 +1,20 @@
 //! The borders between regions: each piece goes to the neighbouring region that it fits best.
 
-use super::grow::{Grown, Terms};
+use super::grow::Context;
+use super::pieces::{Band, NONE};
 use super::probe::Probe;
-use super::surface::{Band, NONE};
-use rayon::prelude::*;
+use super::region::GrownRegion;
+use crate::parallel::prelude::*;
 
 /// Rings by which a border may move.
 const SWEEPS: usize = 4;
 
 /// Moves borders and lets pieces of no region join a neighbouring one that they nearly belong to: normals at an edge
 /// are those of neither face.
-pub(super) fn settle(terms: &Terms, regions: &[Grown], labels: &mut Vec<u32>) {
-    let surface = terms.surface;
+pub(super) fn move_borders(context: &Context, regions: &[GrownRegion], labels: &mut Vec<u32>) {
+    let surface = context.surface;
     // Twice the angle.
-    let loose = Band { cosine: 2.0 * terms.band.cosine * terms.band.cosine - 1.0, ..terms.band };
+    let loose = Band { cosine: 2.0 * context.band.cosine * context.band.cosine - 1.0, ..context.band };
     let elements: Vec<Probe> = regions.iter().map(|region| Probe::new(&region.shape)).collect();
     for _ in 0..SWEEPS {
         let moved: Vec<u32> = (0..surface.len() as u32)
@@ -22,7 +23,7 @@ pub(super) fn settle(terms: &Terms, regions: &[Grown], labels: &mut Vec<u32>) {
                 let own = labels[piece as usize];
                 let misfit = |label: u32| {
                     let element = &elements[label as usize];
-                    let band = if own == NONE { &loose } else { &terms.band };
+                    let band = if own == NONE { &loose } else { &context.band };
                     surface.belongs(piece, element, band).then(|| surface.misfit(piece, element, band))
                 };
                 let mut best = (own, if own == NONE { None } else { misfit(own) });

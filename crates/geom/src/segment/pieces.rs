@@ -19,7 +19,7 @@ pub(super) enum Pieces<'a> {
 
 /// Pieces of surface and their neighbours.
 #[derive(Debug)]
-pub(super) struct Surface<'a> {
+pub(super) struct PieceGraph<'a> {
     /// The measured points, millimetres.
     pub points: &'a [Point],
     pub pieces: Pieces<'a>,
@@ -43,7 +43,7 @@ pub(super) struct Band {
     pub cosine: f64,
 }
 
-impl Surface<'_> {
+impl PieceGraph<'_> {
     /// Number of pieces.
     pub(super) fn len(&self) -> usize {
         self.places.len()

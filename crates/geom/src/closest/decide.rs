@@ -1,7 +1,7 @@
-//! The last word: the few remaining triangles of each point, in double precision.
+//! Last stage: the few triangles left of each point, in double precision.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{Block, Scratch};
+use crate::closest::block::PointBlock;
 use crate::closest::hit::Hit;
 use crate::closest::thin;
 use crate::closest::tree::Tree;
@@ -9,21 +9,30 @@ use crate::closest::triangle;
 use crate::memory::prefetch;
 use crate::simd::lanes::Real;
 
-/// Settles `s.pairs` in double precision; the least wins, then the lowest face.
+/// A triangle that single precision cannot exclude.
+#[derive(Clone, Copy)]
+pub struct Undecided {
+    /// Number of the point in the block.
+    pub point: u32,
+    /// Slot of the triangle.
+    pub slot: u32,
+}
+
+/// Computes the distances in double precision; the least wins, then the lowest face.
 ///
 /// # Safety
 /// The processor has the instructions of `D`.
 #[inline(always)]
-pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [Hit]) {
+pub unsafe fn decide<D: Real>(tree: &Tree, b: &PointBlock, undecided: &[Undecided], hits: &mut [Hit]) {
     // The corners lie scattered in memory: ask for all of them before the first is needed.
-    for &(_, slot) in &s.pairs {
+    for &Undecided { slot, .. } in undecided {
         for v in tree.slots[slot as usize] {
             prefetch(&tree.corners[v as usize]);
         }
     }
     let mut soa = [[0f64; 8]; 12];
-    for part in s.pairs.chunks(D::N) {
-        for (j, &(i, slot)) in part.iter().enumerate() {
+    for part in undecided.chunks(D::N) {
+        for (j, &Undecided { point: i, slot }) in part.iter().enumerate() {
             let (p, t) = (b.points[i as usize], tree.triangle(slot));
             for k in 0..3 {
                 soa[k][j & 7] = p[k];
@@ -41,11 +50,14 @@ pub unsafe fn settle<D: Real>(tree: &Tree, b: &Block, s: &Scratch, hits: &mut [H
         d.store(&mut distances);
         height.store(&mut heights);
         is_thin.store(&mut slow);
-        for (j, &(i, slot)) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0) {
+        for (j, &Undecided { point: i, slot }) in part.iter().enumerate().filter(|(j, _)| slow[j & 7] != 0.0)
+        {
             let (p, rim) = (&b.points[i as usize], distances[j & 7]);
             (distances[j & 7], heights[j & 7]) = thin::squared(p, &tree.triangle(slot), rim);
         }
-        for ((&distance_squared, &height), &(i, slot)) in distances.iter().zip(&heights).zip(part) {
+        for ((&distance_squared, &height), &Undecided { point: i, slot }) in
+            distances.iter().zip(&heights).zip(part)
+        {
             let h = &mut hits[i as usize];
             if distance_squared <= h.distance_squared {
                 let face = tree.face[slot as usize];

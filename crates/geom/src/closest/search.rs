@@ -1,13 +1,14 @@
-//! The work on one block of sixteen points: walk, gather, test, settle. See the module `query` for the plan.
+//! The stages of the search, one after the other, for blocks of sixteen points. See the module `query` for the plan.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, Block, DENSE, Near, Scratch};
+use crate::closest::block::{BLOCK, PointBlock, SurfacePoint};
+use crate::closest::decide::{Undecided, decide};
 use crate::closest::hit::Hit;
+use crate::closest::prune::{Survivors, prune};
 use crate::closest::tree::Tree;
-use crate::closest::triangle;
-use crate::closest::{dense::dense, front, settle::settle, wave::wave};
+use crate::closest::{few_leaves, lockstep, triangle};
 use crate::memory::prefetch;
 use crate::simd::lanes::{Lanes, Real};
 use crate::space::Point;
@@ -16,10 +17,22 @@ use crate::space::Point;
 /// instruction set and not once more for everybody who asks.
 pub type Sink<'a> = &'a dyn Fn(&[u64], &[Hit]);
 
+/// What one thread keeps from block to block: the memory of each stage, and where to begin.
+#[derive(Default)]
+pub struct Scratch {
+    /// Slot of the triangle closest to the last point answered: the next block begins there. (The answers do not depend on
+    /// it.)
+    last_winner: u32,
+    survivors: Survivors,
+    few_leaves: few_leaves::Buffers,
+    lockstep: lockstep::Buffers,
+    undecided: Vec<Undecided>,
+}
+
 /// Answers the points named by `items` (their low 32 bits), in that order. Beyond `max_distance` an answer may be
 /// missing ([`Hit::NONE`]) or too far.
 #[inline(always)]
-pub unsafe fn all<V: Lanes<8>, W: Lanes<16>, D: Real>(
+pub unsafe fn answer<V: Lanes<8>, W: Lanes<16>, D: Real>(
     tree: &Tree,
     points: &[Point],
     items: &[u64],
@@ -41,50 +54,52 @@ pub unsafe fn all<V: Lanes<8>, W: Lanes<16>, D: Real>(
             *p = points[i as u32 as usize];
         }
         let mut hits = [Hit::NONE; BLOCK];
-        unsafe { block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
+        unsafe { answer_block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
         sink(part, &hits[..part.len()]);
     }
 }
 
 /// Answers up to sixteen points.
 #[inline(always)]
-unsafe fn block<V: Lanes<8>, W: Lanes<16>, D: Real>(
+unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
     tree: &Tree,
     points: &[Point],
     max_distance: f64,
     s: &mut Scratch,
     hits: &mut [Hit; BLOCK],
 ) {
-    let b = Block::new(tree, points);
+    let b = PointBlock::new(tree, points);
     if !b.in_range() {
         for (p, h) in points.iter().zip(hits) {
-            *h = everything(tree, p);
+            *h = try_all(tree, p);
         }
         return;
     }
     // Rounded up; in single precision it may become infinite.
     let limit = (max_distance * tree.scale * 1.000001) as f32;
+    let Scratch { survivors, undecided, .. } = s;
     unsafe {
         // Any point of the surface will do; one near the block leaves little to look at.
-        let x = Near::new(tree, &b, s.warm);
-        front::gather::<V>(tree, &b, &x, limit, s);
-        s.pairs.clear();
-        if s.open.is_empty() && s.leaves.len() <= DENSE {
-            dense::<V, W>(tree, &b, s);
+        let near = SurfacePoint::new(tree, &b, s.last_winner);
+        prune::<V>(tree, &b, &near, limit, survivors);
+        undecided.clear();
+        if survivors.are_few() {
+            few_leaves::test_all::<V, W>(tree, &b, &survivors.leaves, &mut s.few_leaves, undecided);
         } else {
-            front::plant(tree, s);
-            wave::<V>(tree, &b, &x, limit, s);
+            lockstep::search::<V>(tree, &b, &near, limit, survivors, &mut s.lockstep, undecided);
         }
-        settle::<D>(tree, &b, s, hits);
+        decide::<D>(tree, &b, undecided, hits);
     }
-    // Where nothing was near enough, the start of the block before serves on.
-    s.warm = hits.iter().rev().find(|h| h.face != Hit::NONE.face).map_or(s.warm, |h| h.slot);
+    // Where nothing was near enough, the start of this block serves on.
+    if let Some(last) = hits.iter().rev().find(|h| h.face != Hit::NONE.face) {
+        s.last_winner = last.slot;
+    }
 }
 
 /// All triangles in double precision, for points so far away that single precision overflows.
 #[cold]
 #[inline(never)]
-fn everything(tree: &Tree, p: &Point) -> Hit {
+fn try_all(tree: &Tree, p: &Point) -> Hit {
     let mut best = Hit::NONE;
     for (slot, &face) in (0..).zip(&tree.face) {
         let (d, height) = triangle::squared_distance(p, &tree.triangle(slot));

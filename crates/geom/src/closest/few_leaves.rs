@@ -1,27 +1,51 @@
-//! Few leaves: every triangle that survives against all sixteen points of the block at once.
+//! Second stage where few leaves are left: their triangles against all sixteen points of the block at once.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{Block, Candidate, DENSE, ROUNDING, Scratch, norm};
+use crate::closest::block::{BLOCK, PointBlock, ROUNDING, norm};
+use crate::closest::decide::Undecided;
 use crate::closest::kernel;
+use crate::closest::prune::{ChildRef, FEW_LEAVES};
 use crate::closest::tree::Tree;
 use crate::simd::lanes::Lanes;
 
-/// Finds, in `s.leaves`, the triangles near enough to the block, tests each against all points, and lists in `s.pairs`
-/// those worth settling.
+/// A triangle that may be the closest to some point of the block.
+#[derive(Clone, Copy)]
+struct Candidate {
+    leaf: u32,
+    lane: u32,
+    /// The block's centre in the triangle's frame.
+    centre: [f32; 3],
+}
+
+/// Memory of this stage, kept from block to block.
+#[derive(Default)]
+pub struct Buffers {
+    candidates: Vec<Candidate>,
+    /// Squared distances, candidates x points.
+    table: Vec<[f32; BLOCK]>,
+}
+
+/// Tests the triangles of `leaves` (at most [`FEW_LEAVES`]) that are near enough to the block against all its points, and
+/// lists in `undecided` those that may be the closest.
 ///
 /// # Safety
 /// The processor has the instructions of both types.
 #[inline(always)]
-pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, s: &mut Scratch) {
+pub unsafe fn test_all<V: Lanes<8>, W: Lanes<16>>(
+    tree: &Tree,
+    b: &PointBlock,
+    leaves: &[ChildRef],
+    s: &mut Buffers,
+    undecided: &mut Vec<Undecided>,
+) {
     let mut error: f32 = 0.0;
-    for seed in &s.leaves {
-        let l = !seed.child as u32;
-        let leaf = &tree.leaves[l as usize];
+    for found in leaves {
+        let leaf = &tree.leaves[!found.child as usize];
         error = error.max(ROUNDING * (norm(b.relative(tree, leaf.origin)) + b.reach + leaf.radius));
     }
     // SAFETY: the caller's promise.
     unsafe {
-        candidates::<V>(tree, b, 2.0 * b.reach + 4.0 * error, s);
+        select::<V>(tree, b, 2.0 * b.reach + 4.0 * error, leaves, &mut s.candidates);
         let d = [W::load(&b.offset[0]), W::load(&b.offset[1]), W::load(&b.offset[2])];
         let mut least = W::splat(f32::INFINITY);
         s.table.resize(s.table.len().max(s.candidates.len()), [0.0; 16]);
@@ -31,7 +55,7 @@ pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, s: &mut S
             least = least.min(r);
             r.store(row);
         }
-        // A rival of `least` must be settled up to `(sqrt least + 2 error)²`.
+        // Up to `(sqrt least + 2 error)²` a triangle may be nearer than the nearest found.
         let limit = least.sqrt() + W::splat(2.0 * error);
         let limit = limit * limit * W::splat(1.00001);
         let live = (1u32 << b.len) - 1;
@@ -39,23 +63,29 @@ pub unsafe fn dense<V: Lanes<8>, W: Lanes<16>>(tree: &Tree, b: &Block, s: &mut S
             let mut mask = W::load(row).le(limit) & live;
             let slot = tree.leaves[c.leaf as usize].first + c.lane;
             while mask != 0 {
-                s.pairs.push((mask.trailing_zeros(), slot));
+                undecided.push(Undecided { point: mask.trailing_zeros(), slot });
                 mask &= mask - 1;
             }
         }
     }
 }
 
-/// Lists in `s.candidates` the triangles that can be nearest to some point: up to `reach` farther from the block's centre than
-/// the nearest of all.
+/// Lists the triangles that can be nearest to some point: up to `reach` farther from the block's centre than the nearest of
+/// all.
 #[inline(always)]
-unsafe fn candidates<V: Lanes<8>>(tree: &Tree, b: &Block, reach: f32, s: &mut Scratch) {
+unsafe fn select<V: Lanes<8>>(
+    tree: &Tree,
+    b: &PointBlock,
+    reach: f32,
+    leaves: &[ChildRef],
+    candidates: &mut Vec<Candidate>,
+) {
     // SAFETY: the caller's promise.
     unsafe {
-        let mut tested = [([[0f32; 8]; 3], [0f32; 8]); DENSE];
+        let mut tested = [([[0f32; 8]; 3], [0f32; 8]); FEW_LEAVES];
         let mut least = V::splat(f32::INFINITY);
-        for (seed, (centre, distance2)) in s.leaves.iter().zip(&mut tested) {
-            let leaf = &tree.leaves[!seed.child as usize];
+        for (found, (centre, distance2)) in leaves.iter().zip(&mut tested) {
+            let leaf = &tree.leaves[!found.child as usize];
             let c = kernel::into_frames::<V>(leaf, b.relative(tree, leaf.origin));
             let d = kernel::leaf_distance2(leaf, c);
             least = least.min(d);
@@ -66,14 +96,14 @@ unsafe fn candidates<V: Lanes<8>>(tree: &Tree, b: &Block, reach: f32, s: &mut Sc
         }
         let limit = least.least().sqrt() + reach;
         let limit = V::splat(limit * limit * 1.00001);
-        s.candidates.clear();
-        for (seed, ([x, y, z], distance2)) in s.leaves.iter().zip(&tested) {
+        candidates.clear();
+        for (found, ([x, y, z], distance2)) in leaves.iter().zip(&tested) {
             let mut mask = V::load(distance2).le(limit);
             while mask != 0 {
                 let lane = mask.trailing_zeros();
                 let j = lane as usize & 7;
                 mask &= mask - 1;
-                s.candidates.push(Candidate { leaf: !seed.child as u32, lane, centre: [x[j], y[j], z[j]] });
+                candidates.push(Candidate { leaf: !found.child as u32, lane, centre: [x[j], y[j], z[j]] });
             }
         }
     }

@@ -1,0 +1,100 @@
+//! Which of two elements explains a region better.
+//!
+//! An element with more unknowns fits the same points at least as well and mostly reaches farther: a cylinder contains nearly
+//! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
+//! earn them, by one of two kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
+//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]).
+//! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
+//!
+//! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
+
+use super::region::GrownRegion;
+use crate::shape::Kind;
+
+/// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this
+/// is a root mean square of 0.94: what the noise alone leaves.
+pub(super) const CLEARLY: f64 = 0.75;
+/// Quotient of the distances below which another kind fits better at all. From twenty points, the smallest patch, the root
+/// mean square of the same noise is known to 16 %.
+pub(super) const BETTER: f64 = 0.85;
+/// Gain in cover that an element with more unknowns must have, and what each further unknown adds: the border of a region is
+/// uncertain by a ring of pieces, 10 to 20 % of a region of some hundreds, and each unknown lets it bend a little farther.
+const ENTRY: f64 = 1.15;
+const PER_UNKNOWN: f64 = 0.1;
+/// Gain that counts as "covers the same" where the fit decides against the simpler element. Below it the better fit may only
+/// come from having left out what fits badly.
+const SAME_COVER: f64 = 0.95;
+/// The same where the simpler element comes second: it may give up this much for fewer unknowns, if it fits better or …
+const SIMPLER_COVER: f64 = 0.98;
+/// … covers at least this much more.
+const SIMPLER_GAIN: f64 = 1.05;
+
+/// The one of two regions that explains more; `noise` is the standard deviation of the points.
+pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) -> GrownRegion {
+    match held {
+        Some(held) if !replaces(&held, &other, noise) => held,
+        _ => other,
+    }
+}
+
+/// Whether `other` explains more than `held`.
+fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
+    let [own, others] = [held, other].map(|region| region.shape.kind().unknowns());
+    let gain = other.weight / held.weight;
+    if own == others {
+        return gain > 1.0;
+    }
+    if others > own {
+        let asked = ENTRY + PER_UNKNOWN * (others - own) as f64;
+        // A plane that is bowed within the tolerance is still a plane.
+        let is_wrong = held.shape.kind() != Kind::Plane && held.is_doubtful(noise);
+        return gain > asked || (gain > SAME_COVER && is_wrong && other.rms < CLEARLY * held.rms);
+    }
+    gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || other.rms < BETTER * held.rms)
+}
+
+/// So many points that an element of the kind is more than a coincidence: twice its unknowns and two more. Any three points have
+/// a plane, and a fourth on it is hardly chance.
+pub(super) fn fewest_points(kind: Kind) -> usize {
+    if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::one_of_each;
+    use super::*;
+    use crate::shape::Shape;
+
+    /// Which of two tells more, by what they cover and how well they fit; noise is 0.01.
+    #[test]
+    fn the_simpler_element_is_preferred_unless_it_covers_less_or_fits_worse() {
+        let [plane, sphere, cylinder, _, torus] = one_of_each([0.0; 3], [0.0, 0.0, 1.0], 0.3);
+        let region = |shape, weight, rms| GrownRegion { shape, pieces: vec![], weight, rms };
+        let second = |one: (Shape, f64, f64), other: (Shape, f64, f64)| {
+            replaces(&region(one.0, one.1, one.2), &region(other.0, other.1, other.2), 0.01)
+        };
+        // Two more unknowns: 35 % more.
+        assert!(!second((plane, 1.0, 0.01), (cylinder, 1.3, 0.01)));
+        assert!(second((plane, 1.0, 0.01), (cylinder, 1.4, 0.01)));
+        // A bowed plane stays one, a ball that fits worse than noise does not.
+        assert!(!second((plane, 1.0, 0.03), (cylinder, 1.0, 0.01)));
+        assert!(second((sphere, 1.0, 0.03), (torus, 1.0, 0.01)));
+        assert!(
+            !second((sphere, 1.0, 0.012), (torus, 1.0, 0.01))
+                && !second((sphere, 1.0, 0.03), (torus, 0.9, 0.01))
+        );
+        // The other way round.
+        assert!(
+            second((cylinder, 1.0, 0.01), (plane, 1.06, 0.01))
+                && second((torus, 1.0, 0.01), (sphere, 1.0, 0.008))
+        );
+        assert!(
+            !second((cylinder, 1.0, 0.01), (plane, 1.0, 0.01))
+                && !second((cylinder, 1.0, 0.01), (plane, 0.9, 0.001))
+        );
+        // Of one kind the larger one.
+        let leaning = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.6, 0.8] };
+        assert!(second((plane, 1.0, 0.01), (leaning, 1.01, 0.02)));
+        assert!(!second((plane, 1.0, 0.01), (leaning, 0.99, 0.0)));
+    }
+}
