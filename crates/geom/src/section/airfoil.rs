@@ -16,15 +16,13 @@ use super::direction::from_the_end;
 use super::result::{Contour, Geometry, Uncertainty};
 use crate::progress::Progress;
 use circles::Inscribed;
-use course::Course;
+use course::{Course, RESOLUTION};
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 use ends::distance;
 pub use error::AirfoilError;
 use error::FEWEST;
 
-/// Points as near to each other as this share of the spacing are one.
-const RESOLUTION: f64 = 1e-4;
 /// An edge lies on an arc of the contour that turns by more than this, radians.
 const TURN: f64 = 2.4;
 /// By so many standard uncertainties of a mean of its points the radius of an edge may differ from that of its arc.

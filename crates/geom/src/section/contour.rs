@@ -1,5 +1,6 @@
 //! Whole contours: corners first, then the chains between them, then corners as the places where chains cross.
 
+use super::assembly::Joined;
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
@@ -8,7 +9,7 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
-use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
+use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
@@ -474,102 +475,4 @@ fn heading(part: &Part, at: [f64; 2]) -> [f64; 2] {
     let out = [at[0] - center[0], at[1] - center[1]];
     let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE) * part.curvature.signum();
     [-out[1] / length, out[0] / length]
-}
-
-/// A contour while it is put together.
-#[derive(Default)]
-struct Joined {
-    contour: Contour,
-    length: f64,
-}
-
-impl Joined {
-    fn add(&mut self, found: &Found, parts: super::convert::Parts, total: usize) {
-        let contour = &mut self.contour;
-        contour.labels.resize(total, 0);
-        contour.residuals.resize(total, 0.0);
-        contour.stations.resize(total, 0.0);
-        let first = contour.segments.len();
-        let n = found.span.points.len();
-        for g in 0..found.pieces().len() {
-            for i in found.state.breaks[g]..found.state.breaks[g + 1] {
-                let number = found.span.numbers[i % n];
-                contour.labels[number] = (first + g) as u32;
-                contour.residuals[number] = found.residuals[i % n];
-                contour.stations[number] = self.length + parts.before + found.stations[i % n];
-            }
-        }
-        // A free curve of as many unknowns as points is any curve through them: its coefficients, and where it starts and heads.
-        let free = |k: usize, s: &Segment| {
-            s.geometry.kind() == Kind::Spline && found.pieces()[k].coefficients.len() + 2 >= s.count
-        };
-        let strays = |(k, s): &(usize, &Segment)| found.astray || s.strays() || free(*k, s);
-        let astray = parts.segments.iter().enumerate().filter(strays);
-        contour.astray.extend(astray.map(|(k, _)| first + k));
-        self.length += parts.length;
-        contour.segments.extend(parts.segments);
-        contour.joins.extend(parts.joins);
-    }
-
-    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
-    /// do, are astray too.
-    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
-        /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
-        const BEYOND: f64 = 3.0;
-        /// So many distances between points, and standard deviations, beyond an end of a line or arc.
-        const AHEAD: f64 = 8.0;
-        let contour = &mut self.contour;
-        let mut off = vec![[0.0f64; 2]; contour.segments.len()];
-        for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
-            let (off, segment) = (&mut off[*label as usize], &contour.segments[*label as usize]);
-            *off = [off[0].max(segment.off_drawn(*p)), off[1].max(segment.ahead_of_drawn(*p))];
-        }
-        let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
-        let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
-            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
-        };
-        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
-        self.astray(astray);
-    }
-
-    /// These segments are astray too.
-    fn astray(&mut self, segments: Vec<usize>) {
-        let all = &mut self.contour.astray;
-        all.extend(segments);
-        all.sort_unstable();
-        all.dedup();
-    }
-
-    /// Back to the numbers and places of the row given.
-    fn finish(&mut self, clean: &Clean, turned: usize, total: usize, outliers: Vec<usize>) {
-        let contour = &mut self.contour;
-        let n = clean.points.len();
-        let number = |i: usize| clean.numbers[(i + turned) % n];
-        let mut labels = vec![0; total];
-        let mut residuals = vec![0.0; total];
-        let mut stations = vec![0.0; total];
-        let mut known = vec![false; total];
-        for i in 0..n {
-            let k = number(i);
-            (labels[k], residuals[k], stations[k]) =
-                (contour.labels[i], contour.residuals[i], contour.stations[i]);
-            known[k] = true;
-        }
-        // A repeated point is where the one it repeats is: before it, or at the start.
-        for k in 0..total {
-            if !known[k] {
-                let at_start = k == 0 || clean.ends_meet.is_some_and(|from| k >= from);
-                let like = if at_start { clean.numbers[0] } else { k - 1 };
-                (labels[k], residuals[k], stations[k]) = (labels[like], residuals[like], stations[like]);
-            }
-        }
-        (contour.labels, contour.residuals, contour.stations) = (labels, residuals, stations);
-        if clean.closed {
-            contour.begin_with(contour.labels[clean.numbers[0]] as usize);
-        }
-        // Outliers were found before the row was turned.
-        contour.outliers = outliers.into_iter().map(|i| clean.numbers[i]).collect();
-        (contour.repeated, contour.gaps) = (clean.repeated.clone(), clean.gaps.clone());
-        contour.shift(clean.middle);
-    }
 }

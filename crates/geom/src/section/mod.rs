@@ -26,6 +26,7 @@
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
 mod airfoil;
+mod assembly;
 mod chain;
 mod contour;
 mod convert;

@@ -13,8 +13,8 @@ use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::section::{self, Options, Outline, Plane, PlaneFrame, Segment};
 use trueness_geom::space::{Point, dot};
-use trueness_inspect::results::section::{Against, NominalRecord, Section};
 use trueness_inspect::results::InputRecord;
+use trueness_inspect::results::section::{Against, NominalRecord, Section};
 
 /// What the section should be.
 #[derive(Args, Debug)]

@@ -6,11 +6,13 @@
 
 use super::super::chain::Kind;
 use super::super::result::{Continuity, Contour};
-use super::RESOLUTION;
 use super::ends::{Around, TrailingEdge, distance};
 use super::error::AirfoilError;
 use crate::progress::{Cancelled, Progress};
 use crate::spline::curve::{self, Curve, Ends, Fitted};
+
+/// Points as near to each other as this share of the spacing are one.
+pub(super) const RESOLUTION: f64 = 1e-4;
 
 /// Of more points than this the means of neighbors are taken.
 const MOST: usize = 2000;
