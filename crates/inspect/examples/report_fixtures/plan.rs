@@ -6,8 +6,8 @@ use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Data, View};
 use trueness_inspect::plan::Plan;
 use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
-use trueness_inspect::results::Role;
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
+use trueness_inspect::results::inspect::{InspectDocument, PlanRecord, ZoneForm};
+use trueness_inspect::results::{Role, Word};
 
 const PLAN: &str = r#"
 schema = "trueness/plan/1"
@@ -93,7 +93,7 @@ pub fn page(material: bool, options: &ReportOptions) -> Vec<u8> {
     let mut document = InspectDocument::new(&plan, record, &found, inputs);
     if material {
         let c = document.characteristics.last_mut().unwrap();
-        (c.zone, c.upper) = ("diameter".into(), 0.07);
+        (c.zone, c.upper) = (Word(ZoneForm::Diameter), 0.07);
         (c.modifiers, c.datums) = (vec!["Ⓜ".into()], vec!["A(L)".into()]);
     }
     let deviations = found.deviations.as_ref().unwrap();

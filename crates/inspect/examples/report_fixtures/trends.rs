@@ -4,10 +4,10 @@ use std::path::Path;
 use trueness_geom::num::random::Random;
 use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::inspect::{
-    AlignmentRecord, CharacteristicRecord, Counts, InspectDocument, PlanRecord, SCHEMA,
+    AlignmentRecord, CharacteristicRecord, Counts, InspectDocument, PlanRecord, SCHEMA, ZoneForm,
 };
 use trueness_inspect::results::trend::{ResultInput, TrendDocument};
-use trueness_inspect::results::{Role, UNITS, VERSION, Verdict};
+use trueness_inspect::results::{Role, UNITS, VERSION, Verdict, Word};
 
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
@@ -163,7 +163,7 @@ fn characteristic(f: &Found) -> CharacteristicRecord {
         feature: "top".into(),
         datums: if f.kind == "flatness" { vec![] } else { vec!["A".into()] },
         modifiers: if own { vec!["Ⓜ".into()] } else { vec![] },
-        zone: if lower.is_some() { "value" } else { "width" }.into(),
+        zone: Word(if lower.is_some() { ZoneForm::Value } else { ZoneForm::Width }),
         nominal: lower.map(|l| 0.5 * (l + upper)),
         tolerance: if own { Some(0.2) } else { lower.is_none().then_some(upper) },
         lower,
