@@ -194,8 +194,11 @@ fn rows_lead_to_the_places_of_the_document() {
     assert_eq!(total, document.defects.values().map(|d| d.items.len() as u64).sum::<u64>());
     // The longest free edge comes first among its kind, wherever it stands in the document.
     let found = document.found();
-    let before: Vec<usize> =
-        found.iter().take_while(|(kind, _)| kind.name != "boundary_edges").map(|(_, d)| d.items.len()).collect();
+    let before: Vec<usize> = found
+        .iter()
+        .take_while(|(kind, _)| kind.name != "boundary_edges")
+        .map(|(_, d)| d.items.len())
+        .collect();
     let rows: usize = before.iter().map(|n| n.min(&100)).sum();
     let edges = &document.defects["boundary_edges"].items;
     let longest =

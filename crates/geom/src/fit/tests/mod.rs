@@ -3,6 +3,7 @@
 mod certificate;
 mod dual;
 mod laws;
+mod program;
 mod recovery;
 mod references;
 mod robust;
