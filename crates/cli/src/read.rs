@@ -7,6 +7,7 @@ use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
 use trueness_files::cad::SplineModel;
+use trueness_files::drawing::Drawing;
 use trueness_files::{
     ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, TableReading, Warning,
     open_normals,
@@ -44,11 +45,8 @@ pub enum Body {
 pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Opened> {
     match any(path, role, options)? {
         Any::Whole(opened) => Ok(opened),
-        Any::Splines(..) => bail!(
-            "{}: it holds B-spline surfaces or curves, but this command needs a mesh or points; surfaces are references of \
-             `trueness compare`",
-            path.display()
-        ),
+        Any::Splines(..) => Err(splines(path)),
+        Any::Drawing(..) => Err(no_drawing(path)),
     }
 }
 
@@ -56,6 +54,33 @@ pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Op
 enum Any {
     Whole(Opened),
     Splines(SplineModel, InputRecord),
+    Drawing(Drawing, InputRecord),
+}
+
+/// Why a drawing is refused.
+fn no_drawing(path: &Path) -> anyhow::Error {
+    anyhow::anyhow!(
+        "{}: it is a drawing, but this command needs a mesh or points; drawings are nominals of `trueness section`",
+        path.display()
+    )
+}
+
+/// Opens the nominal of a section: a drawing, or a mesh or points.
+pub fn nominal(path: &Path, options: &ReadOptions) -> anyhow::Result<Result<(Drawing, InputRecord), Opened>> {
+    match any(path, Role::Reference, options)? {
+        Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
+        Any::Whole(opened) => Ok(Err(opened)),
+        Any::Splines(..) => Err(splines(path)),
+    }
+}
+
+/// Why a file of splines is refused.
+fn splines(path: &Path) -> anyhow::Error {
+    anyhow::anyhow!(
+        "{}: it holds B-spline surfaces or curves, but this command needs a mesh or points; surfaces are references of \
+         `trueness compare`",
+        path.display()
+    )
 }
 
 fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
@@ -63,6 +88,7 @@ fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
     let mut record = record(role, &provenance, &warnings);
     let body = match body {
         trueness_files::Body::Splines(model) => return Ok(Any::Splines(model, record)),
+        trueness_files::Body::Drawing(drawing) => return Ok(Any::Drawing(drawing, record)),
         trueness_files::Body::Points(points) => Body::Points(points),
         trueness_files::Body::Mesh(mesh) => {
             let out =
@@ -104,6 +130,7 @@ pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(Referenc
             path.display(),
             model.curves.len()
         ),
+        Any::Drawing(..) => Err(no_drawing(path)),
         Any::Splines(model, mut record) => {
             let points: Vec<Point> =
                 model.surfaces.iter().flat_map(|s| s.control_points().into_iter().map(|p| p.0)).collect();

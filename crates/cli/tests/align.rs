@@ -155,3 +155,50 @@ fn wrong_questions_are_answered_with_the_place_and_the_remedy() {
         assert!(stderr(&answer).contains(text), "{words:?}: {}", stderr(&answer));
     }
 }
+
+/// A single bump of 0.3 at the middle of a side: half of it is left on either side, told everywhere; as an outlier it does not count.
+#[test]
+fn the_least_greatest_distance() {
+    let folder = Folder::new();
+    let corner = |k: usize| [[-10.0, 10.0], [-6.0, 6.0], [-4.0, 4.0]].map(|r: [f64; 2]| r[k]);
+    let places: Vec<String> = (0..8)
+        .map(|i| format!("{} {} {}", corner(i & 1)[0], corner(i >> 1 & 1)[1], corner(i >> 2)[2]))
+        .collect();
+    let block = format!(
+        "OFF\n8 12 0\n{}\n3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n",
+        places.join("\n")
+    );
+    let block = folder.write("block.off", block);
+    let mut points = String::from("10.3 0 0\n");
+    for i in -9..=9 {
+        for j in -5..=5 {
+            for s in [-1, 1] {
+                points += &format!(
+                    "{i} {j} {}\n{i} {} {}\n{} {j} {}\n",
+                    4 * s,
+                    6 * s,
+                    f64::from(j) * 0.6,
+                    10 * s,
+                    f64::from(i) * 0.3
+                );
+            }
+        }
+    }
+    let scan = folder.write("scan.xyz", points);
+    let json = folder.file("r.json");
+    let [scan, block, json] = [&scan, &block, &json].map(|p| p.to_str().unwrap());
+    let words = ["align", scan, block, "--from-here", "--method", "chebyshev", "--json", json];
+    let run = |more: &[&str]| {
+        let o = trueness(words.iter().chain(more));
+        let text = std::fs::read_to_string(json).unwrap();
+        (stdout(&o) + &stderr(&o), serde_json::from_str::<serde_json::Value>(&text).unwrap())
+    };
+    let (table, found) = run(&["--keep-outliers"]);
+    assert_eq!(found["method"], "chebyshev");
+    let greatest = found["chebyshev"]["greatest"].as_f64().unwrap();
+    assert!((greatest - 0.15).abs() < 1e-9, "{greatest}");
+    assert!((found["transform"][0][3].as_f64().unwrap() + 0.15).abs() < 1e-6, "{}", found["transform"]);
+    assert!(table.contains("by chebyshev") && table.contains("greatest distance 0.15"), "{table}");
+    let (_, found) = run(&[]);
+    assert!(found["chebyshev"]["greatest"].as_f64().unwrap() < 1e-9 && found["chebyshev"]["left_out"] == 1);
+}

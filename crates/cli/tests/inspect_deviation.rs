@@ -137,3 +137,63 @@ fn rules_of_a_plan_are_those_of_a_comparison() {
     let (_, turned) = plan(turn);
     assert_eq!(turned["excluded"]["facing"], 10);
 }
+
+/// The least greatest distance as the alignment of a plan: less than that of the best fit, and the greatest deviation is it.
+#[test]
+fn a_plan_aligns_by_the_least_greatest_distance() {
+    let folder = Folder::new();
+    // A wedge of three rectangles and two triangles, cut askew, so that one pose fits it.
+    let corners = [[0.0, 0.0, 0.0], [60.0, 0.0, 0.0], [0.0, 35.0, 0.0], [60.0, 25.0, 0.0]];
+    let top = [[0.0, 0.0, 12.0], [52.0, 0.0, 20.0], [0.0, 35.0, 12.0], [60.0, 25.0, 15.0]];
+    let all: Vec<[f64; 3]> = corners.into_iter().chain(top).collect();
+    let faces = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    let lines = all.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+    let facets = faces.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
+    folder.write("nominal.obj", lines.chain(facets).collect::<String>());
+    // Places of all facets, off by up to 0.03 in a pattern, some of them by 0.08.
+    let mut points = String::new();
+    for (n, face) in faces.iter().enumerate() {
+        let [a, b, c] = face.map(|v| all[v]);
+        for (i, j) in (1..9).flat_map(|i| (1..9 - i).map(move |j| (f64::from(i) / 9.0, f64::from(j) / 9.0))) {
+            let off =
+                0.03 * (7.0 * i + 11.0 * j + n as f64).sin() + if n == 2 && i > 0.5 { 0.08 } else { 0.0 };
+            let p: [f64; 3] = std::array::from_fn(|k| a[k] + i * (b[k] - a[k]) + j * (c[k] - a[k]));
+            points += &format!("{} {} {}\n", p[0] + 0.2 * off, p[1] - 0.3 * off, p[2] + off);
+        }
+    }
+    folder.write("scan.xyz", points);
+    let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"nominal.obj\"\n";
+    let greatest = |method: &str| {
+        let text = format!("{head}[align]\nmethod = \"{method}\"\n[deviation]\ntolerance = [-1, 1]\n");
+        let (plan, json) = (folder.write("plan.toml", text), folder.file("r.json"));
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", json.to_str().unwrap()]);
+        let answer: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+        let all = &answer["deviation"]["deviation"]["all"];
+        let far = all["max"].as_f64().unwrap().max(-all["min"].as_f64().unwrap());
+        (far, answer["alignment"]["greatest"].as_f64(), stdout(&o))
+    };
+    let (by_squares, none, _) = greatest("best-fit");
+    let (least, told, table) = greatest("chebyshev");
+    assert_eq!(none, None);
+    assert!(least < 0.95 * by_squares, "{least} {by_squares}");
+    assert!((least - told.unwrap()).abs() < 1e-9, "{least} {told:?}");
+    assert!(table.contains("aligned by chebyshev") && table.contains("greatest distance"), "{table}");
+    let bare = "schema = \"trueness/plan/1\"\n[align]\nmethod = \"chebyshev\"\n";
+    let plan = folder.write("bare.toml", bare);
+    let o = trueness(["inspect", plan.to_str().unwrap()]);
+    assert!(status(&o) == 3, "{}", stderr(&o));
+}

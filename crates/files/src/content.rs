@@ -1,6 +1,7 @@
 //! What a file held.
 
 use crate::cad::SplineModel;
+use crate::drawing::Drawing;
 use crate::{ReadError, Unit, Warning};
 use trueness_geom::{cloud::PointStream, mesh::Mesh};
 
@@ -8,7 +9,7 @@ use trueness_geom::{cloud::PointStream, mesh::Mesh};
 pub struct Input {
     /// Where it came from and how it was taken.
     pub provenance: Provenance,
-    /// The mesh, the points as a stream, or the splines.
+    /// The mesh, the points as a stream, the splines, or the drawing.
     pub body: Body,
     /// What was odd, in the order it was found.
     pub warnings: Vec<Warning>,
@@ -88,7 +89,7 @@ pub struct ColumnTaken {
 /// The points of a file, block by block, in the file's order, millimetres.
 pub type PointSource = Box<dyn PointStream<Error = ReadError> + Send>;
 
-/// A mesh, points, or splines.
+/// A mesh, points, splines, or a drawing.
 pub enum Body {
     /// Vertices and faces.
     Mesh(SourceMesh),
@@ -96,6 +97,8 @@ pub enum Body {
     Points(PointSource),
     /// B-spline surfaces and curves of a CAD file.
     Splines(SplineModel),
+    /// Lines, arcs and splines in a plane.
+    Drawing(Drawing),
 }
 
 /// A mesh as the file holds it.

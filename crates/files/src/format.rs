@@ -4,6 +4,7 @@ use crate::{
     Columns, Unit, Warning,
     cad::SplineModel,
     content::{SourceMesh, TableReading},
+    drawing::Drawing,
     error::{Located, Result},
     source::Source,
     write::sink::{MeshWriter, PointsWriter},
@@ -137,10 +138,11 @@ pub(crate) struct Parsed {
     pub warnings: Vec<Warning>,
 }
 
-/// A mesh, a stream of points whose errors do not yet name the file, or splines, which are in millimetres already.
+/// A mesh, a stream of points whose errors do not yet name the file, splines or a drawing, which are in millimetres already.
 pub(crate) enum Parts {
     Mesh(SourceMesh),
     Splines(SplineModel),
+    Drawing(Drawing),
     Points(Box<dyn PointStream<Error = Located> + Send>),
 }
 
@@ -165,6 +167,15 @@ impl Parsed {
             warnings.push(Warning::NoSplines);
         }
         Parsed { unit, ..Parsed::of(variant, Parts::Splines(model), warnings) }
+    }
+    /// A drawing whose unit the file says, if it does.
+    pub fn drawing(
+        variant: &'static str,
+        drawing: Drawing,
+        unit: Option<Unit>,
+        warnings: Vec<Warning>,
+    ) -> Parsed {
+        Parsed { unit, ..Parsed::of(variant, Parts::Drawing(drawing), warnings) }
     }
     pub fn points(
         variant: &'static str,

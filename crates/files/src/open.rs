@@ -76,7 +76,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     }
     let (bytes, gzip) = (source.bytes, source.gzip);
     let mut parsed = reader(source, options)?;
-    let is_cad = matches!(parsed.content, Parts::Splines(_));
+    let is_cad = matches!(parsed.content, Parts::Splines(_) | Parts::Drawing(_));
     let (unit, unit_from) = match (options.units, parsed.unit) {
         (asked, Some(said)) if is_cad => {
             if let Some(asked) = asked.filter(|asked| *asked != said) {
@@ -105,6 +105,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
             Body::Mesh(mesh)
         }
         Parts::Splines(model) => Body::Splines(model),
+        Parts::Drawing(drawing) => Body::Drawing(drawing),
         Parts::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
     };
     let provenance = Provenance {
@@ -140,12 +141,12 @@ impl PointStream for Named {
 }
 
 impl Body {
-    /// The points: those of a cloud, or the vertices of a mesh in their order; none of splines.
+    /// The points: those of a cloud, or the vertices of a mesh in their order; none of splines and drawings.
     pub fn into_points(self) -> crate::PointSource {
         match self {
             Body::Points(points) => points,
             Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Whole::new(mesh.positions)),
-            Body::Splines(_) => Box::new(Whole::new(vec![])),
+            Body::Splines(_) | Body::Drawing(_) => Box::new(Whole::new(vec![])),
         }
     }
 }

@@ -97,6 +97,13 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Entities of a drawing that have no course in its plane were passed over.
+    PassedOver {
+        /// How many of which kinds.
+        what: String,
+    },
+    /// There is neither line nor arc nor spline in a drawing.
+    NothingDrawn,
     /// Lines of a header that say nothing known were passed over.
     HeaderLines {
         /// How many.
@@ -171,6 +178,10 @@ impl fmt::Display for Warning {
             Warning::FacesLeftOut { count } => {
                 write!(f, "{count} face(s) on surfaces that are no B-splines left out")
             }
+            Warning::PassedOver { what } => {
+                write!(f, "the drawing holds what is not read, and was passed over: {what}")
+            }
+            Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
                 write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")

@@ -34,6 +34,7 @@ the direction in which the point is held. A last column, if there, is the weight
 Examples:
   trueness align scan.stl nominal.stl -o aligned.stl
   trueness align scan.ply nominal.stl --json transform.json
+  trueness align scan.stl nominal.stl --method chebyshev -o aligned.stl
   trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl")]
 pub struct AlignArgs {
     /// The scan: a mesh or points; `-` reads stdin
@@ -67,6 +68,8 @@ pub struct AlignArgs {
 enum MethodArg {
     /// The least mean square distance to the surface.
     BestFit,
+    /// The least greatest distance to the surface, near the best fit.
+    Chebyshev,
     /// Pairs of points that belong together.
     Pairs,
     /// Six rows that hold all six degrees of freedom, exactly.
@@ -136,7 +139,7 @@ impl Scan {
 }
 
 fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
-    if args.method == MethodArg::BestFit && args.points.is_some() {
+    if matches!(args.method, MethodArg::BestFit | MethodArg::Chebyshev) && args.points.is_some() {
         return Err(
             Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
         );
@@ -154,7 +157,7 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
         (Some(path), method) => {
             let found = by_rows(path, method)?;
             let name = match method {
-                MethodArg::BestFit | MethodArg::Pairs => "pairs",
+                MethodArg::BestFit | MethodArg::Chebyshev | MethodArg::Pairs => "pairs",
                 MethodArg::ThreeTwoOne => "3-2-1",
                 MethodArg::Rps => "rps",
             };
@@ -191,13 +194,17 @@ fn best_fit(
         robust: !args.keep_outliers,
         seed: common.seed,
     };
-    let found = align::best_fit(&measured, &Target::new(reference, &tree), &options, &stage);
-    drop(stage);
-    let found = found.map_err(|e| match e {
+    let target = Target::new(reference, &tree);
+    let failed = |e: AlignError| match e {
         AlignError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", args.measured.display()),
-    })?;
-    Ok(AlignDocument::of_best_fit(&found, records, common.seed))
+    };
+    let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
+    if args.method != MethodArg::Chebyshev {
+        return Ok(AlignDocument::of_best_fit(&fit, records, common.seed));
+    }
+    let found = align::minimax(&measured, &target, &fit, &options, &stage).map_err(failed)?;
+    Ok(AlignDocument::of_minimax(&found, &fit, records, common.seed))
 }
 
 /// The rows of a table: numbers parted by blanks, commas, semicolons or tabs; `#` begins a comment.
@@ -274,6 +281,14 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         settled,
         counted(document.iterations, ["step", "steps"])
     );
+    if let Some(found) = &document.chebyshev {
+        let [x, y, z] = found.at.map(six_digits);
+        let _ = writeln!(
+            out,
+            "greatest distance {} at {x}, {y}, {z}: the least near the best fit, of which:",
+            six_digits(found.greatest)
+        );
+    }
     if let Some(fit) = &document.best_fit {
         let _ = writeln!(
             out,

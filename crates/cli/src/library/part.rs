@@ -60,7 +60,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
             }
             Mesh { positions, faces: vec![] }
         }
-        Body::Splines(_) => return Err(Error::Splines { path: input.provenance.path }),
+        Body::Splines(_) | Body::Drawing(_) => return Err(Error::Splines { path: input.provenance.path }),
     };
     Ok(Part { mesh, provenance: input.provenance, warnings: input.warnings })
 }

@@ -1,6 +1,7 @@
 //! What drawings are made of.
 
 use trueness_geom::section::PlaneFrame;
+use trueness_geom::spline::rational::Rational;
 
 /// An entity of a drawing. Lengths in millimetres, angles in radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +33,70 @@ pub enum Entity {
         /// Its control points.
         points: Vec<[f64; 2]>,
     },
+}
+
+/// An entity as a drawing was read. Lengths in millimetres, angles in radians.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drawn {
+    /// A straight line.
+    Line {
+        /// Where it starts.
+        start: [f64; 2],
+        /// Where it ends.
+        end: [f64; 2],
+    },
+    /// Part of a circle; a whole one where the sweep is a whole turn.
+    Arc {
+        /// Center of the circle.
+        center: [f64; 2],
+        /// Its radius.
+        radius: f64,
+        /// Angle of the start, seen from the center.
+        start: f64,
+        /// Angle run through, positive counter-clockwise.
+        sweep: f64,
+    },
+    /// A B-spline, polynomial (all weights are the same) or rational, in the plane z = 0.
+    Spline(Rational<3>),
+}
+
+/// An entity with the layer that it is on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnEntity {
+    /// Name of the layer.
+    pub layer: String,
+    /// Its course.
+    pub drawn: Drawn,
+}
+
+/// What was read of a drawing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// The entities in the order of the file; those of zero length are left out.
+    pub entities: Vec<DrawnEntity>,
+}
+
+impl Drawing {
+    /// Diagonal of the box around all ends, circles and control points; 0 of nothing.
+    pub fn size(&self) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut add = |p: [f64; 2]| {
+            (0..2).for_each(|k| (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k])));
+        };
+        for entity in &self.entities {
+            match &entity.drawn {
+                Drawn::Line { start, end } => [*start, *end].into_iter().for_each(&mut add),
+                Drawn::Arc { center, radius, .. } => {
+                    [-radius, *radius].into_iter().for_each(|r| add(center.map(|x| x + r)));
+                }
+                Drawn::Spline(curve) => {
+                    let places = curve.masses().points().iter().filter_map(|m| m.place());
+                    places.for_each(|p| add([p[0], p[1]]));
+                }
+            }
+        }
+        if low[0] <= high[0] { libm::hypot(high[0] - low[0], high[1] - low[1]) } else { 0.0 }
+    }
 }
 
 /// The entities of one layer.

@@ -28,6 +28,7 @@ pub static FORMATS: &[&Format] = &[
     &obj::OBJ,
     &step::STEP,
     &iges::IGES,
+    &dxf::DXF,
     &table::TABLE,
     &npz::NPZ,
     &vtp::VTP,
@@ -71,7 +72,7 @@ mod tests {
             Body::Mesh(source) => {
                 source.mesh.faces.iter().flatten().map(|v| source.mesh.positions[*v as usize]).collect()
             }
-            Body::Splines(_) => vec![],
+            Body::Splines(_) | Body::Drawing(_) => vec![],
             Body::Points(mut points) => {
                 let (mut all, mut block) = (vec![], vec![]);
                 while points.next_block(&mut block).is_ok() && !block.is_empty() {

@@ -59,6 +59,7 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Whole, ReadError>
         Body::Mesh(m) => ("mesh", m.mesh.faces.len()),
         Body::Points(_) => ("points", 0),
         Body::Splines(_) => ("splines", 0),
+        Body::Drawing(_) => ("drawing", 0),
     };
     let mut stream = input.body.into_points();
     let (mut points, mut block) = (vec![], vec![]);

@@ -45,6 +45,15 @@ pub enum AlignError {
         /// How many.
         free: usize,
     },
+    /// The shape leaves motions free.
+    #[error("the shape leaves {free} of the six motions free: no pose has the least greatest distance alone")]
+    Free {
+        /// How many.
+        free: usize,
+    },
+    /// The search did not settle.
+    #[error("the search for the least greatest distance did not settle")]
+    NotSettled,
     /// No point of the measured has a place on the reference from the given start.
     #[error("no point lies near the reference from this start")]
     NoOverlap,

@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
+//! | the pose with the least greatest distance | [`minimax`] |
 //! | pairs of places that belong together | [`pairs`] |
 //! | 3-2-1 and reference point systems (RPS) | [`constrained`] |
 //!
@@ -24,6 +25,7 @@ mod features;
 mod field;
 mod freedom;
 mod icp;
+mod minimax;
 mod rows;
 mod sample;
 mod start;
@@ -36,6 +38,7 @@ pub use alignment::{AlignWarning, Alignment, Alternative, BestFit, Start};
 pub use best_fit::best_fit;
 pub use error::AlignError;
 pub use freedom::Freedom;
+pub use minimax::{Minimax, minimax};
 pub use rows::{Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use target::Target;

@@ -1,39 +1,34 @@
 //! Measures of an airfoil or blade section: chord, camber line, thickness, radii of its edges.
 //!
-//! The points run around the profile from its trailing edge over the leading edge and back. A cubic B-spline is fitted to them,
-//! of as many control points as the likelihood with Schwarz's penalty pays for; edges of the trailing end (corners, or the ends
-//! of an open row) are its ends. The camber line is that of blade inspection: the centers of the circles inscribed into the
+//! The points run around the profile from its trailing edge over the leading edge and back. The course through them is that of the
+//! contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is that of blade inspection: the centers of the circles inscribed into the
 //! profile, each the greatest that touches the curve at a place without crossing it (Ma, Bae and Choi, 3D medial axis point
 //! approximation using nearest neighbors and the normal field, 2012: there a ball is shrunk point by point, here its radius is the
 //! least over all places at once).
 
 mod circles;
+mod course;
 mod edge;
 mod ends;
 mod error;
 
-use super::result::Contour;
-use crate::progress::{Cancelled, Progress};
-use crate::spline::curve::{self, Curve, Ends, Fitted};
+use super::direction::from_the_end;
+use super::result::{Contour, Geometry, Uncertainty};
+use crate::progress::Progress;
 use circles::Inscribed;
+use course::Course;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
-use ends::{Around, distance};
+use ends::distance;
 pub use error::AirfoilError;
 use error::FEWEST;
 
-/// Of more points than this the means of neighbors are taken.
-const MOST: usize = 2000;
-/// Distances below this share of the spacing are not told from 0.
+/// Points as near to each other as this share of the spacing are one.
 const RESOLUTION: f64 = 1e-4;
-/// Places for each control point by which a curve's length is told.
-const PLACES: usize = 8;
-/// Control points to begin with, and by what they grow.
-const BEGIN: (usize, f64) = (8, 1.3);
-/// A curve longer than the way through the points by this factor runs wild between them.
-const LONGER: f64 = 1.03;
-/// Tries without gain after which no more control points are tried.
-const IDLE: usize = 4;
+/// An edge lies on an arc of the contour that turns by more than this, radians.
+const TURN: f64 = 2.4;
+/// By so many standard uncertainties of a mean of its points the radius of an edge may differ from that of its arc.
+const HIDDEN: f64 = 8.0 * std::f64::consts::SQRT_2;
 
 /// What is measured of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,33 +86,76 @@ pub fn airfoil(
     contour: &Contour,
     progress: &dyn Progress,
 ) -> Result<Airfoil, AirfoilError> {
+    if !from_the_end(points) {
+        return in_order(points, contour, progress);
+    }
+    let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
+    in_order(&turned, &contour.clone().turned_round(&turned), progress)
+}
+
+/// The radius of the arc that a place lies on, if it does.
+fn on_arc(contour: &Contour, place: [f64; 2]) -> Option<EdgeRadius> {
+    let off = |k: &usize| contour.segments[*k].nearest(place).distance.abs();
+    let nearest = (0..contour.segments.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let segment = &contour.segments[nearest];
+    match (&segment.geometry, segment.uncertainty) {
+        (Geometry::Arc { radius, sweep, .. }, Some(Uncertainty::Arc { radius: uncertainty, .. }))
+            if sweep.abs() > TURN =>
+        {
+            // Waves of the edge that scatter hides bend it more than the arc: eight times as much as they are high over its radius, with
+            // three to a round.
+            let hidden = HIDDEN * contour.noise / (segment.count.max(1) as f64).sqrt();
+            let uncertainty = libm::hypot(uncertainty, hidden);
+            Some(EdgeRadius { radius: *radius, uncertainty, count: segment.count })
+        }
+        _ => None,
+    }
+}
+
+fn in_order(
+    points: &[[f64; 2]],
+    contour: &Contour,
+    progress: &dyn Progress,
+) -> Result<Airfoil, AirfoilError> {
     let mut left_out = contour.outliers.iter().chain(&contour.repeated).copied().collect::<Vec<_>>();
     left_out.sort_unstable();
-    let kept = |(i, p): (usize, &[f64; 2])| left_out.binary_search(&i).is_err().then_some(*p);
-    let mut row: Vec<[f64; 2]> = points.iter().enumerate().filter_map(kept).collect();
+    let mut numbers: Vec<usize> = (0..points.len()).filter(|i| left_out.binary_search(i).is_err()).collect();
     // Points as near as this are one: a trailing edge of both is sharp.
     let nothing = RESOLUTION * contour.spacing;
-    row.dedup_by(|a, b| distance(*a, *b) < nothing);
-    while contour.closed && row.len() > FEWEST && distance(row[0], row[row.len() - 1]) < nothing {
-        row.pop();
+    let near = |i: usize, j: usize| distance(points[i], points[j]) < nothing;
+    numbers.dedup_by(|i, j| near(*i, *j));
+    while contour.closed && numbers.len() > FEWEST && near(numbers[0], numbers[numbers.len() - 1]) {
+        numbers.pop();
     }
+    let row: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
     if row.len() < FEWEST {
         return Err(AirfoilError::TooFewPoints { found: row.len() });
     }
-    let around = Around::new(&row, contour.closed)?;
-    let fitted = Smooth::new(&thinned(&around.row), progress)?;
+    let (around, course, other) = Course::new(&row, &numbers, contour, progress)?;
     let round = around.trailing == TrailingEdge::Round;
-    let inscribed = Inscribed::new(&fitted.curve, round.then(|| around.row[around.over]), progress)?;
+    let inscribed = Inscribed::new(&course, progress)?;
     let (leading, trailing) = inscribed.chord(round);
     let chord = distance(leading, trailing);
     let (center, radius) = inscribed.greatest().ok_or(AirfoilError::Inside)?;
+    // What another course through the points tells differs by what a free curve takes from scatter, or does not follow.
+    let other = match other.map(|other| Inscribed::new(&other, progress)) {
+        Some(Err(AirfoilError::Cancelled(e))) => return Err(e.into()),
+        other => other.and_then(|o| o.ok()?.greatest()),
+    };
+    let differs = other.map_or(0.0, |(_, other)| 2.0 * (radius - other).abs());
+    // Of many circles of one size scatter makes one the greatest, which is too large by about as much as it is uncertain.
+    let across = course.uncertainty * std::f64::consts::SQRT_2;
+    let chosen = if inscribed.is_flat(across) { across } else { 0.0 };
     let along = [(trailing[0] - leading[0]) / chord, (trailing[1] - leading[1]) / chord];
     let share = |p: [f64; 2]| ((p[0] - leading[0]) * along[0] + (p[1] - leading[1]) * along[1]) / chord;
     let off = |p: [f64; 2]| along[0] * (p[1] - leading[1]) - along[1] * (p[0] - leading[0]);
     let top = inscribed.extreme(&off).ok_or(AirfoilError::Inside)?;
     // Each point once.
     let once = &around.row[..around.row.len() - 2 * around.over - usize::from(round)];
-    let near = |place, from| edge::radius(once, place, from);
+    let near = |place, from| match course.of_contour.then(|| on_arc(contour, place)).flatten() {
+        Some(arc) => Ok(arc),
+        None => edge::radius(once, place, from, course.noise),
+    };
     let trailing_radius = match around.trailing {
         TrailingEdge::Round => near(trailing, leading),
         other => Err(AirfoilError::Cornered(other.name())),
@@ -127,7 +165,7 @@ pub fn airfoil(
         trailing,
         chord,
         thickness: 2.0 * radius,
-        thickness_uncertainty: fitted.place_uncertainty * std::f64::consts::SQRT_2,
+        thickness_uncertainty: libm::hypot(libm::hypot(across, chosen), differs),
         thickness_center: center,
         thickness_at: share(center),
         camber: off(top),
@@ -137,68 +175,6 @@ pub fn airfoil(
         trailing_edge: around.trailing,
         trailing_radius,
     })
-}
-
-/// The means of so many neighbors that few enough points are left; the ends stay.
-fn thinned(row: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let by = row.len().div_ceil(MOST);
-    if by < 2 {
-        return row.to_vec();
-    }
-    let mean = |some: &[[f64; 2]]| [0, 1].map(|k| some.iter().map(|p| p[k]).sum::<f64>() / some.len() as f64);
-    let last = row.len() - 1;
-    let inner = row[1..last].chunks(by).map(mean);
-    std::iter::once(row[0]).chain(inner).chain(std::iter::once(row[last])).collect()
-}
-
-/// The curve through the points.
-struct Smooth {
-    curve: Curve<[f64; 2]>,
-    /// Standard uncertainty of a place of it, across.
-    place_uncertainty: f64,
-}
-
-impl Smooth {
-    /// Of the number of control points that costs least: a chi-squared part and Schwarz's penalty, two for each. No more than
-    /// three for four points: with more, hardly any point would tell that the curve is wrong.
-    fn new(row: &[[f64; 2]], progress: &dyn Progress) -> Result<Smooth, AirfoilError> {
-        let n = row.len();
-        let chords = curve::chord_parameters(row).ok_or(AirfoilError::Inside)?;
-        let length: f64 = row.windows(2).map(|w| distance(w[0], w[1])).sum();
-        let floor = (RESOLUTION * length / n as f64).powi(2);
-        let mut best: Option<(f64, Smooth)> = None;
-        let most = (3 * n / 4).max(BEGIN.0).min(n);
-        let (mut count, mut idle) = (BEGIN.0.min(most), 0);
-        loop {
-            if progress.cancelled() {
-                return Err(Cancelled.into());
-            }
-            let mut parameters = chords.clone();
-            let knots = curve::spread_knots(3, count, &parameters);
-            let fitted = curve::corrected(row, &mut parameters, &knots, Ends::FREE).ok();
-            let held = |f: &Fitted<2>| {
-                let places = f.curve.sample(PLACES * knots.count());
-                places.windows(2).map(|w| distance(w[0], w[1])).sum::<f64>() < LONGER * length
-            };
-            if let Some(fitted) = fitted.filter(held) {
-                let p = knots.count() as f64;
-                let mean = fitted.sum_of_squares / (n as f64 - p).max(1.0);
-                let cost = n as f64 * libm::log(mean + floor) + 2.0 * p * libm::log(n as f64);
-                if best.as_ref().is_none_or(|b| cost < b.0) {
-                    idle = 0;
-                    let variance = fitted.sum_of_squares / (n as f64 - p).max(1.0);
-                    let place_uncertainty = (variance * p / n as f64).sqrt();
-                    best = Some((cost, Smooth { curve: fitted.curve, place_uncertainty }));
-                } else {
-                    idle += 1;
-                }
-            }
-            if count >= most || idle >= IDLE {
-                return best.map(|b| b.1).ok_or(AirfoilError::Inside);
-            }
-            count = ((count as f64 * BEGIN.1) as usize).min(most);
-        }
-    }
 }
 
 #[cfg(test)]

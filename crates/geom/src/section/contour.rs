@@ -3,16 +3,19 @@
 use super::chain::Kind;
 use super::convert::segments;
 use super::corner::crossing;
+use super::crossings::crossings;
+use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Segment};
-use super::row::{Clean, spacing};
+use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
-use super::start::{Part, shares};
+use super::start::{Part, noise, shares};
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
+use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -32,7 +35,8 @@ const FARTHEST: f64 = 20.0;
 ///
 /// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
 /// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
-/// points are taken to scatter normally across the contour, all alike. Points that repeat the one before, and single points
+/// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
+/// other way round. Points that repeat the one before, and single points
 /// far off what their neighbors tell, are left out and listed.
 ///
 /// # Errors
@@ -53,12 +57,85 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
+    check_row(points, options)?;
+    let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
+    let backward = from_the_end(points);
+    let ways = if backward { [&turned[..], points] } else { [points, &turned] };
+    let (hasty, again) = (Cell::new(false), Cell::new(false));
+    let mut found = in_order(ways[0], options, Some(&hasty), progress);
+    let mut is_backward = backward;
+    // What takes long from one end may be short from the other.
+    if hasty.get() && !matches!(found, Err(SectionError::Cancelled(_))) {
+        found = in_order(ways[1], options, Some(&again), progress);
+        match again.get() {
+            true => found = in_order(ways[0], options, None, progress),
+            false => is_backward = !backward,
+        }
+    }
+    // A search that ended badly may end well from the other end.
+    let doubtful = |found: &Contour| !hasty.get() && is_doubtful(found, points, options);
+    if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
+        let other = match in_order(ways[1], options, None, progress) {
+            Err(SectionError::Cancelled(e)) => return Err(e.into()),
+            other => other,
+        };
+        let cheaper = match (&found, &other) {
+            (Ok(found), Ok(other)) => rank(other, points.len()) < rank(found, points.len()),
+            (_, other) => other.is_ok(),
+        };
+        if cheaper {
+            (found, is_backward) = (other, !backward);
+        }
+    }
+    let found = found?;
+    let mut found = if is_backward { found.turned_round(points) } else { found };
+    found.crossings = crossings(&found.segments, found.closed, progress)?;
+    Ok(found)
+}
+
+/// Points scatter about a contour this many times as much as about local fits where it hides form.
+const DOUBTFUL: f64 = 1.3;
+
+/// Whether segments of a contour are astray, or its points scatter more than about local fits.
+fn is_doubtful(found: &Contour, points: &[[f64; 2]], options: &Options) -> bool {
+    let own = options.noise.unwrap_or_else(|| noise(points, found.closed).0);
+    !found.astray.is_empty() || own > 0.0 && rms(found) > DOUBTFUL * own
+}
+
+/// Root mean square distance of the points from a contour, outliers left out.
+fn rms(found: &Contour) -> f64 {
+    let kept = found.residuals.iter().enumerate().filter(|(i, _)| found.outliers.binary_search(i).is_err());
+    let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
+    (sum / f64::max(count, 1.0)).sqrt()
+}
+
+/// By which of two contours of a row the one to take is told: segments astray first, then twice the negative logarithm of the
+/// likelihood and the penalty for the unknowns.
+fn rank(found: &Contour, count: usize) -> (usize, f64) {
+    let (count, floor) = (count as f64, RESOLUTION * found.spacing);
+    let off = rms(found);
+    let cost = count * libm::log(off * off + floor * floor)
+        + (found.unknowns + found.joins.len() as f64) * libm::log(count);
+    (found.astray.len(), cost)
+}
+
+/// The contour of a row, found from its first point; `hasty` as of the search.
+fn in_order(
+    points: &[[f64; 2]],
+    options: &Options,
+    hasty: Option<&Cell<bool>>,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
     let clean = Clean::new(points, options)?;
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
     let mut start = Start::new(clean, options);
-    let mut chains = start.plan(options).all(&start.parts, progress)?;
+    let mut chains = Plan { hasty, ..start.plan(options) }.all(&start.parts, progress)?;
+    if hasty.is_some_and(Cell::get) {
+        // It is of no use.
+        return Err(SectionError::Astray);
+    }
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.0);
     while let Some(other) = finer.pop_front() {
@@ -112,6 +189,8 @@ struct Plan<'a> {
     known: bool,
     /// The chains of the parts as they are, without any search.
     draft: bool,
+    /// As of the search.
+    hasty: Option<&'a Cell<bool>>,
 }
 
 /// Whether a search from these parts may lead to chains that cost less than `bar`: those of the parts as they are cost little more.
@@ -151,6 +230,7 @@ impl Start {
             forced: self.forced,
             known: self.known,
             draft: false,
+            hasty: None,
         }
     }
 }
@@ -189,6 +269,15 @@ impl Plan<'_> {
                 }
             }
             if !found.astray {
+                // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
+                if single(&found.state) && found.pieces()[0].kind == Kind::Arc {
+                    let whole = shares(&self.clean.points, self.weights, 1);
+                    let task = Task { draft: true, ..self.task(false, true, n) };
+                    let mut open = span().find(&whole, &task, progress)?;
+                    open.circle = !open.astray;
+                    open.noise = if self.given.is_some() { open.noise } else { open.scatter() };
+                    found = if open.circle { open } else { found };
+                }
                 return Ok((vec![found], vec![]));
             }
             if forced.is_some() {
@@ -261,7 +350,7 @@ impl Plan<'_> {
         self.options.resolution.unwrap_or(RESOLUTION * self.spacing)
     }
 
-    fn task(&self, closed: bool, whole: bool, count: usize) -> Task {
+    fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
         let n = self.clean.points.len();
         // What the rest of the row tells about the noise; next to all if it was given.
         let degrees = match self.given {
@@ -283,6 +372,7 @@ impl Plan<'_> {
             level: self.options.level,
             known: self.known,
             draft: self.draft,
+            hasty: self.hasty,
         }
     }
 
@@ -364,10 +454,11 @@ impl Plan<'_> {
         }
         let sum: f64 = all.contour.residuals.iter().zip(self.weights).map(|(r, w)| w * r * r).sum();
         let unknowns: f64 = founds.iter().map(Found::unknowns).sum();
+        all.contour.unknowns = unknowns;
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
-        all.misdrawn(&self.clean.points, self.weights);
+        all.misdrawn(&self.clean.points, self.weights, self.step);
         all.contour.end_lengths();
         Ok(all)
     }
@@ -420,17 +511,23 @@ impl Joined {
         contour.joins.extend(parts.joins);
     }
 
-    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, are astray too.
-    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64]) {
+    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
+    /// do, are astray too.
+    fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
         const BEYOND: f64 = 3.0;
+        /// So many distances between points, and standard deviations, beyond an end of a line or arc.
+        const AHEAD: f64 = 8.0;
         let contour = &mut self.contour;
-        let mut off = vec![0.0f64; contour.segments.len()];
+        let mut off = vec![[0.0f64; 2]; contour.segments.len()];
         for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
-            let off = &mut off[*label as usize];
-            *off = off.max(contour.segments[*label as usize].off_drawn(*p));
+            let (off, segment) = (&mut off[*label as usize], &contour.segments[*label as usize]);
+            *off = [off[0].max(segment.off_drawn(*p)), off[1].max(segment.ahead_of_drawn(*p))];
         }
-        let far = |(k, off): &(usize, f64)| *off > contour.segments[*k].max + BEYOND * contour.noise;
+        let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
+        let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
+            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
+        };
         let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
         self.astray(astray);
     }
@@ -461,28 +558,15 @@ impl Joined {
         // A repeated point is where the one it repeats is: before it, or at the start.
         for k in 0..total {
             if !known[k] {
-                let like = if k == 0 || clean.repeated.last() == Some(&k) && clean.closed {
-                    clean.numbers[0]
-                } else {
-                    k - 1
-                };
+                let at_start = k == 0 || clean.ends_meet.is_some_and(|from| k >= from);
+                let like = if at_start { clean.numbers[0] } else { k - 1 };
                 (labels[k], residuals[k], stations[k]) = (labels[like], residuals[like], stations[like]);
             }
         }
-        if clean.closed && contour.segments.len() > 1 {
-            let by = labels[clean.numbers[0]] as usize;
-            let count = contour.segments.len();
-            let before: f64 = contour.segments[..by].iter().map(|s| s.length).sum();
-            contour.segments.rotate_left(by);
-            let joins = contour.joins.len();
-            contour.joins.rotate_left(by.min(joins));
-            labels.iter_mut().for_each(|l| *l = ((*l as usize + count - by) % count) as u32);
-            contour.astray.iter_mut().for_each(|s| *s = (*s + count - by) % count);
-            contour.astray.sort_unstable();
-            let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
-            stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
-        }
         (contour.labels, contour.residuals, contour.stations) = (labels, residuals, stations);
+        if clean.closed {
+            contour.begin_with(contour.labels[clean.numbers[0]] as usize);
+        }
         // Outliers were found before the row was turned.
         contour.outliers = outliers.into_iter().map(|i| clean.numbers[i]).collect();
         (contour.repeated, contour.gaps) = (clean.repeated.clone(), clean.gaps.clone());

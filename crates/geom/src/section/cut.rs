@@ -90,10 +90,13 @@ impl PlaneFrame {
     /// line, or are fewer than three.
     pub fn through(points: &[Point]) -> Option<(PlaneFrame, f64)> {
         let n = points.len() as f64;
-        let middle: Point = std::array::from_fn(|k| points.iter().map(|p| p[k] / n).sum());
+        // From the same end whichever way round they are given: sums round as their order is.
+        let last = points.last().filter(|last| last.iter().lt(points[0].iter()));
+        let in_turn = |i: usize| if last.is_some() { points[points.len() - 1 - i] } else { points[i] };
+        let middle: Point = std::array::from_fn(|k| (0..points.len()).map(|i| in_turn(i)[k] / n).sum());
         let mut scatter = [[0.0; 3]; 3];
-        for p in points {
-            let d = minus(*p, middle);
+        for i in 0..points.len() {
+            let d = minus(in_turn(i), middle);
             (0..9).for_each(|k| scatter[k / 3][k % 3] += d[k / 3] * d[k % 3]);
         }
         let (values, rows) = crate::fit::eigen(scatter);

@@ -73,6 +73,21 @@ impl Segment {
         }
     }
 
+    /// Its direction at a share of its parameter, of any length.
+    pub(super) fn direction(&self, share: f64) -> [f64; 2] {
+        match &self.geometry {
+            Geometry::Line => [self.end[0] - self.start[0], self.end[1] - self.start[1]],
+            Geometry::Arc { start, sweep, .. } => {
+                let (sin, cos) = libm::sincos(start + share * sweep);
+                [-sin * sweep.signum(), cos * sweep.signum()]
+            }
+            Geometry::Spline { curve, .. } => {
+                let (from, to) = curve.domain();
+                curve.derivative(from + share * (to - from), 1)
+            }
+        }
+    }
+
     /// Length from the segment's start to the place nearest to `point`, and the signed distance, positive to the left.
     ///
     /// The segment ends where it ends: the foot of a point beyond is the end.
@@ -149,16 +164,6 @@ impl Segment {
 
     /// Direction of the segment at its start and end; of no length where it has none.
     pub fn directions(&self) -> [[f64; 2]; 2] {
-        match &self.geometry {
-            Geometry::Line => [[self.end[0] - self.start[0], self.end[1] - self.start[1]]; 2],
-            Geometry::Arc { start, sweep, .. } => [*start, start + sweep].map(|a| {
-                let (sin, cos) = libm::sincos(a);
-                [-sin * sweep.signum(), cos * sweep.signum()]
-            }),
-            Geometry::Spline { curve, .. } => {
-                let (from, to) = curve.domain();
-                [curve.derivative(from, 1), curve.derivative(to, 1)]
-            }
-        }
+        [self.direction(0.0), self.direction(1.0)]
     }
 }

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `row` | rows as they come: what is wrong with them |
+//! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
@@ -17,6 +18,8 @@
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
+//! | `crossings` | places where a contour crosses itself |
+//! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
 //! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
 
@@ -27,13 +30,16 @@ mod chain;
 mod contour;
 mod convert;
 mod corner;
+mod crossings;
 mod cut;
 mod dimension;
+mod direction;
 mod exact;
 mod facets;
 mod follow;
 mod foot;
 mod free;
+mod joined;
 mod least;
 mod levels;
 mod link;
@@ -57,9 +63,11 @@ mod untangle;
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use chain::Kind;
 pub use contour::contour;
+pub use crossings::crossings;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut, cut_facets};
 pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
+pub use joined::joined;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};

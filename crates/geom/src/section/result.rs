@@ -130,6 +130,20 @@ impl Segment {
         }
     }
 
+    /// How far beyond an end of the line or arc as it is drawn the foot of a point lies, along it; 0 of a free curve.
+    pub(super) fn ahead_of_drawn(&self, p: [f64; 2]) -> f64 {
+        if self.geometry.kind() == Kind::Spline {
+            return 0.0;
+        }
+        let foot = self.nearest(p);
+        if foot.share > 0.0 && foot.share < 1.0 {
+            return 0.0;
+        }
+        let (d, along) = ([p[0] - foot.place[0], p[1] - foot.place[1]], foot.along);
+        let size = libm::hypot(along[0], along[1]).max(f64::MIN_POSITIVE);
+        ((d[0] * along[0] + d[1] * along[1]) / size).abs()
+    }
+
     /// Angle of the direction from start to end with the first axis, radians.
     pub fn angle(&self) -> f64 {
         libm::atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
@@ -214,6 +228,8 @@ pub struct Contour {
     pub joins: Vec<Join>,
     /// Standard deviation of the points about the contour.
     pub noise: f64,
+    /// Number of unknowns that were found from the points; 0 of exact facets.
+    pub unknowns: f64,
     /// Mean distance between neighboring points.
     pub spacing: f64,
     /// Segment that each point belongs to.
@@ -228,6 +244,8 @@ pub struct Contour {
     pub repeated: Vec<usize>,
     /// Gaps between neighboring points of more than five times the median distance: the number of the point before.
     pub gaps: Vec<usize>,
+    /// Where the contour crosses itself: at most a hundred places. A closed one that does has no inside.
+    pub crossings: Vec<[f64; 2]>,
     /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
     /// the way through the points. They tell nothing of the part.
     pub astray: Vec<usize>,

@@ -11,6 +11,8 @@ pub(super) struct Clean {
     pub numbers: Vec<usize>,
     pub middle: [f64; 2],
     pub repeated: Vec<usize>,
+    /// From this point on all repeat the first.
+    pub ends_meet: Option<usize>,
     pub gaps: Vec<usize>,
     pub closed: bool,
     /// Median distance between neighbors.
@@ -39,33 +41,54 @@ fn median(mut all: Vec<f64>) -> f64 {
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
-impl Clean {
-    /// Checks and cleans a row.
-    pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
-        if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-            return Err(SectionError::NotFinite { index });
-        }
-        check(options)?;
-        let mut numbers: Vec<usize> = vec![];
-        let mut repeated = vec![];
+/// Which points of a row count, and which repeat the one before.
+pub(super) struct Passed {
+    pub numbers: Vec<usize>,
+    pub repeated: Vec<usize>,
+    /// From this point on all are where the first is; they are among the repeated ones.
+    pub ends_meet: Option<usize>,
+}
+
+impl Passed {
+    pub fn of(points: &[[f64; 2]], open: bool) -> Passed {
+        let mut all = Passed { numbers: vec![], repeated: vec![], ends_meet: None };
         for (i, p) in points.iter().enumerate() {
-            match numbers.last() {
-                Some(last) if points[*last] == *p => repeated.push(i),
-                _ => numbers.push(i),
+            match all.numbers.last() {
+                Some(last) if points[*last] == *p => all.repeated.push(i),
+                _ => all.numbers.push(i),
             }
         }
-        let mut ends_meet = false;
+        let at_start = |numbers: &[usize]| {
+            numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]])
+        };
         // An open contour may come back to where it started.
-        let open = options.closed == Some(false);
-        while !open && numbers.len() > 1 && numbers.last().is_some_and(|l| points[*l] == points[numbers[0]]) {
-            ends_meet = true;
-            repeated.extend(numbers.pop());
+        while !open && at_start(&all.numbers) {
+            all.ends_meet = all.numbers.pop();
+            all.repeated.extend(all.ends_meet);
         }
-        repeated.sort_unstable();
+        all.repeated.sort_unstable();
+        all
+    }
+
+    /// The points before gaps.
+    pub fn gaps(&self, points: &[[f64; 2]]) -> Vec<usize> {
+        let far = |w: &[usize]| distance(points[w[0]], points[w[1]]);
+        let spacing = median(self.numbers.windows(2).map(far).collect());
+        let wide = self.numbers.windows(2).filter(|w| far(w) > GAP * spacing);
+        wide.map(|w| w[0]).collect()
+    }
+}
+
+impl Clean {
+    /// Cleans a row whose coordinates are numbers.
+    pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
+        let passed = Passed::of(points, options.closed == Some(false));
+        let gaps = passed.gaps(points);
+        let Passed { numbers, repeated, ends_meet } = passed;
         let mut all: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
         let mut different = all.clone();
         different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -79,14 +102,13 @@ impl Clean {
         if ratio > UNORDERED && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }
-        let found = ends_meet || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
+        let found =
+            ends_meet.is_some() || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
         let closed = options.closed.unwrap_or(found);
-        let gaps =
-            steps.iter().enumerate().filter(|(_, s)| **s > GAP * spacing).map(|(i, _)| numbers[i]).collect();
         let n = all.len() as f64;
         let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());
         all.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= middle[k]));
-        Ok(Clean { points: all, numbers, middle, repeated, gaps, closed, spacing })
+        Ok(Clean { points: all, numbers, middle, repeated, ends_meet, gaps, closed, spacing })
     }
 
     /// Points that lie far off what their neighbors on both sides tell, where these agree: eight times the noise. Neighbors are
@@ -184,6 +206,14 @@ pub(super) fn spacing(clean: &Clean, step: usize) -> f64 {
         .collect();
     let length: f64 = smooth.windows(2).map(|w| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1])).sum();
     (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
+}
+
+/// What there is to check before anything else.
+pub(super) fn check_row(points: &[[f64; 2]], options: &Options) -> Result<(), SectionError> {
+    match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        Some(index) => Err(SectionError::NotFinite { index }),
+        None => check(options),
+    }
 }
 
 pub(super) fn check(options: &Options) -> Result<(), SectionError> {

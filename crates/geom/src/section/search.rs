@@ -6,6 +6,7 @@ use super::free;
 use super::least::{Row, SOFT, STIFF, State, Stop, Work};
 use super::start::Part;
 use crate::progress::{Cancelled, Progress};
+use std::cell::Cell;
 
 /// What a model costs.
 #[derive(Clone, Copy, Debug)]
@@ -89,6 +90,8 @@ pub(super) struct Search<'a> {
     pub kinds: [bool; 2],
     /// At joins of free pieces the curvature must not jump.
     pub even: bool,
+    /// Set where the search is given up because it takes long from this end of the row; `None`: it is not given up.
+    pub hasty: Option<&'a Cell<bool>>,
     /// Least length of a piece, in distances between points.
     pub shortest: f64,
 }

@@ -22,7 +22,10 @@ impl Search<'_> {
     /// The cheapest model reachable from the first, or from one free piece where many lines and arcs stand for a smooth curve.
     /// Merging them one by one takes as many rounds as there are pieces, each of as many models.
     pub fn best(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
-        let Some(smooth) = self.smooth(&first) else { return self.run(first, progress) };
+        let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first);
+        let Some(smooth) = self.smooth(&first) else {
+            return if self.gives_up(lost) { Ok(first) } else { self.run(first, progress) };
+        };
         let found = self.run(smooth, progress)?;
         // Joins of several free pieces are where the start put them. One that follows the row stays, where its distances are not
         // told from 0: then costs tell rounding, and no kinds.
@@ -35,11 +38,18 @@ impl Search<'_> {
                 return Ok(other);
             }
         }
-        if self.is_near(&found) {
+        if self.is_near(&found) || self.gives_up(lost) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
         Ok(if found.cost < other.cost { found } else { other })
+    }
+
+    /// Whether many lines and arcs far off the points, which free pieces do not follow either, are left to a search from the row's other
+    /// end.
+    fn gives_up(&self, lost: bool) -> bool {
+        let left = self.hasty.filter(|_| lost);
+        left.inspect(|hasty| hasty.set(true)).is_some()
     }
 
     /// One of the lines and arcs between two free pieces, where that is cheapest: the longest and those that turn most are tried. An

@@ -6,6 +6,7 @@ use super::profile::Interval;
 use super::search::{Criterion, Model, Search};
 use super::start::{Part, shares};
 use crate::progress::{Cancelled, Progress};
+use std::cell::Cell;
 
 /// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
 /// its own shape for certain, and intervals come out too short.
@@ -39,7 +40,7 @@ pub(super) struct Span {
 
 /// How the chain of a span is looked for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Task {
+pub(super) struct Task<'a> {
     pub criterion: Criterion,
     /// Standard deviation of the noise, given or of local fits, whichever is more.
     pub scatter: f64,
@@ -52,6 +53,8 @@ pub(super) struct Task {
     pub level: f64,
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
+    /// As of the search.
+    pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
     pub draft: bool,
 }
@@ -80,7 +83,7 @@ impl Span {
         Span { numbers, points, weights }
     }
 
-    fn search(&self, task: &Task) -> Search<'_> {
+    fn search<'a>(&'a self, task: &Task<'a>) -> Search<'a> {
         let row = self.row();
         let criterion = Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion };
         let (work, kinds) = (Work::default(), [true, true]);
@@ -91,6 +94,7 @@ impl Span {
             spacing: task.spacing,
             kinds,
             even: task.even,
+            hasty: task.hasty,
             shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
         }
     }
@@ -286,6 +290,11 @@ impl Found {
     pub fn unknowns(&self) -> f64 {
         let each = self.pieces().iter().map(|p| p.coefficients.len() as f64);
         2.0 + self.state.chain.joins() as f64 + each.sum::<f64>()
+    }
+    /// Standard deviation of its points about it.
+    pub fn scatter(&self) -> f64 {
+        let spare = self.span.weights.iter().sum::<f64>() - self.unknowns();
+        (self.state.sum / spare.max(1.0)).sqrt()
     }
     /// Where the foot of the first point lies from the chain's start, along it.
     pub fn first_foot(&self) -> f64 {

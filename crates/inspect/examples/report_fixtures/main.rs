@@ -414,6 +414,7 @@ fn comparison(
             BTreeMap::new()
         },
         along: None,
+        regions: vec![],
         outliers: None,
         coverage: None,
         verdict: shares.as_ref().map(|s| match s.inside {
@@ -449,8 +450,15 @@ fn soundness() -> Soundness {
 
 /// The three highest and three lowest vertices, at least 1 mm apart.
 fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
-    let off =
-        |(point, nearest, deviation)| Worst { sign: 1, index: 0, point, nearest, normal: None, deviation };
+    let off = |(point, nearest, deviation)| Worst {
+        sign: 1,
+        index: 0,
+        point,
+        nearest,
+        normal: None,
+        deviation,
+        region: None,
+    };
     let mut all: Vec<Worst> = body.off.map(off).into_iter().collect();
     for sign in [1i8, -1] {
         let mut order: Vec<usize> = (0..field.len()).filter(|i| field[*i] * f64::from(sign) > 0.0).collect();
@@ -468,6 +476,7 @@ fn worst(body: &Body, field: &[f64]) -> Vec<Worst> {
                     nearest: p,
                     normal: None,
                     deviation: field[index],
+                    region: None,
                 };
                 all.push(worst);
             }

@@ -125,6 +125,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             transform: std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j)))),
             rms: None,
             mean_abs: None,
+            greatest: None,
             residuals: None,
             iterations: None,
             converged: None,

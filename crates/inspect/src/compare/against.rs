@@ -1,5 +1,6 @@
 //! What points are compared with, and why that may not be possible.
 
+use super::region::RegionError;
 use trueness_geom::closest::MeshError;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::mesh::Mesh;
@@ -35,4 +36,7 @@ pub enum ReferenceError {
     /// The paper's method refuses it.
     #[error(transparent)]
     Paper(#[from] PaperError),
+    /// A region is not there.
+    #[error(transparent)]
+    Region(#[from] RegionError),
 }

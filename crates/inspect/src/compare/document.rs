@@ -2,7 +2,9 @@
 
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
-use super::{AlongRule, Comparisons, Excluded, Facing, MapSurface, Options, Outliers, plausibility};
+use super::{
+    AlongRule, Comparisons, Excluded, Facing, MapSurface, Options, Outliers, RegionFound, plausibility,
+};
 use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
@@ -91,6 +93,7 @@ fn comparison(
     options: &Options,
 ) -> Comparison {
     let tolerance = c.limits.as_ref().map(|l| shares(l, options.required_share));
+    let regions: Vec<RegionRecord> = c.regions.iter().map(region).collect();
     Comparison {
         reference,
         rank,
@@ -107,14 +110,11 @@ fn comparison(
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         outliers: c.outliers.map(|o| outliers(&o, c)),
         coverage: c.map.as_ref().map(coverage),
-        verdict: tolerance.as_ref().map(|t| match c.summary.all.count {
-            0 => Verdict::NotMeasured,
-            _ if t.inside.is_some_and(|share| share >= t.required) => Verdict::Pass,
-            _ => Verdict::Fail,
-        }),
+        verdict: verdict(tolerance.as_ref(), &regions),
         tolerance,
+        regions,
         histogram: c.histogram.as_ref().map(Histogram::of),
-        worst: c.worst.iter().map(worst).collect(),
+        worst: c.worst.iter().map(|w| worst(w, &c.regions)).collect(),
         reverse,
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
         research: None,
@@ -225,7 +225,7 @@ fn finding((kind, found): &(&'static Kind, Found)) -> (String, Defects) {
 fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     let [below, inside, above] =
         limits.shares().map_or([None; 3], |[below, inside, above]| [Some(below), Some(inside), Some(above)]);
-    let reason = inside.is_none().then(|| "all points are excluded".to_string());
+    let reason = inside.is_none().then(|| "all points are excluded, or there are none".to_string());
     ToleranceShares {
         lower: limits.lower,
         upper: limits.upper,
@@ -239,9 +239,37 @@ fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     }
 }
 
-fn worst(w: &WorstPlace) -> Worst {
+/// What all say together: the worst of them. Where all points are of regions, the others have nothing to say.
+fn verdict(others: Option<&ToleranceShares>, regions: &[RegionRecord]) -> Option<Verdict> {
+    let others = others.filter(|t| regions.is_empty() || t.inside.is_some()).map(judged);
+    let all = || others.into_iter().chain(regions.iter().map(|r| r.verdict));
+    [Verdict::Fail, Verdict::NotMeasured, Verdict::Pass].into_iter().find(|v| all().any(|o| o == *v))
+}
+
+fn judged(t: &ToleranceShares) -> Verdict {
+    match t.inside {
+        None => Verdict::NotMeasured,
+        Some(share) if share >= t.required => Verdict::Pass,
+        Some(_) => Verdict::Fail,
+    }
+}
+
+fn region(found: &RegionFound) -> RegionRecord {
+    let tolerance = shares(&found.limits, found.rule.required_share);
+    RegionRecord {
+        id: found.rule.id.clone(),
+        deviation: Statistics::of(&found.summary.all, found.summary.quantile_error),
+        verdict: judged(&tolerance),
+        tolerance,
+    }
+}
+
+fn worst(w: &WorstPlace, regions: &[RegionFound]) -> Worst {
     Worst {
         sign: if w.place.deviation > 0.0 { 1 } else { -1 },
+        region: usize::from(w.place.region)
+            .checked_sub(1)
+            .and_then(|n| Some(regions.get(n)?.rule.id.clone())),
         index: w.place.index,
         point: w.place.point,
         nearest: w.nearest,
@@ -281,5 +309,7 @@ fn paper_vs_exact(p: &Differences) -> PaperVsExact {
 /// The scale that all comparisons share: by the tolerance, else by the first reference's 95th percentile of |d|.
 fn scale(found: &Comparisons, options: &Options) -> Scale {
     let p95 = found.references.first().and_then(|c| c.summary.p95_abs.ok()).unwrap_or(0.0);
-    Scale::for_deviations(p95, options.tolerance.map(|t| [t.lower, t.upper]))
+    // Where several tolerances hold, no color can say what is within them.
+    let tolerance = options.tolerance.filter(|_| options.regions.is_empty());
+    Scale::for_deviations(p95, tolerance.map(|t| [t.lower, t.upper]))
 }

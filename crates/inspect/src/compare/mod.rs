@@ -11,6 +11,7 @@ mod options;
 mod outliers;
 pub mod plausibility;
 mod reference;
+mod region;
 mod research;
 mod reverse;
 mod shown;
@@ -27,7 +28,8 @@ pub use found::Comparisons;
 pub use map::MapSurface;
 pub use options::{Coverage, Method, Options};
 pub use outliers::{NoLimits, OutlierLimits, OutlierRule};
-pub use reference::{Compared, Outliers, Values, WorstPlace};
+pub use reference::{Compared, Outliers, RegionFound, Values, WorstPlace};
+pub use region::{Extent, RegionError, RegionRule, Regions};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;
@@ -215,7 +217,8 @@ fn flag(out: &mut Comparisons, running: &[Running]) -> Result<(), PaperError> {
 fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S, K> {
     match error {
         ReferenceError::Mesh(MeshError::Cancelled(e))
-        | ReferenceError::Topology(TopologyError::Cancelled(e)) => CompareError::Query(e.into()),
+        | ReferenceError::Topology(TopologyError::Cancelled(e))
+        | ReferenceError::Region(RegionError::Cancelled(e)) => CompareError::Query(e.into()),
         error => CompareError::Reference { reference: reference.name.clone(), error },
     }
 }

@@ -3,6 +3,7 @@
 use super::along::Lines;
 use super::facing::Facing;
 use super::outliers::OutlierRule;
+use super::region::RegionRule;
 use crate::tolerance::Tolerance;
 use std::str::FromStr;
 use trueness_geom::deviation::surface::SurfaceOptions;
@@ -69,7 +70,9 @@ pub struct Options {
     pub outliers: Option<OutlierRule>,
     /// Which part of the references the points cover; with a report it is looked for in any case.
     pub coverage: Option<Coverage>,
-    /// The zone that deviations must keep.
+    /// Parts of the references with tolerances of their own, the first that has a place counts.
+    pub regions: Vec<RegionRule>,
+    /// The zone that deviations must keep; those of no region, where there are regions.
     pub tolerance: Option<Tolerance>,
     /// Share of the points that must lie within it (0 to 1).
     pub required_share: f64,
@@ -93,6 +96,7 @@ impl Default for Options {
             facing: None,
             outliers: None,
             coverage: None,
+            regions: vec![],
             tolerance: None,
             required_share: 1.0,
             shown: 0,

@@ -7,8 +7,10 @@ use super::facing::Facing;
 use super::map::{Flagged, Foot, MapSurface, PointMap};
 use super::options::{Coverage, Method, Options};
 use super::outliers::{NoLimits, OutlierLimits, OutlierRule};
+use super::region::{RegionRule, Regions};
 use super::target::{Asked, Measures, Target};
 use super::worst::{Place, WorstPlaces, sort};
+use crate::tolerance::badness;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::deviation::paper::{Differences, Paper, PaperError};
@@ -41,6 +43,8 @@ pub struct Compared {
     pub histogram: Option<Histogram>,
     /// Counts against the tolerance, where there is one.
     pub limits: Option<Limits>,
+    /// Its regions, in the order asked for.
+    pub regions: Vec<RegionFound>,
     /// Points that do not count. Reasons that were not asked for are left out.
     pub excluded: Vec<(Excluded, u64)>,
     /// What the rule for outliers gave, where there is one.
@@ -53,6 +57,22 @@ pub struct Compared {
     pub splines: Option<SplinesFound>,
     /// The reference coloured by the points near each place, for a report and for what is not covered.
     pub map: Option<MapSurface>,
+}
+
+/// What was found in a region.
+pub struct RegionFound {
+    /// As asked for.
+    pub rule: RegionRule,
+    /// Statistics of its points' deviations.
+    pub summary: Summary,
+    /// Counts against its tolerance.
+    pub limits: Limits,
+}
+
+/// A region under way.
+struct Tally {
+    values: Values,
+    limits: Limits,
 }
 
 /// A rule for outliers and its limits, or why it left out nothing.
@@ -69,6 +89,7 @@ pub struct Taken {
     /// One a point; not finite where it is excluded.
     pub deviations: Vec<f64>,
     feet: Vec<Option<Foot>>,
+    regions: Vec<u16>,
 }
 
 /// What is to be said of a comparison with B-spline surfaces.
@@ -121,6 +142,8 @@ pub struct Running<'a> {
     facing: Option<Facing>,
     outliers: Option<Outliers>,
     coverage: Coverage,
+    regions: Option<Regions>,
+    tallies: Vec<Tally>,
     worst: WorstPlaces,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
@@ -140,7 +163,16 @@ impl<'a> Running<'a> {
             Method::Exact => None,
             Method::Paper => Some((Paper::new(mesh)?, Differences::default())),
         };
+        let regions = match tree.filter(|_| !options.regions.is_empty()) {
+            Some(tree) => Some(Regions::new(&options.regions, mesh, tree, options.seed, progress)?),
+            None => None,
+        };
+        let tally = |rule: &RegionRule| Tally {
+            values: Values::All(vec![]),
+            limits: Limits::new(rule.tolerance.lower, rule.tolerance.upper),
+        };
         Ok(Running {
+            tallies: regions.iter().flat_map(Regions::rules).map(tally).collect(),
             target: Target::new(reference, tree, options, progress)?,
             splines: reference.splines.map(|s| SplinesFound {
                 surfaces: s.surfaces(),
@@ -158,7 +190,8 @@ impl<'a> Running<'a> {
             worst: WorstPlaces::new(&mesh.bounds()),
             paper,
             map: (options.shown > 0 || options.coverage.is_some())
-                .then(|| PointMap::new(mesh, options.tolerance)),
+                .then(|| PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()))),
+            regions,
             mesh,
         })
     }
@@ -170,8 +203,10 @@ impl<'a> Running<'a> {
         points: &[Point],
         progress: &dyn Progress,
     ) -> Result<Taken, PaperError> {
-        let asked = Asked { start, map: self.map.as_ref(), facing: self.facing.as_ref() };
-        let Measures { mut deviations, feet, uncertain } = self.target.measure(points, &asked, progress)?;
+        let (map, regions) = (self.map.as_ref(), self.regions.as_ref());
+        let asked = Asked { start, map, facing: self.facing.as_ref(), regions };
+        let Measures { mut deviations, feet, regions, uncertain } =
+            self.target.measure(points, &asked, progress)?;
         if let Some(splines) = &mut self.splines {
             splines.uncertain += uncertain;
         }
@@ -184,7 +219,7 @@ impl<'a> Running<'a> {
                 *d = t.distance.copysign(*d);
             }
         }
-        Ok(Taken { deviations, feet })
+        Ok(Taken { deviations, feet, regions })
     }
 
     /// Finds the limits of a rule for outliers from all blocks. They hold for all that is counted afterwards.
@@ -203,12 +238,21 @@ impl<'a> Running<'a> {
         for e in deviations.iter().filter_map(|&d| Excluded::of(d)) {
             self.excluded[e as usize - 1] += 1;
         }
+        // What does not count here, as all that is not finite.
+        let of = |region: u16| -> Vec<f64> {
+            let own = |(i, d): (usize, &f64)| {
+                let here = taken.regions.get(i).copied().unwrap_or(0) == region;
+                if here && d.is_finite() { *d } else { f64::NAN }
+            };
+            deviations.iter().enumerate().map(own).collect()
+        };
         if let Some(limits) = &mut self.limits {
-            limits.push(deviations);
-            // An infinite value stands for a point that does not count, and lies on neither side.
-            let number = |value: f64| deviations.iter().filter(|d| **d == value).count() as u64;
-            limits.above -= number(f64::INFINITY);
-            limits.below -= number(f64::NEG_INFINITY);
+            limits.push(&of(0));
+        }
+        for (region, tally) in (1..).zip(&mut self.tallies) {
+            let own: Vec<f64> = of(region).into_iter().filter(|d| !d.is_nan()).collect();
+            tally.limits.push(&own);
+            tally.values.push(&own, self.keep);
         }
         if let Some(map) = &mut self.map {
             for (foot, deviation) in taken.feet.iter().zip(deviations) {
@@ -217,7 +261,15 @@ impl<'a> Running<'a> {
                 }
             }
         }
-        self.worst.add(start, points, deviations);
+        let judged = |i: usize| match (&self.regions, taken.regions.get(i)) {
+            (Some(regions), Some(region)) => {
+                let own = regions.zone(*region).map(|t| [t.lower, t.upper]);
+                let zone = own.or_else(|| self.limits.as_ref().map(|l| [l.lower, l.upper]));
+                (badness(deviations[i], zone), *region)
+            }
+            _ => (deviations[i].abs(), 0),
+        };
+        self.worst.add(start, points, deviations, judged);
         self.values.push(deviations, self.keep);
         measured
     }
@@ -236,15 +288,17 @@ impl<'a> Running<'a> {
     /// The places that the result will name.
     pub fn worst_places(&self) -> Vec<Place> {
         let mut places: Vec<Place> = self.worst.pick(WORST).into_iter().flatten().collect();
-        let zone = self.limits.as_ref().map(|l| [l.lower, l.upper]);
-        sort(&mut places, zone);
+        match self.regions {
+            Some(_) => places.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index))),
+            None => sort(&mut places, self.limits.as_ref().map(|l| [l.lower, l.upper])),
+        }
         places
     }
 
     /// Deviations of points that have been counted already.
     pub fn again(&self, places: &[Place]) -> Result<Vec<f64>, PaperError> {
         let one = |place: &Place| {
-            let asked = Asked { start: place.index, map: None, facing: self.facing.as_ref() };
+            let asked = Asked { start: place.index, map: None, facing: self.facing.as_ref(), regions: None };
             let points = [place.point];
             let mut deviation = self.target.measure(&points, &asked, &Silent)?.deviations[0];
             if let Some((paper, _)) = self.paper.as_ref().filter(|_| deviation.is_finite()) {
@@ -273,6 +327,13 @@ impl<'a> Running<'a> {
             precondition: self.target.precondition().clone(),
             summary,
             worst,
+            regions: (self.regions.iter().flat_map(Regions::rules).zip(self.tallies))
+                .map(|(rule, tally)| RegionFound {
+                    rule: rule.clone(),
+                    summary: tally.values.summary(),
+                    limits: tally.limits,
+                })
+                .collect(),
             values: self.values,
             excluded: Excluded::ALL
                 .into_iter()

@@ -6,6 +6,7 @@ use super::excluded::Excluded;
 use super::facing::{Facing, facet_normal};
 use super::map::{Foot, PointMap};
 use super::options::Options;
+use super::region::Regions;
 use super::worst::Place;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
@@ -54,20 +55,51 @@ pub struct Asked<'a> {
     pub map: Option<&'a PointMap>,
     /// Only points that look the same way count.
     pub facing: Option<&'a Facing>,
+    /// Parts of the reference that are told apart.
+    pub regions: Option<&'a Regions>,
 }
 
 impl Asked<'_> {
+    /// Whether no more is asked than distances.
+    fn only_distances(&self) -> bool {
+        self.map.is_none() && self.facing.is_none() && self.regions.is_none()
+    }
+
+    /// What is kept of a point with this deviation and place on the reference.
+    fn kept(&self, deviation: f64, face: u32, weights: [f64; 3], place: &Point) -> Kept {
+        let region = self.regions.map_or(0, |r| r.of(face, place));
+        (deviation, self.map.map(|map| map.foot(face, weights)), region)
+    }
+
     /// Whether point `i` of these may count beside a place of the reference with this normal.
     fn agrees(&self, i: usize, normal: impl Fn() -> Option<Vector>) -> bool {
         self.facing.is_none_or(|f| f.agrees(self.start + i as u64, normal()))
     }
 }
 
+/// A deviation, its place in the map and its region.
+type Kept = (f64, Option<Foot>, u16);
+
+/// What is not measured has no place.
+fn none(deviation: f64) -> Kept {
+    (deviation, None, 0)
+}
+
 /// Deviations of points; with a map, where their nearest places lie in it; and how many nearest places are not beyond doubt.
 pub struct Measures {
     pub deviations: Vec<f64>,
     pub feet: Vec<Option<Foot>>,
+    /// Numbers of regions, 0 for none; empty where there are no regions.
+    pub regions: Vec<u16>,
     pub uncertain: u64,
+}
+
+impl Measures {
+    fn of(found: Vec<Kept>, asked: &Asked) -> Measures {
+        let regions = asked.regions.map_or(vec![], |_| found.iter().map(|f| f.2).collect());
+        let (deviations, feet) = found.into_iter().map(|(d, foot, _)| (d, foot)).unzip();
+        Measures { deviations, feet, regions, uncertain: 0 }
+    }
 }
 
 impl<'a> Target<'a> {
@@ -136,31 +168,29 @@ impl<'a> Target<'a> {
                 let turn = if surface.sign().inside_out { -1.0 } else { 1.0 };
                 let found =
                     surface.map_along(asked.start, points, along, progress, |i, deviation, met| {
-                        let Some(met) = met else { return (deviation, None) };
+                        let Some(met) = met else { return none(deviation) };
                         if !asked.agrees(i, || facet_normal(mesh, met.face).map(|n| times(turn, n))) {
-                            return (facing, None);
+                            return none(facing);
                         }
-                        (deviation, asked.map.map(|map| map.foot(met.face, met.barycentric)))
+                        asked.kept(deviation, met.face, met.barycentric, &met.point)
                     })?;
-                let (deviations, feet) = found.into_iter().unzip();
-                Ok(Measures { deviations, feet, uncertain: 0 })
+                Ok(Measures::of(found, asked))
             }
-            Target::Facets { surface, .. } if asked.map.is_none() && asked.facing.is_none() => {
+            Target::Facets { surface, .. } if asked.only_distances() => {
                 let deviations = surface.deviations(points, progress)?;
-                Ok(Measures { deviations, feet: vec![], uncertain: 0 })
+                Ok(Measures { deviations, feet: vec![], regions: vec![], uncertain: 0 })
             }
             Target::Facets { surface, mesh, along: None } => {
                 let (tree, turn) = (surface.tree(), if surface.sign().inside_out { -1.0 } else { 1.0 });
                 let found = surface.map(points, progress, |i, deviation, hit| {
-                    let Some(hit) = hit.filter(|_| deviation.is_finite()) else { return (deviation, None) };
+                    let Some(hit) = hit.filter(|_| deviation.is_finite()) else { return none(deviation) };
                     let place = tree.place(&points[i], hit);
                     if !asked.agrees(i, || facet_normal(mesh, place.face).map(|n| times(turn, n))) {
-                        return (facing, None);
+                        return none(facing);
                     }
-                    (deviation, asked.map.map(|map| map.foot(place.face, place.barycentric)))
+                    asked.kept(deviation, place.face, place.barycentric, &place.point)
                 })?;
-                let (deviations, feet) = found.into_iter().unzip();
-                Ok(Measures { deviations, feet, uncertain: 0 })
+                Ok(Measures::of(found, asked))
             }
             Target::Splines(s) => {
                 let found = s.search.map(points, progress, |i, foot| {
@@ -173,7 +203,7 @@ impl<'a> Target<'a> {
                 })?;
                 let uncertain = found.iter().filter(|f| !f.2).count() as u64;
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
-                Ok(Measures { deviations, feet, uncertain })
+                Ok(Measures { deviations, feet, regions: vec![], uncertain })
             }
         }
     }

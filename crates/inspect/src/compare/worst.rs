@@ -23,6 +23,10 @@ pub struct Place {
     pub point: Point,
     /// Its deviation, millimetres.
     pub deviation: f64,
+    /// How bad it is: the size of the deviation, or how far it is beyond the tolerance of its region.
+    pub badness: f64,
+    /// Number of its region, counted from 1; 0 for none.
+    pub region: u16,
 }
 
 /// Highest and lowest deviation of each cell around a reference.
@@ -46,14 +50,23 @@ impl WorstPlaces {
     }
 
     /// Takes a block of points whose first has number `start`. A deviation that is none, NaN or infinite, is passed over.
-    pub fn add(&mut self, start: u64, points: &[Point], deviations: &[f64]) {
+    /// `judged(i)` is how bad point `i` of the block is, and its region.
+    pub fn add(
+        &mut self,
+        start: u64,
+        points: &[Point],
+        deviations: &[f64],
+        judged: impl Fn(usize) -> (f64, u16) + Sync,
+    ) {
         let sort = |n: usize, (points, deviations): (&[Point], &[f64])| {
             let mut cells = Self::empty();
             for (i, (point, &deviation)) in points.iter().zip(deviations).enumerate() {
-                let place = Place { index: start + (n * TASK + i) as u64, point: *point, deviation };
                 if !deviation.is_finite() {
                     continue;
                 }
+                let at = n * TASK + i;
+                let (badness, region) = judged(at);
+                let place = Place { index: start + at as u64, point: *point, deviation, badness, region };
                 if deviation > 0.0 {
                     keep(&mut cells[2 * self.cell(point)], place);
                 } else if deviation < 0.0 {
@@ -82,7 +95,7 @@ impl WorstPlaces {
     pub fn pick(&self, n: usize) -> [Vec<Place>; 2] {
         [0, 1].map(|side| {
             let mut all: Vec<Place> = self.cells.iter().skip(side).step_by(2).flatten().copied().collect();
-            all.sort_by(|a, b| b.deviation.abs().total_cmp(&a.deviation.abs()).then(a.index.cmp(&b.index)));
+            all.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index)));
             let mut picked: Vec<Place> = vec![];
             for p in all {
                 let apart = picked.iter().all(|q| norm(minus(p.point, q.point)) >= APART * self.diagonal);
@@ -102,12 +115,9 @@ pub fn sort(places: &mut [Place], zone: Option<[f64; 2]>) {
     places.sort_by(|a, b| bad(b).total_cmp(&bad(a)).then(a.index.cmp(&b.index)));
 }
 
-/// The larger deviation stays; of equal ones, the first in the file.
+/// The worse one stays; of equal ones, the first in the file.
 fn keep(cell: &mut Option<Place>, p: Place) {
-    let better = cell.is_none_or(|c| {
-        let (new, old) = (p.deviation.abs(), c.deviation.abs());
-        new > old || (new == old && p.index < c.index)
-    });
+    let better = cell.is_none_or(|c| p.badness > c.badness || (p.badness == c.badness && p.index < c.index));
     if better {
         *cell = Some(p);
     }
@@ -132,8 +142,9 @@ mod tests {
         // Two that have none.
         let mut deviations = deviations;
         (deviations[5], deviations[700]) = (f64::NAN, f64::INFINITY);
-        w.add(0, &points[..9_000], &deviations[..9_000]);
-        w.add(9_000, &points[9_000..], &deviations[9_000..]);
+        let (first, rest) = deviations.split_at(9_000);
+        w.add(0, &points[..9_000], first, |i| (first[i].abs(), 0));
+        w.add(9_000, &points[9_000..], rest, |i| (rest[i].abs(), 0));
         let [high, low] = w.pick(2);
         assert_eq!(high[0].point, [20.0, 20.0, 0.0]);
         assert_eq!(high[0].index, 20 * 200 + 40);
@@ -143,7 +154,13 @@ mod tests {
     #[test]
     fn what_fails_comes_before_what_does_not() {
         let order = |zone| {
-            let of = |(index, deviation)| Place { index, point: [0.0; 3], deviation };
+            let of = |(index, deviation): (u64, f64)| Place {
+                index,
+                point: [0.0; 3],
+                deviation,
+                badness: deviation.abs(),
+                region: 0,
+            };
             let mut places: Vec<Place> =
                 (0..).zip([0.039, 0.02, 0.01, -0.495, -0.07, 0.07]).map(of).collect();
             sort(&mut places, zone);
@@ -159,7 +176,7 @@ mod tests {
     #[test]
     fn first_in_the_file_wins_a_tie() {
         let mut w = WorstPlaces::new(&Aabb { min: [0.0; 3], max: [1.0; 3] });
-        w.add(0, &[[0.5; 3], [0.5001; 3], [f64::MAX; 3]], &[1.0, 1.0, f64::NAN]);
+        w.add(0, &[[0.5; 3], [0.5001; 3], [f64::MAX; 3]], &[1.0, 1.0, f64::NAN], |_| (1.0, 0));
         let [high, low] = w.pick(3);
         assert_eq!((high.len(), high[0].index, low.len()), (1, 0, 0));
     }

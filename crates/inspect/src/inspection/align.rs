@@ -8,7 +8,7 @@ use crate::characteristic::{Missing, datum_source};
 use crate::plan::{Align, Plan};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use trueness_geom::align::{self, AlignError, BestFit, Measured, RowFit, Target, best_fit};
+use trueness_geom::align::{self, AlignError, BestFit, Measured, Minimax, RowFit, Target, best_fit, minimax};
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
@@ -32,6 +32,8 @@ pub enum Found {
     Nothing,
     /// A best fit, also one that an alignment by datums began with.
     BestFit(Box<align::Alignment>),
+    /// The least greatest distance, and the best fit that it began with.
+    Chebyshev(Minimax, Box<align::Alignment>),
     /// A fit of pairs or reference points.
     Rows(RowFit),
 }
@@ -55,7 +57,8 @@ pub(super) fn aligned(
         Align::Datum { start: None, .. } if data.measured.is_none() || data.reference.is_none() => {
             Alignment { motion: Rigid::IDENTITY, found: Found::Nothing }
         }
-        Align::BestFit | Align::Datum { start: None, .. } => best_fitted(&data, progress)?,
+        Align::BestFit | Align::Datum { start: None, .. } => best_fitted(&data, false, progress)?,
+        Align::Chebyshev => best_fitted(&data, true, progress)?,
         Align::Pairs { measured, nominal, weights } => rows(align::pairs(measured, nominal, Some(weights)))?,
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
     };
@@ -90,8 +93,8 @@ fn failed(e: AlignError) -> Stop {
     }
 }
 
-/// The best fit of the measured data onto the reference.
-fn best_fitted(data: &Data, progress: &dyn Progress) -> Result<Alignment, Stop> {
+/// The best fit of the measured data onto the reference, and from there the least greatest distance, if that is what counts.
+fn best_fitted(data: &Data, chebyshev: bool, progress: &dyn Progress) -> Result<Alignment, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
         return Err(Stop::Align("one of them is not there".into()));
     };
@@ -102,7 +105,13 @@ fn best_fitted(data: &Data, progress: &dyn Progress) -> Result<Alignment, Stop> 
         false => Measured::Mesh(measured),
     };
     let options = BestFit { seed: data.seed, ..BestFit::default() };
-    let fit = best_fit(&measured, &Target::new(reference, &tree), &options, progress).map_err(failed)?;
+    let target = Target::new(reference, &tree);
+    let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
+    if chebyshev {
+        let found = minimax(&measured, &target, &fit, &options, progress).map_err(failed)?;
+        let motion = found.reference_from_measured;
+        return Ok(Alignment { motion, found: Found::Chebyshev(found, Box::new(fit)) });
+    }
     Ok(Alignment { motion: fit.reference_from_measured, found: Found::BestFit(Box::new(fit)) })
 }
 

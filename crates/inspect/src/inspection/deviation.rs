@@ -1,12 +1,17 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
 use super::data::{Data, Stop};
-use crate::compare::{self, CompareError, Comparisons, Facing, Lines, Options, Reference, vertex_normals};
-use crate::plan::Deviation;
+use super::seed::Seeded;
+use crate::compare::{
+    self, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule, vertex_normals,
+};
+use crate::plan::{Deviation, Plan};
+use std::collections::BTreeMap;
 use std::convert::Infallible;
-use trueness_geom::closest::QueryError;
+use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::surface::SurfaceOptions;
+use trueness_geom::feature::{FeatureError, in_mesh};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 
@@ -32,6 +37,8 @@ impl Deviations {
 /// Of the data where the alignment took them. The reference is moved out of the data.
 pub(super) fn deviations(
     asked: &Deviation,
+    plan: &Plan,
+    seeds: &BTreeMap<usize, Seeded>,
     data: &mut Data,
     progress: &dyn Progress,
 ) -> Result<Deviations, Stop> {
@@ -53,6 +60,7 @@ pub(super) fn deviations(
             skip_boundary: asked.skip_boundary,
             ..SurfaceOptions::default()
         },
+        regions: regions(asked, plan, seeds, &reference, progress)?,
         tolerance: asked.tolerance,
         required_share: asked.required_share,
         shown: data.shown,
@@ -68,4 +76,41 @@ pub(super) fn deviations(
     })?;
     let kind = if measured.faces.is_empty() { "points" } else { "vertices" };
     Ok(Deviations { found, options, reference, kind })
+}
+
+/// The regions, those of features with their facets.
+fn regions(
+    asked: &Deviation,
+    plan: &Plan,
+    seeds: &BTreeMap<usize, Seeded>,
+    reference: &Mesh,
+    progress: &dyn Progress,
+) -> Result<Vec<RegionRule>, Stop> {
+    if asked.regions.iter().all(|r| r.feature.is_none()) {
+        return Ok(asked.regions.iter().map(|r| r.rule.clone()).collect());
+    }
+    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+    let rule = |region: &crate::plan::Region| -> Result<RegionRule, Stop> {
+        let Some(number) = region.feature else { return Ok(region.rule.clone()) };
+        let feature = &plan.features[number];
+        let wrong = |what: String| Stop::Plan {
+            span: region.span.clone(),
+            what: format!("region \"{}\": {what}", region.rule.id),
+        };
+        let nominal = feature.nominal.as_ref().or_else(|| Some(&seeds.get(&number)?.nominal));
+        let nominal = nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", feature.id)))?;
+        let near = feature.extract.near(nominal);
+        let found = in_mesh(reference, &tree, nominal, &near, progress).map_err(|e| match e {
+            FeatureError::Cancelled => Stop::Cancelled,
+            e => wrong(e.to_string()),
+        })?;
+        if found.facets.is_empty() {
+            return Err(wrong(format!(
+                "the reference has nothing where feature \"{}\" should be",
+                feature.id
+            )));
+        }
+        Ok(RegionRule { extent: Extent::Facets(found.facets), ..region.rule.clone() })
+    };
+    asked.regions.iter().map(rule).collect()
 }

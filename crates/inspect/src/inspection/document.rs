@@ -62,6 +62,7 @@ impl AlignmentRecord {
             transform: found.alignment.motion.matrix(),
             rms: None,
             mean_abs: None,
+            greatest: None,
             residuals: None,
             iterations: None,
             converged: None,
@@ -72,6 +73,15 @@ impl AlignmentRecord {
             Found::BestFit(fit) => AlignmentRecord {
                 rms: Some(fit.rms),
                 mean_abs: Some(fit.mean_abs),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                ..bare
+            },
+            Found::Chebyshev(minimax, fit) => AlignmentRecord {
+                rms: Some(minimax.rms),
+                mean_abs: Some(minimax.mean_abs),
+                greatest: Some(minimax.greatest),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
                 warnings: fit.warnings.iter().map(AlignNote::of).collect(),

@@ -81,7 +81,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         return Err(Stop::Cancelled);
     }
     let deviations = match &plan.deviation {
-        Some(asked) => Some(deviation::deviations(asked, &mut data, progress)?),
+        Some(asked) => Some(deviation::deviations(asked, plan, &seeds, &mut data, progress)?),
         None => None,
     };
     let measured = data.measured;

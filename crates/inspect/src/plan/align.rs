@@ -20,6 +20,8 @@ pub enum Align {
     Given(Rigid),
     /// By the best fit of the measured data onto the reference, from any pose.
     BestFit,
+    /// The least greatest distance from the reference, near the best fit from any pose.
+    Chebyshev,
     /// By datum features, whose frame comes to lie on that of their nominals.
     Datum {
         /// Numbers of the features, the first datum first.
@@ -56,6 +58,7 @@ impl Align {
             Align::None => AlignWord::None,
             Align::Given(_) => AlignWord::Given,
             Align::BestFit => AlignWord::BestFit,
+            Align::Chebyshev => AlignWord::Chebyshev,
             Align::Datum { .. } => AlignWord::Datum,
             Align::Pairs { .. } => AlignWord::Pairs,
             Align::Rps { .. } => AlignWord::Rps,
@@ -65,7 +68,7 @@ impl Align {
 
     /// Whether it uses the mesh of the reference.
     pub fn uses_reference(&self) -> bool {
-        matches!(self, Align::BestFit | Align::Datum { start: None, .. })
+        matches!(self, Align::BestFit | Align::Chebyshev | Align::Datum { start: None, .. })
     }
 }
 
@@ -79,10 +82,11 @@ pub(super) fn align(checker: &Checker, plan: &PlanText, features: &[Feature]) ->
     };
     match word {
         AlignWord::None => Ok(Align::None),
-        AlignWord::BestFit if plan.measured.is_none() || plan.reference.is_none() => {
+        AlignWord::BestFit | AlignWord::Chebyshev if plan.measured.is_none() || plan.reference.is_none() => {
             checker.wrong(span, "a best fit needs `measured` and `reference`")
         }
         AlignWord::BestFit => Ok(Align::BestFit),
+        AlignWord::Chebyshev => Ok(Align::Chebyshev),
         AlignWord::Given => match start {
             Some(motion) => Ok(Align::Given(motion)),
             None => checker.wrong(span, "method \"given\" needs `transform`, four rows of four numbers"),

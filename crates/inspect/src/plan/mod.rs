@@ -18,6 +18,7 @@ mod proposal;
 pub mod region;
 mod spec;
 pub mod text;
+mod tolerance_region;
 
 pub use crate::characteristic::kind::Spec;
 pub use align::Align;
@@ -30,6 +31,7 @@ pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};
 pub use limits::{Basic, Limits, ZoneOffset};
 pub use proposal::proposal;
+pub use tolerance_region::{Region, regions_of_file};
 
 use crate::characteristic;
 use checker::Checker;
@@ -98,8 +100,10 @@ impl Plan {
         let features = feature::features(&checker, &written)?;
         let decision = decision::decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;
-        let deviation = deviation::deviation(&checker, &written)?;
-        if specs.is_empty() && deviation.is_none_or(|d| d.tolerance.is_none()) {
+        let deviation = deviation::deviation(&checker, &written, &features)?;
+        if specs.is_empty()
+            && deviation.as_ref().is_none_or(|d| d.tolerance.is_none() && d.regions.is_empty())
+        {
             let what =
                 "nothing in the plan can be judged; add a [[characteristic]] or a tolerance in [deviation]";
             return checker.wrong(&(0..0), what);

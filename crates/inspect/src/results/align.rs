@@ -3,7 +3,7 @@
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, RowFit};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, Minimax, RowFit};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -19,7 +19,7 @@ pub struct AlignDocument {
     pub units: String,
     /// The files read: the measured first.
     pub inputs: Vec<InputRecord>,
-    /// `best-fit`, `pairs`, `3-2-1` or `rps`.
+    /// `best-fit`, `chebyshev`, `pairs`, `3-2-1` or `rps`.
     pub method: String,
     /// 4×4, row by row, acting on columns (x, y, z, 1): takes measured coordinates to those of the reference.
     pub transform: [[f64; 4]; 4],
@@ -37,9 +37,12 @@ pub struct AlignDocument {
     pub degrees_of_freedom: u64,
     /// The motions that stay free.
     pub free: Vec<FreeMotion>,
-    /// What a best fit tells beyond that; absent for the other methods.
+    /// What a best fit tells beyond that, also the one that `chebyshev` began with; absent for the other methods.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub best_fit: Option<BestFitRecord>,
+    /// Of `chebyshev`: the greatest distance, which is the least that there is.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub chebyshev: Option<ChebyshevRecord>,
     /// Of `pairs`, `3-2-1` and `rps`: what is left in each row of the table, in its order.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub pairs: Vec<PairRecord>,
@@ -122,6 +125,19 @@ pub struct BestFitRecord {
     pub condition_reason: Option<String>,
     /// Other poses that fit nearly as well, best first.
     pub alternatives: Vec<AlternativeRecord>,
+}
+
+/// The pose with the least greatest distance.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ChebyshevRecord {
+    /// The greatest distance of a point that counts from the surface.
+    pub greatest: f64,
+    /// Where that point lies after the motion.
+    pub at: [f64; 3],
+    /// Points that count: those that count in the best fit that it began with.
+    pub used: u64,
+    /// Points that do not.
+    pub left_out: u64,
 }
 
 /// Another pose that fits nearly as well.
@@ -264,9 +280,33 @@ impl AlignDocument {
                 condition_reason: found.condition.is_none().then(|| "a motion is free".into()),
                 alternatives: alternatives.collect(),
             }),
+            chebyshev: None,
             pairs: vec![],
             warnings: found.warnings.iter().map(AlignNote::of).collect(),
             seed,
+        }
+    }
+
+    /// Of the least greatest distance, found from the best fit `from`.
+    pub fn of_minimax(
+        found: &Minimax,
+        from: &Alignment,
+        inputs: Vec<InputRecord>,
+        seed: u64,
+    ) -> AlignDocument {
+        AlignDocument {
+            method: "chebyshev".into(),
+            transform: found.reference_from_measured.matrix(),
+            angle: found.reference_from_measured.angle(),
+            rms: found.rms,
+            mean_abs: found.mean_abs,
+            chebyshev: Some(ChebyshevRecord {
+                greatest: found.greatest,
+                at: found.at,
+                used: found.used,
+                left_out: found.left_out,
+            }),
+            ..AlignDocument::of_best_fit(from, inputs, seed)
         }
     }
 
@@ -290,6 +330,7 @@ impl AlignDocument {
             degrees_of_freedom: 6,
             free: vec![],
             best_fit: None,
+            chebyshev: None,
             pairs: found.residuals.iter().enumerate().map(row).collect(),
             warnings: if found.converged { vec![] } else { vec![note] },
             seed,

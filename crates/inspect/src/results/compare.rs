@@ -119,7 +119,10 @@ pub struct Comparison {
     /// Shares against the tolerance; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub tolerance: Option<ToleranceShares>,
-    /// Pass when the share inside reaches what was asked; absent without a tolerance.
+    /// Parts of the reference with tolerances of their own; `tolerance` is then of the points of no region.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub regions: Vec<RegionRecord>,
+    /// Pass when the share inside reaches what was asked, in every region too; absent without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub verdict: Option<Verdict>,
     /// Counts of the deviations; absent when there are none.
@@ -148,6 +151,19 @@ pub struct AlongRecord {
     /// The direction, as it was given.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub direction: Option<[f64; 3]>,
+}
+
+/// A part of the reference with a tolerance of its own. A point belongs to the first region that has its place on the reference.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct RegionRecord {
+    /// Its name.
+    pub id: String,
+    /// Statistics of its points' deviations.
+    pub deviation: Statistics,
+    /// Shares of its points against its tolerance.
+    pub tolerance: ToleranceShares,
+    /// Pass when the share inside reaches what was asked; `not_measured` without points.
+    pub verdict: Verdict,
 }
 
 /// Which points were left out as outliers. The limits belong to what counts.
@@ -285,7 +301,7 @@ pub struct ToleranceShares {
 }
 
 /// One of the worst places.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Worst {
     /// `1` above, `-1` below.
     pub sign: i8,
@@ -293,12 +309,15 @@ pub struct Worst {
     pub index: u64,
     /// The measured point.
     pub point: [f64; 3],
-    /// The nearest place on the reference.
+    /// The nearest place on the reference, or where its line meets it.
     pub nearest: [f64; 3],
     /// Unit normal of the reference there; null on a facet without area.
     pub normal: Option<[f64; 3]>,
     /// The deviation, millimetres.
     pub deviation: f64,
+    /// The region that it belongs to, if one does.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub region: Option<String>,
 }
 
 /// From the reference to the measured mesh, and both directions together.

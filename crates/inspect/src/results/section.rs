@@ -152,6 +152,9 @@ pub struct ContourRecord {
     pub repeated: Vec<u64>,
     /// Gaps: the number of the point before.
     pub gaps: Vec<u64>,
+    /// Where the contour crosses itself, at most a hundred places: a closed one that does has no inside.
+    #[serde(default)]
+    pub crossings: Vec<[f64; 2]>,
     /// Segments, by their numbers from 0, that do not run along their points and tell nothing of the part; with any, the exit
     /// status is 1.
     #[serde(default)]
@@ -390,6 +393,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         outliers: numbers(&found.outliers),
         repeated: numbers(&found.repeated),
         gaps: numbers(&found.gaps),
+        crossings: found.crossings.clone(),
         astray: numbers(&found.astray),
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),

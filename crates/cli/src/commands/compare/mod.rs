@@ -17,7 +17,7 @@ use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
-pub use table::{along, coverage, outliers};
+pub use table::{along, coverage, outliers, regions};
 use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
@@ -46,6 +46,7 @@ Examples:
   trueness compare scan.ply fine.ply coarse.ply --sign none --json result.json
   trueness compare scan.ply nominal.stl --outliers mad:5 --facing 60 --coverage auto
   trueness compare scan.ply nominal.stl --along 0,0,1 --max-distance 2
+  trueness compare scan.ply nominal.stl --tolerance 0.2 --regions regions.toml
   trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5
   trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html")]
 pub struct CompareArgs {
@@ -66,6 +67,9 @@ pub struct CompareArgs {
     /// Allowed deviation: T for ±T, or -L,+U with both signs; the exit status is then the verdict
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
     tolerance: Option<ToleranceArg>,
+    /// Regions of the reference with tolerances of their own: a TOML file of [[region]] with id, seed or between, tolerance
+    #[arg(long, value_name = "FILE")]
+    regions: Option<PathBuf>,
     /// Share of the points that must lie within the tolerance, in percent
     #[arg(
         long,
@@ -167,6 +171,7 @@ impl CompareArgs {
             along: self.along.map(|rule| Lines::new(rule, vec![])),
             outliers: self.outliers,
             coverage: self.coverage,
+            regions: self.regions.as_deref().map(references::regions).transpose()?.unwrap_or_default(),
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),
@@ -198,7 +203,11 @@ impl CompareArgs {
 
 impl Run for CompareArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        let inputs = [&self.measured].into_iter().chain(&self.references).chain(&self.output.scale);
+        let inputs = [&self.measured]
+            .into_iter()
+            .chain(&self.references)
+            .chain(&self.output.scale)
+            .chain(&self.regions);
         Ok(self.output.files(RunFiles::of(inputs), self.references.len()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
@@ -227,7 +236,8 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     normals(args, &measured, &mut options)?;
     let references: Vec<Reference> =
         files[1..].iter().zip(&opened).map(|(f, r)| r.reference(f.path.clone())).collect();
-    let early_scale = scale.clone().or_else(|| tolerance.map(|t| Scale::for_deviations(0.0, Some(t))));
+    let judged = tolerance.filter(|_| options.regions.is_empty());
+    let early_scale = scale.clone().or_else(|| judged.map(|t| Scale::for_deviations(0.0, Some(t))));
     let mut points_files = match &args.output.out {
         Some(path) => {
             let reasons = options.facing.is_some() || options.outliers.is_some() || options.along.is_some();

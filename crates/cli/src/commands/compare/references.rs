@@ -11,7 +11,8 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{FootError, FootSearch, Nurbs};
-use trueness_inspect::compare::{Method, Options, Reference};
+use trueness_inspect::compare::{Method, Options, Reference, RegionRule};
+use trueness_inspect::plan::regions_of_file;
 use trueness_inspect::results::{Bounds, InputRecord};
 
 /// A reference as it was read.
@@ -65,6 +66,13 @@ pub fn open(
     Ok((all, records))
 }
 
+/// The regions of a file.
+pub fn regions(path: &Path) -> anyhow::Result<Vec<RegionRule>> {
+    let shown = path.display();
+    let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
+    regions_of_file(&text).with_context(|| shown.to_string())
+}
+
 /// Refuses what is asked of facets only.
 fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
     let shown = path.display();
@@ -76,6 +84,11 @@ fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
     if options.along.is_some() {
         return Err(Usage(format!(
             "--along: its lines meet the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+        )));
+    }
+    if !options.regions.is_empty() {
+        return Err(Usage(format!(
+            "--regions: they are made of the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
         )));
     }
     match options.surface.sign {

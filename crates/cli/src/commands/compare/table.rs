@@ -224,7 +224,9 @@ fn one(c: &Comparison) -> String {
     if let Some(r) = &c.research {
         out.push_str(&research(r));
     }
-    if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
+    if !c.regions.is_empty() {
+        out.push_str(&regions(c));
+    } else if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
         out.push_str(&format!(
             "\ntolerance {} … {} mm: {} % inside, {} % above, {} % below: {}\n",
             signed(t.lower),
@@ -236,6 +238,36 @@ fn one(c: &Comparison) -> String {
         ));
     }
     out
+}
+
+/// A line a region, one for all other points, and what they say together.
+pub fn regions(c: &Comparison) -> String {
+    let head = ["region", "points", "tolerance, mm", "inside %", "above %", "below %", "min", "max", ""];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    let optional = |x: Option<f64>| x.map_or_else(|| "–".into(), number);
+    for r in &c.regions {
+        let t = &r.tolerance;
+        rows.push(vec![
+            r.id.clone(),
+            grouped(r.deviation.count),
+            format!("{} … {}", signed(t.lower), signed(t.upper)),
+            percent(t.inside),
+            percent(t.above),
+            percent(t.below),
+            optional(r.deviation.min),
+            optional(r.deviation.max),
+            r.verdict.word().into(),
+        ]);
+    }
+    let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
+    if let Some(t) = &c.tolerance {
+        let zone = format!("{} … {}", signed(t.lower), signed(t.upper));
+        let mut row = vec!["(others)".into(), grouped(rest), zone];
+        row.extend([percent(t.inside), percent(t.above), percent(t.below)]);
+        rows.push(row);
+    }
+    let verdict = c.verdict.map_or_else(String::new, |v| format!("together: {}\n", v.word().to_uppercase()));
+    format!("\n{}{verdict}", columns(&rows))
 }
 
 /// The findings of `--research`, a line each.
@@ -283,7 +315,7 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
     let names =
         ["rank", "reference", "points", "rms", "mean", "σ", "mean |d|", "median", "95 %", "min", "max"];
     let mut rows = vec![names.map(String::from).to_vec()];
-    let tolerance = several.iter().any(|c| c.tolerance.is_some());
+    let tolerance = several.iter().any(|c| c.verdict.is_some());
     if tolerance {
         rows[0].extend(["inside %".into(), "verdict".into()]);
     }
@@ -294,8 +326,9 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
         let mut row = vec![c.rank.to_string(), short(&c.reference).to_string(), grouped(s.count)];
         let numbers = [s.rms, s.mean, s.std_dev, s.mean_abs, s.median, s.percentiles.p95, s.min, s.max];
         row.extend(numbers.map(|x| x.map(number).unwrap_or_else(|| "–".into())));
-        if let (Some(t), Some(v)) = (&c.tolerance, c.verdict) {
-            row.extend([percent(t.inside), v.word().to_string()]);
+        if let Some(v) = c.verdict {
+            let inside = c.tolerance.as_ref().filter(|_| c.regions.is_empty()).and_then(|t| t.inside);
+            row.extend([percent(inside), v.word().to_string()]);
         }
         rows.push(row);
     }

@@ -97,7 +97,7 @@ impl PlanFile {
                     self.at(own, "the measured data (--measured FILE names another file)")
                 })?,
             };
-            if let Some(what) = self.plan.deviation.and_then(|d| d.needs_normals())
+            if let Some(what) = self.plan.deviation.as_ref().and_then(|d| d.needs_normals())
                 && mesh.faces.is_empty()
             {
                 let what = format!("{what} of [deviation]");

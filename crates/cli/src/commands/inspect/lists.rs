@@ -2,7 +2,7 @@
 
 use crate::console::cell;
 use trueness_inspect::results::Verdict;
-use trueness_inspect::results::compare::ToleranceShares;
+use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
 /// What distinguishes the part: its measured file, or the plan's.
@@ -13,10 +13,24 @@ pub(super) fn part(document: &InspectDocument) -> &str {
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";
 
-/// The deviations from the reference, where they are judged: the share of points within the tolerance.
-pub(super) fn judged(document: &InspectDocument) -> Option<(&ToleranceShares, Verdict)> {
-    let deviation = document.deviation.as_ref()?;
-    Some((deviation.tolerance.as_ref()?, deviation.verdict?))
+/// The deviations from the reference, where they are judged: the share of points within the tolerance; with regions one of each, and
+/// of all other points where there are such.
+pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShares, Verdict)> {
+    let Some(deviation) = &document.deviation else { return vec![] };
+    let regions = &deviation.regions;
+    let of = |r: &'_ RegionRecord| format!("{DEVIATION} {}", r.id);
+    let mut all: Vec<_> = regions.iter().map(|r| (of(r), &r.tolerance, r.verdict)).collect();
+    if let (Some(t), Some(verdict)) = (&deviation.tolerance, deviation.verdict) {
+        match t.inside {
+            _ if regions.is_empty() => all.push((DEVIATION.into(), t, verdict)),
+            None => {}
+            Some(share) => {
+                let own = if share >= t.required { Verdict::Pass } else { Verdict::Fail };
+                all.push((DEVIATION.into(), t, own));
+            }
+        }
+    }
+    all
 }
 
 /// One line a characteristic, and one for the deviations from the reference where they are judged; numbers with all digits (RFC 4180).
@@ -60,10 +74,10 @@ pub fn csv(documents: &[InspectDocument]) -> String {
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
-        if let Some((t, verdict)) = judged(document) {
+        for (name, t, verdict) in judged(document) {
             let mut cells: [String; 14] = Default::default();
             cells[0] = part(document).into();
-            [cells[1], cells[2]] = [DEVIATION, DEVIATION].map(String::from);
+            [cells[1], cells[2]] = [name, DEVIATION.into()];
             cells[6] = (100.0 * t.required).to_string();
             cells[7] = "100".into();
             cells[8] = number(t.inside.map(|s| 100.0 * s));
@@ -83,7 +97,7 @@ pub fn junit(documents: &[InspectDocument]) -> String {
     let count = |documents: &[InspectDocument], which: &dyn Fn(Verdict) -> bool| -> usize {
         let of = |d: &InspectDocument| {
             let own = d.characteristics.iter().map(|c| c.verdict);
-            own.chain(judged(d).map(|j| j.1)).filter(|v| which(*v)).count()
+            own.chain(judged(d).into_iter().map(|j| j.2)).filter(|v| which(*v)).count()
         };
         documents.iter().map(of).sum()
     };
@@ -105,7 +119,7 @@ pub fn junit(documents: &[InspectDocument]) -> String {
         for c in &document.characteristics {
             out.push_str(&characteristic(&name, c));
         }
-        if let Some((t, verdict)) = judged(document) {
+        for (name_of, t, verdict) in judged(document) {
             let share =
                 t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
             let said = format!(
@@ -114,7 +128,7 @@ pub fn junit(documents: &[InspectDocument]) -> String {
                 t.upper,
                 100.0 * t.required
             );
-            out.push_str(&case(&name, DEVIATION, verdict, &said));
+            out.push_str(&case(&name, &name_of, verdict, &said));
         }
         out.push_str("  </testsuite>\n");
     }

@@ -1,6 +1,6 @@
 //! The document of an inspection for people.
 
-use crate::commands::compare::{along, coverage, outliers};
+use crate::commands::compare::{along, coverage, outliers, regions};
 use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, signed, six_digits};
 use crate::read;
@@ -16,7 +16,9 @@ pub fn table(document: &InspectDocument) -> String {
     }
     let alignment = &document.alignment;
     if let Some(rms) = alignment.rms {
-        let _ = writeln!(out, "aligned by {}, rms {}", alignment.method, six_digits(rms));
+        let greatest =
+            alignment.greatest.map_or_else(String::new, |g| format!(", greatest distance {}", six_digits(g)));
+        let _ = writeln!(out, "aligned by {}, rms {}{greatest}", alignment.method, six_digits(rms));
     }
     for warning in &alignment.warnings {
         let _ = writeln!(out, "! alignment: {}", warning.text);
@@ -74,7 +76,7 @@ fn deviation(out: &mut String, c: &Comparison) {
             reasons.map(|(reason, n)| format!("{} {}", grouped(*n), reason.replace('_', " "))).collect();
         let _ = write!(out, ", {} left out ({})", counted(excluded, POINTS), reasons.join(", "));
     }
-    if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
+    if let (Some(t), Some(verdict)) = (c.tolerance.as_ref().filter(|_| c.regions.is_empty()), c.verdict) {
         let inside = t.inside.map_or_else(|| "–".into(), |s| format!("{} %", fixed(100.0 * s, 3)));
         let _ = write!(out, "; {inside} within {}/{}", signed(t.lower), signed(t.upper));
         if t.required < 1.0 {
@@ -83,6 +85,9 @@ fn deviation(out: &mut String, c: &Comparison) {
         let _ = write!(out, ": {}", verdict.word());
     }
     out.push('\n');
+    if !c.regions.is_empty() {
+        out.push_str(regions(c).trim_start());
+    }
     if let Some(found) = &c.along {
         let _ = writeln!(out, "  along {}", along(found));
     }

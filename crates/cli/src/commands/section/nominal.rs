@@ -7,19 +7,21 @@ use crate::options::{PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use trueness_files::ReadOptions;
+use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::section::{self, Options, Outline, Plane, PlaneFrame};
+use trueness_geom::section::{self, Options, Outline, Plane, PlaneFrame, Segment};
 use trueness_geom::space::{Point, dot};
 use trueness_inspect::results::section::{Against, NominalRecord, Section};
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_inspect::results::InputRecord;
 
 /// What the section should be.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Nominal")]
 pub struct NominalArgs {
-    /// Compare the points with the section of this nominal: a mesh, cut by the same planes (or by the plane of the points), or
-    /// points in order, of which the contour is found
+    /// Compare the points with the section of this nominal: a mesh, cut by the same planes (or by the plane of the points), a DXF
+    /// drawing in the plane's coordinates, or points in order, of which the contour is found
     #[arg(long, value_name = "FILE")]
     pub nominal: Option<PathBuf>,
     #[command(flatten)]
@@ -31,7 +33,11 @@ enum Nominal {
     Mesh(Mesh),
     /// Points in order, and whether they have two coordinates.
     Row(Vec<Point>, bool),
+    Drawing(Drawing),
 }
+
+/// Ends of drawn entities that are this share of the drawing apart are one, and rational curves are followed as near.
+const SHARE: f64 = 1e-6;
 
 impl NominalArgs {
     /// How the points of the sections differ from the nominal, and what there is to say about its file; nothing where none was
@@ -46,22 +52,16 @@ impl NominalArgs {
     ) -> anyhow::Result<Option<(NominalRecord, InputRecord)>> {
         let Some(path) = &self.nominal else { return Ok(None) };
         let shown = path.display();
-        let Opened { mut record, body, planar, .. } =
-            read::open(path, Role::Reference, &self.reading.reading(measured))?;
-        let nominal = match body {
-            Body::Mesh(source) => Nominal::Mesh(source.mesh),
-            Body::Points(source) => {
-                let points = read::all_points(path, source)?;
-                read::describe(&mut record, &points);
-                Nominal::Row(points, planar)
-            }
-        };
+        let (nominal, mut record) = open(path, &self.reading.reading(measured))?;
         read::hash(&mut record, path)?;
         let (mut all, mut closed, mut known) = (vec![], true, 0);
         let mut rows = rows.iter();
         for (n, section) in sections.iter().enumerate() {
             let outlines = match &nominal {
                 Nominal::Mesh(mesh) => cut(mesh, section, planes.get(n), stage)?,
+                Nominal::Drawing(drawing) => {
+                    drawn(drawing, (sections.len() > 1).then_some(n), &shown.to_string())?
+                }
                 Nominal::Row(..) if sections.len() > 1 => {
                     return Err(Usage(format!(
                         "--nominal {shown}: it holds points in order, which are of one plane; give one --plane, or a mesh"
@@ -74,6 +74,9 @@ impl NominalArgs {
                     Err(e) => anyhow::bail!("{shown}: {e}"),
                 },
             };
+            if !matches!(nominal, Nominal::Mesh(_)) {
+                refuse_crossings(&outlines, &shown.to_string(), stage)?;
+            }
             known += outlines.len();
             closed &= outlines.iter().all(|o| o.closed);
             for points in rows.by_ref().take(section.contours.len()) {
@@ -86,9 +89,76 @@ impl NominalArgs {
                 "{shown}: no plane of the section meets it; bring part and nominal together with trueness align"
             );
         }
-        let outline = if matches!(nominal, Nominal::Mesh(_)) { "facets" } else { "contour" };
+        let outline = match nominal {
+            Nominal::Mesh(_) => "facets",
+            Nominal::Row(..) => "contour",
+            Nominal::Drawing(_) => "drawing",
+        };
         Ok(Some((NominalRecord::new(&record.path, outline, closed, &all), record)))
     }
+}
+
+/// What the file of a nominal holds.
+fn open(path: &Path, reading: &ReadOptions) -> anyhow::Result<(Nominal, InputRecord)> {
+    let Opened { mut record, body, planar, .. } = match read::nominal(path, reading)? {
+        Ok((drawing, record)) => return Ok((Nominal::Drawing(drawing), record)),
+        Err(opened) => opened,
+    };
+    let nominal = match body {
+        Body::Mesh(source) => Nominal::Mesh(source.mesh),
+        Body::Points(source) => {
+            let points = read::all_points(path, source)?;
+            read::describe(&mut record, &points);
+            Nominal::Row(points, planar)
+        }
+    };
+    Ok((nominal, record))
+}
+
+/// The outlines of a drawing, which is of one plane; of several, those of layer `section-1`, `section-2`, ….
+fn drawn(drawing: &Drawing, plane: Option<usize>, shown: &str) -> anyhow::Result<Vec<Outline>> {
+    let own = plane.map(|n| format!("section-{}", n + 1));
+    if own.is_some() && !drawing.entities.iter().any(|e| is_of_a_section(&e.layer)) {
+        return Err(Usage(format!(
+            "--nominal {shown}: a drawing is of one plane, unless its layers are named section-1, section-2, …; give one --plane"
+        ))
+        .into());
+    }
+    let kept = drawing.entities.iter().filter(|e| own.as_ref().is_none_or(|own| *own == e.layer));
+    let size = drawing.size();
+    let mut segments = vec![];
+    for entity in kept {
+        segments.push(match &entity.drawn {
+            Drawn::Line { start, end } => Segment::straight(*start, *end),
+            Drawn::Arc { center, radius, start, sweep } => Segment::arc(*center, *radius, *start, *sweep),
+            Drawn::Spline(curve) => match Segment::curve(curve, SHARE * size) {
+                Some(segment) => segment,
+                None => anyhow::bail!("{shown}: a rational spline of it has no finite place; draw it anew"),
+            },
+        });
+    }
+    if segments.is_empty() && plane.is_none() {
+        anyhow::bail!(
+            "{shown}: it holds neither lines nor arcs nor splines that are read: there is no nominal"
+        );
+    }
+    Ok(section::with_material_inside(section::joined(segments, SHARE * size)))
+}
+
+fn is_of_a_section(layer: &str) -> bool {
+    layer.strip_prefix("section-").is_some_and(|n| n.parse::<u32>().is_ok())
+}
+
+/// Refuses closed outlines that cross themselves: no side of them is outside.
+fn refuse_crossings(outlines: &[Outline], shown: &str, stage: &Stage) -> anyhow::Result<()> {
+    for outline in outlines.iter().filter(|o| o.closed) {
+        if let [[x, y], ..] = section::crossings(&outline.segments, true, stage)?[..] {
+            anyhow::bail!(
+                "{shown}: its outline crosses itself at ({x:.4}, {y:.4}): no side of it is outside of the material; mend it"
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Where the plane of a section cuts a mesh.

@@ -36,6 +36,18 @@ pub fn table(document: &SectionDocument) -> String {
         if !contour.astray.is_empty() {
             out.push_str(&astray(contour));
         }
+        if let [[x, y], ..] = contour.crossings[..] {
+            let often = if contour.crossings.len() > 1 {
+                format!(" {} times, first", contour.crossings.len())
+            } else {
+                String::new()
+            };
+            let _ = writeln!(
+                out,
+                "! the contour crosses itself{often} at ({x:.4}, {y:.4}): it has no inside{}",
+                if contour.closed { "; look whether its points are in order" } else { "" }
+            );
+        }
         out.push_str(&segments(contour));
         if !contour.joins.is_empty() {
             out.push_str(&joins(contour));

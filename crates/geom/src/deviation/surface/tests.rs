@@ -179,7 +179,9 @@ fn deviations_along_lines() {
     let ask = |start, along: &Along| {
         let got =
             surface.map_along(start, &points, along, &Silent, |_, d, c| (d, c.map(|c| c.point))).unwrap();
-        got.into_iter().map(|(d, at)| Exclusion::of(d).map_or(Ok((d, at.unwrap())), Err)).collect::<Vec<_>>()
+        got.into_iter()
+            .map(|(d, at)| Exclusion::of(d).map_or_else(|| Ok((d, at.unwrap())), Err))
+            .collect::<Vec<_>>()
     };
     use Exclusion::{MaxDistance, NoCrossing, NoDirection};
     let up = ask(0, &Along::Direction([0.0, 0.0, -3.0]));

@@ -1,13 +1,20 @@
 //! Circles inscribed into a profile.
 
+use super::super::crossings::crossing_chords;
 use super::super::nominal::inside;
+use super::course::Course;
 use super::ends::distance;
 use super::error::AirfoilError;
 use crate::progress::{Cancelled, Progress};
-use crate::spline::curve::Curve;
 
-/// Places of the curve that circles are looked for at, about.
-const PLACES: usize = 2000;
+/// A loop of a profile that crosses itself is told from one that scatter makes at the trailing edge by so many uncertainties of a place
+/// in its mean width, and by this share of the chord.
+const WIDE: f64 = 6.0;
+const LOOP: f64 = 5e-4;
+/// So many crossings are looked at.
+const CROSSINGS: usize = 1000;
+/// Share of the camber line over which a thickness is taken for constant.
+const FLAT: f64 = 0.25;
 /// Steps of a search that leaves two thirds each: to 1e-7 of the way.
 const HALVES: usize = 40;
 /// Places of the camber line that are told.
@@ -24,27 +31,9 @@ pub(super) struct Inscribed {
 }
 
 impl Inscribed {
-    /// Of a curve that goes on beyond `seam` at both ends, if there is one.
-    pub fn new(
-        curve: &Curve<[f64; 2]>,
-        seam: Option<[f64; 2]>,
-        progress: &dyn Progress,
-    ) -> Result<Inscribed, AirfoilError> {
-        let distinct = curve.knots().distinct();
-        let each = PLACES.div_ceil(distinct.len().max(2) - 1).max(4);
-        let mut parameters: Vec<f64> = vec![];
-        for w in distinct.windows(2) {
-            parameters.extend((0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
-        }
-        parameters.extend(distinct.last());
-        let all: Vec<([f64; 2], [f64; 2])> = parameters
-            .iter()
-            .map(|t| curve.derivatives(*t, 1))
-            .map(|d| {
-                let size = libm::hypot(d[1][0], d[1][1]).max(f64::MIN_POSITIVE);
-                (d[0], [d[1][0] / size, d[1][1] / size])
-            })
-            .collect();
+    /// Of a course that goes on beyond its seam at both ends, if it has one.
+    pub fn new(course: &Course, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
+        let (all, seam) = (&course.places, course.seam);
         let places: Vec<[f64; 2]> = all.iter().map(|a| a.0).collect();
         let (quarter, last) = (places.len() / 4, places.len() - 1);
         let nearest = |seam: [f64; 2], among: std::ops::RangeInclusive<usize>| {
@@ -57,6 +46,9 @@ impl Inscribed {
         let far = |i: &usize| distance(places[*i], tail);
         let head = (first..=last).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(first);
         let own = &places[first..=last];
+        if let Some(at) = crossing(own, WIDE * course.uncertainty, progress)? {
+            return Err(AirfoilError::Crosses { x: at[0], y: at[1] });
+        }
         let inward = area(own).signum();
         let mut circles = vec![];
         for i in first + 1..head {
@@ -120,6 +112,16 @@ impl Inscribed {
         Some((between(values, three.map(|c| c.0)), radius))
     }
 
+    /// Whether the greatest circle is the one of many of nearly its size: a quarter of the camber line or more has radii within `reach`
+    /// of it.
+    pub fn is_flat(&self, reach: f64) -> bool {
+        let most = self.circles.iter().map(|c| c.1).fold(0.0, f64::max);
+        let way = |w: &[([f64; 2], f64)]| distance(w[0].0, w[1].0);
+        let near = |w: &&[([f64; 2], f64)]| w[0].1 > most - reach;
+        let whole: f64 = self.circles.windows(2).map(way).sum();
+        self.circles.windows(2).filter(near).map(way).sum::<f64>() > FLAT * whole
+    }
+
     /// The center at which a distance is greatest in magnitude.
     pub fn extreme(&self, off: &dyn Fn([f64; 2]) -> f64) -> Option<[f64; 2]> {
         let all = &self.circles;
@@ -155,6 +157,20 @@ impl Inscribed {
 
 fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+}
+
+/// Where a profile crosses itself such that both loops are wider than `least`, and than what bends at the trailing edge make.
+fn crossing(places: &[[f64; 2]], least: f64, progress: &dyn Progress) -> Result<Option<[f64; 2]>, Cancelled> {
+    let chords: Vec<[[f64; 2]; 2]> = places.windows(2).map(|w| [w[0], w[1]]).collect();
+    let chord = places.iter().map(|p| distance(*p, places[0])).fold(0.0, f64::max);
+    let way = |p: &[[f64; 2]]| p.windows(2).map(|w| distance(w[0], w[1])).sum::<f64>();
+    let width = |p: &[[f64; 2]]| 2.0 * area(p).abs() / way(p).max(f64::MIN_POSITIVE);
+    let wide = |(i, j): &(usize, usize)| {
+        let rest: Vec<[f64; 2]> = places[..=*i].iter().chain(&places[j + 1..]).copied().collect();
+        width(&places[i + 1..=*j]).min(width(&rest)) > least.max(LOOP * chord)
+    };
+    let all = crossing_chords(&chords, true, CROSSINGS, progress)?;
+    Ok(all.into_iter().find(wide).map(|(i, _)| places[i]))
 }
 
 fn area(polygon: &[[f64; 2]]) -> f64 {

@@ -14,47 +14,94 @@ pub struct EdgeRadius {
     pub count: usize,
 }
 
-/// Fewest points.
+/// Fewest points, and by what they grow from reach to reach.
 const FEWEST: usize = 7;
+const GROWTH: f64 = 1.25;
 /// Unknowns of the local curve.
 const UNKNOWNS: usize = 5;
-/// The points lie within this share of the radius to either side: a turn of about 40 degrees each.
-const REACH: f64 = 0.65;
+/// Points belong to the edge within this share of the chord along it.
+const EDGE: f64 = 0.25;
+/// Curvatures of two reaches agree within so many standard deviations of their difference; one below so many uncertainties is none.
+const AGREE: f64 = 2.5;
+const SURE: f64 = 2.0;
 
 /// The radius of the points of `row` at `place`, an end of the chord whose other end is `from`.
 ///
 /// With `x` along the chord into the profile and `y` across, from the place, `x = a + b y + q (k + l y + m y²)` for `q = x² + y²`
 /// is fitted to the points near it: exact for circles, where `k` is half the curvature, and nearly so for the ends of ellipses,
-/// parabolas and profiles. The reach follows from the radius found.
-pub(super) fn radius(row: &[[f64; 2]], place: [f64; 2], from: [f64; 2]) -> Result<EdgeRadius, AirfoilError> {
+/// parabolas and profiles. The more points, the less their scatter `noise` counts, and the more how the bend changes: taken is the
+/// widest reach whose curvature agrees with that of all smaller ones (Lepskii, On a problem of adaptive estimation in Gaussian white
+/// noise, 1990). How far that of the reach beside it differs is part of the uncertainty.
+pub(super) fn radius(
+    row: &[[f64; 2]],
+    place: [f64; 2],
+    from: [f64; 2],
+    noise: f64,
+) -> Result<EdgeRadius, AirfoilError> {
     let chord = distance(place, from);
     let inward = [(from[0] - place[0]) / chord, (from[1] - place[1]) / chord];
     let local = |p: &[f64; 2]| {
         let d = [p[0] - place[0], p[1] - place[1]];
         [d[0] * inward[0] + d[1] * inward[1], inward[0] * d[1] - inward[1] * d[0]]
     };
-    let mut near: Vec<[f64; 2]> = row.iter().map(local).filter(|p| p[0] < 0.25 * chord).collect();
+    let mut near: Vec<[f64; 2]> = row.iter().map(local).filter(|p| p[0] < EDGE * chord).collect();
     near.sort_by(|p, q| libm::hypot(p[0], p[1]).total_cmp(&libm::hypot(q[0], q[1])));
     if near.len() < FEWEST {
         return Err(AirfoilError::FewAround { found: near.len() });
     }
-    // Points whose foot is beyond the reach are left out by their distance: a chord of a circle.
-    let mut count = near.len().min(FEWEST.max(near.len() / 8));
-    let mut found = fit(&near[..count])?;
-    for _ in 0..8 {
-        let reach = REACH * found.radius;
-        let next = near.partition_point(|p| libm::hypot(p[0], p[1]) < reach).max(FEWEST);
-        if next == count {
+    let (mut all, mut count): (Vec<Bend>, usize) = (vec![], FEWEST);
+    // One that disagrees may do so by chance, two in succession do not.
+    let mut other: Option<Bend> = None;
+    while let Some(bend) = fit(&near[..count], noise) {
+        let agrees = |b: &Bend| {
+            let spread =
+                (b.uncertainty * b.uncertainty - bend.uncertainty * bend.uncertainty).max(0.0).sqrt();
+            (b.curvature - bend.curvature).abs() <= AGREE * spread
+        };
+        let is_other = !all.iter().all(agrees);
+        if is_other && other.is_some() {
             break;
         }
-        count = next;
-        found = fit(&near[..count])?;
+        if is_other {
+            other = Some(bend);
+        } else {
+            other = None;
+            all.push(bend);
+        }
+        if count == near.len() {
+            break;
+        }
+        count = ((count as f64 * GROWTH).ceil() as usize).min(near.len());
     }
-    Ok(found)
+    all.splice(0..0, other);
+    let [.., best] = all[..] else { return Err(AirfoilError::Flat) };
+    // What changes with the square of the reach is as large as this makes it from one reach to the next; the one that disagrees
+    // was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
+    let beside = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
+    let changed = (best.curvature - beside.curvature) / (GROWTH * GROWTH - 1.0);
+    let smaller = all[..all.len() - 1].iter().rfind(|b| b.count < best.count).unwrap_or(&best);
+    let scatter = libm::hypot(best.uncertainty, smaller.uncertainty) * std::f64::consts::FRAC_1_SQRT_2;
+    let uncertainty = libm::hypot(scatter, changed);
+    match best.curvature {
+        k if k > SURE * uncertainty => {
+            Ok(EdgeRadius { radius: 1.0 / k, uncertainty: uncertainty / (k * k), count: best.count })
+        }
+        k if k <= -SURE * uncertainty || uncertainty == 0.0 => Err(AirfoilError::Flat),
+        _ => Err(AirfoilError::Hidden),
+    }
 }
 
-/// The radius by least squares of the deviations along `x`.
-fn fit(points: &[[f64; 2]]) -> Result<EdgeRadius, AirfoilError> {
+/// A curvature told by some points.
+#[derive(Clone, Copy, Debug)]
+struct Bend {
+    curvature: f64,
+    uncertainty: f64,
+    count: usize,
+}
+
+/// The curvature by least squares of the deviations from the local curve, which are distances if it is a circle; `None` where the
+/// points do not determine it.
+fn fit(points: &[[f64; 2]], noise: f64) -> Option<Bend> {
     let n = points.len();
     let size = points.iter().map(|p| libm::hypot(p[0], p[1])).fold(0.0, f64::max);
     let row = |p: &[f64; 2]| {
@@ -76,7 +123,7 @@ fn fit(points: &[[f64; 2]]) -> Result<EdgeRadius, AirfoilError> {
         }
         let norm = dot(&column, &column).sqrt();
         if norm < 1e-9 {
-            return Err(AirfoilError::Flat);
+            return None;
         }
         column.iter_mut().for_each(|c| *c /= norm);
         let w = dot(&rest, &column);
@@ -84,10 +131,9 @@ fn fit(points: &[[f64; 2]]) -> Result<EdgeRadius, AirfoilError> {
         (curvature, unit) = (2.0 * w / norm, 2.0 / norm);
         columns.push(column);
     }
-    if curvature.is_nan() || curvature <= 0.0 {
-        return Err(AirfoilError::Flat);
-    }
-    let variance = dot(&rest, &rest) / (n - UNKNOWNS) as f64;
-    let radius = size / curvature;
-    Ok(EdgeRadius { radius, uncertainty: radius * unit * variance.sqrt() / curvature, count: n })
+    // Of few points the scatter is known better from all.
+    let variance = (dot(&rest, &rest) / (n - UNKNOWNS) as f64).max((noise / size).powi(2));
+    let uncertainty = unit * variance.sqrt() / size;
+    let curvature = curvature / size;
+    curvature.is_finite().then_some(Bend { curvature, uncertainty, count: n })
 }

@@ -50,13 +50,16 @@ pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 pub(super) struct Around {
     /// The points; at a sharp trailing edge first and last are the same, at a round one the row goes on beyond it at both ends.
     pub row: Vec<[f64; 2]>,
+    /// The points that it begins and ends at, by their numbers in the row given; of a round trailing edge that of the seam.
+    pub ends: [usize; 2],
     /// So many points at either end are those of the other.
     pub over: usize,
     pub trailing: TrailingEdge,
 }
 
 impl Around {
-    pub fn new(row: &[[f64; 2]], closed: bool) -> Result<Around, AirfoilError> {
+    /// Of a row, whose corners are `known`, or told by its points.
+    pub fn new(row: &[[f64; 2]], closed: bool, known: Option<&[[f64; 2]]>) -> Result<Around, AirfoilError> {
         if !closed {
             let (a, b) = (row[0], row[row.len() - 1]);
             let (middle, gap) = ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], distance(a, b));
@@ -64,26 +67,39 @@ impl Around {
             if gap > APART * chord {
                 return Err(AirfoilError::Open { gap, chord });
             }
-            return Ok(Around { row: row.to_vec(), over: 0, trailing: TrailingEdge::Open(gap) });
+            return Ok(Around {
+                row: row.to_vec(),
+                ends: [0, row.len() - 1],
+                over: 0,
+                trailing: TrailingEdge::Open(gap),
+            });
         }
         let (mut head, mut tail) = diameter(row);
         if width(row, head, tail) < width(row, tail, head) {
             (head, tail) = (tail, head);
         }
-        let corners = corners(row, head, tail);
+        let corners = match known {
+            Some(known) => known_corners(row, head, tail, known),
+            None => corners(row, head, tail),
+        };
         let n = row.len();
         let run = |from: usize, count: usize| -> Vec<[f64; 2]> {
             (from..=from + count).map(|i| row[i % n]).collect()
         };
         Ok(match corners[..] {
-            [one] => Around { row: run(one, n), over: 0, trailing: TrailingEdge::Sharp },
+            [one] => Around { row: run(one, n), ends: [one; 2], over: 0, trailing: TrailingEdge::Sharp },
             [before, after] => {
                 let trailing = TrailingEdge::Blunt(distance(row[before], row[after]));
-                Around { row: run(after, (before + n - after) % n), over: 0, trailing }
+                Around { row: run(after, (before + n - after) % n), ends: [after, before], over: 0, trailing }
             }
             _ => {
                 let over = n / 16 + 1;
-                Around { row: run(tail + n - over, n + 2 * over), over, trailing: TrailingEdge::Round }
+                Around {
+                    row: run(tail + n - over, n + 2 * over),
+                    ends: [tail; 2],
+                    over,
+                    trailing: TrailingEdge::Round,
+                }
             }
         })
     }
@@ -124,6 +140,20 @@ fn width(row: &[[f64; 2]], own: usize, other: usize) -> f64 {
         }
     }
     high - low
+}
+
+/// The points nearest to corners near the end `tail`, as [`corners`] tells them.
+fn known_corners(row: &[[f64; 2]], head: usize, tail: usize, known: &[[f64; 2]]) -> Vec<usize> {
+    let (n, chord) = (row.len(), distance(row[head], row[tail]));
+    let near = known.iter().filter(|c| distance(**c, row[tail]) < NEAR * chord);
+    let nearest = |c: &[f64; 2]| {
+        let off = |i: &usize| distance(row[*i], *c);
+        (0..n).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(tail)
+    };
+    let mut found: Vec<usize> = near.map(nearest).collect();
+    found.sort_by_key(|i| (i + n + n / 2 - tail) % n);
+    found.dedup();
+    if found.len() > 2 { vec![] } else { found }
 }
 
 /// The corners near the end `tail`: none, or one, or the first and the last of two, in the order of the row; none, too, where there

@@ -25,6 +25,14 @@ pub enum AirfoilError {
         /// Greatest distance of a point from the middle between the ends.
         chord: f64,
     },
+    /// The profile crosses itself: it has no inside.
+    #[error("the profile crosses itself near ({x:.4}, {y:.4}): it has no inside to measure")]
+    Crosses {
+        /// Where, first coordinate.
+        x: f64,
+        /// Where, second coordinate.
+        y: f64,
+    },
     /// No curve runs through the points, or no circle fits inside.
     #[error("no circles can be inscribed: the points cross over themselves or enclose nothing")]
     Inside,
@@ -37,6 +45,9 @@ pub enum AirfoilError {
         /// Points there are.
         found: usize,
     },
+    /// The points around the edge scatter too much.
+    #[error("the points scatter too much around the edge to tell its radius")]
+    Hidden,
     /// The points around the edge bend the other way or not at all.
     #[error("the points around the edge do not bend")]
     Flat,

@@ -119,6 +119,8 @@ pub enum AlignWord {
     Given,
     /// The best fit onto the reference.
     BestFit,
+    /// The least greatest distance from the reference, near the best fit.
+    Chebyshev,
     /// By datum features.
     Datum,
     /// By reference points.
@@ -148,6 +150,36 @@ pub struct DeviationText {
     pub outliers: Option<At<String>>,
     /// Tells what part of the reference no point covers within this reach: `auto` or a length.
     pub coverage: Option<At<CoverageText>>,
+    /// Parts of the reference with tolerances of their own; the first that has the place of a point on the reference judges it.
+    #[serde(default)]
+    pub region: Vec<At<RegionText>>,
+}
+
+/// Regions in a file of their own, for a comparison. Lengths in millimetres.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionsText {
+    /// The regions.
+    #[serde(default)]
+    pub region: Vec<At<RegionText>>,
+}
+
+/// A part of the reference with a tolerance of its own; one of `seed`, `between` and `feature` says which.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionText {
+    /// Its name.
+    pub id: At<String>,
+    /// A place on a plane, cylinder, cone or sphere of the reference: that is the region.
+    pub seed: Option<At<[f64; 3]>>,
+    /// Two opposite corners: what lies between them is the region.
+    pub between: Option<At<[[f64; 3]; 2]>>,
+    /// A feature of the plan with a nominal or a seed: the facets of the reference that belong to it are the region.
+    pub feature: Option<At<String>>,
+    /// Least and greatest allowed deviation.
+    pub tolerance: At<[f64; 2]>,
+    /// Share of its points that must keep it, percent. Without it: 100.
+    pub inside: Option<At<f64>>,
 }
 
 /// What is measured along.
@@ -177,6 +209,7 @@ impl AlignWord {
             AlignWord::None => "none",
             AlignWord::Given => "given",
             AlignWord::BestFit => "best-fit",
+            AlignWord::Chebyshev => "chebyshev",
             AlignWord::Datum => "datum",
             AlignWord::Rps => "rps",
             AlignWord::Pairs => "pairs",

@@ -12,6 +12,8 @@ pub struct Facts<'a> {
     pub method: &'a str,
     /// Root mean square distance of what counts, mm.
     pub rms: Option<f64>,
+    /// Greatest distance, where it is the least, mm.
+    pub greatest: Option<f64>,
     /// Points without a weight.
     pub left_out: Option<u64>,
     /// What is to be said about the result.
@@ -27,6 +29,9 @@ pub fn alignment(s: Style, of: &Facts) -> Markup {
             dl.facts.pairs {
                 (fact(s, "method", s.word(format!("align.{}", of.method))))
                 @if let Some(rms) = of.rms { (fact(s, "rms", html! { (s.number(rms, 4)) "\u{a0}mm" })) }
+                @if let Some(greatest) = of.greatest {
+                    (fact(s, "align.greatest", html! { (s.number(greatest, 4)) "\u{a0}mm" }))
+                }
                 @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
             }
             @for warning in of.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }

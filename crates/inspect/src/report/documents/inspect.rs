@@ -31,15 +31,19 @@ impl Subject for InspectDocument {
     }
 
     fn numbers(&self, s: Style) -> Markup {
-        let within = self.deviation.as_ref().and_then(|d| d.tolerance.as_ref());
-        let outside =
-            within.is_some() && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+        let regions = self.deviation.as_ref().filter(|d| !d.regions.is_empty());
+        let within = self.deviation.as_ref().filter(|_| regions.is_none()).and_then(|d| d.tolerance.as_ref());
+        let outside = (within.is_some() || regions.is_some())
+            && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
         // Where the deviations alone fail, they lead.
         let alone = outside && self.counts.fail == 0;
         let share = |t| html! { (share(s, t)) @if t.required < 1.0 { " " small { (required(s, t)) } } };
         let all = s.len(&self.characteristics);
         html! {
             dl.key-numbers {
+                @if let Some(c) = regions.filter(|_| alone) {
+                    (key_number(s, "regions.pass", "lead", compare::passing(s, c)))
+                }
                 @if let Some(t) = within.filter(|_| alone) { (key_number(s, "deviations.within", "lead", share(t))) }
                 @for (key, class, count) in counts(self, !alone) {
                     (key_number(s, key, class, html! {
@@ -47,6 +51,9 @@ impl Subject for InspectDocument {
                     }))
                 }
                 (key_number(s, "characteristics", "", all))
+                @if let Some(c) = regions.filter(|_| !alone) {
+                    (key_number(s, "regions.pass", if outside { "warn" } else { "" }, compare::passing(s, c)))
+                }
                 @if let Some(t) = within.filter(|_| !alone) {
                     (key_number(s, "deviations.within", if outside { "warn" } else { "" }, share(t)))
                 }
@@ -62,7 +69,7 @@ impl Subject for InspectDocument {
                 (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
             }
             (section(s, "features", features(s, self)))
-            (alignment(s, &Facts { method: &of.method, rms: of.rms, left_out, warnings: &of.warnings }))
+            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, left_out, warnings: &of.warnings }))
         }
     }
 
@@ -195,8 +202,8 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
     html! {
         (section(s, "deviations", html! {
             dl.facts.pairs {
-                @if let (Some(t), Some(verdict)) = (&c.tolerance, c.verdict) {
-                    (fact(s, "verdict", badge(s, verdict.into())))
+                @if let Some(verdict) = c.verdict { (fact(s, "verdict", badge(s, verdict.into()))) }
+                @if let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) {
                     (fact(s, "tolerance", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))
                     (fact(s, "within", html! { (share(s, t)) @if t.required < 1.0 { " " (required(s, t)) } }))
                 }
@@ -205,6 +212,7 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
             }
             @for warning in &c.warnings { p.note { "⚠ " (Text(&warning.text)) } }
         }))
+        (compare::regions(s, c, decimals))
         (compare::worst(s, c, decimals, first_pick))
         (compare::statistics(s, c, decimals))
     }

@@ -28,7 +28,8 @@ named!(Positive, "side", [Positive::Outside, Positive::Left], |side| match side 
 pub struct NominalRecord {
     /// Path of the nominal; it is the last of `inputs`.
     pub path: String,
-    /// What was measured against: `facets` (the cut of a mesh) or `contour` (the segments found in a row of points).
+    /// What was measured against: `facets` (the cut of a mesh), `contour` (the segments found in a row of points) or `drawing` (the
+    /// entities of a drawing).
     pub outline: String,
     /// Positive deviations: `outside` of the material within closed outlines, or to the `left` of open ones.
     pub positive: Word<Positive>,

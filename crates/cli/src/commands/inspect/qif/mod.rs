@@ -9,7 +9,7 @@ mod datums;
 mod features;
 mod xml;
 
-use super::lists::{DEVIATION, judged, part};
+use super::lists::{judged, part};
 use characteristics::{Ids, status};
 use datums::Datums;
 use trueness_inspect::results::inspect::InspectDocument;
@@ -63,9 +63,23 @@ fn body(x: &mut Xml, first: &InspectDocument, documents: &[InspectDocument]) {
     datums.definitions(x);
     datums.frames(x, first);
     let ids: Vec<Ids> = first.characteristics.iter().map(|_| Ids::new(x)).collect();
-    let share = documents.iter().any(|d| judged(d).is_some()).then(|| [x.number(), x.number(), x.number()]);
-    asked(x, first, &ids, share, standard, &datums);
-    results(x, documents, &ids, share);
+    let shares = shares(x, documents);
+    asked(x, first, &ids, &shares, standard, &datums);
+    results(x, documents, &ids, &shares);
+}
+
+/// The name of a judged share of deviations, and the numbers of its definition, nominal and item.
+type Share = (String, [u32; 3]);
+
+/// All that are judged in some part.
+fn shares(x: &mut Xml, documents: &[InspectDocument]) -> Vec<Share> {
+    let mut all: Vec<Share> = vec![];
+    for (name, ..) in documents.iter().flat_map(judged) {
+        if all.iter().all(|(known, _)| *known != name) {
+            all.push((name, [x.number(), x.number(), x.number()]));
+        }
+    }
+    all
 }
 
 fn units(x: &mut Xml) {
@@ -86,16 +100,16 @@ fn units(x: &mut Xml) {
     });
 }
 
-/// Definitions, nominals and items of the characteristics; `share` are the numbers of the judged deviations.
+/// Definitions, nominals and items of the characteristics; `shares` are the judged deviations.
 fn asked(
     x: &mut Xml,
     first: &InspectDocument,
     ids: &[Ids],
-    share: Option<[u32; 3]>,
+    shares: &[Share],
     standard: u32,
     datums: &Datums,
 ) {
-    let count = ids.len() + usize::from(share.is_some());
+    let count = ids.len() + shares.len();
     if count == 0 {
         return;
     }
@@ -105,12 +119,12 @@ fn asked(
         x.leaf("FormalStandardId", &standard.to_string());
         x.element("CharacteristicDefinitions", &n, |x| {
             all().for_each(|(c, ids)| characteristics::definition(x, first, c, *ids, datums));
-            if let Some([definition, ..]) = share {
+            for (name, [definition, ..]) in shares {
                 x.element(
                     "UserDefinedAttributeCharacteristicDefinition",
                     &[("id", definition.to_string())],
                     |x| {
-                        x.leaf("Name", DEVIATION);
+                        x.leaf("Name", name);
                         x.leaf(
                             "WhatToMeasure",
                             "share of the measured points whose deviation from the reference is allowed",
@@ -121,20 +135,20 @@ fn asked(
         });
         x.element("CharacteristicNominals", &n, |x| {
             all().for_each(|(c, ids)| characteristics::nominal(x, first, c, *ids));
-            if let Some([definition, nominal, _]) = share {
-                let name = "UserDefinedAttributeCharacteristicNominal";
-                x.element(name, &[("id", nominal.to_string())], |x| {
+            for (name, [definition, nominal, _]) in shares {
+                let element = "UserDefinedAttributeCharacteristicNominal";
+                x.element(element, &[("id", nominal.to_string())], |x| {
                     x.leaf("CharacteristicDefinitionId", &definition.to_string());
-                    x.leaf("Name", DEVIATION);
+                    x.leaf("Name", name);
                 });
             }
         });
         x.element("CharacteristicItems", &n, |x| {
             all().for_each(|(c, ids)| characteristics::item(x, first, c, *ids));
-            if let Some([_, nominal, item]) = share {
-                let name = "UserDefinedAttributeCharacteristicItem";
-                x.element(name, &[("id", item.to_string())], |x| {
-                    x.leaf("Name", DEVIATION);
+            for (name, [_, nominal, item]) in shares {
+                let element = "UserDefinedAttributeCharacteristicItem";
+                x.element(element, &[("id", item.to_string())], |x| {
+                    x.leaf("Name", name);
                     x.leaf("CharacteristicNominalId", &nominal.to_string());
                 });
             }
@@ -143,7 +157,7 @@ fn asked(
 }
 
 /// What was found, part by part.
-fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], share: Option<[u32; 3]>) {
+fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], shares: &[Share]) {
     let n = [("n", documents.len().to_string())];
     let components: Vec<u32> = documents.iter().map(|_| x.number()).collect();
     x.element("Results", &[], |x| {
@@ -151,7 +165,7 @@ fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], share: Optio
             for (document, component) in documents.iter().zip(&components) {
                 let id = x.number();
                 x.element("MeasurementResults", &[("id", id.to_string())], |x| {
-                    one_part(x, document, ids, share, *component);
+                    one_part(x, document, ids, shares, *component);
                 });
             }
         });
@@ -168,7 +182,7 @@ fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], share: Optio
     });
 }
 
-fn one_part(x: &mut Xml, document: &InspectDocument, ids: &[Ids], share: Option<[u32; 3]>, component: u32) {
+fn one_part(x: &mut Xml, document: &InspectDocument, ids: &[Ids], known: &[Share], component: u32) {
     x.attributes(&traced(document));
     let files = 1 + document.inputs.len();
     x.element("ExternalFileReferences", &[("n", files.to_string())], |x| {
@@ -186,8 +200,8 @@ fn one_part(x: &mut Xml, document: &InspectDocument, ids: &[Ids], share: Option<
             }
         });
     }
-    let judged = judged(document).zip(share);
-    let count = ids.len() + usize::from(judged.is_some());
+    let judged = judged(document);
+    let count = ids.len() + judged.len();
     if count > 0 {
         x.element("MeasuredCharacteristics", &[], |x| {
             x.element("CharacteristicMeasurements", &[("n", count.to_string())], |x| {
@@ -195,14 +209,15 @@ fn one_part(x: &mut Xml, document: &InspectDocument, ids: &[Ids], share: Option<
                     let feature = |name: &str| features.iter().find(|(f, _)| *f == name).map(|(_, id)| *id);
                     characteristics::measured(x, document, c, *ids, component, feature);
                 }
-                if let Some(((shares, verdict), [_, _, item])) = judged {
+                for (of, shares, verdict) in &judged {
+                    let Some((_, [_, _, item])) = known.iter().find(|(name, _)| name == of) else { continue };
                     let id = x.number();
                     let name = "UserDefinedAttributeCharacteristicMeasurement";
                     x.element(name, &[("id", id.to_string())], |x| {
                         let numbers =
                             [("lower", shares.lower), ("upper", shares.upper), ("required", shares.required)];
                         x.attributes(&numbers.map(|(name, x)| (name, Value::from(x))));
-                        status(x, verdict);
+                        status(x, *verdict);
                         x.leaf("CharacteristicItemId", &item.to_string());
                         x.leaf("ActualComponentId", &component.to_string());
                         if let Some(inside) = shares.inside {

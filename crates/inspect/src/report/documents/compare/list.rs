@@ -6,9 +6,11 @@ use super::super::super::values::{Name, Text};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
 use super::words::{headline, in_words, sign_key, warning_key};
+use crate::results::Verdict;
 use crate::results::check::found;
 use crate::results::compare::{
     AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
+    ToleranceShares, Worst,
 };
 use crate::results::statistics::PAGE_ROWS;
 use maud::{Markup, Render, html};
@@ -30,7 +32,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
             div.comparison data-comparison=(n) hidden[n > 0] {
                 "\n"
                 @if several { p.against { (s.word("reference")) " " (Name(file_name(&c.reference))) } }
-                (worst(s, c, decimals, first)) (statistics(s, c, decimals)) (trust(s, result, c))
+                (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals)) (trust(s, result, c))
                 @if !found.is_empty() {
                     (section(s, "reference.defects", check::kinds(s, found, first + c.worst.len())))
                 }
@@ -41,6 +43,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
             (alignment(s, &Facts {
                 method: "best-fit",
                 rms: Some(a.rms),
+                greatest: None,
                 left_out: Some(a.left_out),
                 warnings: &a.warnings,
             }))
@@ -69,6 +72,9 @@ fn ranking(s: Style, result: &CompareDocument) -> Markup {
                             td.r { (s.optional(all.rms, decimals).because(all.rms_reason.as_deref())) }
                             td.r {
                                 @match (&c.tolerance, c.verdict) {
+                                    (_, Some(v)) if !c.regions.is_empty() => {
+                                        (badge(s, headline(Some(v)))) " " (passing(s, c))
+                                    }
                                     (Some(t), Some(v)) => {
                                         (badge(s, headline(Some(v)))) " "
                                         (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref()))
@@ -107,7 +113,12 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
     if c.worst.is_empty() {
         return Markup::default();
     }
-    let outside = |x: f64| c.tolerance.as_ref().is_some_and(|t| x > t.upper || x < t.lower);
+    // Each by the tolerance of its own region.
+    let outside = |w: &Worst| {
+        let region = w.region.as_ref().and_then(|id| c.regions.iter().find(|r| r.id == *id));
+        let zone = region.map(|r| &r.tolerance).or(c.tolerance.as_ref());
+        zone.is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower)
+    };
     section(
         s,
         "worst",
@@ -116,7 +127,7 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
                 thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
                 tbody {
                     @for (n, w) in c.worst.iter().enumerate() {
-                        tr data-pick=(first_pick + n) class=[outside(w.deviation).then_some("out")] {
+                        tr data-pick=(first_pick + n) class=[outside(w).then_some("out")] {
                             td { (n + 1) }
                             td.r { (s.number(w.deviation, decimals).signed()) }
                             (place_cells(s, w.point))
@@ -136,6 +147,59 @@ fn column_digits(value: Option<f64>, wanted: usize) -> usize {
         size if size < 1e5 => wanted.min(1),
         _ => 0,
     }
+}
+
+/// How many of the regions pass.
+pub fn passing(s: Style, c: &Comparison) -> Markup {
+    let pass = c.regions.iter().filter(|r| r.verdict == Verdict::Pass).count();
+    html! { (s.count(pass as u64)) " " small { "/\u{a0}" (s.count(c.regions.len() as u64)) } }
+}
+
+/// The regions with their tolerances, shares and verdicts, and all other points; nothing where there are none.
+pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
+    if c.regions.is_empty() {
+        return Markup::default();
+    }
+    let limit = |x| s.number(x, decimals).signed();
+    let row = |name: Markup, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
+        html! {
+            tr {
+                th scope="row" { (name) }
+                td.r { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }
+                td.r { (s.count(points)) }
+                td.r { (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())) }
+                td { @if let Some(verdict) = verdict { (badge(s, verdict.into())) } }
+            }
+        }
+    };
+    let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
+    let judged = |t: &ToleranceShares| {
+        let of = |share| if share >= t.required { Verdict::Pass } else { Verdict::Fail };
+        t.inside.map(of)
+    };
+    section(
+        s,
+        "regions",
+        html! {
+            table.statistics {
+                thead {
+                    tr {
+                        th { (s.word("region")) } th.r { (s.word("tolerance")) } th.r { (s.word("points")) }
+                        th.r { (s.word("within.short")) } th {}
+                    }
+                }
+                tbody {
+                    @for r in &c.regions {
+                        (row(html! { (Name(&r.id)) }, &r.tolerance, r.deviation.count, Some(r.verdict)))
+                    }
+                    @if let Some(t) = &c.tolerance {
+                        (row(html! { (s.word("regions.others")) }, t, rest, judged(t)))
+                    }
+                }
+            }
+            p.note { (s.word("regions.means")) }
+        },
+    )
 }
 
 /// The deviations in words and numbers.

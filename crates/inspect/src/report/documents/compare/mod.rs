@@ -3,7 +3,7 @@
 mod list;
 mod words;
 
-pub use list::{by_side, excluded, rules, statistics, worst};
+pub use list::{by_side, excluded, passing, regions, rules, statistics, worst};
 
 use super::super::number::Style;
 use super::super::page::parts::{Headline, key_number};
@@ -92,7 +92,9 @@ impl Subject for CompareDocument {
 /// The map of a comparison.
 pub fn map(c: &Comparison) -> Map<'_> {
     let all = &c.deviation.all;
-    let (tolerance, histogram) = (c.tolerance.clone(), c.histogram.as_ref());
+    // Where several tolerances hold, no band of the map shows what is within them.
+    let tolerance = c.tolerance.clone().filter(|_| c.regions.is_empty());
+    let histogram = c.histogram.as_ref();
     Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram, ..Map::default() }
 }
 
@@ -143,6 +145,7 @@ fn lead(s: Style, c: &Comparison, decimals: usize) -> Markup {
     let limit = |x| s.number(x, decimals).signed();
     html! {
         @match &c.tolerance {
+            _ if !c.regions.is_empty() => (key_number(s, "regions.pass", "lead", passing(s, c))),
             Some(t) => {
                 (key_number(s, "within", "lead", s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())))
                 (key_number(s, "tolerance", "", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))

@@ -25,7 +25,11 @@ pub(super) fn warning_key(kind: WarningKind) -> &'static str {
 
 /// The map in one sentence, for those who cannot see it.
 pub(super) fn in_words(s: Style, c: &Comparison) -> Markup {
-    let shares = c.tolerance.as_ref().and_then(|t| Some([t.inside?, t.above?, t.below?]));
+    let shares = c
+        .tolerance
+        .as_ref()
+        .filter(|_| c.regions.is_empty())
+        .and_then(|t| Some([t.inside?, t.above?, t.below?]));
     html! {
         @if let Some(shares) = shares {
             p.words {

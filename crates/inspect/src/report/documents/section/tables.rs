@@ -34,6 +34,9 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                 @if !contour.astray.is_empty() {
                     p.note { strong.warning { "⚠" } " " (s.word("contour.astray")) " " (listed(&contour.astray)) }
                 }
+                @if let [[x, y], ..] = contour.crossings[..] {
+                    p.note { strong.warning { "⚠" } " " (s.word("contour.crossings")) " (" (s.number(x, 4)) ", " (s.number(y, 4)) ")" }
+                }
                 div.wide { (segments(s, contour, numbers[n])) }
                 @if let Some(reason) = &contour.joins_reason {
                     p.note { (s.word("joins.none")) ": " (Text(reason)) }

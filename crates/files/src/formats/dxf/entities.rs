@@ -1,0 +1,223 @@
+//! The entities of a drawing that have a course in its plane.
+
+use super::groups::Group;
+use crate::Unit;
+use crate::cad::assemble::{Raw, curve};
+use crate::drawing::Drawn;
+use crate::error::{Fault, Located, Result};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Heights of an entity differ by no more than this share of its size.
+const FLAT: f64 = 1e-6;
+
+/// What an entity says, in the file's order: its groups but the name.
+pub(super) struct Said<'a> {
+    pub groups: &'a [Group<'a>],
+    /// Line of its name.
+    pub line: u64,
+    pub unit: Unit,
+}
+
+impl Said<'_> {
+    fn group(&self, code: i64) -> Option<&Group<'_>> {
+        self.groups.iter().find(|g| g.code == code)
+    }
+    fn wrong(&self, what: &str, remedy: &'static str) -> Located {
+        Fault::Unsupported { what: what.into(), remedy }.at_line(self.line)
+    }
+    pub fn integer(&self, code: i64) -> Result<i64> {
+        self.group(code).map_or(Ok(0), Group::integer)
+    }
+    fn number(&self, code: i64) -> Result<f64> {
+        let missing = || Fault::unexpected("all numbers of the entity", b"").at_line(self.line);
+        self.group(code).ok_or_else(missing)?.number()
+    }
+    fn or(&self, code: i64, default: f64) -> Result<f64> {
+        self.group(code).map_or(Ok(default), Group::number)
+    }
+    fn length(&self, code: i64) -> Result<f64> {
+        Ok(self.unit.to_millimetres(self.number(code)?))
+    }
+    fn place(&self, code: i64) -> Result<[f64; 2]> {
+        Ok([self.length(code)?, self.length(code + 10)?])
+    }
+    fn all(&self, code: i64) -> Result<Vec<f64>> {
+        self.groups.iter().filter(|g| g.code == code).map(Group::number).collect()
+    }
+    fn lengths(&self, code: i64) -> Result<Vec<f64>> {
+        Ok(self.all(code)?.into_iter().map(|x| self.unit.to_millimetres(x)).collect())
+    }
+
+    /// Whether the entity is drawn as seen from below; refused where its plane is another one than that of the drawing.
+    fn mirrored(&self) -> Result<bool> {
+        match [self.or(210, 0.0)?, self.or(220, 0.0)?, self.or(230, 1.0)?] {
+            [x, y, z] if x.abs() < FLAT && y.abs() < FLAT && z != 0.0 => Ok(z < 0.0),
+            _ => Err(self.wrong("an entity is turned out of the plane of the drawing:", "draw it flat")),
+        }
+    }
+
+    /// Refuses what is not parallel to the plane of the drawing.
+    fn flat(&self, heights: &[f64], size: f64) -> Result<()> {
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        match high - low > FLAT * size {
+            true => Err(self.wrong("an entity leaves the plane of the drawing:", "draw it flat")),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Box of places, as the length of its diagonal.
+fn size(points: &[[f64; 2]]) -> f64 {
+    let range = |k: usize| {
+        let all = points.iter().map(|p| p[k]);
+        all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
+    };
+    if points.is_empty() { 0.0 } else { range(0).hypot(range(1)) }
+}
+
+/// A `LINE`.
+pub(super) fn line(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
+    let (start, end) = (said.place(10)?, said.place(11)?);
+    said.flat(&[said.or(30, 0.0)?, said.or(31, 0.0)?], size(&[start, end]))?;
+    if start != end {
+        out.push(Drawn::Line { start, end });
+    }
+    Ok(())
+}
+
+/// An `ARC` or `CIRCLE`: counter-clockwise as seen from the side of its normal.
+pub(super) fn arc(said: &Said, whole: bool, out: &mut Vec<Drawn>) -> Result<()> {
+    let (mut center, radius) = (said.place(10)?, said.length(40)?);
+    if radius <= 0.0 {
+        return Err(Fault::unexpected("a radius above 0", radius.to_string().as_bytes()).at_line(said.line));
+    }
+    let (mut start, mut sweep) = (0.0, TAU);
+    if !whole {
+        let (from, to) = (said.number(50)?.to_radians(), said.number(51)?.to_radians());
+        let turn = (to - from).rem_euclid(TAU);
+        (start, sweep) = (from, if turn == 0.0 { TAU } else { turn });
+    }
+    if said.mirrored()? {
+        (center[0], start, sweep) = (-center[0], PI - start, -sweep);
+    }
+    out.push(Drawn::Arc { center, radius, start, sweep });
+    Ok(())
+}
+
+/// A vertex of a polyline and the bulge of what follows: the tangent of a quarter of its sweep.
+pub(super) type Vertex = ([f64; 2], f64);
+
+/// The vertices of an `LWPOLYLINE`.
+pub(super) fn vertices(said: &Said) -> Result<Vec<Vertex>> {
+    let (mut all, mut x): (Vec<Vertex>, Option<f64>) = (vec![], None);
+    for group in said.groups {
+        match group.code {
+            10 => x = Some(said.unit.to_millimetres(group.number()?)),
+            20 => {
+                let y = said.unit.to_millimetres(group.number()?);
+                let x = x.take().ok_or_else(|| group.wrong("the first coordinate before the second"))?;
+                all.push(([x, y], 0.0));
+            }
+            42 => {
+                let bulge = group.number()?;
+                if let Some(last) = all.last_mut() {
+                    last.1 = bulge;
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(all)
+}
+
+/// A `VERTEX` of a `POLYLINE`.
+pub(super) fn vertex(said: &Said) -> Result<Vertex> {
+    Ok((said.place(10)?, said.or(42, 0.0)?))
+}
+
+/// Lines and arcs between the vertices of a polyline.
+pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut Vec<Drawn>) -> Result<()> {
+    let mirror = if said.mirrored()? { -1.0 } else { 1.0 };
+    let n = vertices.len();
+    for i in 0..if closed { n } else { n.saturating_sub(1) } {
+        let ((a, bulge), (b, _)) = (vertices[i], vertices[(i + 1) % n]);
+        let [start, end] = [a, b].map(|p| [mirror * p[0], p[1]]);
+        let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
+        let (chord, bulge) = (dx.hypot(dy), mirror * bulge);
+        if chord == 0.0 {
+            continue;
+        }
+        if bulge == 0.0 {
+            out.push(Drawn::Line { start, end });
+            continue;
+        }
+        // The center lies on the left of the chord where the bulge is to its right and less than a half circle.
+        let up = 0.25 * (1.0 / bulge - bulge);
+        let center = [0.5 * (start[0] + end[0]) - up * dy, 0.5 * (start[1] + end[1]) + up * dx];
+        let radius = 0.25 * chord * (bulge + 1.0 / bulge).abs();
+        let from = libm::atan2(start[1] - center[1], start[0] - center[0]);
+        if !radius.is_finite() {
+            out.push(Drawn::Line { start, end });
+            continue;
+        }
+        out.push(Drawn::Arc { center, radius, start: from, sweep: 4.0 * libm::atan(bulge) });
+    }
+    Ok(())
+}
+
+/// A `SPLINE`, polynomial or rational, by its control points.
+pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
+    let (x, y, z) = (said.lengths(10)?, said.lengths(20)?, said.lengths(30)?);
+    if x.is_empty() {
+        let what = "a spline is given by points that it passes through alone:";
+        return Err(said.wrong(what, "export it with its control points"));
+    }
+    if x.len() != y.len() {
+        return Err(Fault::unexpected("two coordinates of each control point", b"").at_line(said.line));
+    }
+    let points: Vec<[f64; 3]> = x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.0]).collect();
+    said.flat(&z, size(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>()))?;
+    let mut weights = said.all(41)?;
+    if weights.is_empty() {
+        weights = vec![1.0; points.len()];
+    }
+    let degree = usize::try_from(said.integer(71)?).unwrap_or(0);
+    let raw =
+        Raw { degree: vec![degree], knots: vec![said.all(40)?], counts: vec![points.len()], points, weights };
+    out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(said.line))?));
+    Ok(())
+}
+
+/// An `ELLIPSE`: quarters of it as rational curves of degree 2, exactly.
+pub(super) fn ellipse(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
+    let (center, major, ratio) = (said.place(10)?, said.place(11)?, said.number(40)?);
+    said.flat(&[0.0, said.or(31, 0.0)?], size(&[[0.0; 2], major]))?;
+    let turn = if said.mirrored()? { -1.0 } else { 1.0 };
+    let minor = [-turn * ratio * major[1], turn * ratio * major[0]];
+    let (from, to) = (said.or(41, 0.0)?, said.or(42, TAU)?);
+    let sweep = if to > from { to - from } else { to - from + TAU };
+    if major == [0.0; 2] || ratio <= 0.0 || sweep <= 0.0 || sweep > TAU + FLAT {
+        return Err(Fault::unexpected("axes and a range of an ellipse", b"").at_line(said.line));
+    }
+    let pieces = (sweep / FRAC_PI_2 - FLAT).ceil().max(1.0);
+    let half = 0.5 * sweep / pieces;
+    let place = |angle: f64, out: f64| {
+        let (sin, cos) = libm::sincos(angle);
+        let on = |k: usize| center[k] + out * (cos * major[k] + sin * minor[k]);
+        [on(0), on(1), 0.0]
+    };
+    for i in 0..pieces as u32 {
+        let middle = from + half * (2.0 * f64::from(i) + 1.0);
+        let cos = libm::cos(half);
+        let raw = Raw {
+            degree: vec![2],
+            knots: vec![vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]],
+            counts: vec![3],
+            points: vec![place(middle - half, 1.0), place(middle, 1.0 / cos), place(middle + half, 1.0)],
+            weights: vec![1.0, cos, 1.0],
+        };
+        out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(said.line))?));
+    }
+    Ok(())
+}

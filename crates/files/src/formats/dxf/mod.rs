@@ -1,0 +1,26 @@
+//! DXF drawings: lines, arcs, circles and splines, written for sections and read as the nominal of one.
+
+mod entities;
+mod groups;
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use write::write;
+
+use crate::format::{Format, Head};
+
+/// DXF.
+pub(crate) const DXF: Format = Format {
+    name: "dxf",
+    extensions: &["dxf"],
+    written_as: &[],
+    manual: include_str!("dxf.md"),
+    columns: false,
+    // A group of code 0 that begins a section, perhaps after comments of code 999; or the mark of binary files.
+    sniff: |head: &Head| groups::begins(head.bytes),
+    read: Some(read::read),
+    points: None,
+    mesh: None,
+};

@@ -1,0 +1,161 @@
+//! What is written reads back; entities by their definition; what is refused.
+
+use crate::drawing::{Drawing, Drawn, Entity, Layer};
+use crate::write::scratch::Folder;
+use crate::{Body, ReadError, ReadOptions, Unit, open};
+
+fn read(text: &str) -> Result<(Drawing, Unit, Vec<String>), ReadError> {
+    let folder = Folder::new();
+    let path = folder.path().join("drawing");
+    std::fs::write(&path, text).unwrap();
+    let input = open(&path, &ReadOptions::default())?;
+    let Body::Drawing(drawing) = input.body else { panic!("no drawing") };
+    let warnings = input.warnings.iter().map(ToString::to_string).collect();
+    Ok((drawing, input.provenance.unit_assumed, warnings))
+}
+
+/// A drawing of these groups of entities.
+fn drawing(header: &str, entities: &str) -> String {
+    let lines = |text: &str| text.split_whitespace().map(|w| format!("{w}\n")).collect::<String>();
+    let header = lines(header);
+    format!(
+        "  0\r\nSECTION\r\n  2\r\nHEADER\r\n{header}  0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}0\nENDSEC\n0\nEOF\n",
+        lines(entities)
+    )
+}
+
+fn place(drawn: &Drawn, share: f64) -> [f64; 2] {
+    match drawn {
+        Drawn::Line { start, end } => [0, 1].map(|k| start[k] + share * (end[k] - start[k])),
+        Drawn::Arc { center, radius, start, sweep } => {
+            let (s, c) = (start + share * sweep).sin_cos();
+            [center[0] + radius * c, center[1] + radius * s]
+        }
+        Drawn::Spline(curve) => {
+            let p = curve.at(share).unwrap();
+            [p[0], p[1]]
+        }
+    }
+}
+
+fn is_at(found: [f64; 2], wanted: [f64; 2]) {
+    assert!((found[0] - wanted[0]).hypot(found[1] - wanted[1]) < 1e-12, "{found:?} {wanted:?}");
+}
+
+#[test]
+fn what_is_written_reads_back() {
+    let entities = vec![
+        Entity::Line { start: [0.1, 0.2], end: [1e-20, 3.0] },
+        Entity::Arc { center: [1.0, 2.0], radius: 0.5, start: 0.3, sweep: 1.1 },
+        Entity::Arc { center: [1.0, 2.0], radius: 0.5, start: 0.0, sweep: std::f64::consts::TAU },
+        Entity::Spline {
+            degree: 2,
+            knots: vec![0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0],
+            points: vec![[0.0, 0.0], [1.0, 2.0], [3.0, 1.0], [4.0, 0.3]],
+        },
+    ];
+    let layer = Layer { name: "section-1".into(), entities, ..Layer::default() };
+    let mut out = vec![];
+    super::write(&mut out, &[layer]).unwrap();
+    let (found, unit, warnings) = read(std::str::from_utf8(&out).unwrap()).unwrap();
+    assert_eq!((found.entities.len(), unit, warnings), (4, Unit::Millimetre, vec![]));
+    assert!(found.entities.iter().all(|e| e.layer == "section-1"));
+    let drawn = |i: usize| &found.entities[i].drawn;
+    assert_eq!(*drawn(0), Drawn::Line { start: [0.1, 0.2], end: [1e-20, 3.0] });
+    let Drawn::Arc { start, sweep, .. } = drawn(1) else { panic!() };
+    assert!((start - 0.3).abs() < 1e-14 && (sweep - 1.1).abs() < 1e-14);
+    let Drawn::Arc { sweep, .. } = drawn(2) else { panic!() };
+    assert_eq!(*sweep, std::f64::consts::TAU);
+    // Degree 2: control points and the knot in the middle, where the curve is halfway between two of them.
+    is_at(place(drawn(3), 0.5), [2.0, 1.5]);
+}
+
+#[test]
+fn polylines_have_bulges() {
+    // A half circle to the right of the way from (0, 0) to (2, 0): below, counter-clockwise; then a straight way back.
+    let (found, unit, _) =
+        read(&drawing("9 $INSUNITS 70 1", "0 LWPOLYLINE 8 0 90 2 70 1 10 0 20 0 42 1 10 2 20 0 42 0"))
+            .unwrap();
+    assert_eq!((unit, found.entities.len()), (Unit::Inch, 2));
+    is_at(place(&found.entities[0].drawn, 0.0), [0.0, 0.0]);
+    is_at(place(&found.entities[0].drawn, 0.5), [25.4, -25.4]);
+    is_at(place(&found.entities[0].drawn, 1.0), [50.8, 0.0]);
+    assert_eq!(found.entities[1].drawn, Drawn::Line { start: [50.8, 0.0], end: [0.0, 0.0] });
+    // A quarter and three quarters of a circle about (0, 0): tan of a quarter of the sweep.
+    for (sweep, to) in [(90f64, [0.0, 1.0]), (270.0, [0.0, -1.0]), (-90.0, [0.0, -1.0])] {
+        let bulge = (0.25 * sweep.to_radians()).tan();
+        let text = format!(
+            "0 POLYLINE 66 1 70 0 0 VERTEX 10 1 20 0 42 {bulge} 0 VERTEX 10 {} 20 {} 0 SEQEND",
+            to[0], to[1]
+        );
+        let (found, unit, _) = read(&drawing("", &text)).unwrap();
+        assert_eq!((unit, found.entities.len()), (Unit::Millimetre, 1));
+        let half = (0.5 * sweep.to_radians()).sin_cos();
+        is_at(place(&found.entities[0].drawn, 0.5), [half.1, half.0]);
+        is_at(place(&found.entities[0].drawn, 1.0), to);
+    }
+}
+
+#[test]
+fn entities_seen_from_below_are_mirrored_and_ellipses_are_exact() {
+    let (found, ..) = read(&drawing(
+        "",
+        "0 ARC 10 3 20 1 40 2 50 0 51 90 210 0 220 0 230 -1 0 ELLIPSE 10 1 20 2 11 3 21 0 40 0.5 41 0 42 6.283185307179586 0 LWPOLYLINE 10 1 20 0 42 0.5 10 2 20 0 230 -1",
+    ))
+    .unwrap();
+    is_at(place(&found.entities[0].drawn, 0.0), [-5.0, 1.0]);
+    is_at(place(&found.entities[0].drawn, 1.0), [-3.0, 3.0]);
+    let quarters = &found.entities[1..5];
+    for (i, t) in (0..4).flat_map(|i| [(i, 0.0), (i, 0.3), (i, 1.0)]) {
+        let p = place(&quarters[i].drawn, t);
+        assert!((((p[0] - 1.0) / 3.0).powi(2) + ((p[1] - 2.0) / 1.5).powi(2) - 1.0).abs() < 1e-14);
+    }
+    is_at(place(&quarters[1].drawn, 0.0), [1.0, 3.5]);
+    is_at(place(&found.entities[5].drawn, 0.5), [-1.5, -0.25]);
+}
+
+#[test]
+fn what_is_passed_over_is_told() {
+    let (found, _, warnings) = read(&drawing(
+        "",
+        "0 TEXT 1 hello 0 LINE 10 0 20 0 11 1 21 0 0 INSERT 2 block 0 INSERT 2 block 0 LINE 67 1 10 0 20 0 11 1 21 0",
+    ))
+    .unwrap();
+    assert_eq!(found.entities.len(), 1);
+    assert!(warnings.len() == 1 && warnings[0].contains("2 INSERT, 1 TEXT"), "{warnings:?}");
+    let (_, _, warnings) = read(&drawing("", "")).unwrap();
+    assert_eq!(warnings.len(), 1);
+}
+
+#[test]
+fn hostile_drawings_are_refused_with_their_line() {
+    let refused = |header: &str, entities: &str| read(&drawing(header, entities)).unwrap_err().to_string();
+    for (entities, word) in [
+        ("0 LINE 10 0 20 nan 11 1 21 0", "finite number"),
+        ("0 LINE 10 0 20 1e999 11 1 21 0", "finite number"),
+        ("0 LINE 10 0 20 0 11 1", "all numbers"),
+        ("0 LINE 10 0 20 0 30 0 11 1 21 0 31 5", "leaves the plane"),
+        ("0 CIRCLE 10 0 20 0 40 -1", "radius above 0"),
+        ("0 CIRCLE 10 0 20 0 40 1 210 1 220 0 230 0", "turned out of the plane"),
+        ("0 SPLINE 71 3 11 0 21 0 31 0 11 1 21 1 31 0", "passes through"),
+        ("0 SPLINE 71 3 40 0 40 0 40 1 40 1 10 0 20 0 10 1 20 1", "knots"),
+        ("0 SPLINE 71 99999999999 40 0 40 1 10 0 20 0 10 1 20 1", "degree"),
+        (
+            "0 SPLINE 71 1 72 4000000000 73 4000000000 40 0 40 0 40 1 40 1 41 -1 41 1 10 0 20 0 10 1 20 1",
+            "weight",
+        ),
+        ("0 POLYLINE 70 0 0 VERTEX 10 0 20 0", "SEQEND"),
+        ("0 LWPOLYLINE 20 0 10 0", "first coordinate"),
+        ("x LINE", "code of a group"),
+        ("5 LINE", "an entity"),
+    ] {
+        let error = refused("", entities);
+        assert!(error.contains(word) && error.contains("line "), "{entities}: {error}");
+    }
+    assert!(refused("9 $INSUNITS 70 7", "").contains("$INSUNITS"));
+    let whole = drawing("9 $INSUNITS 70 4", "0 LINE 10 0 20 0 11 1 21 0 0 CIRCLE 10 0 20 0 40 1");
+    for end in 40..whole.len() - 4 {
+        assert!(read(&whole[..end]).is_err(), "{end}");
+    }
+    assert!(read("AutoCAD Binary DXF\r\n\u{1a}\0").unwrap_err().to_string().contains("ASCII"));
+}

@@ -1,0 +1,130 @@
+//! The best fit by the least greatest distance (Chebyshev), from a pose that is near.
+//!
+//! Least squares share the deviations out; here the worst place alone decides, so that a part is as far within a zone about its
+//! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out most.
+
+use super::icp::Problem;
+use super::sample::{Measured, Samples};
+use super::{AlignError, AlignWarning, Alignment, BestFit, Target};
+use crate::closest::FreeEdges;
+use crate::num::sum::Sum;
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{Point, Vector, minus, norm, times};
+use crate::zone::ZoneError;
+use crate::zone::datum::Freedom;
+use crate::zone::motion::{Search, placed};
+
+/// The pose with the least greatest distance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Minimax {
+    /// Takes measured coordinates to those of the reference.
+    pub reference_from_measured: Rigid,
+    /// The greatest distance of a point that counts from the surface, millimetres.
+    pub greatest: f64,
+    /// Where that point lies on the reference's side, millimetres.
+    pub at: Point,
+    /// Root of their weighted mean square distance.
+    pub rms: f64,
+    /// Their weighted mean distance.
+    pub mean_abs: f64,
+    /// Points that count: those that count in the best fit.
+    pub used: u64,
+    /// Points that do not.
+    pub left_out: u64,
+}
+
+/// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
+/// from the surface is least. The points that count are those of the best fit: outliers do not, unless `options` say so.
+///
+/// A local search: the best fit decides near which pose. Cost: three to ten closest-point searches of all points, one by one.
+///
+/// # Errors
+/// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NotSettled`], [`AlignError::Cancelled`], and those of
+/// [`best_fit`](super::best_fit).
+///
+/// ```
+/// use trueness_geom::align::{BestFit, Measured, Start, Target, best_fit, minimax};
+/// use trueness_geom::{closest::Tree, mesh::Mesh, progress::Silent, rigid::Rigid};
+/// let reference = Mesh {
+///     positions: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 11.0]],
+///     faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+/// };
+/// let mut points = vec![];
+/// for face in &reference.faces {
+///     let [a, b, c] = face.map(|v| reference.positions[v as usize]);
+///     for (i, j) in (1..12).flat_map(|i| (1..12 - i).map(move |j| (f64::from(i) / 12.0, f64::from(j) / 12.0))) {
+///         points.push(std::array::from_fn(|k| a[k] + i * (b[k] - a[k]) + j * (c[k] - a[k])));
+///     }
+/// }
+/// let tree = Tree::build(&reference)?;
+/// let target = Target::new(&reference, &tree);
+/// let measured = Measured::Points { points: &points, normals: None };
+/// let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let fit = best_fit(&measured, &target, &options, &Silent)?;
+/// assert!(minimax(&measured, &target, &fit, &options, &Silent)?.greatest < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn minimax(
+    measured: &Measured,
+    reference: &Target,
+    from: &Alignment,
+    options: &BestFit,
+    progress: &dyn Progress,
+) -> Result<Minimax, AlignError> {
+    if !from.freedoms.is_empty() {
+        return Err(AlignError::Free { free: from.freedoms.len() });
+    }
+    let all = Samples::all(measured);
+    let samples = if from.warnings.contains(&AlignWarning::NormalsTurned) { all.turned() } else { all };
+    let edges = FreeEdges::watched(reference.tree, progress)?;
+    let moments = samples.moments();
+    let problem = Problem {
+        target: reference,
+        free_edges: (edges.count() > 0).then_some(&edges),
+        samples: &samples,
+        mean: moments.mean,
+        robust: options.robust,
+        radius: moments.radius(),
+        rounding: 4.0 * f64::EPSILON * moments.radius().max(reference.bounds.diagonal()),
+    };
+    let start = from.reference_from_measured;
+    let mut matches = problem.matches(&start, f64::INFINITY, progress)?;
+    let sigma = problem.deviation(&matches);
+    problem.weigh(&mut matches, sigma);
+    let counts: Vec<usize> = (0..matches.len()).filter(|&i| matches[i].equation.weight > 0.0).collect();
+    let points: Vec<Point> = counts.iter().map(|&i| samples.points[i]).collect();
+    if points.is_empty() {
+        return Err(AlignError::NoOverlap);
+    }
+    let distance = |_: usize, p: Point| -> Option<(f64, Vector)> {
+        let place = reference.tree.closest(&p, f64::INFINITY).ok().flatten()?;
+        let away = minus(p, place.point);
+        match norm(away) {
+            // On the surface it goes up along the normal whichever way.
+            0.0 => Some((0.0, super::field::facet_normal(reference.mesh, place.face)?)),
+            size => Some((size, times(1.0 / size, away))),
+        }
+    };
+    let search = Search { start, free: Freedom::ALL, middle: 0.0, floating: false, outer: false };
+    let found = placed(&points, &distance, &search, progress).map_err(|e| match e {
+        ZoneError::Cancelled => AlignError::Cancelled(crate::progress::Cancelled),
+        _ => AlignError::NotSettled,
+    })?;
+    let motion = found.motion;
+    let ends: Vec<f64> = points.iter().map(|p| distance(0, motion.point(*p)).map_or(0.0, |d| d.0)).collect();
+    let weights = || counts.iter().map(|&i| samples.weights[i]);
+    let sum = |f: &dyn Fn(f64) -> f64| {
+        let terms = weights().zip(&ends).map(|(w, d)| w * f(*d));
+        terms.fold(Sum::default(), Sum::plus).value() / weights().sum::<f64>()
+    };
+    Ok(Minimax {
+        reference_from_measured: motion,
+        greatest: found.half,
+        at: motion.point(points[found.max.1]),
+        rms: sum(&|d| d * d).sqrt(),
+        mean_abs: sum(&|d| d),
+        used: counts.len() as u64,
+        left_out: (matches.len() - counts.len()) as u64,
+    })
+}

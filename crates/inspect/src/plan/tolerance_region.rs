@@ -1,0 +1,134 @@
+//! Parts of the reference with tolerances of their own, in a plan or in a file for a comparison.
+
+use super::at::At;
+use super::checker::Checker;
+use super::error::PlanError;
+use super::feature::{Feature, named};
+use super::text::{RegionText, RegionsText};
+use crate::compare::{Extent, RegionRule};
+use crate::tolerance::Tolerance;
+use std::ops::Range;
+
+/// A region of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// The same for a comparison; of a feature without facets yet.
+    pub rule: RegionRule,
+    /// Number of the feature whose facets it has.
+    pub feature: Option<usize>,
+    /// Where its name stands.
+    pub span: Range<usize>,
+}
+
+/// Most regions: their numbers are kept for each facet.
+const MOST: usize = 1000;
+
+/// The regions of a file: `[[region]]` with `id`, `seed` or `between`, `tolerance`, `inside`; lengths in millimetres.
+///
+/// # Errors
+/// The first fault, with line and column, as of plans.
+///
+/// ```
+/// use trueness_inspect::compare::Extent;
+/// use trueness_inspect::plan::regions_of_file;
+/// let text = "[[region]]\nid = \"bore\"\nseed = [1, 2, 3]\ntolerance = [-0.02, 0.05]\n";
+/// assert_eq!(regions_of_file(text)?[0].extent, Extent::Seed([1.0, 2.0, 3.0]));
+/// let error = regions_of_file(&text.replace("seed", "sed")).unwrap_err();
+/// assert!(error.to_string().starts_with("line 3, column 1: "), "{error}");
+/// # Ok::<(), trueness_inspect::plan::PlanError>(())
+/// ```
+pub fn regions_of_file(text: &str) -> Result<Vec<RegionRule>, PlanError> {
+    let written: RegionsText = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
+    let checker = Checker { text, unit: 1.0 };
+    if written.region.is_empty() {
+        return checker.wrong(&(0..0), "there is no [[region]]");
+    }
+    let found = regions(&checker, &written.region, &[])?;
+    Ok(found.into_iter().map(|r| r.rule).collect())
+}
+
+pub(super) fn regions(
+    checker: &Checker,
+    written: &[At<RegionText>],
+    features: &[Feature],
+) -> Result<Vec<Region>, PlanError> {
+    let mut all: Vec<Region> = vec![];
+    for At { value, span } in written {
+        if all.len() == MOST {
+            return checker.wrong(span, format!("there are more than {MOST} regions"));
+        }
+        if all.iter().any(|r| r.rule.id == value.id.value) {
+            return checker.wrong(&value.id.span, format!("there are two regions \"{}\"", value.id.value));
+        }
+        all.push(region(checker, value, features)?);
+    }
+    Ok(all)
+}
+
+fn region(checker: &Checker, written: &RegionText, features: &[Feature]) -> Result<Region, PlanError> {
+    let (extent, feature) = extent(checker, written, features)?;
+    let required_share = match &written.inside {
+        None => 1.0,
+        Some(share) => self::share(checker, share)?,
+    };
+    let rule = RegionRule {
+        id: written.id.value.clone(),
+        extent,
+        tolerance: zone(checker, &written.tolerance)?,
+        required_share,
+    };
+    Ok(Region { rule, feature, span: written.id.span.clone() })
+}
+
+/// A zone as it is written, in millimetres.
+pub(super) fn zone(checker: &Checker, written: &At<[f64; 2]>) -> Result<Tolerance, PlanError> {
+    let [lower, upper] = written.value.map(|x| x * checker.unit);
+    if lower.is_finite() && upper.is_finite() && lower <= upper {
+        return Ok(Tolerance { lower, upper });
+    }
+    checker.wrong(&written.span, "the tolerance is [least, greatest] allowed deviation, as in [-0.1, 0.1]")
+}
+
+/// Percent as a share.
+pub(super) fn share(checker: &Checker, written: &At<f64>) -> Result<f64, PlanError> {
+    if (0.0..=100.0).contains(&written.value) {
+        return Ok(written.value / 100.0);
+    }
+    let what = format!("inside is {}; a share is from 0 to 100 percent", written.value);
+    checker.wrong(&written.span, what)
+}
+
+fn extent(
+    checker: &Checker,
+    written: &RegionText,
+    features: &[Feature],
+) -> Result<(Extent, Option<usize>), PlanError> {
+    match (&written.seed, &written.between, &written.feature) {
+        (Some(seed), None, None) => Ok((Extent::Seed(finite(checker, seed.value, &seed.span)?), None)),
+        (None, Some(corners), None) => {
+            let [a, b] = corners.value;
+            let (a, b) = (finite(checker, a, &corners.span)?, finite(checker, b, &corners.span)?);
+            let low = std::array::from_fn(|k| a[k].min(b[k]));
+            Ok((Extent::Between(low, std::array::from_fn(|k| a[k].max(b[k]))), None))
+        }
+        (None, None, Some(name)) => {
+            let number = named(checker, &name.value, &name.span, features)?;
+            if !features[number].has_nominal() {
+                let what = format!("feature \"{}\" has no `nominal` and no `seed`", name.value);
+                return checker.wrong(&name.span, what);
+            }
+            Ok((Extent::Facets(vec![]), Some(number)))
+        }
+        _ => {
+            let what = "a region has one of `seed`, `between` and, in a plan, `feature`";
+            checker.wrong(&written.id.span, what)
+        }
+    }
+}
+
+fn finite(checker: &Checker, place: [f64; 3], span: &Range<usize>) -> Result<[f64; 3], PlanError> {
+    match place.iter().all(|x| x.is_finite()) {
+        true => Ok(checker.place(place)),
+        false => checker.wrong(span, "a place is three finite numbers"),
+    }
+}
