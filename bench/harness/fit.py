@@ -13,7 +13,7 @@ TRUTH = {
     "cone": [5.0, -7.0, 0.1, 0.05, 25.0, 0.3],
     "torus": [5.0, -7.0, 3.0, 0.1, 0.05, 60.0, 15.0],
 }
-# Where the axis, the centre and the sizes are among them.
+# Where the axis, the center and the sizes are among them.
 TILT = {"plane": [0, 1], "sphere": [], "cylinder": [2, 3], "cone": [2, 3], "torus": [3, 4]}
 # What is asked of how many points, and the most milliseconds that one thread may need; SciPy runs beside it where True.
 CASES = [

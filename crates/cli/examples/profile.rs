@@ -1,4 +1,4 @@
-//! The lines and arcs of a profile, and where they join: a line that runs into an arc of 10 mm, a point every half millimetre.
+//! The lines and arcs of a profile, and where they join: a line that runs into an arc of 10 mm, a point every half millimeter.
 //!
 //! ```text
 //! cargo run --release --example profile

@@ -1,6 +1,6 @@
 //! 3D inspection as a library: what the program `trueness` does, with data in place of files.
 //!
-//! Lengths are millimetres, angles radians, deviations positive outside of the material. Answers are the same for any number of threads.
+//! Lengths are millimeters, angles radians, deviations positive outside of the material. Answers are the same for any number of threads.
 //!
 //! | task | where |
 //! |---|---|

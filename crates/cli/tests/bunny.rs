@@ -32,7 +32,7 @@ fn statistics_equal_the_reference() {
             let got = if key == "p95" { &s["percentiles"]["95"] } else { &s[key] };
             let (got, want) = (got.as_f64().unwrap(), want.as_f64().unwrap());
             let close = (got - want).abs() <= 1e-9 * want.abs();
-            // Below a nanometre the reference's own rounding shows: its distances are good to 1e-13 mm.
+            // Below a nanometer the reference's own rounding shows: its distances are good to 1e-13 mm.
             assert!(close || (got - want).abs() < 1e-12, "{} {key}: {got} instead of {want}", model["file"]);
             compared += 1;
         }

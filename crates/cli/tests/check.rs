@@ -145,7 +145,7 @@ fn a_comparison_shows_where_its_reference_is_not_sound() {
 #[test]
 fn vertices_within_the_distance_of_weld_are_one() {
     let f = Folder::new();
-    // The first face of the cube has a corner of its own, a tenth of a millimetre beside the other's.
+    // The first face of the cube has a corner of its own, a tenth of a millimeter beside the other's.
     let torn = CUBE.replace("8 12 0", "9 12 0").replace("\n3 0 2 1\n", "\n0.1 0 0\n3 8 2 1\n");
     let torn = f.write("torn.off", torn);
     let with = |weld: &str| document(["check".as_ref(), torn.as_os_str(), "--weld".as_ref(), weld.as_ref()]);

@@ -256,9 +256,9 @@ fn outliers_are_left_out_by_their_rule_and_kept_in_the_file() {
             let d: f64 = cells[3].parse().unwrap();
             assert!((d - all[k]).abs() < 1e-12, "{line}");
             assert_eq!(cells[4], if within(&all[k]) { "0" } else { "4" }, "{line}");
-            // With a tolerance there are colours, and that of an outlier is that of no value.
-            let grey = cells[5..8] == ["154", "160", "166"];
-            assert_eq!(grey, !within(&all[k]), "{line}");
+            // With a tolerance there are colors, and that of an outlier is that of no value.
+            let gray = cells[5..8] == ["154", "160", "166"];
+            assert_eq!(gray, !within(&all[k]), "{line}");
         }
     }
     // Without the rule the wild ones count and fail.

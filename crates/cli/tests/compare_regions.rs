@@ -14,7 +14,7 @@ fn word(path: &Path) -> &str {
 /// A square of 20 mm in the plane z = 0, looking up.
 const SQUARE: &str = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nf 1 2 3\nf 1 3 4\n";
 
-/// 400 points over it, one a square millimetre: 0.05 high over x < 10 (every tenth of them 0.3), 0.15 over the rest.
+/// 400 points over it, one a square millimeter: 0.05 high over x < 10 (every tenth of them 0.3), 0.15 over the rest.
 fn points() -> String {
     let point = |k: usize| {
         let (x, y) = (0.5 + (k % 20) as f64, 0.5 + (k / 20) as f64);

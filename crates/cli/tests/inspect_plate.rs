@@ -23,7 +23,7 @@ fn off_axis(p: [f64; 3], point: [f64; 3], direction: [f64; 3]) -> f64 {
     (dot(q, q) - dot(q, direction).powi(2)).max(0.0).sqrt()
 }
 
-/// Distance within which a feature found by the nominal agrees with the least-squares element of its labelled points, mm.
+/// Distance within which a feature found by the nominal agrees with the least-squares element of its labeled points, mm.
 const NEAR: f64 = 0.002;
 
 #[test]
@@ -288,7 +288,7 @@ fn a_proposed_plan_measures_every_feature() {
     }
 }
 
-/// A scan in metres lies nowhere near the part: that is said, and not only that nothing was measured.
+/// A scan in meters lies nowhere near the part: that is said, and not only that nothing was measured.
 #[test]
 fn a_scan_of_another_unit_is_doubted() {
     let (plate, folder) = (corpus("examples/plate"), Folder::new());

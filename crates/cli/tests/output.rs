@@ -5,7 +5,7 @@ mod common;
 use common::*;
 
 #[test]
-fn what_people_look_at_is_coloured_without_a_scale_too() {
+fn what_people_look_at_is_colored_without_a_scale_too() {
     let f = Folder::new();
     let cube = f.write("cube.off", CUBE);
     let points = f.write("p.xyz", "0.5 0.5 1.25\n0.5 0.5 0.875\n0.5 1.5 0.5\n0.5 0.5 30\n");

@@ -70,7 +70,7 @@ fn points_are_measured_against_a_drawing() {
         assert_eq!(answer["inputs"][1]["unit_assumed"], "in");
         assert!(answer["inputs"][1]["warnings"][0].as_str().unwrap().contains("1 TEXT"));
     }
-    // The same outline as lines and arcs in millimetres, in any order and direction, with a hole in it that is drawn twice.
+    // The same outline as lines and arcs in millimeters, in any order and direction, with a hole in it that is drawn twice.
     let arcs = "0 ARC 10 35 20 5 40 5 50 270 51 0 0 ARC 10 5 20 15 40 5 50 90 51 180 0 ARC 10 35 20 15 40 5 50 0 51 90 0 ARC 10 5 20 5 40 5 50 180 51 270";
     let lines = "0 LINE 10 5 20 0 11 35 21 0 0 LINE 10 0 20 5 11 0 21 15 0 LINE 10 35 20 20 11 5 21 20 0 LINE 10 40 20 15 11 40 21 5";
     let hole = "0 CIRCLE 10 20 20 10 40 4 0 CIRCLE 10 20 20 10 40 4";

@@ -43,7 +43,7 @@ pub enum UnitFrom {
     Option,
     /// The file: the names of its columns, or what a CAD file says of its unit.
     Header,
-    /// Nowhere: millimetres are assumed.
+    /// Nowhere: millimeters are assumed.
     Assumed,
 }
 
@@ -86,7 +86,7 @@ pub struct ColumnTaken {
     pub name: Option<String>,
 }
 
-/// The points of a file, block by block, in the file's order, millimetres.
+/// The points of a file, block by block, in the file's order, millimeters.
 pub type PointSource = Box<dyn PointStream<Error = ReadError> + Send>;
 
 /// A mesh, points, splines, or a drawing.
@@ -104,14 +104,14 @@ pub enum Body {
 /// A mesh as the file holds it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SourceMesh {
-    /// Positions in millimetres, and triangles. In the file's order.
+    /// Positions in millimeters, and triangles. In the file's order.
     pub mesh: Mesh,
-    /// The normal that an STL file stores with each facet, in the order of `mesh.faces`, not normalised and not
+    /// The normal that an STL file stores with each facet, in the order of `mesh.faces`, not normalized and not
     /// trustworthy. `None` for other formats.
     pub stored_normals: Option<Vec<[f32; 3]>>,
     /// How many facets were left out because of a NaN or infinite coordinate.
     pub nonfinite_facets: u64,
-    /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colours, in the order of
+    /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colors, in the order of
     /// the header. It was not read. Empty for other formats.
     pub unread: Vec<String>,
 }

@@ -45,7 +45,7 @@ pub enum Fault {
     /// A file of zero bytes.
     #[error("the file is empty")]
     Empty,
-    /// Recognised, but of a kind that is not read here.
+    /// Recognized, but of a kind that is not read here.
     #[error("this is {0}, which is not read here")]
     Foreign(&'static str),
     /// The format named is only written.
@@ -124,9 +124,9 @@ pub enum Fault {
     /// Vertices are to be joined over a distance that no two of them exceed.
     #[error("all its vertices lie within {distance} mm of one another: it is only {size} mm long")]
     WeldTooFar {
-        /// The distance asked for, millimetres.
+        /// The distance asked for, millimeters.
         distance: f64,
-        /// Diagonal of the box of the vertices, millimetres.
+        /// Diagonal of the box of the vertices, millimeters.
         size: f64,
     },
     /// A cell of a table is not what the table needs there.
@@ -350,10 +350,10 @@ pub enum WriteFault {
         /// Number of the face, from 0.
         face: usize,
     },
-    /// A block has not as many deviations or colours as points.
+    /// A block has not as many deviations or colors as points.
     #[error("{points} points with {values} {what}")]
     Uneven {
-        /// `deviations`, `reasons` or `colours`.
+        /// `deviations`, `reasons` or `colors`.
         what: &'static str,
         /// Points in the block.
         points: usize,

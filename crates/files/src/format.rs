@@ -67,9 +67,9 @@ impl PartialEq for Format {
 /// What a file does not say itself.
 #[derive(Clone, Debug)]
 pub struct ReadOptions {
-    /// The unit of its numbers; else that in the names of a table's columns is used, else millimetres are assumed.
+    /// The unit of its numbers; else that in the names of a table's columns is used, else millimeters are assumed.
     pub units: Option<Unit>,
-    /// The unit where neither `units` nor the file says one; millimetres where this is absent too.
+    /// The unit where neither `units` nor the file says one; millimeters where this is absent too.
     pub unit_else: Option<Unit>,
     /// Columns of x, y, z in a table; found out otherwise. Wrong for any other format.
     pub columns: Option<Columns>,
@@ -99,7 +99,7 @@ pub enum Weld {
     /// Those at the same place.
     #[default]
     Same,
-    /// Those within this distance of one another, millimetres.
+    /// Those within this distance of one another, millimeters.
     Within(f64),
 }
 
@@ -138,7 +138,7 @@ pub(crate) struct Parsed {
     pub warnings: Vec<Warning>,
 }
 
-/// A mesh, a stream of points whose errors do not yet name the file, splines or a drawing, which are in millimetres already.
+/// A mesh, a stream of points whose errors do not yet name the file, splines or a drawing, which are in millimeters already.
 pub(crate) enum Parts {
     Mesh(SourceMesh),
     Splines(SplineModel),

@@ -1,4 +1,4 @@
-//! Readers and writers of meshes and point clouds: bytes to data and back, millimetres throughout.
+//! Readers and writers of meshes and point clouds: bytes to data and back, millimeters throughout.
 //!
 //! | task | where |
 //! |---|---|

@@ -29,7 +29,7 @@ pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
     }
 }
 
-/// The normals of the points of a file, in the order of the points and neither scaled nor normalised: of a PLY file its properties
+/// The normals of the points of a file, in the order of the points and neither scaled nor normalized: of a PLY file its properties
 /// `nx`, `ny`, `nz`, of a table the columns of these names or those that `columns` says. In a file with the extension `.xyzn` and no
 /// names they are the columns four to six.
 ///
@@ -121,7 +121,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     Ok(Input { provenance, body, warnings: parsed.warnings })
 }
 
-/// A stream in millimetres whose errors name the file.
+/// A stream in millimeters whose errors name the file.
 struct Named {
     inner: Box<dyn PointStream<Error = Located> + Send>,
     file: String,

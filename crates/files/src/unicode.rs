@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn text_is_recognised_with_and_without_a_mark() {
+    fn text_is_recognized_with_and_without_a_mark() {
         for (big, mark) in [(false, false), (false, true), (true, false), (true, true)] {
             let bytes = encoded("x;y;z\r\n1,5;2;3\r\n", big, mark);
             let code = utf16(&bytes).unwrap();

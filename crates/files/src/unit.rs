@@ -5,15 +5,15 @@ use std::{fmt, str::FromStr};
 /// The unit in which a file's numbers are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unit {
-    /// Micrometres.
-    Micrometre,
-    /// Millimetres: the unit of everything inside, and the one assumed.
+    /// Micrometers.
+    Micrometer,
+    /// Millimeters: the unit of everything inside, and the one assumed.
     #[default]
-    Millimetre,
-    /// Centimetres.
-    Centimetre,
-    /// Metres.
-    Metre,
+    Millimeter,
+    /// Centimeters.
+    Centimeter,
+    /// Meters.
+    Meter,
     /// Inches of 25.4 mm.
     Inch,
 }
@@ -21,33 +21,33 @@ pub enum Unit {
 impl Unit {
     /// All of them.
     pub const ALL: [Unit; 5] =
-        [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Metre, Unit::Inch];
+        [Unit::Micrometer, Unit::Millimeter, Unit::Centimeter, Unit::Meter, Unit::Inch];
 
     /// Its short name: `um`, `mm`, `cm`, `m`, `in`.
     pub const fn name(self) -> &'static str {
         match self {
-            Unit::Micrometre => "um",
-            Unit::Millimetre => "mm",
-            Unit::Centimetre => "cm",
-            Unit::Metre => "m",
+            Unit::Micrometer => "um",
+            Unit::Millimeter => "mm",
+            Unit::Centimeter => "cm",
+            Unit::Meter => "m",
             Unit::Inch => "in",
         }
     }
-    /// `length`, in this unit, as millimetres. A division where the factor itself would have to be rounded.
+    /// `length`, in this unit, as millimeters. A division where the factor itself would have to be rounded.
     #[inline]
-    pub(crate) fn to_millimetres(self, length: f64) -> f64 {
+    pub(crate) fn to_millimeters(self, length: f64) -> f64 {
         match self {
-            Unit::Micrometre => length / 1000.0,
-            Unit::Millimetre => length,
-            Unit::Centimetre => length * 10.0,
-            Unit::Metre => length * 1000.0,
+            Unit::Micrometer => length / 1000.0,
+            Unit::Millimeter => length,
+            Unit::Centimeter => length * 10.0,
+            Unit::Meter => length * 1000.0,
             Unit::Inch => length * 25.4,
         }
     }
-    /// Turns places read in this unit into millimetres. Costs nothing when they are.
+    /// Turns places read in this unit into millimeters. Costs nothing when they are.
     pub(crate) fn apply(self, points: &mut [[f64; 3]]) {
-        if self != Unit::Millimetre {
-            points.as_flattened_mut().iter_mut().for_each(|x| *x = self.to_millimetres(*x));
+        if self != Unit::Millimeter {
+            points.as_flattened_mut().iter_mut().for_each(|x| *x = self.to_millimeters(*x));
         }
     }
 }

@@ -26,7 +26,7 @@ fn points(mesh: &Mesh, n: usize) -> Vec<Point> {
     let bounds = mesh.bounds();
     let size = bounds.diagonal().max(1e-6);
     let mut unit = move || 2.0 * random.unit() - 1.0;
-    let centre: Point = std::array::from_fn(|k| 0.5 * bounds.min[k] + 0.5 * bounds.max[k]);
+    let center: Point = std::array::from_fn(|k| 0.5 * bounds.min[k] + 0.5 * bounds.max[k]);
     let mut out = vec![];
     for i in 0..n {
         let offset =
@@ -38,7 +38,7 @@ fn points(mesh: &Mesh, n: usize) -> Vec<Point> {
             let on = |k: usize| face[0][k] + s * (face[1][k] - face[0][k]) + t * (face[2][k] - face[0][k]);
             (std::array::from_fn(on), offset([0.0, 1e-6, 1e-2][i / 2 % 3] * size, &mut unit))
         } else {
-            (centre, offset([0.7, 3.0, 100.0][i / 2 % 3] * size, &mut unit))
+            (center, offset([0.7, 3.0, 100.0][i / 2 % 3] * size, &mut unit))
         };
         out.push(std::array::from_fn(|k| from[k] + off[k]));
     }

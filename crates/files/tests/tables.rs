@@ -40,11 +40,11 @@ fn the_minus_of_typesetting_and_units_of_headers_are_understood() {
     assert_eq!(inch.points, [[0.1 * 25.4, 0.2 * 25.4, 0.3 * 25.4]]);
     let told = open(&corpus("p_hdr_inch.csv"), &ReadOptions::default()).unwrap().provenance;
     assert_eq!((told.unit_assumed, told.unit_from), (Unit::Inch, UnitFrom::Header));
-    let options = ReadOptions { units: Some(Unit::Centimetre), ..ReadOptions::default() };
+    let options = ReadOptions { units: Some(Unit::Centimeter), ..ReadOptions::default() };
     let told = open(&corpus("p_hdr_inch.csv"), &options).unwrap();
     assert_eq!(
         (told.provenance.unit_assumed, told.provenance.unit_from),
-        (Unit::Centimetre, UnitFrom::Option)
+        (Unit::Centimeter, UnitFrom::Option)
     );
     assert_eq!(told.warnings.len(), 1);
 }

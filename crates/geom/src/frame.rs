@@ -1,6 +1,6 @@
 //! A right-handed frame, and small motions of it.
 //!
-//! A fit writes every element in a frame of its own: the axis (or normal) is the third axis, the centre the
+//! A fit writes every element in a frame of its own: the axis (or normal) is the third axis, the center the
 //! origin. A step shifts and tilts that frame by small amounts about where it is now, so that no direction is
 //! singular, whatever way the element lies.
 

@@ -3,7 +3,7 @@
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
 
-/// Vertices (millimetres) and faces of three vertex numbers each, outward normal by the right hand.
+/// Vertices (millimeters) and faces of three vertex numbers each, outward normal by the right hand.
 ///
 /// Nothing is promised beyond that: faces may be degenerate, doubled, or name a vertex that does not exist.
 /// What relies on more checks it.

@@ -5,7 +5,7 @@
 
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// A rotation followed by a translation: `x` goes to `R x + t`. Millimetres.
+/// A rotation followed by a translation: `x` goes to `R x + t`. Millimeters.
 ///
 /// The rotation is orthonormal and right-handed to a few units in the last place: every constructor sees to it.
 #[derive(Clone, Copy, Debug, PartialEq)]

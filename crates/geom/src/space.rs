@@ -1,11 +1,11 @@
 //! Points, vectors and boxes in space.
 //!
-//! A point is a plain array of three `f64` (millimetres, right-handed), so that a cloud is one flat block of
+//! A point is a plain array of three `f64` (millimeters, right-handed), so that a cloud is one flat block of
 //! memory that any caller can hand over without a copy.
 
-/// A place, millimetres.
+/// A place, millimeters.
 pub type Point = [f64; 3];
-/// A direction or difference of two places, millimetres.
+/// A direction or difference of two places, millimeters.
 pub type Vector = [f64; 3];
 
 /// Scalar product.

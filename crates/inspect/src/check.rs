@@ -8,7 +8,7 @@ pub(crate) use view::groups;
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
 use crate::results::{InputRecord, UNITS, VERSION, Word};
-use trueness_geom::check::{Finding, Found, Kind, Options, Report};
+use trueness_geom::check::{DefectKind, Finding, Found, Options, Report};
 
 /// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
 pub fn document(
@@ -22,7 +22,7 @@ pub fn document(
     let solid = s.closed && s.consistently_oriented;
     let why_not =
         || if s.closed { "neighbours look in different directions" } else { "the mesh is open" }.to_string();
-    let centre = p.centre_of_mass.filter(|_| solid);
+    let center = p.center_of_mass.filter(|_| solid);
     let defects = report.defects.iter().map(|(kind, found)| {
         let mut defects = self::defects(kind, found.as_ref());
         if kind.name == "not_finite_facets" {
@@ -46,8 +46,8 @@ pub fn document(
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(why_not),
         volume_note: (solid && overlaps(report)).then(|| OVERLAPS.into()),
-        centre_of_mass: centre,
-        centre_of_mass_reason: centre
+        center_of_mass: center,
+        center_of_mass_reason: center
             .is_none()
             .then(|| if solid { "the volume is zero".into() } else { why_not() }),
         euler_characteristic: report.euler_characteristic,
@@ -79,7 +79,7 @@ fn overlaps(report: &Report) -> bool {
 }
 
 /// The findings of a kind as the documents have them; `None` where they were not looked for.
-pub(crate) fn defects(kind: &Kind, found: Option<&Found>) -> Defects {
+pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>) -> Defects {
     let reason = match kind.name {
         "reversed_normals" => "the file stores no normals",
         _ => "not asked for",

@@ -3,7 +3,7 @@
 mod kind;
 mod view;
 
-pub use kind::{Kind, values};
+pub use kind::{CurvatureKind, values};
 pub use view::View;
 
 use crate::results::curvature::{
@@ -31,7 +31,7 @@ pub fn document(
     let jets: Vec<&Jet> = found.places.iter().flatten().collect();
     let size =
         Aabb::of(found.places.iter().zip(points).filter(|(p, _)| p.is_ok()).map(|(_, p)| p)).diagonal();
-    let [mean, gaussian, k1, k2] = Kind::ALL.map(|kind| quantity(found, points, size, kind));
+    let [mean, gaussian, k1, k2] = CurvatureKind::ALL.map(|kind| quantity(found, points, size, kind));
     Some(CurvatureDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -75,7 +75,7 @@ pub fn without(found: &Curvatures) -> BTreeMap<Word<NoCurvature>, u64> {
     all
 }
 
-fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Option<Quantity> {
+fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: CurvatureKind) -> Option<Quantity> {
     let all = values(found, kind);
     let known: Vec<f64> = all.iter().copied().filter(|v| !v.is_nan()).collect();
     let (all_known, map) = map(&known, kind, size);
@@ -94,7 +94,7 @@ fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: Kind) -> Opti
 }
 
 /// Statistics of the known values of a curvature on a body of this size, and what reports draw them by.
-pub(crate) fn map(known: &[f64], kind: Kind, size: f64) -> (Statistics, MapRecord) {
+pub(crate) fn map(known: &[f64], kind: CurvatureKind, size: f64) -> (Statistics, MapRecord) {
     let all = Summary::of(known).all;
     // A single edge must not hide how the rest bends.
     let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;

@@ -16,7 +16,7 @@ use trueness_geom::space::Point;
 use trueness_geom::stats::statistics::Summary;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,
-/// the histogram of their distances, and colours for them.
+/// the histogram of their distances, and colors for them.
 ///
 /// Cost: some passes over the points, and one number a point.
 pub fn document(fit: &Fit, points: &[Point], inputs: Vec<InputRecord>, seed: u64) -> FitDocument {

@@ -13,7 +13,7 @@
 //! | a plan and data make verdicts | [`inspection`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
-//! | colour scale | [`scale`] |
+//! | color scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 //! | tolerance classes by letters | [`tolerance_class`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]

@@ -1,4 +1,4 @@
-//! The colour scale: one object that alone colours map, legend, histogram, flags and exports.
+//! The color scale: one object that alone colors map, legend, histogram, flags and exports.
 
 pub mod palette;
 
@@ -6,7 +6,7 @@ use palette::Rgb;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Colour of what has no value.
+/// Color of what has no value.
 pub const NO_VALUE: Rgb = [0x9a, 0xa0, 0xa6];
 
 /// `trueness/scale/1`.
@@ -77,11 +77,11 @@ impl Scale {
         Scale { decimals, unit: unit.into(), ..scale }
     }
 
-    /// Where the colour changes, rising; one more than there are bands, the caps lie beyond.
+    /// Where the color changes, rising; one more than there are bands, the caps lie beyond.
     ///
     /// With a tolerance the middle band is the zone, and the bands beyond it divide `[upper limit, upper]` and
     /// `[lower, lower limit]` evenly; without, all bands are equal. A zone that reaches beyond the range widens it: what is
-    /// within tolerance has the middle colour whatever the range, and the bands for which there is no room have no width.
+    /// within tolerance has the middle color whatever the range, and the bands for which there is no room have no width.
     pub fn limits(&self) -> Vec<f64> {
         let zone = self.zone();
         if self.mode == Mode::GoNoGo {
@@ -113,7 +113,7 @@ impl Scale {
         Scale { tolerance: tolerance.or(self.tolerance), ..self }
     }
 
-    /// Number of the colour for a deviation: 0 the low cap, then the bands from low to high, last the high cap. `None` for NaN.
+    /// Number of the color for a deviation: 0 the low cap, then the bands from low to high, last the high cap. `None` for NaN.
     ///
     /// A value on a limit belongs to the band nearer the middle, so both tolerance limits are in the zone. It depends on the
     /// scale and the value alone, never on the other values.
@@ -121,12 +121,12 @@ impl Scale {
         (!deviation.is_nan()).then(|| slot(&self.limits(), deviation))
     }
 
-    /// Colours of all slots, low cap first.
+    /// Colors of all slots, low cap first.
     pub fn colors(&self) -> Vec<Rgb> {
         palette::colors(&self.palette, self.limits().len() - 1)
     }
 
-    /// Colour for a deviation in the scale's own mode; grey for NaN.
+    /// Color for a deviation in the scale's own mode; gray for NaN.
     pub fn color(&self, deviation: f64) -> Rgb {
         let Some(slot) = self.slot(deviation) else { return NO_VALUE };
         let colors = self.colors();
@@ -137,8 +137,8 @@ impl Scale {
         }
     }
 
-    /// The continuous colours as `n` equal steps from end to end, each taken in its middle. With a tolerance, half of them for
-    /// what lies below the zone and half for what lies above: the zone has one colour.
+    /// The continuous colors as `n` equal steps from end to end, each taken in its middle. With a tolerance, half of them for
+    /// what lies below the zone and half for what lies above: the zone has one color.
     pub fn ramp(&self, n: usize) -> Vec<Rgb> {
         let (limits, colors) = (self.limits(), self.colors());
         let [lower, upper] = self.ends();
@@ -153,7 +153,7 @@ impl Scale {
     }
 }
 
-/// Why a scale cannot colour anything.
+/// Why a scale cannot color anything.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ScaleError {
     /// The ends are not numbers, or the wrong way round.
@@ -204,8 +204,8 @@ pub(crate) fn slot(limits: &[f64], deviation: f64) -> usize {
     middle + above - below
 }
 
-/// Each band has its colour in its middle; between two middles colours are mixed, beyond the last ones they stay. A tolerance zone
-/// is no part of that: it has its one colour, and on either side the mixing begins anew.
+/// Each band has its color in its middle; between two middles colors are mixed, beyond the last ones they stay. A tolerance zone
+/// is no part of that: it has its one color, and on either side the mixing begins anew.
 fn blend(limits: &[f64], colors: &[Rgb], zoned: bool, deviation: f64) -> Rgb {
     let middle = limits.len() / 2;
     let (from, to) = match (zoned, slot(limits, deviation)) {
@@ -241,7 +241,7 @@ fn round_up(x: f64) -> f64 {
     candidates.into_iter().map(of).find(|c| *c >= x).unwrap_or(x)
 }
 
-/// Digits after the point: micrometres, and more where a hundredth of `upper` is finer; at most 6.
+/// Digits after the point: micrometers, and more where a hundredth of `upper` is finer; at most 6.
 fn decimals(upper: f64) -> u32 {
     (2.0 - libm::log10(upper).floor()).clamp(3.0, 6.0) as u32
 }
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_scale_is_a_cap_and_nothing_is_grey() {
+    fn beyond_the_scale_is_a_cap_and_nothing_is_gray() {
         let s = toleranced();
         assert_eq!(
             (s.slot(0.2), s.slot(0.2 + 1e-12), s.slot(-0.2), s.slot(-0.3)),
@@ -307,7 +307,7 @@ mod tests {
 
     /// The trap: a scale of 0 … 100 that other programs stretch to data of 4 … 100.
     #[test]
-    fn colours_do_not_depend_on_the_data() {
+    fn colors_do_not_depend_on_the_data() {
         let scale = Scale { lower: 0.0, upper: 100.0, tolerance: None, ..toleranced() };
         let alone: Vec<Rgb> = (0..=100).map(|d| scale.color(f64::from(d))).collect();
         let data: Vec<f64> = (4..=100).map(f64::from).collect();
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ramp_passes_through_the_bands_colours() {
+    fn the_ramp_passes_through_the_bands_colors() {
         let s = Scale { mode: Mode::Continuous, ..toleranced() };
         let (ramp, colors) = (s.ramp(256), s.colors());
         assert_eq!((ramp[0], ramp[255]), (colors[1], colors[9]));
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn go_no_go_knows_three_colours() {
+    fn go_no_go_knows_three_colors() {
         let s = Scale { mode: Mode::GoNoGo, ..toleranced() };
         assert_eq!([-0.11, -0.1, 0.1, 0.11].map(|d| s.slot(d)), [Some(0), Some(1), Some(1), Some(2)]);
     }

@@ -8,7 +8,7 @@ const FULL: f64 = 4.0;
 /// Bits of a cell's number along each side.
 const BITS: u32 = 20;
 
-/// The distance of points from their neighbours, millimetres: half the side of the cubes that hold four points on average, of
+/// The distance of points from their neighbors, millimeters: half the side of the cubes that hold four points on average, of
 /// those that hold any. Places measured several times, or not at all, hardly change it. 0 for fewer than two places.
 /// Cost: `n log n`; does not depend on the order of the points.
 pub(crate) fn spacing(points: &[Point]) -> f64 {
@@ -27,7 +27,7 @@ pub(crate) fn spacing(points: &[Point]) -> f64 {
     };
     let mut keys: Vec<u64> = points.par_iter().map(number).collect();
     keys.par_sort_unstable();
-    // Neighbours along the curve that differ first in digit `l` lie in different cells of level `l` and all finer ones.
+    // Neighbors along the curve that differ first in digit `l` lie in different cells of level `l` and all finer ones.
     let mut borders = [0u64; BITS as usize + 1];
     for pair in keys.windows(2) {
         let differ = pair[0] ^ pair[1];

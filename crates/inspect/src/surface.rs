@@ -4,7 +4,7 @@ mod view;
 
 pub use view::View;
 
-use crate::curvature::{Kind, map};
+use crate::curvature::{CurvatureKind, map};
 use crate::results::curvature::Range;
 use crate::results::surface::{
     BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
@@ -102,7 +102,7 @@ fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
     Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: Word(reached) })
 }
 
-/// The deviations' counts and colours: by the tolerance, where there is one.
+/// The deviations' counts and colors: by the tolerance, where there is one.
 fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRecord {
     // A few points far off must not hide how the rest lies.
     let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
@@ -130,11 +130,11 @@ fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
         bend: (&bend).into(),
     });
     let size = Aabb::of(points).diagonal();
-    let drawn = |kind: Kind| {
+    let drawn = |kind: CurvatureKind| {
         let values: Vec<f64> = found.iter().map(|bend| kind.of(bend)).collect();
         (kind.name().to_string(), map(&values, kind, size).1)
     };
-    let maps = Kind::ALL.into_iter().filter(|_| !found.is_empty()).map(drawn).collect();
+    let maps = CurvatureKind::ALL.into_iter().filter(|_| !found.is_empty()).map(drawn).collect();
     let missing = found.is_empty() || middle.is_none();
     CurvatureRecord {
         count: found.len() as u64,

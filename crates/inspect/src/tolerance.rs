@@ -3,9 +3,9 @@
 /// A zone of allowed deviations; both limits belong to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Least allowed deviation, millimetres.
+    /// Least allowed deviation, millimeters.
     pub lower: f64,
-    /// Greatest allowed deviation, millimetres.
+    /// Greatest allowed deviation, millimeters.
     pub upper: f64,
 }
 

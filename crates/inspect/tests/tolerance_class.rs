@@ -7,7 +7,7 @@ fn limits(class: &str, nominal: f64) -> Result<[f64; 2], ClassError> {
     Table::Size.limits(class, nominal, None)
 }
 
-/// Values of the common tables of fits (upper and lower deviation, micrometres).
+/// Values of the common tables of fits (upper and lower deviation, micrometers).
 #[test]
 fn classes_have_their_published_limits() {
     let known = [
@@ -102,7 +102,7 @@ fn tables_keep_to_the_formulas_of_the_standard() {
     let lower = |class: &str, x: f64| 1000.0 * limits(class, x).unwrap()[0];
     let upper = |class: &str, x: f64| 1000.0 * limits(class, x).unwrap()[1];
     let it = |grade: u32, x: f64| upper(&format!("H{grade}"), x);
-    // Up to 3 mm the standard departs from its formulas by a micrometre or two.
+    // Up to 3 mm the standard departs from its formulas by a micrometer or two.
     for ends in ENDS.windows(2) {
         let (d, x) = ((ends[0] * ends[1]).sqrt(), ends[1]);
         let i = 0.45 * d.cbrt() + 0.001 * d;

@@ -162,12 +162,12 @@ fn row(c: &TrendRecord) -> Vec<String> {
         index(c.cpk),
         index(c.pp),
         index(c.ppk),
-        signalled(c).len().to_string(),
+        signaled(c).len().to_string(),
     ]
 }
 
 /// The parts that are out of control, from 0, each once.
-fn signalled(c: &TrendRecord) -> Vec<u64> {
+fn signaled(c: &TrendRecord) -> Vec<u64> {
     let mut parts: Vec<u64> = c.out_of_control.iter().map(|o| o.part).collect();
     parts.dedup();
     parts
@@ -199,7 +199,7 @@ fn csv(document: &TrendDocument) -> String {
         for index in [c.cp, c.cpk, c.pp, c.ppk] {
             cells.extend([index.map(|i| i.value), index.map(|i| i.low), index.map(|i| i.high)].map(number));
         }
-        let parts: Vec<String> = signalled(c).iter().map(|n| (n + 1).to_string()).collect();
+        let parts: Vec<String> = signaled(c).iter().map(|n| (n + 1).to_string()).collect();
         cells.push(parts.join(" "));
         out.push_str(&cells.into_iter().map(console::cell).collect::<Vec<_>>().join(","));
         out.push_str("\r\n");

@@ -3,7 +3,7 @@
 use trueness_geom::deviation::surface::Exclusion;
 use trueness_geom::stats::statistics::Summary;
 
-/// The deviation of a point, millimetres, positive outside; or why it has none.
+/// The deviation of a point, millimeters, positive outside; or why it has none.
 pub type Deviation = Result<f64, Exclusion>;
 
 /// The deviations of points from a reference, in the order of the points.

@@ -10,7 +10,7 @@ use trueness_geom::space::Point;
 /// A file that was read: a mesh, or points.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// The mesh, millimetres, vertices at the same place made one. Of points the places alone, without faces.
+    /// The mesh, millimeters, vertices at the same place made one. Of points the places alone, without faces.
     pub mesh: Mesh,
     /// Where it came from, and the unit in which its numbers were taken.
     pub provenance: Provenance,
@@ -32,7 +32,7 @@ impl Part {
 }
 
 /// Reads a mesh or points of any format and whatever is packed with gzip; `-` is standard input. The format is told by the
-/// content, units are millimetres unless the file says otherwise. For options see [`files::open`](trueness_files::open).
+/// content, units are millimeters unless the file says otherwise. For options see [`files::open`](trueness_files::open).
 ///
 /// Memory: the file and several times that; points are read as a whole.
 ///

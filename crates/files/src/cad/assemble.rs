@@ -5,7 +5,7 @@ use trueness_geom::spline::basis::{KnotError, Knots};
 use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::surface::Nurbs;
 
-/// What a file says of a B-spline, millimetres: one entry of `degree`, `knots` and `counts` for each parameter. Control points lie
+/// What a file says of a B-spline, millimeters: one entry of `degree`, `knots` and `counts` for each parameter. Control points lie
 /// row after row, those of the first knot of the first parameter first.
 #[derive(Default)]
 pub(crate) struct Raw {

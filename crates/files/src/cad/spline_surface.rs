@@ -1,6 +1,6 @@
 //! A surface as CAD programs know it.
 
-/// A B-spline surface with clamped knots, millimetres. Its control points lie row after row, those of the first knot of `u`
+/// A B-spline surface with clamped knots, millimeters. Its control points lie row after row, those of the first knot of `u`
 /// first.
 #[derive(Clone, Copy, Debug)]
 pub struct SplineSurface<'a> {

@@ -3,7 +3,7 @@
 use trueness_geom::section::PlaneFrame;
 use trueness_geom::spline::rational::Rational;
 
-/// An entity of a drawing. Lengths in millimetres, angles in radians.
+/// An entity of a drawing. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entity {
     /// A straight line.
@@ -35,7 +35,7 @@ pub enum Entity {
     },
 }
 
-/// An entity as a drawing was read. Lengths in millimetres, angles in radians.
+/// An entity as a drawing was read. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drawn {
     /// A straight line.

@@ -66,7 +66,7 @@ fn schema(layout: Layout) -> Result<Arc<Type>, ParquetError> {
     if layout.reason {
         columns.push(column("excluded", Physical::INT32, Repetition::REQUIRED)?);
     }
-    if layout.colour {
+    if layout.color {
         for name in ["red", "green", "blue"] {
             columns.push(column(name, Physical::INT32, Repetition::REQUIRED)?);
         }
@@ -103,7 +103,7 @@ impl PointsSink for Table {
                 points: &block.points[start..end],
                 deviation: &block.deviation[of(self.layout.deviation)],
                 reason: &block.reason[of(self.layout.reason)],
-                colour: &block.colour[of(self.layout.colour)],
+                color: &block.color[of(self.layout.color)],
             };
             self.group(&part).map_err(fault)?;
         }
@@ -129,9 +129,9 @@ impl Table {
         if self.layout.reason {
             bytes(&mut group, block.reason.iter().copied())?;
         }
-        if self.layout.colour {
+        if self.layout.color {
             for channel in 0..3 {
-                bytes(&mut group, block.colour.iter().map(|c| c[channel]))?;
+                bytes(&mut group, block.color.iter().map(|c| c[channel]))?;
             }
         }
         group.close()?;

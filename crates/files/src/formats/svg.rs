@@ -1,4 +1,4 @@
-//! SVG drawings, 1 to 1: a unit of the drawing is a millimetre, y runs upwards as in the data.
+//! SVG drawings, 1 to 1: a unit of the drawing is a millimeter, y runs upwards as in the data.
 //!
 //! Arcs are arcs. Cubic splines are Bézier curves, exactly: their knots are inserted until each span stands alone. A spline
 //! of another degree is drawn as a polyline of 64 steps to a span.

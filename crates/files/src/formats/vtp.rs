@@ -86,10 +86,10 @@ fn end(file: &mut AtomicFile) -> io::Result<()> {
 
 fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
     let spool = || Spool::beside(&file);
-    let (deviation, excluded, colour) = (spool(), spool(), spool());
+    let (deviation, excluded, color) = (spool(), spool(), spool());
     // Header and length of the positions are written again when the points are counted.
     file.write_all(&[b' '; HEADER + 8])?;
-    Ok(Box::new(Points { file, layout, count: 0, deviation, excluded, colour }))
+    Ok(Box::new(Points { file, layout, count: 0, deviation, excluded, color }))
 }
 
 struct Points {
@@ -98,7 +98,7 @@ struct Points {
     count: u64,
     deviation: Spool,
     excluded: Spool,
-    colour: Spool,
+    color: Spool,
 }
 
 impl PointsSink for Points {
@@ -109,7 +109,7 @@ impl PointsSink for Points {
         }
         self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
         self.excluded.write(block.excluded())?;
-        self.colour.write(block.colour.iter().flatten().copied())?;
+        self.color.write(block.color.iter().flatten().copied())?;
         self.count += block.points.len() as u64;
         Ok(())
     }
@@ -121,7 +121,7 @@ impl PointsSink for Points {
         for (there, name, kind, components, spool) in [
             (this.layout.deviation, "deviation", "Float64", 1, &mut this.deviation),
             (this.layout.deviation, "excluded", "UInt8", 1, &mut this.excluded),
-            (this.layout.colour, "colour", "UInt8", 3, &mut this.colour),
+            (this.layout.color, "colour", "UInt8", 3, &mut this.color),
         ] {
             if there {
                 data.push((name, kind, components, spool.len()));

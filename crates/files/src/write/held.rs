@@ -1,4 +1,4 @@
-//! Points that are coloured only when all of them have been seen.
+//! Points that are colored only when all of them have been seen.
 
 use super::points_file::{PointsFile, begin};
 use super::sink::{Block, Layout};
@@ -12,7 +12,7 @@ const BLOCK: usize = 1 << 16;
 /// Bytes of a point: three coordinates, a deviation and the number of a reason.
 const RECORD: usize = 40;
 
-/// A file of points with deviations whose colours are not known yet. Unless it is finished, nothing of it remains.
+/// A file of points with deviations whose colors are not known yet. Unless it is finished, nothing of it remains.
 ///
 /// The points wait in memory or, when they are many, in a file beside the one to be written.
 pub struct HeldPoints {
@@ -26,11 +26,11 @@ impl HeldPoints {
     ///
     /// Errors: those of [`points`](super::points).
     pub fn create(path: &Path, reason: bool) -> Result<HeldPoints, WriteError> {
-        let (file, waiting) = begin(path, Layout { deviation: true, reason, colour: true })?;
+        let (file, waiting) = begin(path, Layout { deviation: true, reason, color: true })?;
         Ok(HeldPoints { file, waiting, reason })
     }
 
-    /// Adds points and as many deviations, millimetres; NaN for a point that has none. If there are reasons, as many of those,
+    /// Adds points and as many deviations, millimeters; NaN for a point that has none. If there are reasons, as many of those,
     /// else none.
     pub fn write(&mut self, points: &[Point], deviation: &[f64], reason: &[u8]) -> Result<(), WriteError> {
         let reasons = if self.reason { points.len() } else { 0 };
@@ -49,9 +49,9 @@ impl HeldPoints {
         self.waiting.write(bytes).map_err(|e| WriteFault::from(e).in_file(&self.file.path))
     }
 
-    /// Writes all of them, each block with the colours that `colour` has for its deviations, NaN for points that do not count,
+    /// Writes all of them, each block with the colors that `color` has for its deviations, NaN for points that do not count,
     /// and puts the file in its place.
-    pub fn finish(self, colour: impl Fn(&[f64]) -> Vec<[u8; 3]>) -> Result<u64, WriteError> {
+    pub fn finish(self, color: impl Fn(&[f64]) -> Vec<[u8; 3]>) -> Result<u64, WriteError> {
         let HeldPoints { mut file, mut waiting, reason: reasons } = self;
         let (mut bytes, mut failed) = (Vec::new(), None);
         let mut pass = |bytes: &mut Vec<u8>, least: usize| {
@@ -66,12 +66,12 @@ impl HeldPoints {
                     numbers.iter().map(|n| if n[4] > 0.0 { f64::NAN } else { n[3] }).collect();
                 let mut reason: Vec<u8> = numbers.iter().map(|n| n[4] as u8).collect();
                 reason.truncate(if reasons { reason.len() } else { 0 });
-                let colour = colour(&counts);
+                let color = color(&counts);
                 file.write(&Block {
                     points: &points,
                     deviation: &deviation,
                     reason: &reason,
-                    colour: &colour,
+                    color: &color,
                 })?;
                 bytes.drain(..whole);
             }
@@ -101,13 +101,13 @@ mod tests {
     use crate::write::scratch::Folder;
 
     #[test]
-    fn is_the_file_that_colours_known_beforehand_give() {
+    fn is_the_file_that_colors_known_beforehand_give() {
         let folder = Folder::new();
         let n = 1_100_000;
         let points_of = |from: usize| (from..n).map(|i| [i as f64, 0.5, -1.0]).collect::<Vec<Point>>();
         let (all, deviation): (Vec<Point>, Vec<f64>) =
             (points_of(0), (0..n).map(|i| if i % 7 == 0 { f64::NAN } else { i as f64 }).collect());
-        let colour = |d: &[f64]| d.iter().map(|d| [*d as u8, 1, 2]).collect::<Vec<_>>();
+        let color = |d: &[f64]| d.iter().map(|d| [*d as u8, 1, 2]).collect::<Vec<_>>();
         let code = |(i, d): (usize, &f64)| if d.is_nan() { 2 } else { 4 * u8::from(i % 11 == 0) };
         let reason: Vec<u8> = deviation.iter().enumerate().map(code).collect();
         let counts: Vec<f64> =
@@ -115,17 +115,17 @@ mod tests {
         for (extension, with) in [("ply", true), ("vtp", true), ("csv", true), ("ply", false)] {
             let [now, later] =
                 ["now", "later"].map(|name| folder.path().join(format!("{name}{with}.{extension}")));
-            let mut file = points(&now, Layout { deviation: true, reason: with, colour: true }).unwrap();
+            let mut file = points(&now, Layout { deviation: true, reason: with, color: true }).unwrap();
             let (reason, seen) = if with { (&reason[..], &counts) } else { (&[][..], &deviation) };
-            let colours = colour(seen);
-            file.write(&Block { points: &all, deviation: &deviation, reason, colour: &colours }).unwrap();
+            let colors = color(seen);
+            file.write(&Block { points: &all, deviation: &deviation, reason, color: &colors }).unwrap();
             file.finish().unwrap();
             let mut held = HeldPoints::create(&later, with).unwrap();
             for (n, (p, d)) in all.chunks(333_333).zip(deviation.chunks(333_333)).enumerate() {
                 let at = n * 333_333;
                 held.write(p, d, if with { &reason[at..at + p.len()] } else { &[] }).unwrap();
             }
-            assert_eq!(held.finish(colour).unwrap(), n as u64);
+            assert_eq!(held.finish(color).unwrap(), n as u64);
             assert!(std::fs::read(now).unwrap() == std::fs::read(later).unwrap(), "{extension}");
         }
         let mut none = HeldPoints::create(&folder.path().join("none.ply"), true).unwrap();

@@ -8,7 +8,7 @@ use trueness_geom::space::Point;
 pub struct Loss {
     /// Positions that changed.
     pub moved: u64,
-    /// The greatest change of a coordinate, millimetres.
+    /// The greatest change of a coordinate, millimeters.
     pub farthest: f64,
 }
 

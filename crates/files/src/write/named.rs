@@ -10,6 +10,6 @@ pub struct Values<'a, const N: usize> {
     pub reason: &'a (dyn Fn(usize) -> u8 + Sync),
     /// The words for it; the first is empty.
     pub reasons: &'a [&'a str],
-    /// The colour of a point.
+    /// The color of a point.
     pub color: &'a (dyn Fn(usize) -> [u8; 3] + Sync),
 }

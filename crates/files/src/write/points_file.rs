@@ -9,7 +9,7 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 
-/// Begins a file of points in the format of the path's extension (with or without deviations, reasons and colours).
+/// Begins a file of points in the format of the path's extension (with or without deviations, reasons and colors).
 ///
 /// Errors: an extension that no writer of points has; those of the system.
 pub fn points(path: &Path, layout: Layout) -> Result<PointsFile, WriteError> {
@@ -47,7 +47,7 @@ impl PointsFile {
         let write = |this: &mut Self| {
             even("deviations", this.layout.deviation, block.deviation.len())?;
             even("reasons", this.layout.reason, block.reason.len())?;
-            even("colours", this.layout.colour, block.colour.len())?;
+            even("colours", this.layout.color, block.color.len())?;
             this.count += points as u64;
             this.writing.write(block)
         };

@@ -18,7 +18,7 @@ pub enum Pieces<'a> {
     Facets(&'a [[u32; 3]]),
 }
 
-/// Writes `points` (millimetres) and `pieces`, each with its label, −1 for none, and in a PLY file with a colour. In a
+/// Writes `points` (millimeters) and `pieces`, each with its label, −1 for none, and in a PLY file with a color. In a
 /// PLY file labels are a property `region` of vertices or faces; a CSV file has a row for each point or for the middle
 /// of each facet.
 ///
@@ -30,7 +30,7 @@ pub fn regions(
     points: &[Point],
     pieces: Pieces,
     labels: &[i32],
-    colour: impl Fn(i32) -> [u8; 3],
+    color: impl Fn(i32) -> [u8; 3],
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
         let ending = Writable::Regions.ending_of(path)?;
@@ -40,7 +40,7 @@ pub fn regions(
         }
         let writer = if ending == "ply" { ply } else { csv };
         let mut file = BufWriter::new(AtomicFile::create(path)?);
-        writer(&mut file, points, pieces, labels, &colour)?;
+        writer(&mut file, points, pieces, labels, &color)?;
         file.into_inner().map_err(|e| e.into_error())?.commit()?;
         Ok(())
     };
@@ -58,14 +58,14 @@ fn check(points: &[Point], pieces: Pieces) -> Result<usize, WriteFault> {
     }
 }
 
-type Colour<'a> = &'a dyn Fn(i32) -> [u8; 3];
+type Color<'a> = &'a dyn Fn(i32) -> [u8; 3];
 
 fn ply(
     file: &mut impl Write,
     points: &[Point],
     pieces: Pieces,
     labels: &[i32],
-    colour: Colour,
+    color: Color,
 ) -> Result<(), WriteFault> {
     let label = "property int region\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
     let (on_points, faces) = match pieces {
@@ -83,7 +83,7 @@ fn ply(
     let tail = |file: &mut _, label: i32| -> std::io::Result<()> {
         let file: &mut dyn Write = file;
         file.write_all(&label.to_le_bytes())?;
-        file.write_all(&colour(label))
+        file.write_all(&color(label))
     };
     for (i, point) in points.iter().enumerate() {
         for x in point {
@@ -110,7 +110,7 @@ fn csv(
     points: &[Point],
     pieces: Pieces,
     labels: &[i32],
-    _: Colour,
+    _: Color,
 ) -> Result<(), WriteFault> {
     writeln!(file, "x,y,z,region")?;
     let mut row = |p: Point, label: i32| writeln!(file, "{},{},{},{label}", p[0], p[1], p[2]);
@@ -133,7 +133,7 @@ mod tests {
     const POINTS: [Point; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.5]];
     const FACES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
-    fn colour(label: i32) -> [u8; 3] {
+    fn color(label: i32) -> [u8; 3] {
         [label.max(0) as u8, 7, 9]
     }
 
@@ -141,7 +141,7 @@ mod tests {
     fn a_mesh_is_read_back_with_its_labels() {
         let folder = Folder::new();
         let path = folder.path().join("r.ply");
-        regions(&path, &POINTS, Pieces::Facets(&FACES), &[4, -1], colour).unwrap();
+        regions(&path, &POINTS, Pieces::Facets(&FACES), &[4, -1], color).unwrap();
         let Body::Mesh(mesh) = open(&path, &ReadOptions::default()).unwrap().body else { panic!() };
         assert_eq!((&mesh.mesh.positions[..], &mesh.mesh.faces[..]), (&POINTS[..], &FACES[..]));
         let bytes = std::fs::read(&path).unwrap();
@@ -156,12 +156,12 @@ mod tests {
         let folder = Folder::new();
         let (ply, csv) = (folder.path().join("p.ply"), folder.path().join("p.csv"));
         let labels = [0, 1, -1, 2];
-        regions(&ply, &POINTS, Pieces::Points, &labels, colour).unwrap();
+        regions(&ply, &POINTS, Pieces::Points, &labels, color).unwrap();
         assert!(matches!(open(&ply, &ReadOptions::default()).unwrap().body, Body::Points(_)));
-        regions(&csv, &POINTS, Pieces::Points, &labels, colour).unwrap();
+        regions(&csv, &POINTS, Pieces::Points, &labels, color).unwrap();
         let text = std::fs::read_to_string(&csv).unwrap();
         assert_eq!(text, "x,y,z,region\n0,0,0,0\n1,0,0,1\n0,3,0,-1\n0,0,1.5,2\n");
-        regions(&csv, &POINTS, Pieces::Facets(&FACES), &[3, 5], colour).unwrap();
+        regions(&csv, &POINTS, Pieces::Facets(&FACES), &[3, 5], color).unwrap();
         assert!(std::fs::read_to_string(&csv).unwrap().ends_with("0,1,0.5,5\n"));
     }
 
@@ -169,7 +169,7 @@ mod tests {
     fn what_does_not_fit_is_refused() {
         let folder = Folder::new();
         let write = |name: &str, faces: &[[u32; 3]], labels: &[i32]| {
-            regions(&folder.path().join(name), &POINTS, Pieces::Facets(faces), labels, colour)
+            regions(&folder.path().join(name), &POINTS, Pieces::Facets(faces), labels, color)
                 .unwrap_err()
                 .to_string()
         };

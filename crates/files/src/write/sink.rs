@@ -11,21 +11,21 @@ pub struct Layout {
     pub deviation: bool,
     /// Beside the deviations the number of the reason why a point does not count.
     pub reason: bool,
-    /// A colour for each point.
-    pub colour: bool,
+    /// A color for each point.
+    pub color: bool,
 }
 
 /// Some of the points, in order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Block<'a> {
-    /// Positions, millimetres.
+    /// Positions, millimeters.
     pub points: &'a [Point],
-    /// As many deviations, millimetres, NaN for a point that has none; nothing where the layout has none.
+    /// As many deviations, millimeters, NaN for a point that has none; nothing where the layout has none.
     pub deviation: &'a [f64],
     /// As many numbers of reasons, 0 for a point that counts; nothing where the layout has none.
     pub reason: &'a [u8],
-    /// As many colours (red, green, blue); nothing where the layout has none.
-    pub colour: &'a [[u8; 3]],
+    /// As many colors (red, green, blue); nothing where the layout has none.
+    pub color: &'a [[u8; 3]],
 }
 
 impl Block<'_> {

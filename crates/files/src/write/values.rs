@@ -17,9 +17,9 @@ use trueness_geom::space::Point;
 /// Rows made into bytes by one task.
 const CHUNK: usize = 1 << 12;
 
-/// Writes `points` (millimetres), the facets between them if there are any, and what is known of each point.
+/// Writes `points` (millimeters), the facets between them if there are any, and what is known of each point.
 ///
-/// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a colour, and
+/// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a color, and
 /// the facets. A `.csv` file has a column of each name, empty where there is no number, and `reason` as a word; a `.parquet` file the
 /// same without the word's spelling out: null, and the reason's number. A `.npz` file has an array of each name, `reason`, and the
 /// facets.

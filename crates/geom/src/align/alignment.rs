@@ -79,7 +79,7 @@ pub enum AlignWarning {
 pub struct Alignment {
     /// Takes measured coordinates to those of the reference.
     pub reference_from_measured: Rigid,
-    /// Root of the weighted mean square distance of the points that count, millimetres.
+    /// Root of the weighted mean square distance of the points that count, millimeters.
     pub rms: f64,
     /// Their weighted mean distance.
     pub mean_abs: f64,

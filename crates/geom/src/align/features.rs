@@ -72,7 +72,7 @@ impl PairTable {
         PairTable { sample, step, lengths, first, pairs }
     }
 
-    /// Pairs of the reference that lie to each other about as these two: those of its cell and of the nearer neighbours.
+    /// Pairs of the reference that lie to each other about as these two: those of its cell and of the nearer neighbors.
     pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
         let Some(r) = relation(a, b, self.step) else { return vec![] };
         // The cell in which the number lies, and the one on the side to which it is nearer.

@@ -21,7 +21,7 @@ struct Cell {
 /// Distances near a mesh.
 pub(super) struct Field {
     low: Point,
-    /// Cells a millimetre.
+    /// Cells a millimeter.
     scale: f64,
     counts: [usize; 3],
     cells: Vec<Cell>,

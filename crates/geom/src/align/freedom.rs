@@ -18,7 +18,7 @@ pub enum Freedom {
     },
     /// It turns about an axis.
     Turns {
-        /// A place on the axis, millimetres.
+        /// A place on the axis, millimeters.
         point: Point,
         /// Unit direction of the axis.
         direction: Vector,

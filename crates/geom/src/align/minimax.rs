@@ -20,9 +20,9 @@ use crate::zone::motion::{Search, placed};
 pub struct Minimax {
     /// Takes measured coordinates to those of the reference.
     pub reference_from_measured: Rigid,
-    /// The greatest distance of a point that counts from the surface, millimetres.
+    /// The greatest distance of a point that counts from the surface, millimeters.
     pub greatest: f64,
-    /// Where that point lies on the reference's side, millimetres.
+    /// Where that point lies on the reference's side, millimeters.
     pub at: Point,
     /// Root of their weighted mean square distance.
     pub rms: f64,

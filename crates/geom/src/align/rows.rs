@@ -11,7 +11,7 @@ use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
 /// One row of a reference point system: the measured point is to lie in the plane through `nominal` across `direction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Measured, in its own frame, millimetres.
+    /// Measured, in its own frame, millimeters.
     pub measured: Point,
     /// Where it should be, in the frame of the reference.
     pub nominal: Point,

@@ -10,9 +10,9 @@ use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
-use crate::spatial::neighbours::PointTree;
+use crate::spatial::neighbors::PointTree;
 
-/// What is brought to the reference, millimetres, in a frame of its own.
+/// What is brought to the reference, millimeters, in a frame of its own.
 #[derive(Clone, Copy, Debug)]
 pub enum Measured<'a> {
     /// A mesh with outward facets. Its vertices are aligned, each with the area around it as its weight; of facets of more
@@ -20,7 +20,7 @@ pub enum Measured<'a> {
     Mesh(&'a Mesh),
     /// Points, each of the same weight.
     Points {
-        /// Places, millimetres.
+        /// Places, millimeters.
         points: &'a [Point],
         /// Outward unit normals, as many; without them any side of the reference will do.
         normals: Option<&'a [Vector]>,
@@ -49,8 +49,8 @@ pub(super) struct Samples {
     pub oriented: bool,
 }
 
-/// Neighbours that make the normal of a point of a cloud.
-const NEIGHBOURS: usize = 16;
+/// Neighbors that make the normal of a point of a cloud.
+const NEIGHBORS: usize = 16;
 
 impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
@@ -194,9 +194,9 @@ impl Moments {
     }
 }
 
-/// The direction in which the nearest neighbours spread least; zero where they lie on a line.
+/// The direction in which the nearest neighbors spread least; zero where they lie on a line.
 fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
-    let near = tree.k_nearest(p, NEIGHBOURS, None);
+    let near = tree.k_nearest(p, NEIGHBORS, None);
     let moments = Moments::of(near.iter().map(|n| (among[n.1 as usize], 1.0)));
     if moments.variances[1] > 1e-6 * moments.variances[2] { moments.axes[0] } else { [0.0; 3] }
 }

@@ -35,7 +35,7 @@ pub(super) struct Search {
     pub samples: Samples,
     bounds: Aabb,
     known: Arc<Known>,
-    /// Mean distance of neighbours among the places of the reference.
+    /// Mean distance of neighbors among the places of the reference.
     pub spacing: f64,
     measured: Moments,
     seed: u64,

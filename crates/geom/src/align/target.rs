@@ -13,7 +13,7 @@ pub struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Of a mesh, millimetres, whose search tree is `tree`. Vertices should be shared by index (weld an STL first).
+    /// Of a mesh, millimeters, whose search tree is `tree`. Vertices should be shared by index (weld an STL first).
     pub fn new(mesh: &'a Mesh, tree: &'a Tree) -> Target<'a> {
         let used = mesh.faces.iter().flatten().map(|&v| &mesh.positions[v as usize]);
         Target { mesh, tree, bounds: Aabb::of(used) }

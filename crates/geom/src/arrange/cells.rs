@@ -43,7 +43,7 @@ pub(super) fn windings(
     let sets = joined(mesh, points, pieces)?;
     let (cells, cell_of) = sets.numbered(|_| true);
     let cell = |piece: usize| [cell_of[2 * piece], cell_of[2 * piece + 1]];
-    // Steps between cells, each with the first piece that makes it. Neighbours in the list mostly make the same.
+    // Steps between cells, each with the first piece that makes it. Neighbors in the list mostly make the same.
     let step = |p: usize| (cell(p), pieces[p].jump, p as u32);
     let some = |part: usize| {
         let mut some: Vec<Step> = (part * PART..pieces.len().min((part + 1) * PART)).map(step).collect();

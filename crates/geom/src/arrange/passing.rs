@@ -114,7 +114,7 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
 /// Edges asked about that have a hub in common, or have none.
 struct Bundle {
     hub: u32,
-    /// Neighbours stand near each other.
+    /// Neighbors stand near each other.
     items: Vec<View>,
     root: Node,
 }

@@ -1,6 +1,6 @@
 //! The points of an arrangement: vertices of the mesh, and places where cuts meet, exactly.
 //!
-//! A place that is no triple of `f64` is kept as four exact numbers, its homogeneous coordinates, beside the neighbouring
+//! A place that is no triple of `f64` is kept as four exact numbers, its homogeneous coordinates, beside the neighboring
 //! `f64` below and above each coordinate. Signs are first looked for in those intervals (Attene, Indirect predicates for
 //! geometric constructions, 2020, does the same with the terms that define a point), and where they cannot tell,
 //! computed exactly. Two points at one place are one: places are looked up by their bounds, which follow from the place
@@ -23,7 +23,7 @@ struct Homogeneous {
 /// A place, exactly.
 #[derive(Clone, Debug)]
 pub(super) struct ExactPoint {
-    /// The neighbouring numbers below and above each coordinate; the coordinate itself twice where it is a number.
+    /// The neighboring numbers below and above each coordinate; the coordinate itself twice where it is a number.
     low: Point,
     high: Point,
     /// `None` where all three coordinates are numbers.

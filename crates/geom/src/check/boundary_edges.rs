@@ -1,8 +1,8 @@
 //! Edges with one facet only.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "boundary_edges",
     severity: Severity::Error,
     about: "Edges with one facet: the surface has a rim there. Vertices run as the facet does.",

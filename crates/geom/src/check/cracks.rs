@@ -1,8 +1,8 @@
 //! Chains of boundary edges that do not close.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "cracks",
     severity: Severity::Error,
     about: "Chains of boundary edges that do not close to a ring: they end at edges with more than two facets. \

@@ -1,8 +1,8 @@
-//! Facets with fewer than three neighbours.
+//! Facets with fewer than three neighbors.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "dangling_facets",
     severity: Severity::Error,
     about: "Facets with fewer than three neighbours.",

@@ -1,8 +1,8 @@
 //! Facets without area.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "degenerate_facets",
     severity: Severity::Error,
     about: "Facets without area, decided exactly: with a repeated vertex, or with three different ones on one line.",

@@ -1,9 +1,9 @@
 //! Facets that are there twice.
 
 use super::finding::area;
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "duplicate_facets",
     severity: Severity::Error,
     about: "Facets with the same three vertices as an earlier one, in either orientation. Facets: the first, this one.",

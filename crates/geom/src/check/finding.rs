@@ -29,8 +29,8 @@ impl Severity {
     }
 }
 
-impl PartialEq for Kind {
-    fn eq(&self, other: &Kind) -> bool {
+impl PartialEq for DefectKind {
+    fn eq(&self, other: &DefectKind) -> bool {
         self.name == other.name
     }
 }
@@ -84,7 +84,7 @@ pub enum Shows {
 
 /// A kind of defect: an entry of [`KINDS`](super::KINDS).
 #[derive(Debug)]
-pub struct Kind {
+pub struct DefectKind {
     /// Its name in result documents.
     pub name: &'static str,
     /// How much it matters.

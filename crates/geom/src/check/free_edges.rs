@@ -3,7 +3,7 @@
 //! Where an odd number of boundary edges meet at a vertex, a chain must end; the walks that start there are the chains.
 //! What is left has an even number of edges at every vertex and falls into rings. A walk that comes back to a vertex it
 //! has passed leaves a ring behind and goes on, so rings and chains pass no vertex twice. Orientation plays no part: it may
-//! be inconsistent. Each walk takes the lowest edge and, at a vertex, the edge to the lowest neighbour first.
+//! be inconsistent. Each walk takes the lowest edge and, at a vertex, the edge to the lowest neighbor first.
 
 use super::near::Near;
 use crate::mesh::Mesh;

@@ -1,9 +1,9 @@
 //! Closed rings of boundary edges.
 
-use super::{Finding, Inspected, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Finding, Inspected, Measure, Severity, Shows};
 use crate::space::{cross, minus, norm, plus, times};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "holes",
     severity: Severity::Error,
     about: "Closed rings of boundary edges. Vertices go once round; a ring that touches itself is taken apart. \

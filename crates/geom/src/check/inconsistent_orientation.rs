@@ -1,8 +1,8 @@
-//! Neighbours that face different ways.
+//! Neighbors that face different ways.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "inconsistent_orientation",
     severity: Severity::Error,
     about: "Edges whose two facets run along them in the same direction: one of them looks inwards.",

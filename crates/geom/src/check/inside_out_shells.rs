@@ -3,14 +3,14 @@
 use super::islands::shell_bounds;
 use super::near::Near;
 use super::nesting::Container;
-use super::{Finding, Inspected, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Finding, Inspected, Measure, Severity, Shows};
 use crate::mesh::Mesh;
 use crate::num::exact::Exact;
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, times};
 use std::sync::LazyLock;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "inside_out_shells",
     severity: Severity::Error,
     about: "Closed, consistently oriented shells that bound no material: material is where shells wind around a place at least \

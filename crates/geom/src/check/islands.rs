@@ -1,10 +1,10 @@
 //! Shells so small that they are likely dust.
 
-use super::{Inspected, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Inspected, Measure, Severity, Shows};
 use crate::parallel::prelude::*;
 use crate::space::Aabb;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "islands",
     severity: Severity::Warning,
     about: "Shells that are small beside the whole: dust of a scan, or crumbs of a conversion. \

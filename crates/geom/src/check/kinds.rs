@@ -1,6 +1,6 @@
 //! The list of what is looked for: a kind of defect is one file and one line here.
 
-use super::finding::Kind;
+use super::finding::DefectKind;
 use super::{
     boundary_edges, cracks, dangling_facets, degenerate_facets, duplicate_facets, holes,
     inconsistent_orientation, inside_out_shells, islands, non_manifold_edges, non_manifold_vertices,
@@ -8,7 +8,7 @@ use super::{
 };
 
 /// All kinds of defect, in the order in which they are told.
-pub const KINDS: [&Kind; 17] = [
+pub const KINDS: [&DefectKind; 17] = [
     &boundary_edges::KIND,
     &holes::KIND,
     &cracks::KIND,

@@ -37,7 +37,7 @@ mod t_junctions;
 pub(crate) mod tests;
 mod unshared_vertices;
 
-pub use finding::{Finding, Found, Inspected, Kind, Measure, Severity, Shows};
+pub use finding::{DefectKind, Finding, Found, Inspected, Measure, Severity, Shows};
 pub use kinds::KINDS;
 pub(crate) use known::Known;
 pub use options::Options;
@@ -69,7 +69,7 @@ pub struct Report {
     /// The gap used, mm.
     pub gap: f64,
     /// Findings by kind, in the order of [`KINDS`]; `None` where a kind was not looked for.
-    pub defects: Vec<(&'static Kind, Option<Found>)>,
+    pub defects: Vec<(&'static DefectKind, Option<Found>)>,
 }
 
 impl Report {
@@ -163,7 +163,7 @@ pub(crate) fn report(inspected: &Inspected) -> Result<Report, Cancelled> {
             return Err(Cancelled);
         }
     }
-    let broken = |(kind, found): &(&Kind, Option<Found>)| {
+    let broken = |(kind, found): &(&DefectKind, Option<Found>)| {
         kind.severity == Severity::Error && found.as_ref().is_some_and(|f| f.count > 0)
     };
     let soundness = Soundness::from_parts(topology, properties);

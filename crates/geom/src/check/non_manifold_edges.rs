@@ -1,8 +1,8 @@
 //! Edges with more than two facets.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "non_manifold_edges",
     severity: Severity::Error,
     about: "Edges with more than two facets: walls meet there, or facets are doubled.",

@@ -1,8 +1,8 @@
 //! Vertices at which parts of the surface touch.
 
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "non_manifold_vertices",
     severity: Severity::Error,
     about: "Vertices whose facets are not all connected through edges there: parts of the surface touch in a point.",

@@ -1,9 +1,9 @@
 //! Facets at no place.
 
-use super::{Finding, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Finding, Measure, Severity, Shows};
 use crate::space::Aabb;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "not_finite_facets",
     severity: Severity::Error,
     about: "Facets with a coordinate that is NaN or infinite. They are left out of everything else.",

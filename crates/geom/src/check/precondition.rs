@@ -3,7 +3,7 @@
 use super::free_edges::FreeEdges;
 use super::kinds::KINDS;
 use super::overlap::shells_overlap;
-use super::{Found, Inspected, Kind, Options, spacing};
+use super::{DefectKind, Found, Inspected, Options, spacing};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::topology::{Properties, Soundness, Topology, TopologyError};
@@ -15,7 +15,7 @@ pub struct Precondition {
     /// The verdict.
     pub soundness: Soundness,
     /// Kinds that break the rule and have a finding, in the order of [`KINDS`]. None where the mesh is sound.
-    pub findings: Vec<(&'static Kind, Found)>,
+    pub findings: Vec<(&'static DefectKind, Found)>,
     /// The mesh is closed and consistently oriented, but its shells cross or touch each other, or one lies in another and
     /// looks the way that one does: the surface winds around some places more than once, or the wrong way.
     pub shells_overlap: bool,
@@ -66,7 +66,7 @@ impl Precondition {
     }
 }
 
-fn findings(inspected: &Inspected) -> Vec<(&'static Kind, Found)> {
+fn findings(inspected: &Inspected) -> Vec<(&'static DefectKind, Found)> {
     let of_rule = KINDS.into_iter().filter(|kind| KINDS_OF_RULE.contains(&kind.name));
     let found = of_rule.filter_map(|kind| Some((kind, (kind.find)(inspected)?)));
     found.filter(|(_, found)| found.count > 0).collect()

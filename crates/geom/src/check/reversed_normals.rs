@@ -1,11 +1,11 @@
 //! Normals in the file that contradict the order of the vertices.
 
 use super::finding::area;
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 use crate::parallel::prelude::*;
 use crate::space::{cross, dot, minus};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "reversed_normals",
     severity: Severity::Warning,
     about: "Facets whose stored normal makes a right angle or more with the one that the order of their vertices gives. \

@@ -1,10 +1,10 @@
 //! Facets that cross, touch or overlap.
 
 use super::intersect::Crossings;
-use super::{Finding, Found, Inspected, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Finding, Found, Inspected, Measure, Severity, Shows};
 use crate::space::Aabb;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "self_intersections",
     severity: Severity::Error,
     about: "Pairs of facets that meet anywhere else than in the vertices or the edge they share, decided exactly.",

@@ -1,10 +1,10 @@
 //! Facets too thin to have a normal worth the name.
 
-use super::{Inspected, Kind, Measure, Severity, Shows, spacing};
+use super::{DefectKind, Inspected, Measure, Severity, Shows, spacing};
 use crate::parallel::prelude::*;
 use crate::space::{Point, cross, minus, norm};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "sliver_facets",
     severity: Severity::Warning,
     about: "Facets with an area, but a smaller angle than the one given, or lower than the spacing of the coordinates.",

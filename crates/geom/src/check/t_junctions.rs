@@ -1,7 +1,7 @@
 //! Vertices that lie on somebody else's edge.
 
 use super::near::{farthest, segment_reaches};
-use super::{Found, Inspected, Kind, Measure, Severity, Shows};
+use super::{DefectKind, Found, Inspected, Measure, Severity, Shows};
 use crate::parallel::prelude::*;
 use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
@@ -9,7 +9,7 @@ use crate::topology::EdgeAt;
 /// Edges of one task.
 const PART: usize = 1 << 9;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "t_junctions",
     severity: Severity::Error,
     about: "Vertices on the boundary that lie within the gap of a boundary edge of another facet, away from its ends. \

@@ -1,12 +1,12 @@
 //! Vertices that were likely meant to be one.
 
 use super::near::{Look, farthest};
-use super::{Kind, Measure, Severity, Shows};
+use super::{DefectKind, Measure, Severity, Shows};
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, minus, norm};
 use crate::topology::union::Sets;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: DefectKind = DefectKind {
     name: "unshared_vertices",
     severity: Severity::Error,
     about: "Groups of vertices on the boundary that lie within the gap of one another, directly or through others of the \

@@ -14,13 +14,13 @@ pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 pub struct PointBlock {
     pub points: [Point; BLOCK],
     pub len: usize,
-    /// Centre of the points' box.
-    pub centre: Point,
-    /// Scaled: points relative to `centre` (unused ones repeat the last), largest such length, half the box.
+    /// Center of the points' box.
+    pub center: Point,
+    /// Scaled: points relative to `center` (unused ones repeat the last), largest such length, half the box.
     pub offset: [[f32; BLOCK]; 3],
     pub reach: f32,
     pub half: [f32; 3],
-    /// Scaled centre relative to the tree's.
+    /// Scaled center relative to the tree's.
     pub at: [f32; 3],
 }
 
@@ -33,7 +33,7 @@ impl PointBlock {
         let mut b = PointBlock {
             points: [points[len - 1]; BLOCK],
             len,
-            centre: [0.0; 3],
+            center: [0.0; 3],
             offset: [[0.0; BLOCK]; 3],
             reach: 0.0,
             half: [0.0; 3],
@@ -47,11 +47,11 @@ impl PointBlock {
             }
         }
         for k in 0..3 {
-            b.centre[k] = 0.5 * (lo[k] + hi[k]);
-            b.half[k] = ((hi[k] - b.centre[k]).max(b.centre[k] - lo[k]) * tree.scale) as f32 * 1.000001;
-            b.at[k] = ((b.centre[k] - tree.centre[k]) * tree.scale) as f32;
+            b.center[k] = 0.5 * (lo[k] + hi[k]);
+            b.half[k] = ((hi[k] - b.center[k]).max(b.center[k] - lo[k]) * tree.scale) as f32 * 1.000001;
+            b.at[k] = ((b.center[k] - tree.center[k]) * tree.scale) as f32;
             for i in 0..BLOCK {
-                b.offset[k][i] = ((b.points[i][k] - b.centre[k]) * tree.scale) as f32;
+                b.offset[k][i] = ((b.points[i][k] - b.center[k]) * tree.scale) as f32;
             }
         }
         let mut r = 0.0;
@@ -70,7 +70,7 @@ impl PointBlock {
         self.at.iter().chain(&self.half).all(|x| x.abs() < 1e15)
     }
 
-    /// Point `i` relative to the tree's centre, scaled.
+    /// Point `i` relative to the tree's center, scaled.
     #[inline(always)]
     pub fn place(&self, i: usize) -> [f32; 3] {
         std::array::from_fn(|k| self.at[k] + self.offset[k][i])
@@ -85,10 +85,10 @@ impl PointBlock {
         d * d * 1.00001
     }
 
-    /// The block's centre relative to `origin`, scaled.
+    /// The block's center relative to `origin`, scaled.
     #[inline(always)]
     pub fn relative(&self, tree: &Tree, origin: Point) -> [f32; 3] {
-        std::array::from_fn(|k| ((self.centre[k] - origin[k]) * tree.scale) as f32)
+        std::array::from_fn(|k| ((self.center[k] - origin[k]) * tree.scale) as f32)
     }
 }
 
@@ -101,13 +101,13 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The place closest to the block's centre on the triangle in this slot.
+    /// The place closest to the block's center on the triangle in this slot.
     #[inline(always)]
     pub fn new(tree: &Tree, b: &PointBlock, slot: u32) -> SurfacePoint {
         /// Greatest bound kept: its square is in the range of single precision.
         const MOST: f64 = 1e15;
         let t = tree.triangle(slot);
-        let point = triangle::closest_point(&b.centre, &t).point;
+        let point = triangle::closest_point(&b.center, &t).point;
         // Of lengths up to the size of the mesh, which is about 1.
         let rounding = 16.0 * f64::EPSILON;
         let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;

@@ -2,7 +2,7 @@
 //!
 //! A range of triangles is split in two where the *surface-area heuristic* (MacDonald & Booth 1990), evaluated at 16 bins
 //! per axis (Wald 2007), is least; the cost of a side is its box area times the number of full leaves it needs, which
-//! favours splits at multiples of eight. A large range is judged by a sample; of a small one, the axes of its largest
+//! favors splits at multiples of eight. A large range is judged by a sample; of a small one, the axes of its largest
 //! extent are enough; a few triangles are sorted and every cut tried, which costs less than bins. To make a node of
 //! eight children, the child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008); no
 //! binary tree is ever stored.
@@ -62,9 +62,9 @@ impl Bounds {
             self.hi[k] = most(self.hi[k], o.hi[k]);
         }
     }
-    /// Twice the centre, in the first three places.
+    /// Twice the center, in the first three places.
     #[inline(always)]
-    fn centre2(&self) -> [f32; 4] {
+    fn center2(&self) -> [f32; 4] {
         std::array::from_fn(|k| self.lo[k] + self.hi[k])
     }
     /// Half the surface area.
@@ -91,7 +91,7 @@ struct Plane {
     axis: usize,
     /// Items in bins up to this one lie to its left.
     bin: usize,
-    /// Where the centres begin and how far they reach; twice the coordinate, like all centres here.
+    /// Where the centers begin and how far they reach; twice the coordinate, like all centers here.
     origin: f32,
     extent: f32,
 }
@@ -109,13 +109,13 @@ impl Plane {
     }
 }
 
-/// A range of items, with the boxes of the items and of their doubled centres.
+/// A range of items, with the boxes of the items and of their doubled centers.
 struct Range<'a> {
     items: &'a mut [Item],
     /// Index of the first item in the whole.
     start: usize,
     bounds: Bounds,
-    centres: Bounds,
+    centers: Bounds,
 }
 
 impl<'a> Range<'a> {
@@ -124,7 +124,7 @@ impl<'a> Range<'a> {
             let mut r = (Bounds::EMPTY, Bounds::EMPTY);
             for i in part {
                 r.0.add(i);
-                let c = i.centre2();
+                let c = i.center2();
                 r.1.add(&Bounds { lo: c, hi: c });
             }
             r
@@ -134,15 +134,15 @@ impl<'a> Range<'a> {
             a.1.add(&b.1);
             a
         };
-        let (bounds, centres) = if items.len() <= SHARE {
+        let (bounds, centers) = if items.len() <= SHARE {
             of(items)
         } else {
             items.par_chunks(SHARE).map(of).reduce(|| (Bounds::EMPTY, Bounds::EMPTY), merge)
         };
-        Range { items, start, bounds, centres }
+        Range { items, start, bounds, centers }
     }
 
-    /// The best plane that the items, or of many items a sample, can tell; `None` if all centres coincide.
+    /// The best plane that the items, or of many items a sample, can tell; `None` if all centers coincide.
     fn best_plane(&self) -> Option<Plane> {
         let step = self.items.len().div_ceil(SAMPLE);
         self.best_plane_of_every(step).or_else(|| if step > 1 { self.best_plane_of_every(1) } else { None })
@@ -152,8 +152,8 @@ impl<'a> Range<'a> {
     /// often than not: the axes along which they extend the most will do.
     fn best_plane_of_every(&self, step: usize) -> Option<Plane> {
         let mut axes: [Plane; 3] = std::array::from_fn(|axis| {
-            let extent = self.centres.hi[axis] - self.centres.lo[axis];
-            Plane { axis, bin: 0, origin: self.centres.lo[axis], extent }
+            let extent = self.centers.hi[axis] - self.centers.lo[axis];
+            Plane { axis, bin: 0, origin: self.centers.lo[axis], extent }
         });
         axes.sort_by(|a, b| b.extent.total_cmp(&a.extent));
         let tried = if self.items.len() <= TWO_AXES { 2 } else { 3 };
@@ -198,7 +198,7 @@ impl<'a> Range<'a> {
 
     /// Sorts a few items along the axis of their largest extent; returns how many to take to the left.
     fn sort_and_cut(&mut self) -> usize {
-        let extent = |k: usize| self.centres.hi[k] - self.centres.lo[k];
+        let extent = |k: usize| self.centers.hi[k] - self.centers.lo[k];
         let k = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
         let items = &mut self.items[..];
         items.sort_unstable_by(|a, b| (a.lo[k] + a.hi[k]).total_cmp(&(b.lo[k] + b.hi[k])));
@@ -229,7 +229,7 @@ impl<'a> Range<'a> {
             let factor = plane.factor();
             partition(self.items, |i| plane.bin_of(i, factor) <= plane.bin)
         } else {
-            self.items.len() / 2 // all centres coincide: any half will do
+            self.items.len() / 2 // all centers coincide: any half will do
         };
         let (a, b) = self.items.split_at_mut(middle);
         (Range::new(a, self.start), Range::new(b, self.start + middle))
@@ -354,7 +354,7 @@ impl Tree {
 /// Builds the tree of a mesh that [`check_mesh`](super::limits::check_mesh) has passed.
 fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     let limits = limits(mesh);
-    let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * limits.min[k] + 0.5 * limits.max[k]);
+    let center: [f64; 3] = std::array::from_fn(|k| 0.5 * limits.min[k] + 0.5 * limits.max[k]);
     let extent = limits.sides().into_iter().fold(0.0, f64::max);
     let scale =
         if extent > 1e-300 { libm::exp2((-libm::log2(extent).ceil()).clamp(-1000.0, 1000.0)) } else { 1.0 };
@@ -362,7 +362,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
         let mut b = Bounds::EMPTY;
         for v in f.map(|v| mesh.positions[v as usize]) {
             for k in 0..3 {
-                let x = ((v[k] - centre[k]) * scale) as f32;
+                let x = ((v[k] - center[k]) * scale) as f32;
                 b.lo[k] = least(b.lo[k], x);
                 b.hi[k] = most(b.hi[k], x);
             }
@@ -391,7 +391,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    Ok(Tree::new(Arrays { nodes: t.nodes, leaves, root, centre, scale, slots, corners, face }))
+    Ok(Tree::new(Arrays { nodes: t.nodes, leaves, root, center, scale, slots, corners, face }))
 }
 
 /// Box of all vertices that faces use.

@@ -17,7 +17,7 @@ use crate::space::{Point, Vector, plus, times};
 /// Where a line through a point meets a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// How far from the point along the line's direction, negative behind it, millimetres.
+    /// How far from the point along the line's direction, negative behind it, millimeters.
     pub along: f64,
     /// Where it is.
     pub point: Point,
@@ -55,9 +55,9 @@ struct Scaled {
 
 impl Scaled {
     fn of(tree: &Tree, line: &Line) -> Scaled {
-        let origin = std::array::from_fn(|k| (line.point[k] - tree.centre[k]) * tree.scale);
+        let origin = std::array::from_fn(|k| (line.point[k] - tree.center[k]) * tree.scale);
         let far =
-            origin.iter().chain(&tree.centre.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
+            origin.iter().chain(&tree.center.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
         Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: SLACK * far }
     }
 
@@ -133,7 +133,7 @@ impl Tree {
     /// Where the line through `p` along `direction` (any length) meets the mesh nearest to `p`, ahead or behind: exactly the face of
     /// all that it meets whose crossing is nearest in double precision, ties to the lowest. `None` where it meets none within
     /// `max_distance` (which may be infinite), or without a direction. Whether a face is met is decided without rounding, its rim
-    /// belongs to it; a face that the line lies in is not met, its neighbours are.
+    /// belongs to it; a face that the line lies in is not met, its neighbors are.
     ///
     /// Cost: about as for [`Tree::closest`] of one point; in proportion to the faces that the line grazes.
     ///

@@ -13,8 +13,8 @@ use crate::simd::lanes::Lanes;
 struct Candidate {
     leaf: u32,
     lane: u32,
-    /// The block's centre in the triangle's frame.
-    centre: [f32; 3],
+    /// The block's center in the triangle's frame.
+    center: [f32; 3],
 }
 
 /// Memory of this stage, kept from block to block.
@@ -51,7 +51,7 @@ pub unsafe fn test_all<V: Lanes<8>, W: Lanes<16>>(
         s.table.resize(s.table.len().max(s.candidates.len()), [0.0; 16]);
         for (c, row) in s.candidates.iter().zip(&mut s.table) {
             let leaf = &tree.leaves[c.leaf as usize];
-            let r = kernel::triangle_distance2::<W>(leaf, c.lane as usize, c.centre, d);
+            let r = kernel::triangle_distance2::<W>(leaf, c.lane as usize, c.center, d);
             least = least.min(r);
             r.store(row);
         }
@@ -70,7 +70,7 @@ pub unsafe fn test_all<V: Lanes<8>, W: Lanes<16>>(
     }
 }
 
-/// Lists the triangles that can be nearest to some point: up to `reach` farther from the block's centre than the nearest of
+/// Lists the triangles that can be nearest to some point: up to `reach` farther from the block's center than the nearest of
 /// all.
 #[inline(always)]
 unsafe fn select<V: Lanes<8>>(
@@ -84,12 +84,12 @@ unsafe fn select<V: Lanes<8>>(
     unsafe {
         let mut tested = [([[0f32; 8]; 3], [0f32; 8]); FEW_LEAVES];
         let mut least = V::splat(f32::INFINITY);
-        for (found, (centre, distance2)) in leaves.iter().zip(&mut tested) {
+        for (found, (center, distance2)) in leaves.iter().zip(&mut tested) {
             let leaf = &tree.leaves[!found.child as usize];
             let c = kernel::into_frames::<V>(leaf, b.relative(tree, leaf.origin));
             let d = kernel::leaf_distance2(leaf, c);
             least = least.min(d);
-            for (c, out) in c.iter().zip(centre) {
+            for (c, out) in c.iter().zip(center) {
                 c.store(out);
             }
             d.store(distance2);
@@ -103,7 +103,7 @@ unsafe fn select<V: Lanes<8>>(
                 let lane = mask.trailing_zeros();
                 let j = lane as usize & 7;
                 mask &= mask - 1;
-                candidates.push(Candidate { leaf: !found.child as u32, lane, centre: [x[j], y[j], z[j]] });
+                candidates.push(Candidate { leaf: !found.child as u32, lane, center: [x[j], y[j], z[j]] });
             }
         }
     }

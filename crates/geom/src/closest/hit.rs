@@ -19,7 +19,7 @@ impl Hit {
     pub(super) const NONE: Hit =
         Hit { distance_squared: f64::INFINITY, face: u32::MAX, slot: u32::MAX, height: 0.0 };
 
-    /// Distance, millimetres.
+    /// Distance, millimeters.
     #[inline(always)]
     pub fn distance(&self) -> f64 {
         self.distance_squared.sqrt()

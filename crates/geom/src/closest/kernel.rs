@@ -82,7 +82,7 @@ unsafe fn spread<V: Lanes<16>>(leaf: &Leaf, lane: usize, i: usize) -> V {
 }
 
 /// Squared distances from sixteen points to triangle `lane` of a leaf. `d` holds the points relative to a block
-/// centre, `c` that centre in the triangle's frame.
+/// center, `c` that center in the triangle's frame.
 #[inline(always)]
 pub unsafe fn triangle_distance2<V: Lanes<16>>(leaf: &Leaf, lane: usize, c: [f32; 3], d: [V; 3]) -> V {
     unsafe {
@@ -123,14 +123,14 @@ pub struct Domination<V> {
 }
 
 impl<V: Lanes<8>> Domination<V> {
-    /// The block is the box `centre ± half`.
+    /// The block is the box `center ± half`.
     #[inline(always)]
-    pub unsafe fn new(centre: [f32; 3], half: [f32; 3], x: [f32; 3]) -> Self {
+    pub unsafe fn new(center: [f32; 3], half: [f32; 3], x: [f32; 3]) -> Self {
         unsafe {
             let zero = V::splat(0.0);
             let mut r = Domination { side: [[zero; 3]; 2], to_x: [[zero; 3]; 2] };
             for k in 0..3 {
-                for (s, p) in [centre[k] - half[k], centre[k] + half[k]].into_iter().enumerate() {
+                for (s, p) in [center[k] - half[k], center[k] + half[k]].into_iter().enumerate() {
                     r.side[s][k] = V::splat(p);
                     r.to_x[s][k] = V::splat((p - x[k]) * (p - x[k]));
                 }

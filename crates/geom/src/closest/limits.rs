@@ -5,15 +5,15 @@ use crate::parallel::prelude::*;
 use crate::progress::Cancelled;
 use crate::space::Point;
 
-/// Largest coordinate of a point accepted, millimetres.
+/// Largest coordinate of a point accepted, millimeters.
 pub const MAX_COORDINATE: f64 = 1e60;
-/// Smallest coordinate accepted that is not zero, millimetres: the fourth power of what is smaller leaves the range of
+/// Smallest coordinate accepted that is not zero, millimeters: the fourth power of what is smaller leaves the range of
 /// normal numbers, and distances would lose their digits without a word.
 pub const MIN_COORDINATE: f64 = 1e-50;
-/// Largest coordinate of a vertex accepted, millimetres: the fourth power of it and the square of that of a point, whose
+/// Largest coordinate of a vertex accepted, millimeters: the fourth power of it and the square of that of a point, whose
 /// product the distance to a plane needs, are still in the range of numbers.
 pub const MAX_VERTEX: f64 = 1e45;
-/// Least extent accepted of a mesh that is more than one place, millimetres: with smaller ones those powers lose digits
+/// Least extent accepted of a mesh that is more than one place, millimeters: with smaller ones those powers lose digits
 /// at the lower end of the numbers.
 pub const MIN_EXTENT: f64 = 1e-45;
 /// Most faces accepted: three corners of each must be countable in 32 bits.

@@ -1,4 +1,4 @@
-//! Where a line meets a triangle. Whether it does is decided exactly, so no line slips through between two neighbours.
+//! Where a line meets a triangle. Whether it does is decided exactly, so no line slips through between two neighbors.
 //!
 //! The side on which the line passes an edge is the sign of `d · ((a - p) × (b - p))`: rounded where that is beyond doubt, else as
 //! a sum without rounding (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-15;
 /// Where a line meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// How far along the line's direction, negative behind its point, millimetres.
+    /// How far along the line's direction, negative behind its point, millimeters.
     pub along: f64,
     /// Weights of the corners.
     pub weights: [f64; 3],

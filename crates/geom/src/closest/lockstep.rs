@@ -74,7 +74,7 @@ pub unsafe fn search<V: Lanes<8>>(
         let mut here = [0; BLOCK];
         nearest_children::<V>(&s.start, &place[..b.len], &mut boxes, &mut here);
         descend::<V>(tree, &place[..b.len], &mut here);
-        let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.centre[k]) * tree.scale) as f32);
+        let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.center[k]) * tree.scale) as f32);
         s.tested.clear();
         let (mut best, mut bound) = ([Best::default(); BLOCK], [0f32; BLOCK]);
         for i in 0..b.len {

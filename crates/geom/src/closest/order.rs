@@ -1,4 +1,4 @@
-//! Sorting the points along a space-filling curve, so that neighbours in the list are neighbours in space.
+//! Sorting the points along a space-filling curve, so that neighbors in the list are neighbors in space.
 //!
 //! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into
 //! buckets by the high bits of the key, in parallel; each bucket is then sorted in cache by the thread that is about to
@@ -16,13 +16,13 @@ const BUCKET_BITS: u32 = 12;
 /// Bits of the key below the bucket's.
 const LOW_BITS: u32 = 30 - BUCKET_BITS;
 
-/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make neighbours nearer
+/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make neighbors nearer
 /// and the answers a little faster.
 const SLICE: usize = 1 << 23;
 /// Points a thread takes at a time, about: buckets are joined until they have this many.
 const CHUNK: usize = 8192;
 
-/// Calls `answer(scratch, slice, base, items)` for portions of neighbouring points, until every point was named once by
+/// Calls `answer(scratch, slice, base, items)` for portions of neighboring points, until every point was named once by
 /// the low 32 bits of an item: the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool;
 /// a thread keeps its scratch. Tells `progress` of the points answered.
 ///
@@ -173,7 +173,7 @@ fn counting_pass(from: &[u64], to: &mut [u64], shift: u32, bits: u32) {
     }
 }
 
-/// Neighbouring buckets joined to portions of about [`CHUNK`] points.
+/// Neighboring buckets joined to portions of about [`CHUNK`] points.
 fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
     let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
     let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);

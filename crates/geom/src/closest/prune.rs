@@ -55,7 +55,7 @@ pub unsafe fn prune<V: Lanes<8>>(
     limit: f32,
     s: &mut Survivors,
 ) {
-    let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - tree.centre[k]) * tree.scale) as f32);
+    let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - tree.center[k]) * tree.scale) as f32);
     // Of x, of the block's place, of the boxes.
     let error = near.off + ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
     let far = norm(std::array::from_fn(|k| b.at[k] - x[k])) + error + b.reach;
@@ -70,14 +70,14 @@ pub unsafe fn prune<V: Lanes<8>>(
     unsafe {
         let slack = V::splat(4.0 * error * far + error * error + 32.0 * ROUNDING * far * far);
         let domination = Domination::<V>::new(b.at, b.half.map(|h| h + error), x);
-        let centre = kernel::splat::<V>(b.at);
+        let center = kernel::splat::<V>(b.at);
         let mut n = tree.root;
         let mut next = 0;
         loop {
             let node = &tree.nodes[n as usize];
             let mut mask = kernel::domination_margin::<V>(node, &domination).le(slack);
             if limit < far {
-                mask &= kernel::box_distance2::<V>(node, centre).le(V::splat(limit * limit));
+                mask &= kernel::box_distance2::<V>(node, center).le(V::splat(limit * limit));
             }
             if s.leaves.len() + s.open.len() - next + mask.count_ones() as usize > MOST {
                 next -= 1; // `n` stays unopened

@@ -1,4 +1,4 @@
-//! Answering the points: blocks of sixteen neighbours share one walk through the tree.
+//! Answering the points: blocks of sixteen neighbors share one walk through the tree.
 //!
 //! For each block (module `search`):
 //! 1. take a surface point `x` near the block: the closest one of the triangle that won in the block before;
@@ -30,7 +30,7 @@ use crate::space::Point;
 /// What is asked of a batch of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Query {
-    /// Greatest distance that counts, millimetres; a point farther from the mesh has no answer. A small one makes the
+    /// Greatest distance that counts, millimeters; a point farther from the mesh has no answer. A small one makes the
     /// search faster.
     pub max_distance: f64,
     /// Instructions to use; more than the processor has means all it has.
@@ -66,7 +66,7 @@ impl Tree {
     /// for a point farther from the mesh than `query.max_distance`. The answers depend on nothing but mesh and point.
     ///
     /// Runs on the current rayon pool and tells `progress` of points answered. Cost: about 0.1 to 0.3 µs a point and
-    /// core for scans, 1 µs for points far away; where very many faces are equally near (the centre of a sphere, a place
+    /// core for scans, 1 µs for points far away; where very many faces are equally near (the center of a sphere, a place
     /// many mesh sizes away), as much as brute force. Memory: 8 bytes a point, 64 MiB at most.
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl Tree {
         Ok(out)
     }
 
-    /// Distance of each point to the mesh, millimetres, in the order of `points`; NaN beyond `query.max_distance`.
+    /// Distance of each point to the mesh, millimeters, in the order of `points`; NaN beyond `query.max_distance`.
     ///
     /// # Errors
     /// Those of [`Tree::for_each_closest`].

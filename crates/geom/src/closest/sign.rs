@@ -16,7 +16,7 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// What the sign of a distance needs besides the tree: the neighbours and the pseudonormals. 36 bytes a face.
+/// What the sign of a distance needs besides the tree: the neighbors and the pseudonormals. 36 bytes a face.
 ///
 /// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
 /// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to
@@ -57,7 +57,7 @@ fn angle(t: &[Point; 3], i: usize) -> f64 {
 }
 
 impl Signs {
-    /// Finds neighbours and corner normals, in linear time where no two vertices with more than 64 faces are neighbours. The result does not depend on the number of threads.
+    /// Finds neighbors and corner normals, in linear time where no two vertices with more than 64 faces are neighbors. The result does not depend on the number of threads.
     pub fn new(tree: &Tree) -> Self {
         Signs::found(tree, &Silent)
     }
@@ -147,7 +147,7 @@ impl Signs {
         }
     }
 
-    /// Signed distance of each point, millimetres, positive outside, in the order of `points`; NaN beyond
+    /// Signed distance of each point, millimeters, positive outside, in the order of `points`; NaN beyond
     /// `query.max_distance`. Its size is the one of [`Tree::distances`] in every bit.
     ///
     /// # Errors

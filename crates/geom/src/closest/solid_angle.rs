@@ -1,7 +1,7 @@
 //! Solid angles of the tree's groups and triangles, seen from sixteen points at once.
 //!
 //! Each point decides for itself which groups it opens: the walk carries the set of points that still need a group opened,
-//! and whatever is computed for the others counts nothing. So a point's number does not depend on its neighbours.
+//! and whatever is computed for the others counts nothing. So a point's number does not depend on its neighbors.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
@@ -15,11 +15,11 @@ use crate::space::{Point, Vector};
 /// Nodes and leaves still to be looked at, and for which points.
 pub type Stack = Vec<(i32, u32)>;
 
-/// The dipoles of a node's children, scaled, relative to the tree's centre.
+/// The dipoles of a node's children, scaled, relative to the tree's center.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub struct Group {
-    /// Coordinates of the centre, area vector, and the square of the radius.
+    /// Coordinates of the center, area vector, and the square of the radius.
     child: [[f32; 8]; 8],
 }
 
@@ -28,8 +28,8 @@ impl Group {
     pub const EMPTY: Group = Group { child: [[1e9, 1e9, 1e9, 0.0, 0.0, 0.0, 0.0, 0.0]; 8] };
 
     /// Fills in child `j`. All scaled.
-    pub fn set(&mut self, j: usize, centre: Point, vector: Vector, radius: f64) {
-        let [c, v] = [centre, vector].map(|a| a.map(|x| x as f32));
+    pub fn set(&mut self, j: usize, center: Point, vector: Vector, radius: f64) {
+        let [c, v] = [center, vector].map(|a| a.map(|x| x as f32));
         self.child[j] = [c[0], c[1], c[2], v[0], v[1], v[2], (radius * radius) as f32, 0.0];
     }
 }
@@ -89,7 +89,7 @@ pub unsafe fn numbers<V: Lanes<16>>(
 ) -> [f64; BLOCK] {
     unsafe {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let q = from::<V>(tree, points, tree.centre);
+        let q = from::<V>(tree, points, tree.center);
         let open2 = opening * opening;
         let mut far = zero;
         let mut near = Angle { re: one, im: zero, turns: zero };

@@ -1,6 +1,6 @@
 //! The search tree: nodes with eight children, leaves with eight triangles.
 //!
-//! **Scaled space.** Nodes and leaves live in single precision, in coordinates `(x - centre) * scale`, where `scale` is a
+//! **Scaled space.** Nodes and leaves live in single precision, in coordinates `(x - center) * scale`, where `scale` is a
 //! power of two that makes the mesh about one unit large. So a part of 10 µm and one of 10 km, at the origin or at 1e6,
 //! are searched with the same relative precision and nothing under- or overflows.
 //!
@@ -12,7 +12,7 @@
 //! square of the aspect ratio and costs about 70 instead of 45 operations.
 //!
 //! **Slots.** Triangles are stored again in the order of the leaves ("slots"), as indices into vertices renumbered by
-//! first use, so that the double-precision finish reads memory that neighbours in space share.
+//! first use, so that the double-precision finish reads memory that neighbors in space share.
 
 use crate::closest::hit::Hit;
 use crate::closest::layout::{Leaf, Node};
@@ -40,7 +40,7 @@ pub struct Arrays {
     pub(super) leaves: Vec<Leaf>,
     /// Root: a node, or `!0` when all triangles fit one leaf.
     pub(super) root: i32,
-    pub(super) centre: Point,
+    pub(super) center: Point,
     pub(super) scale: f64,
     /// Corners of each slot, indices into `corners`.
     pub(super) slots: Vec<[u32; 3]>,
@@ -53,7 +53,7 @@ pub struct Arrays {
 /// The point of a mesh closest to a given point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
-    /// Distance to it, millimetres: correct to a few units in the last place.
+    /// Distance to it, millimeters: correct to a few units in the last place.
     pub distance: f64,
     /// Where it is.
     pub point: Point,

@@ -1,11 +1,11 @@
-//! Inside or outside a mesh with holes, by the generalised winding number.
+//! Inside or outside a mesh with holes, by the generalized winding number.
 //!
 //! The winding number of a point is the sum of the signed solid angles of all triangles over 4π: 1 inside and 0 outside a
 //! closed mesh, and a smooth blend near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a
-//! group of triangles the sum is nearly that of one dipole at their centre, so it is gathered along the search tree and a
+//! group of triangles the sum is nearly that of one dipole at their center, so it is gathered along the search tree and a
 //! group is opened only for points within some times its radius (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast
 //! winding numbers for soups and clouds", 2018; here with the first-order term only, and a wider opening to make up for
-//! it). Who only asks for the side is answered from few groups where that is clear. Sixteen neighbouring points walk together (module `solid_angle`), each with its own decisions.
+//! it). Who only asks for the side is answered from few groups where that is clear. Sixteen neighboring points walk together (module `solid_angle`), each with its own decisions.
 #![expect(
     unsafe_code,
     reason = "choosing the instruction set at run time; answers written to places of their own"
@@ -37,9 +37,9 @@ const CLEAR: f64 = 0.3;
 struct Dipole {
     /// Area vector: sum of normals times areas.
     vector: Vector,
-    centre: Point,
+    center: Point,
     area: f64,
-    /// Of a sphere about the centre that holds the triangles.
+    /// Of a sphere about the center that holds the triangles.
     radius: f64,
 }
 
@@ -66,9 +66,9 @@ impl Winding {
                 count += 1;
             }
             for (j, d) in children[..count].iter().enumerate() {
-                let centre = times(tree.scale, minus(d.centre, tree.centre));
+                let center = times(tree.scale, minus(d.center, tree.center));
                 let vector = times(tree.scale * tree.scale, d.vector);
-                groups[n].set(j, centre, vector, d.radius * tree.scale);
+                groups[n].set(j, center, vector, d.radius * tree.scale);
             }
             of_node[n] = join(&children[..count]);
         }
@@ -118,7 +118,7 @@ impl Winding {
         })
     }
 
-    /// What `f` tells of each point, in their order. It is given sixteen neighbours at a time, and which of them count.
+    /// What `f` tells of each point, in their order. It is given sixteen neighbors at a time, and which of them count.
     fn map<T: Send>(
         &self,
         points: &[Point],
@@ -191,17 +191,17 @@ impl Winding {
 fn join(parts: &[Dipole]) -> Dipole {
     let area = parts.iter().map(|d| d.area).sum::<f64>();
     let weight = |d: &Dipole| if area > 0.0 { d.area / area } else { 1.0 / parts.len() as f64 };
-    let centre = parts.iter().fold([0.0; 3], |c, d| plus(c, times(weight(d), d.centre)));
+    let center = parts.iter().fold([0.0; 3], |c, d| plus(c, times(weight(d), d.center)));
     let vector = parts.iter().fold([0.0; 3], |v, d| plus(v, d.vector));
-    let radius = parts.iter().map(|d| norm(minus(d.centre, centre)) + d.radius).fold(0.0, f64::max);
-    Dipole { vector, centre, area, radius }
+    let radius = parts.iter().map(|d| norm(minus(d.center, center)) + d.radius).fold(0.0, f64::max);
+    Dipole { vector, center, area, radius }
 }
 
 fn leaf_dipole(tree: &Tree, l: usize) -> Dipole {
     let triangle = |s: u32| {
         let [a, b, c] = tree.triangle(s);
         let vector = times(0.5, cross(minus(b, a), minus(c, a)));
-        Dipole { vector, centre: times(1.0 / 3.0, plus(a, plus(b, c))), area: norm(vector), radius: 0.0 }
+        Dipole { vector, center: times(1.0 / 3.0, plus(a, plus(b, c))), area: norm(vector), radius: 0.0 }
     };
     let mut parts = [Dipole::default(); 8];
     let mut count = 0;
@@ -211,7 +211,7 @@ fn leaf_dipole(tree: &Tree, l: usize) -> Dipole {
     }
     let mut d = join(&parts[..count]);
     for v in tree.slots_of(l).flat_map(|s| tree.triangle(s)) {
-        d.radius = d.radius.max(norm(minus(v, d.centre)));
+        d.radius = d.radius.max(norm(minus(v, d.center)));
     }
     d
 }

@@ -1,4 +1,4 @@
-//! A jet: the height over a plane as a polynomial, fitted to the neighbours of a place.
+//! A jet: the height over a plane as a polynomial, fitted to the neighbors of a place.
 
 use super::terms::{NoCurvature, unknowns};
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
@@ -20,14 +20,14 @@ pub struct Jet {
     /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm: for noise that is independent from point to
     /// point.
     pub uncertainty: f64,
-    /// Standard deviation of the neighbours from the jet, millimetres.
+    /// Standard deviation of the neighbors from the jet, millimeters.
     pub residual: f64,
     /// Condition of the least-squares system in the Frobenius norm, coordinates being divided by the reach: at least the number
     /// of unknowns, and never less than the condition in the Euclidean norm.
     pub condition: f64,
-    /// Distance of the farthest neighbour along the plane, millimetres.
+    /// Distance of the farthest neighbor along the plane, millimeters.
     pub reach: f64,
-    /// Neighbours, without the place itself.
+    /// Neighbors, without the place itself.
     pub neighbors: u32,
 }
 
@@ -45,7 +45,7 @@ impl Jet {
 pub(super) struct Fitter {
     degree: usize,
     unknowns: usize,
-    /// The neighbours of a place, relative to it.
+    /// The neighbors of a place, relative to it.
     pub(super) around: Vec<Vector>,
     /// Columns of the system, and behind them the heights.
     columns: Vec<f64>,
@@ -68,7 +68,7 @@ impl Fitter {
         }
     }
 
-    /// Replaces the neighbours.
+    /// Replaces the neighbors.
     pub(super) fn take(&mut self, place: Point, neighbors: impl Iterator<Item = Point>) {
         self.around.clear();
         self.around.extend(neighbors.map(|p| minus(p, place)));

@@ -1,11 +1,11 @@
-//! Curvatures of meshes and clouds, place by place, from jets fitted to the neighbourhood.
+//! Curvatures of meshes and clouds, place by place, from jets fitted to the neighborhood.
 //!
 //! F. Cazals, M. Pouget, Estimating differential quantities using polynomial fitting of osculating jets, Computer Aided
 //! Geometric Design 22 (2005) 121–146. In a frame whose third axis is about the normal, the surface near a place is a height
-//! `z(x, y)`; a polynomial of degree `d` (a jet) is fitted to the neighbours by least squares, and its first and second
+//! `z(x, y)`; a polynomial of degree `d` (a jet) is fitted to the neighbors by least squares, and its first and second
 //! derivatives are normal and curvatures. Curvatures of a smooth surface come out to the order `d − 1` in the size of the
-//! neighbourhood. What differs from the paper: the frame is turned to the fitted normal where that leans, the standard
-//! uncertainty is told, and places where the neighbourhood is no surface on all sides have no value but a reason.
+//! neighborhood. What differs from the paper: the frame is turned to the fitted normal where that leans, the standard
+//! uncertainty is told, and places where the neighborhood is no surface on all sides have no value but a reason.
 //!
 //! A curvature is positive where the surface bends towards its normal, as in [`crate::spline::surface::Bend`]: on a convex body
 //! with outward normals both principal curvatures are negative.
@@ -13,9 +13,9 @@
 //! | file | what |
 //! |---|---|
 //! | `terms` | what is asked, and why there may be no answer |
-//! | `jet` | one neighbourhood |
-//! | `rings` | neighbours on a mesh, through edges |
-//! | `near` | neighbours in a cloud, by distance |
+//! | `jet` | one neighborhood |
+//! | `rings` | neighbors on a mesh, through edges |
+//! | `near` | neighbors in a cloud, by distance |
 //! | `sides` | normals of a cloud to one side |
 
 mod jet;
@@ -50,12 +50,12 @@ pub struct Curvatures {
     pub parts: usize,
 }
 
-/// Curvatures at the `V` vertices of a mesh, millimetres.
+/// Curvatures at the `V` vertices of a mesh, millimeters.
 ///
-/// Neighbours are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one place are
+/// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one place are
 /// two vertices: weld first what is not welded. Normals are those of the facets. Rings do not grow through vertices with more than
-/// 256 neighbours. `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex
-/// with its facets; the time of a vertex is that of a least-squares fit, `2 m n²` products for `m` neighbours and `n` unknowns.
+/// 256 neighbors. `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex
+/// with its facets; the time of a vertex is that of a least-squares fit, `2 m n²` products for `m` neighbors and `n` unknowns.
 /// ```
 /// use trueness_geom::curvature::{self, Options};
 /// use trueness_geom::{mesh::Mesh, progress::Silent};
@@ -88,13 +88,13 @@ pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<C
     Ok(Curvatures { places, parts: 0 })
 }
 
-/// Curvatures at `N` points, millimetres, in their order.
+/// Curvatures at `N` points, millimeters, in their order.
 ///
-/// The first frame of a place is the least-squares plane of its neighbours. A place is on a boundary where, along the surface, no
-/// neighbour lies within an angle of 150 degrees. Normals are turned to one side from neighbour to neighbour, the flattest way
+/// The first frame of a place is the least-squares plane of its neighbors. A place is on a boundary where, along the surface, no
+/// neighbor lies within an angle of 150 degrees. Normals are turned to one side from neighbor to neighbor, the flattest way
 /// first (H. Hoppe et al., SIGGRAPH 1992); then each part that hangs together looks outward, if it is a body rather than a sheet
 /// (the mean of n · (p − c) tells, which is three times volume over area of a closed one), else to the side of its mean normal's
-/// largest coordinate. Equal points are one place: copies are no neighbours, and have the same answer. As [`mesh()`] otherwise;
+/// largest coordinate. Equal points are one place: copies are no neighbors, and have the same answer. As [`mesh()`] otherwise;
 /// about 600 bytes a point.
 ///
 /// # Errors

@@ -1,20 +1,20 @@
-//! Neighbours in a cloud, by distance.
+//! Neighbors in a cloud, by distance.
 
 use super::jet::{Fitter, Jet};
 use super::terms::{NoCurvature, Taken, Terms};
 use crate::fit::Scatter;
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point, Vector, dot, minus};
-use crate::spatial::neighbours::{Neighbour, PointTree};
+use crate::spatial::neighbors::{Neighbor, PointTree};
 use std::f64::consts::PI;
 
-/// Neighbours of a point that normals are handed on to.
+/// Neighbors of a point that normals are handed on to.
 const LINKS: usize = 8;
-/// Angle without a neighbour from which on a point lies on a boundary: 150 degrees. Of 30 neighbours at random directions one in
+/// Angle without a neighbor from which on a point lies on a boundary: 150 degrees. Of 30 neighbors at random directions one in
 /// 200,000 inner points has such a gap; a straight boundary has one of 180 degrees.
 const GAP: f64 = 5.0 / 6.0 * PI;
 
-/// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbours that tell anything more.
+/// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbors that tell anything more.
 pub(super) struct Near<'a> {
     points: &'a [Point],
     tree: PointTree,
@@ -24,7 +24,7 @@ pub(super) struct Near<'a> {
     own: Vec<u32>,
 }
 
-/// The answer of a point, and its nearest neighbours, nearest first.
+/// The answer of a point, and its nearest neighbors, nearest first.
 pub(super) type Answer = (Result<Jet, NoCurvature>, Vec<u32>);
 
 impl Near<'_> {
@@ -61,7 +61,7 @@ impl Near<'_> {
             return (Err(NoCurvature::NotFinite), vec![]);
         }
         let near = self.neighbors(&place, own, terms);
-        let number = |n: &Neighbour| self.numbers[n.1 as usize];
+        let number = |n: &Neighbor| self.numbers[n.1 as usize];
         // A copy follows the first of its place.
         let lowest = self.numbers[own as usize];
         let links = (lowest != i).then_some(lowest).into_iter();
@@ -70,7 +70,7 @@ impl Near<'_> {
         (fit(fitter, terms), links)
     }
 
-    fn neighbors(&self, place: &Point, own: u32, terms: &Terms) -> Vec<Neighbour> {
+    fn neighbors(&self, place: &Point, own: u32, terms: &Terms) -> Vec<Neighbor> {
         let radius = match terms.reach {
             Taken::Count(count) => return self.tree.k_nearest(place, count, Some(own)),
             Taken::Radius(radius) => radius,
@@ -85,7 +85,7 @@ impl Near<'_> {
             }
             true
         });
-        near.sort_unstable_by(|a: &Neighbour, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.sort_unstable_by(|a: &Neighbor, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         near
     }
 }
@@ -108,7 +108,7 @@ fn flattest(around: &[Vector]) -> Option<Vector> {
     (variance[1] > 1e-14 * variance[2]).then_some(axes[0])
 }
 
-/// The widest angle along the surface in which there is no neighbour.
+/// The widest angle along the surface in which there is no neighbor.
 fn widest_gap(around: &[Vector], jet: &Jet) -> f64 {
     let [x, y] = jet.bend.principal.map(|p| p.direction);
     let places = around.iter().map(|q| [dot(*q, x), dot(*q, y)]).filter(|q| *q != [0.0; 2]);

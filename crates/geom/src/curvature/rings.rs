@@ -1,4 +1,4 @@
-//! Neighbours on a mesh: rings around a vertex, through edges.
+//! Neighbors on a mesh: rings around a vertex, through edges.
 
 use super::jet::{Fitter, Jet};
 use super::terms::{NoCurvature, Taken, Terms};
@@ -9,11 +9,11 @@ use crate::space::{Vector, cross, dot, minus, norm, plus, unit};
 use crate::spatial::lists::lists;
 use crate::topology::{Topology, TopologyError};
 
-/// Rings do not grow through vertices with more neighbours: those around the middle of a disc of many facets would each take
+/// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take
 /// in all others.
 pub const HUB: usize = 256;
 
-/// A mesh as vertices that know their neighbours.
+/// A mesh as vertices that know their neighbors.
 pub(super) struct Rings<'a> {
     mesh: &'a Mesh,
     first: Vec<u32>,
@@ -82,7 +82,7 @@ pub(super) struct Walk<'a> {
     /// The round in which a vertex was last met.
     seen: Vec<u32>,
     round: u32,
-    /// The vertex itself, then its neighbours, ring after ring.
+    /// The vertex itself, then its neighbors, ring after ring.
     found: Vec<u32>,
 }
 
@@ -110,7 +110,7 @@ impl Walk<'_> {
         Ok(jet)
     }
 
-    /// Finds the neighbours: ring by ring until there are enough, or those within the radius that hang together within it.
+    /// Finds the neighbors: ring by ring until there are enough, or those within the radius that hang together within it.
     fn gather(&mut self, v: u32, terms: &Terms) {
         let rings = self.rings;
         self.round += 1;

@@ -18,7 +18,7 @@ type JetResult = Result<Jet, NoCurvature>;
 
 /// Turns the normals of each part that hangs together to one side, and gives the number of parts.
 ///
-/// Neighbours agree about the side along the tree that is least in all in `1 − |cosine|` of their normals (Kruskal 1956); equal ones by
+/// Neighbors agree about the side along the tree that is least in all in `1 − |cosine|` of their normals (Kruskal 1956); equal ones by
 /// number.
 pub(super) fn turn(
     points: &[Point],

@@ -6,9 +6,9 @@ use crate::topology::weld::WeldError;
 
 /// Degrees of the jets that can be fitted.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 2..=6;
-/// Neighbours for each unknown, where their number is not given.
+/// Neighbors for each unknown, where their number is not given.
 const PER_UNKNOWN: usize = 3;
-/// Most neighbours that can be asked for.
+/// Most neighbors that can be asked for.
 pub const MOST_NEIGHBORS: usize = 10_000;
 
 /// How curvatures are found.
@@ -16,7 +16,7 @@ pub const MOST_NEIGHBORS: usize = 10_000;
 pub struct Options {
     /// Degree of the jets, from [`DEGREES`].
     pub degree: usize,
-    /// What is taken into a neighbourhood.
+    /// What is taken into a neighborhood.
     pub reach: Reach,
     /// Whether places on a boundary have values, from the one side that there is.
     pub boundary: bool,
@@ -28,19 +28,19 @@ impl Default for Options {
     }
 }
 
-/// What is taken into a neighbourhood.
+/// What is taken into a neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
-    /// At least three neighbours for each unknown of the jet: 18 of degree 2, 30 of degree 3.
+    /// At least three neighbors for each unknown of the jet: 18 of degree 2, 30 of degree 3.
     Auto,
-    /// At least so many neighbours: on a mesh whole rings of them, in a cloud the nearest ones.
+    /// At least so many neighbors: on a mesh whole rings of them, in a cloud the nearest ones.
     Count(usize),
-    /// All neighbours within this distance, millimetres: curvature at a scale of one's own.
+    /// All neighbors within this distance, millimeters: curvature at a scale of one's own.
     Radius(f64),
 }
 
 impl Reach {
-    /// Fewest neighbours that are looked for with jets of this degree; `None` where a radius tells.
+    /// Fewest neighbors that are looked for with jets of this degree; `None` where a radius tells.
     pub fn neighbors(self, degree: usize) -> Option<usize> {
         match self {
             Reach::Auto => Some(PER_UNKNOWN * unknowns(degree)),
@@ -60,13 +60,13 @@ pub enum NoCurvature {
     /// Facets meet there, or around it, in a way that is no surface: more than two at an edge, fans that touch, or facets whose
     /// orientations disagree.
     NotASurface,
-    /// The surface ends there: it has neighbours on one side only.
+    /// The surface ends there: it has neighbors on one side only.
     Boundary,
-    /// There are fewer neighbours than unknowns.
+    /// There are fewer neighbors than unknowns.
     FewNeighbors,
-    /// The neighbours do not determine the jet: they lie on one line or curve, or at one place.
+    /// The neighbors do not determine the jet: they lie on one line or curve, or at one place.
     Undetermined,
-    /// The neighbourhood folds over: it is no height over any plane.
+    /// The neighborhood folds over: it is no height over any plane.
     Folded,
 }
 
@@ -102,7 +102,7 @@ pub enum CurvatureError {
     /// The degree is not offered.
     #[error("degree {0}: it must be from {first} to {last}", first = DEGREES.start(), last = DEGREES.end())]
     Degree(usize),
-    /// Too few neighbours for the degree, or too many.
+    /// Too few neighbors for the degree, or too many.
     #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MOST_NEIGHBORS}")]
     Neighbors {
         /// Asked for.

@@ -136,7 +136,7 @@ fn a_whole_torus_has_its_curvatures_normals_and_directions() {
         for (place, (_, normal, k, direction)) in found.places.iter().zip(&known) {
             let bend = place.unwrap().bend;
             assert!(dot(bend.normal, *normal) > 1.0 - 1e-5);
-            // What a polynomial of degree 4 lacks of a circle as wide as the neighbourhood; were it a parabola, its curvature would
+            // What a polynomial of degree 4 lacks of a circle as wide as the neighborhood; were it a parabola, its curvature would
             // be half of this bound.
             let (h, r) = (place.unwrap().reach, 4f64);
             let rest = r - (r * r - h * h).sqrt() - h * h / (2.0 * r) - h.powi(4) / (8.0 * r.powi(3));
@@ -390,7 +390,7 @@ fn what_has_no_curvature_says_why() {
     assert_eq!(few.places, vec![Err(NoCurvature::FewNeighbors); 4]);
     let line: Vec<Point> = (0..50).map(|k| times(f64::from(k), [1.0, 2.0, 0.5])).collect();
     let equal = vec![[1.0, 2.0, 3.0]; 50];
-    // Equal points are one place, which has no neighbour.
+    // Equal points are one place, which has no neighbor.
     for (points, why) in [(line, NoCurvature::Undetermined), (equal, NoCurvature::FewNeighbors)] {
         let found = cloud(&points, &Options::default(), &Silent).unwrap();
         assert!(found.places.iter().all(|p| *p == Err(why)), "{:?}", found.places[0]);
@@ -401,7 +401,7 @@ fn what_has_no_curvature_says_why() {
     assert_eq!(found.places, [Err(NoCurvature::NotFinite), Err(NoCurvature::FewNeighbors)]);
 }
 
-/// A plate thinner than the neighbourhood: the other side is no neighbour on the mesh.
+/// A plate thinner than the neighborhood: the other side is no neighbor on the mesh.
 #[test]
 fn the_other_side_of_a_thin_wall_is_far_away() {
     let side = |z: f64| (0..289u32).map(move |k| [f64::from(k % 17), f64::from(k / 17), z]);

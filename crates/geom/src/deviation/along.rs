@@ -39,7 +39,7 @@ impl ReferenceSurface {
         Ok(Along::Reference(Arc::new(Signs::watched(self.tree(), progress)?)))
     }
 
-    /// `f(index, deviation, crossing)` of each point, in the order of `points`: the deviation along a line, millimetres, + outside,
+    /// `f(index, deviation, crossing)` of each point, in the order of `points`: the deviation along a line, millimeters, + outside,
     /// − inside; see [`Exclusion`] for points that have none, which have no crossing either. `start` is the number of the first
     /// point among the normals of [`Along::Measured`].
     ///

@@ -30,7 +30,7 @@ use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point};
-use crate::spatial::neighbours::PointTree;
+use crate::spatial::neighbors::PointTree;
 use crate::topology::weld;
 
 /// Facets that the window must hold (1).
@@ -60,7 +60,7 @@ impl From<Cancelled> for PaperError {
     }
 }
 
-/// Distances of `points` from `mesh` by the paper's method, in the order of the points, millimetres, unsigned.
+/// Distances of `points` from `mesh` by the paper's method, in the order of the points, millimeters, unsigned.
 ///
 /// # Errors
 /// Those of [`Paper::new`] and [`Paper::values`].

@@ -22,7 +22,7 @@ pub enum SampleError {
 /// A point on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Where, millimetres.
+    /// Where, millimeters.
     pub point: Point,
     /// On which face.
     pub face: u32,

@@ -4,7 +4,7 @@
 //! surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
 //! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is
 //! material in material, one that looks the other way a cavity.
-//! The generalised winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
+//! The generalized winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
 //! a volume; on an open sheet it never reaches one half. What tells the two apart is the *vector area*: the sum of
 //! the facets' area vectors is zero for a closed surface, and as long as the area itself for a flat sheet.
 
@@ -22,7 +22,7 @@ pub enum SignRequest {
     Auto,
     /// Angle-weighted pseudonormals, valid or not.
     Pseudonormal,
-    /// Generalised winding number.
+    /// Generalized winding number.
     Winding,
     /// Unsigned distances.
     None,

@@ -13,7 +13,7 @@ use crate::topology::{Soundness, TopologyError};
 pub struct SurfaceOptions {
     /// Sign method.
     pub sign: SignRequest,
-    /// Points farther than this are excluded, millimetres.
+    /// Points farther than this are excluded, millimeters.
     pub max_distance: f64,
     /// Points whose nearest place lies on a free edge are excluded: the part may go on where the mesh ends.
     pub skip_boundary: bool,
@@ -153,7 +153,7 @@ impl ReferenceSurface {
         &self.precondition
     }
 
-    /// The deviation of each point, millimetres, in the order of `points`: + outside, − inside, unsigned without a
+    /// The deviation of each point, millimeters, in the order of `points`: + outside, − inside, unsigned without a
     /// sign method; see [`Exclusion`] for points that have none.
     ///
     /// # Errors

@@ -1,10 +1,10 @@
 //! Points near a nominal feature that are of other surfaces: the walls, bores and fillets that go on where it ends.
 //!
-//! A cloud has no facets that would tell by their angle. Each point gets the plane of its neighbours (Hoppe et al., Surface
+//! A cloud has no facets that would tell by their angle. Each point gets the plane of its neighbors (Hoppe et al., Surface
 //! reconstruction from unorganized points, SIGGRAPH 1992, section 3.1). Points that face otherwise than the feature are joined
 //! to pieces as long as they face alike. A piece that goes on farther from the nominal surface than the feature may be
 //! ([`Nearness::distance`]) is of another surface, as far as the cloud alone can tell; one that ends before (the slope
-//! of a dent or a scratch) is of the feature, however steep it is. Where the planes of neighbours mix two surfaces, at a
+//! of a dent or a scratch) is of the feature, however steep it is. Where the planes of neighbors mix two surfaces, at a
 //! sharp edge, a point is of the piece whose plane it lies on, if it does not lie on that of the feature.
 
 use super::rules::Rules;
@@ -12,15 +12,15 @@ use super::{FeatureError, Nearness, Nominal, NominalSurface};
 use crate::fit::eigen;
 use crate::progress::Progress;
 use crate::space::{Point, Vector, dot, minus, plus, times};
-use crate::spatial::neighbours::PointTree;
+use crate::spatial::neighbors::PointTree;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Numbers of neighbours that are tried, until most planes are flat.
-const NEIGHBOURS: [usize; 5] = [12, 24, 48, 96, 192];
-/// Of the points of the feature, so many are asked which number of neighbours is enough.
+/// Numbers of neighbors that are tried, until most planes are flat.
+const NEIGHBORS: [usize; 5] = [12, 24, 48, 96, 192];
+/// Of the points of the feature, so many are asked which number of neighbors is enough.
 const ASKED: usize = 256;
-/// Thickness over spread of the neighbours of a point that lie on one surface; about the half of what a plane has whose
-/// neighbours lie to one fifth on a wall.
+/// Thickness over spread of the neighbors of a point that lie on one surface; about the half of what a plane has whose
+/// neighbors lie to one fifth on a wall.
 const FLAT: f64 = 0.15;
 /// Thickness over spread that is sought: normals are then known to about a degree.
 const SOUGHT: f64 = 0.05;
@@ -30,16 +30,16 @@ const OFF: f64 = 5.0;
 const EDGE: f64 = 2.0;
 /// Up to so many it may lie on a piece.
 const ON: f64 = 6.0;
-/// A point farther than so many root mean square distances from the plane of its neighbours is not of it; a single one among a
+/// A point farther than so many root mean square distances from the plane of its neighbors is not of it; a single one among a
 /// dozen is three and a half off.
 const MOST_OFF_PLANE: f64 = 2.0;
-/// Neighbours lie in a row if their mean square across it is below this share of that along it.
+/// Neighbors lie in a row if their mean square across it is below this share of that along it.
 const ROW: f64 = 0.01;
-/// A piece goes on if so many of its neighbours are beyond the reach of the feature.
+/// A piece goes on if so many of its neighbors are beyond the reach of the feature.
 const GOES_ON: usize = 3;
 /// Distances below this share of the coordinates are rounding.
 const ROUNDING: f64 = 1e-9;
-/// So many times the points of sharp edges are given to the pieces around them: edges are some neighbours wide.
+/// So many times the points of sharp edges are given to the pieces around them: edges are some neighbors wide.
 const PASSES: usize = 8;
 
 /// A piece of another surface, near the feature.
@@ -54,14 +54,14 @@ pub struct Piece {
 /// all points of the cloud, which are finite, in their order.
 ///
 /// Of an edge, which is told by its angles, there are none. Fewer points than a dozen tell nothing. Cost: some hundred
-/// neighbours at most for each point of `own` and around it, usually a dozen.
+/// neighbors at most for each point of `own` and around it, usually a dozen.
 ///
 /// # Errors
 /// [`FeatureError`]: a nominal feature that makes no sense, [`FeatureError::Cancelled`].
 ///
 /// ```
 /// use trueness_geom::feature::{Nearness, Nominal, in_cloud, pieces_beside};
-/// use trueness_geom::spatial::neighbours::PointTree;
+/// use trueness_geom::spatial::neighbors::PointTree;
 /// // A floor of 20 by 20, and a wall along its side that rises from it.
 /// let floor = (0..400).map(|i| [f64::from(i % 20), f64::from(i / 20), 0.0]);
 /// let wall = (0..2000).map(|i| [0.0, f64::from(i % 20), 0.1 * f64::from(1 + i / 20)]);
@@ -86,11 +86,11 @@ pub fn pieces_beside(
 ) -> Result<Vec<Piece>, FeatureError> {
     Rules::new(nominal, near)?;
     let Some(surface) = nominal.surface() else { return Ok(vec![]) };
-    if own.len() < NEIGHBOURS[0] {
+    if own.len() < NEIGHBORS[0] {
         return Ok(vec![]);
     }
     let mut cloud =
-        Cloud { points, tree, surface, near, count: NEIGHBOURS[0], patches: BTreeMap::new(), progress };
+        Cloud { points, tree, surface, near, count: NEIGHBORS[0], patches: BTreeMap::new(), progress };
     cloud.settle(own)?;
     let mut label: BTreeMap<u32, u32> = BTreeMap::new();
     let mut pieces = 0;
@@ -116,14 +116,14 @@ pub fn pieces_beside(
     Ok(found)
 }
 
-/// The plane of the neighbours of a point.
+/// The plane of the neighbors of a point.
 #[derive(Clone, Copy)]
 struct Patch {
     center: Point,
     normal: Vector,
-    /// Root mean square distance of the neighbours from it.
+    /// Root mean square distance of the neighbors from it.
     rms: f64,
-    /// Whether the point and its neighbours lie on one surface.
+    /// Whether the point and its neighbors lie on one surface.
     flat: bool,
 }
 
@@ -139,18 +139,18 @@ struct Cloud<'a> {
     tree: &'a PointTree,
     surface: NominalSurface,
     near: &'a Nearness,
-    /// Neighbours that make a plane.
+    /// Neighbors that make a plane.
     count: usize,
     patches: BTreeMap<u32, Patch>,
     progress: &'a dyn Progress,
 }
 
 impl Cloud<'_> {
-    /// Chooses the number of neighbours.
+    /// Chooses the number of neighbors.
     fn settle(&mut self, own: &[u32]) -> Result<(), FeatureError> {
         let step = own.len().div_ceil(ASKED);
-        let mut best = (f64::INFINITY, NEIGHBOURS[0]);
-        for count in NEIGHBOURS.into_iter().filter(|n| *n <= own.len()) {
+        let mut best = (f64::INFINITY, NEIGHBORS[0]);
+        for count in NEIGHBORS.into_iter().filter(|n| *n <= own.len()) {
             self.asked()?;
             self.count = count;
             let mut all: Vec<f64> =
@@ -180,19 +180,19 @@ impl Cloud<'_> {
         self.tree.k_nearest(&self.at(p), count, Some(p)).into_iter().map(|n| n.1).collect()
     }
 
-    /// The plane of a point and its neighbours, and the two least mean squares. Of neighbours in a row, as scan lines have them,
+    /// The plane of a point and its neighbors, and the two least mean squares. Of neighbors in a row, as scan lines have them,
     /// more are taken.
     fn plane(&self, p: u32) -> (Patch, [f64; 2]) {
         let mut count = self.count;
         let mut found = self.plane_of(p, count);
-        while found.1[1] < ROW * found.1[2] && count < NEIGHBOURS[NEIGHBOURS.len() - 1] {
+        while found.1[1] < ROW * found.1[2] && count < NEIGHBORS[NEIGHBORS.len() - 1] {
             count *= 2;
             found = self.plane_of(p, count);
         }
         (found.0, [found.1[0], found.1[1]])
     }
 
-    /// The plane of a point and so many neighbours, and the mean squares along its axes, the least first.
+    /// The plane of a point and so many neighbors, and the mean squares along its axes, the least first.
     fn plane_of(&self, p: u32, count: usize) -> (Patch, [f64; 3]) {
         let mut places: Vec<Point> = self.around(p, count).into_iter().map(|q| self.at(q)).collect();
         places.push(self.at(p));
@@ -207,7 +207,7 @@ impl Cloud<'_> {
         }
         let (values, rows) = eigen(matrix);
         let values = values.map(|v| v.max(0.0));
-        // A point beside a wall may have all of its neighbours on it.
+        // A point beside a wall may have all of its neighbors on it.
         let off = dot(minus(self.at(p), center), rows[0]).abs();
         let rounding = ROUNDING * self.at(p).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let rms = values[0].sqrt();
@@ -224,7 +224,7 @@ impl Cloud<'_> {
         patch
     }
 
-    /// Whether the neighbours of a point lie on a surface that runs at an angle to the feature.
+    /// Whether the neighbors of a point lie on a surface that runs at an angle to the feature.
     fn is_aside(&mut self, p: u32) -> bool {
         let patch = self.patch(p);
         let own = self.surface.distance(self.at(p));
@@ -247,7 +247,7 @@ impl Cloud<'_> {
             }
             next += 1;
             let normal = self.patch(p).normal;
-            for q in self.around(p, NEIGHBOURS[0]) {
+            for q in self.around(p, NEIGHBORS[0]) {
                 if seen.contains(&q) || beyond.contains(&q) || !self.is_aside(q) {
                     continue;
                 }
@@ -323,7 +323,7 @@ impl Cloud<'_> {
         level: Option<Level>,
         label: &BTreeMap<u32, u32>,
     ) -> Option<(u32, Patch)> {
-        let around = self.around(p, 2 * NEIGHBOURS[0]);
+        let around = self.around(p, 2 * NEIGHBORS[0]);
         if !around.iter().any(|q| label.contains_key(q)) {
             return None;
         }
@@ -331,7 +331,7 @@ impl Cloud<'_> {
         let rounding = ROUNDING * at.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let height = self.surface.distance(at)?.0;
         let mut other: Option<(f64, u32, Patch)> = None;
-        // Of what faces as the feature, its height counts, as planes of neighbours near an edge lean; of slopes their planes.
+        // Of what faces as the feature, its height counts, as planes of neighbors near an edge lean; of slopes their planes.
         let (mut heights, mut slope) = (vec![], f64::INFINITY);
         for q in around {
             let patch = self.patch(q);

@@ -3,7 +3,7 @@
 use super::bounds::Polygon;
 use crate::space::{Point, Vector, plus, times, unit};
 
-/// A feature as the model has it, in the model's coordinates, millimetres and radians. Directions need not be unit vectors.
+/// A feature as the model has it, in the model's coordinates, millimeters and radians. Directions need not be unit vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Nominal {
     /// A plane within a boundary: the corners of a polygon, in order.
@@ -60,12 +60,12 @@ pub enum Nominal {
 /// How near a facet must be to the nominal feature to belong to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearness {
-    /// Greatest distance of its corners from the nominal surface, millimetres.
+    /// Greatest distance of its corners from the nominal surface, millimeters.
     pub distance: f64,
     /// Greatest angle of its normal to the nominal one, radians. Facets of any angle that others of the feature enclose count
     /// too: a spike or a dent.
     pub angle: f64,
-    /// What is left out along the bounds of the feature, millimetres; below zero, how far it may reach beyond them.
+    /// What is left out along the bounds of the feature, millimeters; below zero, how far it may reach beyond them.
     pub margin: f64,
     /// Whether vertices that facets of other features share count: on a sharp edge they belong to both.
     pub rim: bool,
@@ -100,7 +100,7 @@ pub enum FeatureError {
 }
 
 impl Nominal {
-    /// Places that tell roughly where it is, millimetres: corners, ends of an axis, a center. Not exact bounds.
+    /// Places that tell roughly where it is, millimeters: corners, ends of an axis, a center. Not exact bounds.
     pub fn places(&self) -> Vec<Point> {
         let along = |p: &Point, d: &Vector, by: f64| {
             let way = unit(*d).map_or([0.0; 3], |(d, _)| times(by, d));

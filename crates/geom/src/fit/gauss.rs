@@ -91,7 +91,7 @@ impl Step {
 
 /// The local minimum reached from `start`; `None` if `start` has no finite sum of squares or the points leave
 /// some unknown without any influence.
-pub(super) fn minimise<const P: usize, F: Family<P>, W: Weighing>(
+pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
     start: &Element,
     sample: &Sample,
     weigh: &W,
@@ -181,10 +181,10 @@ mod tests {
             pose: Pose::along(sample.unit([0.0; 3]), [0.0, 0.0, 1.0]),
             size: [0.05 * sample.scale, 0.0],
         };
-        let best = minimise::<5, Cylinder, _>(&element, &sample, &Alike, FULL).unwrap().element;
+        let best = minimize::<5, Cylinder, _>(&element, &sample, &Alike, FULL).unwrap().element;
         for off in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             let start = best.moved(&Cylinder::LOCAL, &[off, -off, off, off, off]).unwrap();
-            let found = minimise::<5, Cylinder, _>(&start, &sample, &Alike, FULL).unwrap();
+            let found = minimize::<5, Cylinder, _>(&start, &sample, &Alike, FULL).unwrap();
             assert!(found.converged);
             let there = sums::<5, Cylinder, _>(&found.element, &sample, &Alike).symmetric();
             let kept = found.sums.symmetric();

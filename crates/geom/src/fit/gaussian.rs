@@ -1,7 +1,7 @@
 //! From checked points to a least-squares [`Fit`]: starts, choice among them, all points, statistics.
 
 use super::family::{Element, Family};
-use super::gauss::{Effort, FULL, NEAR, Optimum, ROUGH, minimise};
+use super::gauss::{Effort, FULL, NEAR, Optimum, ROUGH, minimize};
 use super::normal::{Alike, sums};
 use super::sample::Sample;
 use super::scatter::Scatter;
@@ -75,7 +75,7 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
     }
     let best = F::settled(best);
     let mut optimum =
-        minimise::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
+        minimize::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
     let settled = F::settled(optimum.element);
     if settled != optimum.element {
         // The sums belong to the frame they were taken in.
@@ -89,7 +89,7 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
 /// The least-squares element of the few points given, good enough to be compared with others.
 pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Element> {
     let starts = F::starts(&sample.units().collect::<Vec<Point>>());
-    let ends = starts.iter().filter_map(|start| minimise::<P, F, _>(start, sample, &Alike, ROUGH));
+    let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, sample, &Alike, ROUGH));
     ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square)).map(|o| o.element)
 }
 
@@ -97,7 +97,7 @@ pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Ele
 /// again while their points change.
 pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Shape) -> Option<(Shape, f64)> {
     let start = F::element(start, sample)?;
-    let found = minimise::<P, F, _>(&start, sample, &Alike, ROUGH)?;
+    let found = minimize::<P, F, _>(&start, sample, &Alike, ROUGH)?;
     let element = F::settled(found.element);
     let rms = (found.sums.square / found.sums.weight).sqrt() / sample.scale;
     Some((F::shape(&element, sample), rms))
@@ -106,7 +106,7 @@ pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Sh
 /// The best of the starts, improved on as many points as that needs.
 fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) -> Option<Element> {
     let improved = |start: &Element, count: usize, effort: Effort| {
-        minimise::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
+        minimize::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
     };
     let best = match starts {
         [one] if sample.len() <= 2 * FEWER => *one,
@@ -114,7 +114,7 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
         many => {
             let few = sample.thinned(FEW);
             let best = |starts: &[Element]| {
-                let ends = starts.iter().filter_map(|start| minimise::<P, F, _>(start, &few, &Alike, ROUGH));
+                let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, &few, &Alike, ROUGH));
                 ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
             };
             let first = best(many);

@@ -74,7 +74,7 @@ macro_rules! with_family {
     };
 }
 
-/// The best element of the given kind for `points` (millimetres). Kinds in the plane read x and y only.
+/// The best element of the given kind for `points` (millimeters). Kinds in the plane read x and y only.
 ///
 /// The answer does not depend on the number of threads, and but for rounding not on position, attitude, size
 /// or order of the points. Time grows with the number of points; beyond them nothing is stored.

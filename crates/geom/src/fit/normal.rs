@@ -255,7 +255,7 @@ impl<const P: usize> Sums<P> {
     pub(super) fn symmetric(&self) -> [[f64; P]; P] {
         std::array::from_fn(|i| std::array::from_fn(|j| self.normal[i.min(j)][i.max(j)]))
     }
-    /// The step that minimises the linearised sum of squares, each unknown held back by `damping` times its own
+    /// The step that minimizes the linearized sum of squares, each unknown held back by `damping` times its own
     /// weight; `None` where the rows do not determine one.
     pub(super) fn step(&self, damping: f64) -> Option<[f64; P]> {
         let scale: [f64; P] = std::array::from_fn(|i| 1.0 / self.normal[i][i].sqrt());
@@ -271,7 +271,7 @@ impl<const P: usize> Sums<P> {
         let x = dense::cholesky_solve(&l, &right);
         Some(std::array::from_fn(|i| x[i] * scale[i]))
     }
-    /// How much the linearised sum of squares falls by `step`.
+    /// How much the linearized sum of squares falls by `step`.
     pub(super) fn fall(&self, step: &[f64; P]) -> f64 {
         let full = self.symmetric();
         (0..P)

@@ -140,7 +140,7 @@ impl Powers {
         axes.filter(|a| a.error.is_finite()).collect()
     }
 
-    /// At most `count` axes that are best among their neighbours, best first. `first` are directions that are
+    /// At most `count` axes that are best among their neighbors, best first. `first` are directions that are
     /// looked at besides the grid.
     pub(super) fn axes(&self, profile: Profile, first: &[Vector], count: usize) -> Vec<Axis> {
         let mut valleys = Vec::with_capacity(count);

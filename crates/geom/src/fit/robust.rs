@@ -2,11 +2,11 @@
 //!
 //! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as long
 //! as less than half of them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best
-//! trial on, the sum of J. W. Tukey's biweight is minimised. Its weights fall to zero at 4.685 standard deviations, which keeps
+//! trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations, which keeps
 //! 95 % of the efficiency of least squares on normal noise.
 
 use super::family::{Element, Family};
-use super::gauss::{FULL, ROUGH, minimise};
+use super::gauss::{FULL, ROUGH, minimize};
 use super::gaussian;
 use super::normal::{Placing, Weighing};
 use super::sample::Sample;
@@ -75,13 +75,13 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
         let cutoff = BEYOND * NORMAL * median::<P, F>(&element, &some);
         // Points without noise: anything off is an outlier, rounding is not.
         biweight.sharpness = cutoff.max(1e-13).powi(-2);
-        let Some(better) = minimise::<P, F, _>(&element, &some, &biweight, ROUGH) else { break };
+        let Some(better) = minimize::<P, F, _>(&element, &some, &biweight, ROUGH) else { break };
         element = better.element;
     }
     if progress.cancelled() {
         return Err(FitError::Cancelled);
     }
-    let optimum = minimise::<P, F, _>(&F::settled(element), sample, &biweight, FULL)
+    let optimum = minimize::<P, F, _>(&F::settled(element), sample, &biweight, FULL)
         .ok_or_else(|| gaussian::nothing(sample, kind))?;
     progress.advance(sample.len() as u64);
     let element = optimum.element;

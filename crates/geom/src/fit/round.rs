@@ -7,7 +7,7 @@ use crate::space::{Point, dot, minus, plus, times};
 /// Guards the division by a distance that may be zero: the derivative there is taken as zero.
 pub(super) const TINY: f64 = f64::MIN_POSITIVE;
 
-/// Centres and radii of circles (`D = 2`) or spheres (`D = 3`) near the given points: the algebraic fit of
+/// Centers and radii of circles (`D = 2`) or spheres (`D = 3`) near the given points: the algebraic fit of
 /// Kåsa, which is right for wide arcs and too small for flat ones, and the osculating one of a parabola over
 /// the flattest direction, which is right for flat ones.
 pub(super) fn round_starts<const D: usize>(points: &[Point], scatter: &Scatter) -> Vec<(Point, f64)> {
@@ -57,7 +57,7 @@ pub(super) fn round_starts<const D: usize>(points: &[Point], scatter: &Scatter) 
     starts
 }
 
-/// Coefficients `x` that minimise Σ (columns·x − value)², by normal equations: good enough for a start.
+/// Coefficients `x` that minimize Σ (columns·x − value)², by normal equations: good enough for a start.
 /// `None` where the columns do not determine them.
 pub(super) fn least_squares(rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Option<Vec<f64>> {
     let mut normal: Vec<Vec<f64>> = Vec::new();

@@ -1,4 +1,4 @@
-//! The points of a fit, checked once, with the centre and scale that take size and position out of it.
+//! The points of a fit, checked once, with the center and scale that take size and position out of it.
 
 use super::FitError;
 use super::lanes::widest;

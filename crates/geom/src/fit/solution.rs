@@ -3,7 +3,7 @@
 use super::Method;
 use crate::shape::{Parameter, Shape};
 
-/// An element fitted to points. Lengths in millimetres, angles in radians.
+/// An element fitted to points. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The element.

@@ -41,7 +41,7 @@ pub(super) fn zone<const P: usize, F: Family<P>>(
     let aim = aim::<P, F>(kind, options.method)?;
     let first = gaussian::near::<P, F>(sample, kind, options)?;
     let mut search = Search::<P, F>::new(sample, aim, &first);
-    // The greatest distance from a centre is a convex function of it.
+    // The greatest distance from a center is a convex function of it.
     search.only_one = aim.outer && aim.pinned && kind != Kind::Cylinder;
     let best = search.best(&first, options.seed, progress)?.ok_or(FitError::Undetermined { kind })?;
     progress.advance(sample.len() as u64);

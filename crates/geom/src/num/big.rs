@@ -2,7 +2,7 @@
 //!
 //! A number is a whole number in base 2^64 with a sign, times a power of that base. Sums, differences and products are
 //! exact, whatever the magnitudes; every finite `f64` is one. There is no division: a quotient is only ever asked for as the
-//! two neighbouring `f64` around it.
+//! two neighboring `f64` around it.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
@@ -123,7 +123,7 @@ impl Big {
         (if self.negative { -high } else { high }, self.top() - 2)
     }
 
-    /// The two neighbouring numbers around `x / w`, or twice the same one if the quotient is a number. It depends on
+    /// The two neighboring numbers around `x / w`, or twice the same one if the quotient is a number. It depends on
     /// the value of the quotient alone. `w` is not zero, and the quotient in the range of `f64`.
     pub fn quotient(x: &Big, w: &Big) -> [f64; 2] {
         if x.sign() == 0 || w.sign() == 0 {
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn quotients_are_enclosed_by_neighbours() {
+    fn quotients_are_enclosed_by_neighbors() {
         let random = &mut Random::new(12);
         for _ in 0..3000 {
             let [a, b, c] = [(); 3].map(|()| any(random));

@@ -7,7 +7,7 @@
 //!
 //! Items are taken in ascending ranges, 16 of them for each thread at most, so that a thread that is done takes
 //! another. `collect` keeps the order. Of several errors or matches the first in the order of the items is returned, on any
-//! number of threads. `reduce`, `fold` and `sum` join neighbours in order, but where the parts end depends on the number of
+//! number of threads. `reduce`, `fold` and `sum` join neighbors in order, but where the parts end depends on the number of
 //! threads: what they add must not depend on that (whole numbers, boxes, maxima; not sums of floating-point numbers).
 //!
 //! ```

@@ -1,7 +1,7 @@
 //! Facets without area.
 //!
 //! A facet with a repeated vertex holds nothing together and goes. One with three different vertices on a line does: its
-//! middle vertex sits on the long edge of its neighbour. The neighbour is cut in two there, then the facet can go.
+//! middle vertex sits on the long edge of its neighbor. The neighbor is cut in two there, then the facet can go.
 
 use super::error::RepairError;
 use super::step::Step;
@@ -28,15 +28,15 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     let mut touched = vec![false; work.mesh().faces.len()];
     for f in flat {
         let [a, b, middle] = with_middle_last(work, f);
-        let neighbour = neighbour(work, &known.topology, f, [a, b]);
-        // A neighbour that has changed in this pass is looked at in the next.
-        if touched[f as usize] || neighbour.is_some_and(|n| touched[n as usize]) {
+        let neighbor = neighbor(work, &known.topology, f, [a, b]);
+        // A neighbor that has changed in this pass is looked at in the next.
+        if touched[f as usize] || neighbor.is_some_and(|n| touched[n as usize]) {
             continue;
         }
         touched[f as usize] = true;
         removed.push(f);
         work.log(STEP.name, "facet on a line removed", work.at(middle), 1, 0.0);
-        if let Some(n) = neighbour {
+        if let Some(n) = neighbor {
             touched[n as usize] = true;
             removed.push(n);
             added.extend(cut(work.mesh().faces[n as usize], [a, b], middle));
@@ -58,7 +58,7 @@ fn with_middle_last(work: &Work, facet: u32) -> [u32; 3] {
 }
 
 /// The only other facet at the edge, if it does not have the middle vertex itself.
-fn neighbour(work: &Work, topology: &Topology, facet: u32, edge: [u32; 2]) -> Option<u32> {
+fn neighbor(work: &Work, topology: &Topology, facet: u32, edge: [u32; 2]) -> Option<u32> {
     let others = topology.facets_at_edge(work.mesh(), edge);
     match others[..] {
         [f, g] | [g, f] if f == facet && g != facet => {

@@ -1,6 +1,6 @@
 //! Facets that are there more than once.
 //!
-//! Of the facets with the same three vertices one stays, or none: that which its neighbours need. At each of its three
+//! Of the facets with the same three vertices one stays, or none: that which its neighbors need. At each of its three
 //! edges the other facets are counted by direction; where they lack one, they vote for it.
 
 use super::edges::Edges;
@@ -63,16 +63,16 @@ fn wanted(work: &Work, edges: &Edges, directions: &mut Directions, facets: &[u32
         (0..3).any(|k| face[k] == a && face[(k + 1) % 3] == b)
     };
     let own = facets.iter().filter(|f| turned_as_first(**f)).count() as isize;
-    let (mut votes, mut neighbours) = (0, 0);
+    let (mut votes, mut neighbors) = (0, 0);
     for (from, to) in [(a, b), (b, c), (c, a)] {
         let [along, against] = directions.at(edges, from, to);
         let others = [along - own, against - (facets.len() as isize - own)];
-        neighbours += others[0] + others[1];
+        neighbors += others[0] + others[1];
         votes += others[1] - others[0];
     }
     match votes {
         // The rest needs none of them, or does not know.
-        0 if neighbours > 0 && neighbours % 2 == 0 => None,
+        0 if neighbors > 0 && neighbors % 2 == 0 => None,
         0.. => facets.iter().copied().find(|&f| turned_as_first(f)),
         // One that looks the wrong way is turned later.
         _ => facets.iter().copied().find(|&f| !turned_as_first(f)).or(Some(facets[0])),

@@ -20,7 +20,7 @@ use std::sync::OnceLock;
 /// Bodies, and what they enclose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// What the mesh enclosed before; if neighbours looked in different directions, after they were turned; without the
+    /// What the mesh enclosed before; if neighbors looked in different directions, after they were turned; without the
     /// shells that are removed on request.
     pub enclosed: Result<Enclosed, NotEnclosed>,
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
@@ -84,7 +84,7 @@ impl Effect {
     }
 }
 
-/// The mesh without the shells that are removed on request; with `turn`, after neighbours were turned to look the same way.
+/// The mesh without the shells that are removed on request; with `turn`, after neighbors were turned to look the same way.
 fn turned<'a>(before: &Work<'a>, turn: bool, options: &'a Options) -> Result<Work<'a>, RepairError> {
     let mut work = before.again(options);
     if turn {
@@ -183,7 +183,7 @@ fn gone(
         }
         let Ok(distances) = distances else { return Ok(Gone::default()) };
         for (Asked { facet, place, middle }, distance) in asked.into_iter().zip(distances) {
-            // Off the edges, where a side belongs to a neighbour, but not out of the gap: its rim is part of the new surface.
+            // Off the edges, where a side belongs to a neighbor, but not out of the gap: its rim is part of the new surface.
             let inside = || {
                 let way = minus(middle, place);
                 plus(place, times((0.5 * distance / norm(way)).min(0.001), way))

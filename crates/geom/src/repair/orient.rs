@@ -1,4 +1,4 @@
-//! Neighbours that face different ways.
+//! Neighbors that face different ways.
 //!
 //! Within a sheet (facets connected through edges of two facets) all facets are made to run the way round that the larger
 //! part of its area runs already. A surface with one side only, such as Möbius's, keeps its seam.

@@ -11,7 +11,7 @@ use super::state::State;
 use crate::arrange::ArrangeError;
 use crate::check::around::Around;
 use crate::check::intersect::{self, Crossings};
-use crate::check::{self, Finding, Kind, Known, Report};
+use crate::check::{self, DefectKind, Finding, Known, Report};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, plus, times};
@@ -225,7 +225,7 @@ impl<'a> Work<'a> {
     }
 
     /// All that the check finds of a kind which needs no crossings.
-    pub(super) fn find(&mut self, kind: &Kind) -> Result<Vec<Finding>, RepairError> {
+    pub(super) fn find(&mut self, kind: &DefectKind) -> Result<Vec<Finding>, RepairError> {
         let known = self.known()?;
         let default = check::Options::default();
         let island_share = self.options.islands.unwrap_or(default.island_share);

@@ -1,6 +1,6 @@
 //! The contour of a row, put together from the chains between its corners.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::convert::Parts;
 use super::result::{Contour, Segment};
 use super::row::Clean;
@@ -31,7 +31,7 @@ impl Joined {
         }
         // A free curve of as many unknowns as points is any curve through them: its coefficients, and where it starts and heads.
         let free = |k: usize, s: &Segment| {
-            s.geometry.kind() == Kind::Spline && found.pieces()[k].coefficients.len() + 2 >= s.count
+            s.geometry.kind() == SegmentKind::Spline && found.pieces()[k].coefficients.len() + 2 >= s.count
         };
         let strays = |(k, s): &(usize, &Segment)| found.astray || s.strays() || free(*k, s);
         let astray = parts.segments.iter().enumerate().filter(strays);

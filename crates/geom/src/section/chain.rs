@@ -7,7 +7,7 @@ use super::free::{self, Table};
 
 /// What a segment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum SegmentKind {
     /// Straight.
     Line,
     /// Part of a circle.
@@ -16,13 +16,13 @@ pub enum Kind {
     Spline,
 }
 
-impl Kind {
+impl SegmentKind {
     /// The word for it: `line`, `arc`, `spline`.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Line => "line",
-            Kind::Arc => "arc",
-            Kind::Spline => "spline",
+            SegmentKind::Line => "line",
+            SegmentKind::Arc => "arc",
+            SegmentKind::Spline => "spline",
         }
     }
 }
@@ -30,7 +30,7 @@ impl Kind {
 /// A piece of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
-    pub kind: Kind,
+    pub kind: SegmentKind,
     pub length: f64,
     /// Of a line none, of an arc its curvature, of a free piece the coefficients of its curvature.
     pub coefficients: Vec<f64>,
@@ -38,17 +38,17 @@ pub(super) struct Piece {
 
 impl Piece {
     pub fn line(length: f64) -> Piece {
-        Piece { kind: Kind::Line, length, coefficients: vec![] }
+        Piece { kind: SegmentKind::Line, length, coefficients: vec![] }
     }
     pub fn arc(length: f64, curvature: f64) -> Piece {
-        Piece { kind: Kind::Arc, length, coefficients: vec![curvature] }
+        Piece { kind: SegmentKind::Arc, length, coefficients: vec![curvature] }
     }
     /// Curvature at the share `t` of its length.
     pub fn curvature(&self, t: f64) -> f64 {
         match self.kind {
-            Kind::Line => 0.0,
-            Kind::Arc => self.coefficients[0],
-            Kind::Spline => free::curvature(&self.coefficients, t),
+            SegmentKind::Line => 0.0,
+            SegmentKind::Arc => self.coefficients[0],
+            SegmentKind::Spline => free::curvature(&self.coefficients, t),
         }
     }
 }
@@ -147,12 +147,12 @@ impl Layout {
         self.poses.push(pose);
         for (piece, table) in chain.pieces.iter().zip(&mut self.tables) {
             let (end, turn) = match piece.kind {
-                Kind::Line => ([piece.length, 0.0], 0.0),
-                Kind::Arc => {
+                SegmentKind::Line => ([piece.length, 0.0], 0.0),
+                SegmentKind::Arc => {
                     let turn = piece.length * piece.coefficients[0];
                     (arc_end(piece.length, turn), turn)
                 }
-                Kind::Spline => {
+                SegmentKind::Spline => {
                     table.fill(&piece.coefficients, piece.length);
                     (table.end().at, table.turn)
                 }

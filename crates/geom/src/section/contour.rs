@@ -1,7 +1,7 @@
 //! Whole contours: corners first, then the chains between them, then corners as the places where chains cross.
 
 use super::assembly::Joined;
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::convert::segments;
 use super::corner::crossing;
 use super::crossings::crossings;
@@ -44,13 +44,13 @@ const FARTHEST: f64 = 20.0;
 /// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
 ///
 /// ```
-/// use trueness_geom::section::{contour, Kind, Options};
+/// use trueness_geom::section::{contour, SegmentKind, Options};
 /// let line = (0..30).map(|i| [f64::from(i) - 30.0, 0.0]);
 /// let arc = (0..30).map(|i| f64::from(i) * 0.05).map(|a| [20.0 * a.sin(), 20.0 - 20.0 * a.cos()]);
 /// let points: Vec<[f64; 2]> = line.chain(arc).collect();
 /// let found = contour(&points, &Options::default(), &trueness_geom::progress::Silent).unwrap();
 /// let kinds: Vec<Kind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
-/// assert_eq!(kinds, [Kind::Line, Kind::Arc]);
+/// assert_eq!(kinds, [SegmentKind::Line, SegmentKind::Arc]);
 /// assert!(found.joins[0].point[0].abs() < 1e-3 && found.joins[0].point[1].abs() < 1e-6);
 /// ```
 pub fn contour(
@@ -250,7 +250,7 @@ impl Plan<'_> {
             Some(Continuity::G0) => true,
             Some(_) => false,
             None if self.known => {
-                parts[k].kind == Kind::Line && parts[(k + 1) % parts.len()].kind == Kind::Line
+                parts[k].kind == SegmentKind::Line && parts[(k + 1) % parts.len()].kind == SegmentKind::Line
             }
             None => self.is_corner(&parts[k], &parts[(k + 1) % parts.len()]),
         };
@@ -263,7 +263,7 @@ impl Plan<'_> {
             if parts.len() == 1 {
                 // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
                 found.circle =
-                    found.pieces().len() == 1 && found.pieces()[0].kind == Kind::Arc && !found.astray;
+                    found.pieces().len() == 1 && found.pieces()[0].kind == SegmentKind::Arc && !found.astray;
                 if !found.circle {
                     let halves = shares(&self.clean.points, self.weights, 2);
                     found = span().find(&halves, &self.task(true, true, n), progress)?;
@@ -271,7 +271,7 @@ impl Plan<'_> {
             }
             if !found.astray {
                 // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
-                if single(&found.state) && found.pieces()[0].kind == Kind::Arc {
+                if single(&found.state) && found.pieces()[0].kind == SegmentKind::Arc {
                     let whole = shares(&self.clean.points, self.weights, 1);
                     let task = Task { draft: true, ..self.task(false, true, n) };
                     let mut open = span().find(&whole, &task, progress)?;
@@ -385,7 +385,7 @@ impl Plan<'_> {
         let turn = turn(a, b).abs();
         let spread = |part: &Part| {
             let count = (part.to - part.from) as f64;
-            let factor = if part.kind == Kind::Line { 3.5 } else { 14.0 };
+            let factor = if part.kind == SegmentKind::Line { 3.5 } else { 14.0 };
             self.sigma * factor / (count.sqrt() * count * self.spacing)
         };
         let clear = turn > CORNER.0.max(CORNER.1 * libm::hypot(spread(before), spread(after)));
@@ -467,7 +467,7 @@ impl Plan<'_> {
 
 /// Direction of a part's line or arc at a point.
 fn heading(part: &Part, at: [f64; 2]) -> [f64; 2] {
-    if part.kind == Kind::Line {
+    if part.kind == SegmentKind::Line {
         return part.along;
     }
     let radius = 1.0 / part.curvature;

@@ -1,6 +1,6 @@
 //! Pieces of a chain as lines, arcs and B-splines.
 
-use super::chain::{Kind, Layout, Piece, arc_end, arc_to};
+use super::chain::{Layout, Piece, SegmentKind, arc_end, arc_to};
 use super::result::{Continuity, Contour, Geometry, Join, Segment, Uncertainty};
 use super::span::{Found, single};
 use crate::spline::basis::Knots;
@@ -114,7 +114,7 @@ fn joins(found: &Found) -> Vec<Join> {
         .map(|g| {
             let (before, after) = (&pieces[(g + n - 1) % n], &pieces[g]);
             let jump = after.curvature(0.0) - before.curvature(1.0);
-            let free = [before, after].iter().any(|p| p.kind == Kind::Spline);
+            let free = [before, after].iter().any(|p| p.kind == SegmentKind::Spline);
             let spread = found.spread.as_ref().map_or(0.0, |s| s.jumps[g - first] * found.noise);
             let smooth = free && jump.abs() < JUMP * spread;
             let interval = found.intervals[g - first];
@@ -142,7 +142,7 @@ fn segment(
     let pose = layout.poses[g];
     let length = to - from;
     let at = |s: f64| match piece.kind {
-        Kind::Spline => {
+        SegmentKind::Spline => {
             let table = &layout.tables[g];
             pose.place(table.place(s / piece.length).at)
         }
@@ -153,8 +153,8 @@ fn segment(
     };
     let [start, end] = [corners[0].unwrap_or(at(from)), corners[1].unwrap_or(at(to))];
     let geometry = match piece.kind {
-        Kind::Line => Geometry::Line,
-        Kind::Arc => {
+        SegmentKind::Line => Geometry::Line,
+        SegmentKind::Arc => {
             let curvature = piece.coefficients[0];
             let normal = pose.normal();
             let center = [pose.at[0] + normal[0] / curvature, pose.at[1] + normal[1] / curvature];
@@ -162,7 +162,7 @@ fn segment(
             let angle = libm::atan2(start[1] - center[1], start[0] - center[0]);
             Geometry::Arc { center, radius, start: angle, sweep: length * curvature }
         }
-        Kind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
+        SegmentKind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
     // Below 0 where a chain that went astray runs against its points.

@@ -3,7 +3,7 @@
 //! Uncertainties are those of the segments put together by the rule for independent ones. What the row tells about two segments
 //! of one chain is only nearly independent: each is known by its own points for the most part.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::facets::{angle, length};
 use super::result::{Contour, Geometry, Join, Segment, Uncertainty};
 use crate::num::golden::golden;
@@ -130,7 +130,7 @@ struct Line {
 impl Line {
     fn of(contour: &Contour, k: usize) -> Option<Line> {
         let segment = &contour.segments[k];
-        if segment.geometry.kind() != Kind::Line || segment.length <= 0.0 {
+        if segment.geometry.kind() != SegmentKind::Line || segment.length <= 0.0 {
             return None;
         }
         let (start, end, length) = (segment.start, segment.end, segment.length);

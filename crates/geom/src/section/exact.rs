@@ -4,7 +4,7 @@
 //! and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius: a second point of it, or
 //! another arc of the same radius, proves it.
 
-use super::chain::{Chain, Kind, Piece};
+use super::chain::{Chain, Piece, SegmentKind};
 use super::facets::{angle, length};
 use super::least::State;
 use super::polygon::CORNER;
@@ -169,8 +169,14 @@ fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) ->
     let mut all = vec![];
     for (k, run) in runs.iter().enumerate() {
         let center = [0, 1].map(|i| 0.5 * (points[run.from][i] + points[run.to - 1][i]));
-        let base =
-            Part { kind: Kind::Line, from: run.from, to: run.to, curvature: 0.0, along: run.along, center };
+        let base = Part {
+            kind: SegmentKind::Line,
+            from: run.from,
+            to: run.to,
+            curvature: 0.0,
+            along: run.along,
+            center,
+        };
         all.push(base);
         if let Some((from, to, Some((center, curvature)))) = arcs.get(k).copied() {
             let out = minus(points[(from + to) / 2], center);
@@ -178,7 +184,7 @@ fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) ->
             let unit = out.map(|x| x / size);
             let along = [-curvature.signum() * unit[1], curvature.signum() * unit[0]];
             let center = [0, 1].map(|i| center[i] + unit[i] / curvature.abs());
-            all.push(Part { kind: Kind::Arc, from, to, curvature, along, center });
+            all.push(Part { kind: SegmentKind::Arc, from, to, curvature, along, center });
         }
     }
     all
@@ -193,14 +199,14 @@ impl Search<'_> {
             |p: &Part| [p.center[0] - p.along[1] / p.curvature, p.center[1] + p.along[0] / p.curvature];
         let join = |k: usize| {
             let (a, b) = (&parts[k], &parts[(k + 1) % m]);
-            let (line, arc) = if a.kind == Kind::Line { (a, b) } else { (b, a) };
+            let (line, arc) = if a.kind == SegmentKind::Line { (a, b) } else { (b, a) };
             let s = dot(minus(circle(arc), line.center), line.along);
             [0, 1].map(|k| line.center[k] + s * line.along[k])
         };
         let start = |k: usize| if k > 0 || closed { join((k + m - 1) % m) } else { points[0] };
         let end = |k: usize| if k + 1 < m || closed { join(k) } else { points[n - 1] };
         let piece = |(k, part): (usize, &Part)| match part.kind {
-            Kind::Line => Piece::line(length(start(k), end(k))),
+            SegmentKind::Line => Piece::line(length(start(k), end(k))),
             _ => {
                 let center = circle(part);
                 let turn = angle(minus(start(k), center), minus(end(k), center)) * part.curvature.signum();

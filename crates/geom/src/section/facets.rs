@@ -34,7 +34,7 @@ pub(super) struct Polygon {
 
 /// What facets are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(super) enum LineOrArc {
     Line,
     /// Center, and the curvature, left turns positive.
     Arc([f64; 2], f64),
@@ -43,7 +43,7 @@ pub(super) enum Shape {
 /// Consecutive facets: from one vertex to another, on a closed polygon beyond the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Item {
-    pub shape: Shape,
+    pub shape: LineOrArc,
     pub from: usize,
     pub to: usize,
 }
@@ -178,7 +178,7 @@ impl Polygon {
         while i < m {
             let item = match self.arc_from(i, reach[i], tolerance) {
                 Some(item) => item,
-                None => Item { shape: Shape::Line, from: i, to: i + 1 },
+                None => Item { shape: LineOrArc::Line, from: i, to: i + 1 },
             };
             items.push(item);
             i = item.to;
@@ -224,7 +224,7 @@ impl Polygon {
         let fits = off <= tolerance && chord <= widest * (1.0 + 1e-9) && sagitta >= BENT * tolerance;
         // Once round is enough.
         let fits = fits && turned.abs() <= std::f64::consts::TAU * (1.0 + 1e-6);
-        fits.then(|| Item { shape: Shape::Arc(center, turned.signum() / radius), from, to })
+        fits.then(|| Item { shape: LineOrArc::Arc(center, turned.signum() / radius), from, to })
     }
 
     /// The last and the first item of a closed polygon, if they are one arc.
@@ -233,7 +233,7 @@ impl Polygon {
             return;
         }
         let (first, last) = (items[0], items[items.len() - 1]);
-        let arcs = [first, last].iter().all(|i| i.shape != Shape::Line);
+        let arcs = [first, last].iter().all(|i| i.shape != LineOrArc::Line);
         if let Some(whole) = self.arc(last.from, first.to + self.facets(), SHARP, tolerance).filter(|_| arcs)
         {
             items.pop();
@@ -249,7 +249,7 @@ impl Polygon {
         while k < items.len() {
             let n = items.len();
             let (item, beside) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
-            let Shape::Arc(center, curvature) = item.shape else {
+            let LineOrArc::Arc(center, curvature) = item.shape else {
                 k += 1;
                 continue;
             };
@@ -259,14 +259,14 @@ impl Polygon {
                 |i: usize| (length(center, self.vertex(i)) * curvature.abs() - 1.0).abs() / curvature.abs();
             let doubtful = |other: &Item| {
                 let on = off(other.from).max(off(other.to)) <= 2.0 * tolerance;
-                other.shape == Shape::Line && on && turn(other.from) <= NEAR * SHARP
+                other.shape == LineOrArc::Line && on && turn(other.from) <= NEAR * SHARP
             };
             let whole = item.to - item.from == self.facets();
             if widest * NEAR < SHARP || whole || !beside.iter().any(doubtful) {
                 k += 1;
                 continue;
             }
-            let line = |from: usize| Item { shape: Shape::Line, from, to: from + 1 };
+            let line = |from: usize| Item { shape: LineOrArc::Line, from, to: from + 1 };
             items.splice(k..=k, (item.from..item.to).map(line));
             // Arcs before may touch lines now.
             k = 0;
@@ -282,7 +282,7 @@ impl Polygon {
         }
         let chords = &items[k..k + count];
         let (before, after) = (items[(k + n - 1) % n], items[(k + count) % n]);
-        if chords.iter().chain([&before, &after]).any(|i| i.shape != Shape::Line) {
+        if chords.iter().chain([&before, &after]).any(|i| i.shape != LineOrArc::Line) {
             return None;
         }
         let sizes = || chords.iter().map(|i| self.facet_length(i.from));
@@ -292,7 +292,7 @@ impl Polygon {
             return None;
         }
         let arc = self.arc(chords[0].from, chords[count - 1].to, WIDE, tolerance)?;
-        let Shape::Arc(center, curvature) = arc.shape else { return None };
+        let LineOrArc::Arc(center, curvature) = arc.shape else { return None };
         let slack = self.slack(sizes().fold(f64::INFINITY, f64::min), tolerance);
         let along = |i: usize| {
             let r = minus(self.vertex(i), center);

@@ -1,6 +1,6 @@
 //! Whether a chain runs along its points.
 
-use super::chain::{Kind, arc_end};
+use super::chain::{SegmentKind, arc_end};
 use super::least::{Row, State, Work};
 
 /// Between the feet of neighboring points a chain is at most this many times as long as they are apart: an arc that turns by a
@@ -25,7 +25,7 @@ impl Work {
                 }
                 let own = stations[i] - starts[g];
                 let foot = pose.place(match piece.kind {
-                    Kind::Spline => self.layout.tables[g].place(state.feet[i]).at,
+                    SegmentKind::Spline => self.layout.tables[g].place(state.feet[i]).at,
                     _ => arc_end(own, own * piece.curvature(0.0)),
                 });
                 if let Some((before, at)) = last {

@@ -110,7 +110,7 @@ impl Basis {
 
 /// A place of a free piece.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(super) struct CurvePlace {
     /// Where.
     pub at: [f64; 2],
     /// Direction of the curve.
@@ -125,7 +125,7 @@ pub(super) struct Table {
     count: usize,
     panels: usize,
     length: f64,
-    places: Vec<Place>,
+    places: Vec<CurvePlace>,
     /// Sums over the coefficients, one for each entry of a column of the basis.
     sums: Vec<f64>,
     /// Heading at the end.
@@ -162,7 +162,7 @@ impl Table {
         let place = |k: usize, at: [f64; 2]| {
             let theta = length * integrals[k];
             let (sin, cos) = libm::sincos(theta);
-            Place { at, along: [cos, sin], curvature: values[k] }
+            CurvePlace { at, along: [cos, sin], curvature: values[k] }
         };
         self.places.push(place(0, at));
         for k in 0..basis.panels {
@@ -198,7 +198,7 @@ impl Table {
     }
 
     /// The end.
-    pub(super) fn end(&self) -> Place {
+    pub(super) fn end(&self) -> CurvePlace {
         self.places[self.panels]
     }
 
@@ -221,7 +221,7 @@ impl Table {
     }
 
     /// The nearest place to `point` near `t`: its parameter, the place.
-    pub(super) fn foot(&self, point: [f64; 2], mut t: f64) -> (f64, Place) {
+    pub(super) fn foot(&self, point: [f64; 2], mut t: f64) -> (f64, CurvePlace) {
         let width = self.length / self.panels as f64;
         let inverse = 1.0 / width;
         for _ in 0..4 {
@@ -244,10 +244,10 @@ impl Table {
     }
 
     /// The place at `t`.
-    pub(super) fn place(&self, t: f64) -> Place {
+    pub(super) fn place(&self, t: f64) -> CurvePlace {
         let (at, slope, curvature) = self.on_panel(t);
         let inverse = 1.0 / (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
-        Place { at, along: [slope[0] * inverse, slope[1] * inverse], curvature }
+        CurvePlace { at, along: [slope[0] * inverse, slope[1] * inverse], curvature }
     }
 
     /// The place at `t`, its derivative by the share of the panel, the curvature.
@@ -279,10 +279,10 @@ impl Table {
 }
 
 /// The quintic between two places that has their directions and curvatures; `h` is the length between them.
-fn quintic(a: &Place, b: &Place, h: f64) -> [[f64; 2]; 6] {
+fn quintic(a: &CurvePlace, b: &CurvePlace, h: f64) -> [[f64; 2]; 6] {
     let mut q = [[0.0; 2]; 6];
     for k in 0..2 {
-        let normal = |p: &Place| if k == 0 { -p.along[1] } else { p.along[0] };
+        let normal = |p: &CurvePlace| if k == 0 { -p.along[1] } else { p.along[0] };
         let (v0, v1) = (h * a.along[k], h * b.along[k]);
         let (a0, a1) = (h * h * a.curvature * normal(a), h * h * b.curvature * normal(b));
         let d = b.at[k] - a.at[k];

@@ -9,11 +9,11 @@ mod work;
 
 pub(super) use work::{Held, Work};
 
-use super::chain::{Chain, Kind, Layout, Pose, arc_end, arc_to};
+use super::chain::{Chain, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
 use crate::num::cholesky::Cholesky;
 use normal::end_coefficient;
-use work::{Block, Variable};
+use work::{PieceSums, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least.
 pub(super) const STIFF: f64 = 1e8;
@@ -134,13 +134,13 @@ impl Work {
         self.layout.fill(&state.chain);
         assign(row, &self.layout, state.chain.closed, &mut state.breaks, &mut state.feet);
         let count = row.points.len();
-        self.blocks.resize_with(state.chain.pieces.len(), Block::default);
+        self.blocks.resize_with(state.chain.pieces.len(), PieceSums::default);
         self.distances.resize(count, 0.0);
         state.sum = 0.0;
         for (g, piece) in state.chain.pieces.iter().enumerate() {
             let (from, to) = (state.breaks[g], state.breaks[g + 1]);
             let block = &mut self.blocks[g];
-            block.reset(3 + usize::from(piece.kind == Kind::Spline) + piece.coefficients.len());
+            block.reset(3 + usize::from(piece.kind == SegmentKind::Spline) + piece.coefficients.len());
             let pose = &self.layout.poses[g];
             let curvature = piece.coefficients.first().copied().unwrap_or(0.0);
             let table = &self.layout.tables[g];
@@ -151,7 +151,7 @@ impl Work {
                 let i = next;
                 next = if i + 1 == count { 0 } else { i + 1 };
                 let (point, weight) = (row.points[i], row.weights[i]);
-                let (d, n) = if piece.kind == Kind::Spline {
+                let (d, n) = if piece.kind == SegmentKind::Spline {
                     let local = pose.into_frame([point[0] - pose.at[0], point[1] - pose.at[1]]);
                     let (t, place) = table.foot(local, state.feet[i]);
                     state.feet[i] = t;
@@ -172,7 +172,7 @@ impl Work {
                 let foot = [point[0] - d * n[0], point[1] - d * n[1]];
                 // How a turn about the origin moves the foot along the normal.
                 (products[0], products[1], products[2]) = (n[0], n[1], n[1] * foot[0] - n[0] * foot[1]);
-                if piece.kind == Kind::Arc {
+                if piece.kind == SegmentKind::Arc {
                     let chord = [foot[0] - pose.at[0], foot[1] - pose.at[1]];
                     products[3] = 0.5 * (chord[0] * chord[0] + chord[1] * chord[1]);
                 }
@@ -327,9 +327,9 @@ impl Work {
                 let i = i % count;
                 let p = row.points[i];
                 let own = match piece.kind {
-                    Kind::Spline => state.feet[i] * piece.length,
-                    Kind::Line => place(pose, p),
-                    Kind::Arc => {
+                    SegmentKind::Spline => state.feet[i] * piece.length,
+                    SegmentKind::Line => place(pose, p),
+                    SegmentKind::Arc => {
                         // The angle from the middle of the arc, where it does not jump.
                         let k = piece.coefficients[0];
                         let middle = Pose::new(pose.place(arc_end(half, half * k)), pose.heading + half * k);

@@ -8,7 +8,7 @@
 //! selection in small samples, Biometrika 76, 1989). Where even the cheapest scatters far more than the short fits, it hides
 //! form, and is named so.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::exact::{quantized, rounded};
 use super::polygon::polygon;
 use super::result::{Continuity, Contour, Options};
@@ -184,14 +184,14 @@ impl Start {
     /// The same parts as chains without corners, where there are arcs that may be tangent to what is beside them: a join that the
     /// partition put a few points off looks like a corner.
     pub fn tangent(&self) -> Option<Start> {
-        let arcs = self.parts.iter().filter(|p| p.kind == Kind::Arc).count();
+        let arcs = self.parts.iter().filter(|p| p.kind == SegmentKind::Arc).count();
         (arcs > 1 && self.forced.is_none()).then(|| Start { forced: Some(Continuity::G1), ..self.clone() })
     }
 
     /// What chains of the parts may cost at best: as if each followed the part before with a common tangent, and scattered no more
     /// than it does by itself.
     fn least_cost(&self, scatter: f64) -> f64 {
-        let each = |p: &Part| if p.kind == Kind::Line { 1.0 } else { 2.0 };
+        let each = |p: &Part| if p.kind == SegmentKind::Line { 1.0 } else { 2.0 };
         let unknowns = 2.0 + self.parts.iter().map(each).sum::<f64>();
         let spare = self.weights.iter().sum::<f64>() - unknowns;
         self.cost_of(scatter * scatter * spare.max(0.0), unknowns)
@@ -203,7 +203,7 @@ impl Start {
     }
 
     /// Where parts begin in the row as it came, and their kinds.
-    fn breaks(&self) -> Vec<(usize, Kind)> {
+    fn breaks(&self) -> Vec<(usize, SegmentKind)> {
         let n = self.clean.points.len();
         let mut all: Vec<_> = self.parts.iter().map(|p| ((p.from + self.turned) % n, p.kind)).collect();
         all.sort_unstable();

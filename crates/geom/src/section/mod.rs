@@ -62,7 +62,7 @@ mod tests;
 mod untangle;
 
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
-pub use chain::Kind;
+pub use chain::SegmentKind;
 pub use contour::contour;
 pub use crossings::crossings;
 pub use cut::{Chain, Plane, PlaneFrame, area, cut, cut_facets};

@@ -1,6 +1,6 @@
 //! Rows that are polygons, exactly.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::row::Clean;
 use super::start::{Part, Penalty, partition, scatter};
 
@@ -22,7 +22,7 @@ pub(super) fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Pa
     let by = if clean.closed { (0..n).max_by(|i, j| sharp(*i).total_cmp(&sharp(*j)))? } else { 0 };
     points.rotate_left(by);
     let parts = partition(&points, &weights, &Penalty { fewest: FEWEST, ..*penalty });
-    let sides = parts.iter().all(|p| p.kind == Kind::Line && p.to - p.from >= FEWEST);
+    let sides = parts.iter().all(|p| p.kind == SegmentKind::Line && p.to - p.from >= FEWEST);
     let last = if clean.closed { parts.len() } else { parts.len() - 1 };
     let corners = (0..last).all(|k| turn(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER);
     let exact = scatter(&points, &weights, &parts) <= penalty.noise;

@@ -1,6 +1,6 @@
 //! What is known about a contour.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use crate::spline::curve::Curve;
 
 /// The line, arc or curve of a segment.
@@ -30,11 +30,11 @@ pub enum Geometry {
 
 impl Geometry {
     /// Line, arc or spline.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> SegmentKind {
         match self {
-            Geometry::Line => Kind::Line,
-            Geometry::Arc { .. } => Kind::Arc,
-            Geometry::Spline { .. } => Kind::Spline,
+            Geometry::Line => SegmentKind::Line,
+            Geometry::Arc { .. } => SegmentKind::Arc,
+            Geometry::Spline { .. } => SegmentKind::Spline,
         }
     }
 }
@@ -132,7 +132,7 @@ impl Segment {
 
     /// How far beyond an end of the line or arc as it is drawn the foot of a point lies, along it; 0 of a free curve.
     pub(super) fn ahead_of_drawn(&self, p: [f64; 2]) -> f64 {
-        if self.geometry.kind() == Kind::Spline {
+        if self.geometry.kind() == SegmentKind::Spline {
             return 0.0;
         }
         let foot = self.nearest(p);

@@ -1,7 +1,7 @@
 //! Number and kinds of the pieces of a smooth row: a search over merging, splitting and changing pieces by a penalized
 //! likelihood, each model refined as a whole.
 
-use super::chain::{Chain, Kind, Piece, Pose};
+use super::chain::{Chain, Piece, Pose, SegmentKind};
 use super::free;
 use super::least::{Row, SOFT, STIFF, State, Stop, Work};
 use super::start::Part;
@@ -36,8 +36,9 @@ impl Criterion {
         }
         // An arc that meets itself is none of a contour, but a whole circle's ends may overlap by their noise.
         let pieces = &state.chain.pieces;
-        let meets_itself =
-            |p: &Piece| p.kind == Kind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU;
+        let meets_itself = |p: &Piece| {
+            p.kind == SegmentKind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU
+        };
         if pieces.len() > 1 && pieces.iter().any(meets_itself) {
             return f64::INFINITY;
         }
@@ -54,9 +55,9 @@ impl Criterion {
     }
     fn penalty(&self, chain: &Chain) -> f64 {
         let each = |p: &Piece| match p.kind {
-            Kind::Line => 0.0,
-            Kind::Arc => 1.0 + ARC,
-            Kind::Spline => p.coefficients.len() as f64 + FREE,
+            SegmentKind::Line => 0.0,
+            SegmentKind::Arc => 1.0 + ARC,
+            SegmentKind::Spline => p.coefficients.len() as f64 + FREE,
         };
         2.0 + 2.0 * chain.joins() as f64 + chain.pieces.iter().map(each).sum::<f64>()
     }
@@ -73,7 +74,7 @@ pub(super) struct Model {
 /// comes from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
-    pub kind: Kind,
+    pub kind: SegmentKind,
     pub count: usize,
     pub from: f64,
     pub to: f64,
@@ -127,7 +128,7 @@ impl Search<'_> {
             .iter()
             .zip(&lengths)
             .map(|(part, length)| match part.kind {
-                Kind::Line => Piece::line(*length),
+                SegmentKind::Line => Piece::line(*length),
                 _ => Piece::arc(*length, part.curvature),
             })
             .collect();
@@ -181,9 +182,9 @@ impl Search<'_> {
             .map(|plan| {
                 let length = (plan.to - plan.from).max(2.0 * self.spacing);
                 let coefficients = match plan.kind {
-                    Kind::Line => vec![],
-                    Kind::Arc => vec![chain.mean_curvature(&base.stations, plan.from, plan.to)],
-                    Kind::Spline => base.coefficients(plan),
+                    SegmentKind::Line => vec![],
+                    SegmentKind::Arc => vec![chain.mean_curvature(&base.stations, plan.from, plan.to)],
+                    SegmentKind::Spline => base.coefficients(plan),
                 };
                 Piece { kind: plan.kind, length, coefficients }
             })
@@ -195,7 +196,7 @@ impl Search<'_> {
         breaks[0] = first;
         breaks.push(first + n);
         let mut feet = vec![0.5; n];
-        for (g, plan) in plans.iter().enumerate().filter(|(_, p)| p.kind == Kind::Spline) {
+        for (g, plan) in plans.iter().enumerate().filter(|(_, p)| p.kind == SegmentKind::Spline) {
             for i in breaks[g]..breaks[g + 1] {
                 feet[i % n] = (base.order[i - first] - plan.from) / (plan.to - plan.from);
             }
@@ -248,13 +249,13 @@ impl Search<'_> {
     /// The same model with `more` coefficients to each free piece.
     pub fn looser(&mut self, model: &Model, more: usize) -> Model {
         let base = Base::new(self, model.clone());
-        if base.plans.iter().all(|p| p.kind != Kind::Spline) {
+        if base.plans.iter().all(|p| p.kind != SegmentKind::Spline) {
             return model.clone();
         }
         let mut plans = base.plans.clone();
         plans
             .iter_mut()
-            .filter(|p| p.kind == Kind::Spline)
+            .filter(|p| p.kind == SegmentKind::Spline)
             .for_each(|p| p.count = (p.count + more).min(free::MOST));
         let built = self.build(&base, &plans, f64::INFINITY);
         self.settle(&built)
@@ -327,12 +328,12 @@ impl Base {
         let n = plans.len();
         let replace = |i: usize, j: usize, new: &[Plan]| [&plans[..i], new, &plans[j + 1..]].concat();
         let [arcs, splines] = search.kinds;
-        let allowed = |kind: Kind| match kind {
-            Kind::Line => true,
-            Kind::Arc => arcs,
-            Kind::Spline => splines,
+        let allowed = |kind: SegmentKind| match kind {
+            SegmentKind::Line => true,
+            SegmentKind::Arc => arcs,
+            SegmentKind::Spline => splines,
         };
-        let mut one = |i: usize, j: usize, kind: Kind, count: usize| {
+        let mut one = |i: usize, j: usize, kind: SegmentKind, count: usize| {
             let plan = Plan { kind, count, from: plans[i].from, to: plans[j].to };
             if allowed(kind) {
                 all.push(replace(i, j, &[plan]));
@@ -340,43 +341,43 @@ impl Base {
         };
         for i in 0..n {
             match plans[i].kind {
-                Kind::Line => one(i, i, Kind::Arc, 1),
-                Kind::Arc => one(i, i, Kind::Line, 0),
-                Kind::Spline => {
-                    one(i, i, Kind::Line, 0);
-                    one(i, i, Kind::Arc, 1);
+                SegmentKind::Line => one(i, i, SegmentKind::Arc, 1),
+                SegmentKind::Arc => one(i, i, SegmentKind::Line, 0),
+                SegmentKind::Spline => {
+                    one(i, i, SegmentKind::Line, 0);
+                    one(i, i, SegmentKind::Arc, 1);
                 }
             }
-            if plans[i].kind == Kind::Spline {
+            if plans[i].kind == SegmentKind::Spline {
                 let count = plans[i].count;
                 for more in [count.wrapping_sub(1), count + 1, count + 2, count + count / 2 + 1] {
                     if (2..=free::MOST).contains(&more) {
-                        one(i, i, Kind::Spline, more);
+                        one(i, i, SegmentKind::Spline, more);
                     }
                 }
             } else {
-                [2, 3, 4, 5, 6].into_iter().for_each(|count| one(i, i, Kind::Spline, count));
+                [2, 3, 4, 5, 6].into_iter().for_each(|count| one(i, i, SegmentKind::Spline, count));
             }
             if i + 1 < n {
-                one(i, i + 1, Kind::Line, 0);
-                one(i, i + 1, Kind::Arc, 1);
-                [3, 4, 6, 8].into_iter().for_each(|count| one(i, i + 1, Kind::Spline, count));
+                one(i, i + 1, SegmentKind::Line, 0);
+                one(i, i + 1, SegmentKind::Arc, 1);
+                [3, 4, 6, 8].into_iter().for_each(|count| one(i, i + 1, SegmentKind::Spline, count));
                 let most = plans[i].count.max(plans[i + 1].count);
                 let both = plans[i].count + plans[i + 1].count;
                 if most > 1 {
                     [most + 2, both]
                         .into_iter()
                         .filter(|c| *c <= free::MOST)
-                        .for_each(|c| one(i, i + 1, Kind::Spline, c));
+                        .for_each(|c| one(i, i + 1, SegmentKind::Spline, c));
                 }
             }
         }
         for (i, j) in runs(plans) {
             if j > i + 1 {
                 let longest = (j - i + 3).min(free::MOST);
-                [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, Kind::Spline, count));
+                [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, SegmentKind::Spline, count));
                 if longest > 10 {
-                    one(i, j, Kind::Spline, longest);
+                    one(i, j, SegmentKind::Spline, longest);
                 }
             }
         }
@@ -388,13 +389,13 @@ impl Base {
 
     /// A piece cut in two.
     fn splits(&self, i: usize, plans: &[Plan], search: &Search, all: &mut Vec<Vec<Plan>>) {
-        use Kind::{Arc, Line, Spline};
+        use SegmentKind::{Arc, Line, Spline};
         let plan = plans[i];
         let width = plan.to - plan.from;
         if width < 8.0 * search.spacing {
             return;
         }
-        let ways: &[(Kind, Kind, f64)] = match plan.kind {
+        let ways: &[(SegmentKind, SegmentKind, f64)] = match plan.kind {
             Spline => &[
                 (Line, Spline, 0.12),
                 (Line, Spline, 0.25),
@@ -420,7 +421,7 @@ impl Base {
             // A free piece that lost a part needs fewer coefficients.
             let fewer = (plan.count > 4 && [*a, *b].contains(&Spline)).then_some(plan.count / 2 + 1);
             for free in std::iter::once(plan.count.max(2)).chain(fewer) {
-                let count = |kind: Kind| match kind {
+                let count = |kind: SegmentKind| match kind {
                     Line => 0,
                     Arc => 1,
                     Spline => free,
@@ -439,11 +440,11 @@ fn runs(plans: &[Plan]) -> Vec<(usize, usize)> {
     let mut start = None;
     for (i, plan) in plans.iter().enumerate() {
         match (plan.kind, start) {
-            (Kind::Line, Some(from)) => {
+            (SegmentKind::Line, Some(from)) => {
                 all.push((from, i - 1));
                 start = None;
             }
-            (Kind::Line, None) => {}
+            (SegmentKind::Line, None) => {}
             (_, None) => start = Some(i),
             _ => {}
         }

@@ -414,7 +414,7 @@ mod tests {
             let along: Vec<f64> = row.numbers.iter().map(|i| points[*i].1).collect();
             let period = if row.closed { std::f64::consts::TAU } else { f64::INFINITY };
             let forward = along.windows(2).filter(|w| w[1] > w[0]).count() * 2 > along.len();
-            // Back by no more than what the scatter hides: half a millimetre.
+            // Back by no more than what the scatter hides: half a millimeter.
             let most = if row.closed { 0.5 / 20.0 } else { 0.5 };
             for w in along.windows(2) {
                 let step = if forward { w[1] - w[0] } else { w[0] - w[1] };

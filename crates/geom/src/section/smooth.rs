@@ -1,6 +1,6 @@
 //! Smooth rows, of which the first partition makes many lines and arcs.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 use super::free;
 use super::search::{Base, Model, Plan, Search};
 use crate::progress::{Cancelled, Progress};
@@ -69,7 +69,7 @@ impl Search<'_> {
         for k in most {
             let own = base.plans[k];
             for count in COUNTS {
-                let free = |from: f64, to: f64| Plan { kind: Kind::Spline, count, from, to };
+                let free = |from: f64, to: f64| Plan { kind: SegmentKind::Spline, count, from, to };
                 let plans = [free(from, own.from), own, free(own.to, to)];
                 let built = self.build(&base, &plans, f64::INFINITY);
                 let mut model = self.settle(&built);
@@ -105,7 +105,7 @@ impl Search<'_> {
             let held = self.row.points.len() / EACH / pieces;
             for count in COUNTS.into_iter().filter(|c| pieces == 1 || (LONG..=held).contains(c)) {
                 let at = |k: usize| from + (to - from) * k as f64 / pieces as f64;
-                let plan = |k: usize| Plan { kind: Kind::Spline, count, from: at(k), to: at(k + 1) };
+                let plan = |k: usize| Plan { kind: SegmentKind::Spline, count, from: at(k), to: at(k + 1) };
                 let plans: Vec<Plan> = (0..pieces).map(plan).collect();
                 let built = self.build(&base, &plans, f64::INFINITY);
                 let mut model = self.settle(&built);

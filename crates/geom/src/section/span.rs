@@ -1,6 +1,6 @@
 //! A part of a row between two corners, or a whole closed row without any: one chain.
 
-use super::chain::{Kind, Layout, Piece, Pose, arc_end};
+use super::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
 use super::least::{Row, Spread, State, Work};
 use super::profile::Interval;
 use super::search::{Criterion, Model, Search};
@@ -142,7 +142,7 @@ impl Span {
         // Only a whole circle's ends may overlap, by their noise.
         let turns = |p: &Piece| p.length * p.curvature(0.0) / std::f64::consts::TAU;
         let most = if state.chain.pieces.len() == 1 { 1.2 } else { 1.0 };
-        let meets_itself = |p: &Piece| p.kind == Kind::Arc && turns(p).abs() > most;
+        let meets_itself = |p: &Piece| p.kind == SegmentKind::Arc && turns(p).abs() > most;
         if state.chain.pieces.iter().any(meets_itself) {
             return true;
         }

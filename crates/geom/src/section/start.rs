@@ -1,6 +1,6 @@
 //! Where the search starts: noise, and independent lines and arcs by dynamic programming.
 
-use super::chain::Kind;
+use super::chain::SegmentKind;
 
 /// Half the number of points of a local fit of the noise.
 const HALF: usize = 4;
@@ -84,7 +84,7 @@ fn cubic_residual(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
 /// Part of a row that one line or arc fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
-    pub kind: Kind,
+    pub kind: SegmentKind,
     /// First point, and the one after the last.
     pub from: usize,
     pub to: usize,
@@ -172,7 +172,7 @@ impl Sums {
         )
     }
 
-    fn part(&self, points: &[[f64; 2]], kind: Kind, from: usize, to: usize) -> Part {
+    fn part(&self, points: &[[f64; 2]], kind: SegmentKind, from: usize, to: usize) -> Part {
         let d = self.between(from, to);
         let n = d[9].max(1.0);
         let (mx, my) = (d[0] / n, d[1] / n);
@@ -190,7 +190,7 @@ impl Sums {
             along: [turned * cos, turned * sin],
             center: [mx + self.middle[0], my + self.middle[1]],
         };
-        if let (Kind::Arc, (_, Some((_, center, radius)))) = (kind, self.fit(from, to)) {
+        if let (SegmentKind::Arc, (_, Some((_, center, radius)))) = (kind, self.fit(from, to)) {
             // The sense of the turn by the area swept about the center.
             let area: f64 = points[from..to]
                 .windows(2)
@@ -244,7 +244,7 @@ pub(super) fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f
 /// So many parts of as many points each, as arcs.
 pub(super) fn shares(points: &[[f64; 2]], weights: &[f64], count: usize) -> Vec<Part> {
     let (sums, n) = (Sums::new(points, weights), points.len());
-    (0..count).map(|k| sums.part(points, Kind::Arc, k * n / count, (k + 1) * n / count)).collect()
+    (0..count).map(|k| sums.part(points, SegmentKind::Arc, k * n / count, (k + 1) * n / count)).collect()
 }
 
 /// Standard deviation of the points about the parts of a partition.
@@ -254,7 +254,7 @@ pub(super) fn scatter(points: &[[f64; 2]], weights: &[f64], parts: &[Part]) -> f
     for part in parts {
         let (line, arc) = sums.fit(part.from, part.to);
         let (sum, unknowns) = match (part.kind, arc) {
-            (Kind::Line, _) | (_, None) => (line, 3.0),
+            (SegmentKind::Line, _) | (_, None) => (line, 3.0),
             (_, Some((arc, _, _))) => (arc, 4.0),
         };
         all = (all.0 + sum, all.1 + weights[part.from..part.to].iter().sum::<f64>() - unknowns);
@@ -274,7 +274,7 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
     let variance = penalty.noise * penalty.noise;
     let fewest = penalty.fewest.max(2);
     let mut best = vec![f64::INFINITY; last + 1];
-    let mut from = vec![(0, Kind::Line); last + 1];
+    let mut from = vec![(0, SegmentKind::Line); last + 1];
     best[0] = 0.0;
     let mut starts: Vec<usize> = vec![];
     let mut costs: Vec<f64> = vec![];
@@ -291,13 +291,13 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
                 least = line / variance;
                 let cost = best[i] + least + penalty.line;
                 if cost < best[j] {
-                    (best[j], from[j]) = (cost, (i, Kind::Line));
+                    (best[j], from[j]) = (cost, (i, SegmentKind::Line));
                 }
                 if let Some((arc, _, _)) = arc.filter(|_| count > fewest) {
                     least = least.min(arc / variance);
                     let cost = best[i] + arc / variance + penalty.arc;
                     if cost < best[j] {
-                        (best[j], from[j]) = (cost, (i, Kind::Arc));
+                        (best[j], from[j]) = (cost, (i, SegmentKind::Arc));
                     }
                 }
             }
@@ -311,7 +311,7 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
             costs[k - 1] <= limit
         });
     }
-    let mut breaks = vec![(n, Kind::Line)];
+    let mut breaks = vec![(n, SegmentKind::Line)];
     let mut j = last;
     while j > 0 {
         let (i, kind) = from[j];
@@ -327,19 +327,20 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
 
 /// Moves the starts of parts, each with its kind, that were looked for at every `stride`-th point alone to the best point between;
 /// short parts that are dear beside their neighbors go to these.
-fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, Kind)>, stride: usize, penalty: &Penalty) {
+fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, SegmentKind)>, stride: usize, penalty: &Penalty) {
     let fewest = penalty.fewest.max(2);
-    let cost = |from: usize, to: usize, kind: Kind| match (kind, sums.fit(from, to)) {
-        (Kind::Line, (line, _)) | (_, (line, None)) => line,
+    let cost = |from: usize, to: usize, kind: SegmentKind| match (kind, sums.fit(from, to)) {
+        (SegmentKind::Line, (line, _)) | (_, (line, None)) => line,
         (_, (_, Some((arc, _, _)))) => arc,
     };
     // The best place between two for the start of the second of two parts, and what both cost.
-    let best = |(a, before): (usize, Kind), (c, after): (usize, Kind), low: usize, high: usize| {
-        let sum = |at: usize| cost(a, at, before) + cost(at, c, after);
-        let places = low.max(a + fewest)..=high.min(c.saturating_sub(fewest));
-        places.map(|at| (at, sum(at))).min_by(|x, y| x.1.total_cmp(&y.1))
-    };
-    let move_all = |breaks: &mut [(usize, Kind)]| {
+    let best =
+        |(a, before): (usize, SegmentKind), (c, after): (usize, SegmentKind), low: usize, high: usize| {
+            let sum = |at: usize| cost(a, at, before) + cost(at, c, after);
+            let places = low.max(a + fewest)..=high.min(c.saturating_sub(fewest));
+            places.map(|at| (at, sum(at))).min_by(|x, y| x.1.total_cmp(&y.1))
+        };
+    let move_all = |breaks: &mut [(usize, SegmentKind)]| {
         for k in 1..breaks.len() - 1 {
             let [a, (at, after), c] = [breaks[k - 1], breaks[k], breaks[k + 1]];
             let now = cost(a.0, at, a.1) + cost(at, c.0, after);
@@ -354,7 +355,7 @@ fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, Kind)>, stride: usize, penalty:
     let (mut k, count) = (1, breaks.len());
     while k + 2 < breaks.len() {
         let [a, b, c, d] = [k - 1, k, k + 1, k + 2].map(|i| breaks[i]);
-        let own = if b.1 == Kind::Line { penalty.line } else { penalty.arc };
+        let own = if b.1 == SegmentKind::Line { penalty.line } else { penalty.arc };
         let now = cost(a.0, b.0, a.1) + cost(b.0, c.0, b.1) + cost(c.0, d.0, c.1) + own * variance;
         let without = if c.0 - b.0 <= 2 * stride { best(a, (d.0, c.1), b.0, c.0) } else { None };
         if let Some((at, _)) = without.filter(|(_, sum)| *sum <= now) {

@@ -3,7 +3,7 @@
 
 use super::contour::contour;
 use super::cut::{Chain, PlaneFrame};
-use super::facets::{Item, Polygon, SHARP, Shape, angle, length};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length};
 use super::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken};
 use super::row::check;
 use crate::mesh::Mesh;
@@ -72,7 +72,7 @@ pub fn chain_contour(
 
 fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f64) -> bool {
     let straight = points.len() - polygon.at.len();
-    let chords: usize = items.iter().filter(|i| i.shape != Shape::Line).map(|i| i.to - i.from - 1).sum();
+    let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from - 1).sum();
     let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
@@ -275,7 +275,7 @@ impl Sheet<'_> {
         let mut lengths: Vec<f64> = run.items.iter().flat_map(facets).collect();
         lengths.sort_by(f64::total_cmp);
         let long = LONG * lengths[lengths.len() / 2];
-        let is_long = |item: &Item| item.shape == Shape::Line && facets(item).sum::<f64>() > long;
+        let is_long = |item: &Item| item.shape == LineOrArc::Line && facets(item).sum::<f64>() > long;
         let parts = run.items.chunk_by(|a, b| !is_long(a) && !is_long(b));
         parts.map(|items| Run { items: items.to_vec(), curve: None }).collect()
     }
@@ -286,7 +286,7 @@ impl Sheet<'_> {
         let bent = |w: &[usize]| !self.is_tangent(&segments[w[0]], &segments[w[1]], items[w[1]].from, 0.0);
         let numbers: Vec<usize> = (0..items.len()).collect();
         let turns = numbers.windows(2).filter(|w| bent(w)).count();
-        let arcs = items.split(|i| i.shape == Shape::Line).map(<[Item]>::len).max();
+        let arcs = items.split(|i| i.shape == LineOrArc::Line).map(<[Item]>::len).max();
         turns >= CURVE.0 || arcs.unwrap_or(0) >= CURVE.1
     }
 
@@ -346,7 +346,7 @@ impl Sheet<'_> {
     fn segment(&self, item: &Item) -> Segment {
         let (start, end) = (self.polygon.vertex(item.from), self.polygon.vertex(item.to));
         let base = Segment::line(start, end);
-        let Shape::Arc(center, curvature) = item.shape else { return base };
+        let LineOrArc::Arc(center, curvature) = item.shape else { return base };
         let out = |i: usize| {
             let p = self.polygon.vertex(i);
             [p[0] - center[0], p[1] - center[1]]

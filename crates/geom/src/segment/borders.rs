@@ -1,4 +1,4 @@
-//! The borders between regions: each piece goes to the neighbouring region that it fits best.
+//! The borders between regions: each piece goes to the neighboring region that it fits best.
 
 use super::grow::Context;
 use super::pieces::{Band, NONE};
@@ -9,7 +9,7 @@ use crate::parallel::prelude::*;
 /// Rings by which a border may move.
 const SWEEPS: usize = 4;
 
-/// Moves borders and lets pieces of no region join a neighbouring one that they nearly belong to: normals at an edge
+/// Moves borders and lets pieces of no region join a neighboring one that they nearly belong to: normals at an edge
 /// are those of neither face.
 pub(super) fn move_borders(context: &Context, regions: &[GrownRegion], labels: &mut Vec<u32>) {
     let surface = context.surface;
@@ -28,8 +28,8 @@ pub(super) fn move_borders(context: &Context, regions: &[GrownRegion], labels: &
                 };
                 let mut best = (own, if own == NONE { None } else { misfit(own) });
                 let mut last = own;
-                for &neighbour in surface.neighbours(piece) {
-                    let label = labels[neighbour as usize];
+                for &neighbor in surface.neighbors(piece) {
+                    let label = labels[neighbor as usize];
                     if label == NONE || label == last {
                         continue;
                     }

@@ -60,7 +60,7 @@ fn plane(patch: &Patch) -> Option<Shape> {
     Some(Shape::Plane { point: mean(patch.iter().map(|p| p.0)), normal: eigen(spread(patch)).1[2] })
 }
 
-/// Centre and radius of the circle or sphere through the places, in the directions in which they spread: by their
+/// Center and radius of the circle or sphere through the places, in the directions in which they spread: by their
 /// normals, which tell more of a small patch, or by the places alone, which do not care on which side the normals are.
 fn round(patch: &Patch) -> Option<(Point, f64)> {
     let square = |&(center, radius): &(Point, f64)| -> f64 {
@@ -70,7 +70,7 @@ fn round(patch: &Patch) -> Option<(Point, f64)> {
     both.min_by(|a, b| square(a).total_cmp(&square(b)))
 }
 
-/// From `place = centre + radius · normal`, with normals turned to the side of the first one.
+/// From `place = center + radius · normal`, with normals turned to the side of the first one.
 fn by_normals(patch: &Patch) -> Option<(Point, f64)> {
     let first = patch.first()?.1;
     let sided = patch.iter().map(|&(p, n)| (p, if dot(n, first) < 0.0 { times(-1.0, n) } else { n }));
@@ -85,7 +85,7 @@ fn by_normals(patch: &Patch) -> Option<(Point, f64)> {
     radius.is_finite().then(|| (minus(place, times(radius, normal)), radius.abs()))
 }
 
-/// From |q|² = 2 centre · q + constant, for q about the mean (I. Kåsa, 1976).
+/// From |q|² = 2 center · q + constant, for q about the mean (I. Kåsa, 1976).
 fn by_places(patch: &Patch) -> Option<(Point, f64)> {
     let middle = mean(patch.iter().map(|p| p.0));
     let (mut matrix, mut right, mut square) = ([[0.0; 3]; 3], [0.0; 3], 0.0);
@@ -224,7 +224,7 @@ mod tests {
     use super::super::{probe::Probe, tests::one_of_each};
     use super::*;
 
-    /// A piece of each element is recognised from places and normals of either side.
+    /// A piece of each element is recognized from places and normals of either side.
     #[test]
     fn patches_give_their_element() {
         let direction = unit([0.3, -0.5, 0.8]).unwrap().0;

@@ -1,4 +1,4 @@
-//! The surface of a mesh: facets, neighbours through edges.
+//! The surface of a mesh: facets, neighbors through edges.
 
 use super::pieces::{PieceGraph, Pieces};
 use crate::mesh::Mesh;
@@ -9,7 +9,7 @@ use crate::spatial::lists::lists;
 /// The facets of a mesh whose corners exist and are finite.
 pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     let shapes: Vec<_> = mesh.faces.par_iter().map(|face| middle(mesh, face)).collect();
-    let (first, others) = neighbours(mesh);
+    let (first, others) = neighbors(mesh);
     PieceGraph {
         points: &mesh.positions,
         pieces: Pieces::Facets(&mesh.faces),
@@ -29,8 +29,8 @@ fn middle(mesh: &Mesh, face: &[u32; 3]) -> ([f64; 3], Vector, f64) {
     (place, unit(twice).map_or([0.0; 3], |(n, _)| n), 0.5 * norm(twice))
 }
 
-/// Facets that share an edge. At an edge of more than two facets each is a neighbour of the next one only.
-fn neighbours(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
+/// Facets that share an edge. At an edge of more than two facets each is a neighbor of the next one only.
+fn neighbors(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
     let mut edges: Vec<(u64, u32)> = (mesh.faces.par_iter().enumerate())
         .flat_map_iter(|(i, face)| {
             (0..3).map(move |k| {

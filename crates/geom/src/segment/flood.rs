@@ -1,4 +1,4 @@
-//! Spreading over neighbours.
+//! Spreading over neighbors.
 
 use super::pieces::PieceGraph;
 use crate::space::dot;
@@ -30,7 +30,7 @@ impl Marks {
     }
 }
 
-/// The pieces reached from `starts` over neighbours for which `accept` says yes, nearest rings first, until there are
+/// The pieces reached from `starts` over neighbors for which `accept` says yes, nearest rings first, until there are
 /// `most`. `accept` gets the piece and the one it is reached from.
 pub(super) fn flood(
     surface: &PieceGraph,
@@ -49,7 +49,7 @@ pub(super) fn flood(
     'spread: while next < reached.len() {
         let from = reached[next];
         next += 1;
-        for &piece in surface.neighbours(from) {
+        for &piece in surface.neighbors(from) {
             if reached.len() >= most {
                 break 'spread;
             }
@@ -73,7 +73,7 @@ pub(super) fn rings(
         marks.first(piece);
     }
     let mut ring = |from: &[u32]| -> Vec<u32> {
-        let around = from.iter().flat_map(|&p| surface.neighbours(p)).copied();
+        let around = from.iter().flat_map(|&p| surface.neighbors(p)).copied();
         around.filter(|&p| marks.first(p) && free(p)).collect()
     };
     let mut found = ring(pieces);
@@ -83,7 +83,7 @@ pub(super) fn rings(
     found
 }
 
-/// About `most` free pieces around `seed` without a crease between neighbours.
+/// About `most` free pieces around `seed` without a crease between neighbors.
 pub(super) fn patch(
     surface: &PieceGraph,
     seed: u32,
@@ -103,14 +103,14 @@ mod tests {
     use super::super::{facets, tests::parts::bored};
     use super::*;
 
-    /// Number of steps over neighbours from any of `pieces` to each piece.
+    /// Number of steps over neighbors from any of `pieces` to each piece.
     fn steps(surface: &PieceGraph, pieces: &[u32]) -> Vec<usize> {
         let mut steps = vec![usize::MAX; surface.len()];
         pieces.iter().for_each(|&p| steps[p as usize] = 0);
         for ring in 0..surface.len() {
             for p in 0..surface.len() as u32 {
                 if steps[p as usize] == ring {
-                    let fresh = surface.neighbours(p).iter().filter(|&&n| steps[n as usize] == usize::MAX);
+                    let fresh = surface.neighbors(p).iter().filter(|&&n| steps[n as usize] == usize::MAX);
                     fresh.copied().collect::<Vec<u32>>().iter().for_each(|&n| steps[n as usize] = ring + 1);
                 }
             }

@@ -43,11 +43,11 @@ pub(super) struct Context<'a> {
     /// Elements looked for, simple ones first.
     pub kinds: &'a [Kind],
     pub band: Band,
-    /// Standard deviation of the points, millimetres.
+    /// Standard deviation of the points, millimeters.
     pub noise: f64,
-    /// Cosine of the angle between neighbours from which on there is an edge between them.
+    /// Cosine of the angle between neighbors from which on there is an edge between them.
     pub crease: f64,
-    /// Diagonal of the whole, millimetres.
+    /// Diagonal of the whole, millimeters.
     pub size: f64,
 }
 

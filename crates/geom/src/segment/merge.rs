@@ -1,4 +1,4 @@
-//! Neighbouring regions that are one face: pieces of one element that form error or a scratch kept apart.
+//! Neighboring regions that are one face: pieces of one element that form error or a scratch kept apart.
 
 use super::grow::Context;
 use super::pieces::NONE;
@@ -17,7 +17,7 @@ const TELLS: f64 = 1.25;
 /// Joins regions that one element explains as well as two. Labels of regions that are gone are replaced; the regions
 /// themselves stay in place, without pieces.
 pub(super) fn merge(context: &Context, regions: &mut [GrownRegion], labels: &mut [u32]) {
-    // Each pass may bring new neighbours together.
+    // Each pass may bring new neighbors together.
     while let Some((kept, gone, shape, rms)) = next(context, regions, labels) {
         let pieces = std::mem::take(&mut regions[gone].pieces);
         pieces.iter().for_each(|&p| labels[p as usize] = kept as u32);
@@ -29,9 +29,9 @@ pub(super) fn merge(context: &Context, regions: &mut [GrownRegion], labels: &mut
     }
 }
 
-/// The first pair of neighbours that are one, the heavier one first, and their element.
+/// The first pair of neighbors that are one, the heavier one first, and their element.
 fn next(context: &Context, regions: &[GrownRegion], labels: &[u32]) -> Option<(usize, usize, Shape, f64)> {
-    neighbours(context, labels).into_iter().find_map(|[a, b]| {
+    neighbors(context, labels).into_iter().find_map(|[a, b]| {
         let (a, b) = (a as usize, b as usize);
         let (large, small) = if regions[b].weight > regions[a].weight { (b, a) } else { (a, b) };
         let joint = joint(context, &regions[large], &regions[small])?;
@@ -75,13 +75,13 @@ fn turned(context: &Context, piece: u32, element: &Probe) -> bool {
 }
 
 /// Pairs of regions that touch, or that one piece of no region lies between.
-fn neighbours(context: &Context, labels: &[u32]) -> Vec<[u32; 2]> {
+fn neighbors(context: &Context, labels: &[u32]) -> Vec<[u32; 2]> {
     let surface = context.surface;
     let mut pairs: Vec<[u32; 2]> = Vec::new();
     let mut around: Vec<u32> = Vec::new();
     for piece in 0..surface.len() as u32 {
         around.clear();
-        around.extend(surface.neighbours(piece).iter().map(|&n| labels[n as usize]).filter(|&l| l != NONE));
+        around.extend(surface.neighbors(piece).iter().map(|&n| labels[n as usize]).filter(|&l| l != NONE));
         let own = labels[piece as usize];
         if own != NONE {
             around.retain(|&l| l != own);

@@ -1,13 +1,13 @@
 //! Planes, cylinders, cones, spheres and tori in a mesh or cloud, found without a nominal.
 //!
 //! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces (facets, or points with normals); patches of
-//! pieces around random seeds show an element each, which grows over its neighbours and is fitted again in turns;
-//! neighbouring regions that one element explains as well are joined; each region's element is fitted by least squares
+//! pieces around random seeds show an element each, which grows over its neighbors and is fitted again in turns;
+//! neighboring regions that one element explains as well are joined; each region's element is fitted by least squares
 //! in the end. The noise of the data sets how far a piece may lie off.
 //!
 //! | file | what |
 //! |---|---|
-//! | `pieces` | pieces and neighbours; `facets` of a mesh, `points` of a cloud |
+//! | `pieces` | pieces and neighbors; `facets` of a mesh, `points` of a cloud |
 //! | `probe` | an element ready for many questions |
 //! | `noise` | how far and how much turned a piece of a face may be |
 //! | `estimate` | an element from places and normals |
@@ -55,10 +55,10 @@ use std::collections::BTreeSet;
 pub struct Options {
     /// Elements looked for; those of [`KINDS`] count.
     pub kinds: Vec<Kind>,
-    /// Distance up to which a point belongs to an element, millimetres. Without it: eight standard deviations of the
+    /// Distance up to which a point belongs to an element, millimeters. Without it: eight standard deviations of the
     /// noise found in the data.
     pub tolerance: Option<f64>,
-    /// Angle between neighbouring pieces from which on there is an edge between them, radians.
+    /// Angle between neighboring pieces from which on there is an edge between them, radians.
     pub crease: f64,
     /// Least share of the area, or of the points of a cloud, that a region must have.
     pub min_share: f64,
@@ -98,7 +98,7 @@ pub struct Region {
     pub share: f64,
     /// Box around the region.
     pub bounds: Aabb,
-    /// Greatest magnitude of the distances of all measured points of its pieces, millimetres: within the tolerance.
+    /// Greatest magnitude of the distances of all measured points of its pieces, millimeters: within the tolerance.
     pub farthest: f64,
 }
 
@@ -109,9 +109,9 @@ pub struct Segmentation {
     pub regions: Vec<Region>,
     /// For each facet, or each point of a cloud, the number of its region; [`u32::MAX`] where it has none.
     pub labels: Vec<u32>,
-    /// Standard deviation of the noise found in the data, millimetres.
+    /// Standard deviation of the noise found in the data, millimeters.
     pub noise: f64,
-    /// Distance up to which points belong to an element, millimetres: no measured point of a region's pieces lies farther
+    /// Distance up to which points belong to an element, millimeters: no measured point of a region's pieces lies farther
     /// off its element.
     pub tolerance: f64,
 }
@@ -152,7 +152,7 @@ pub enum SegmentError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The elements of a mesh. Facets are neighbours through the vertices they share: weld first what is not welded.
+/// The elements of a mesh. Facets are neighbors through the vertices they share: weld first what is not welded.
 ///
 /// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads; memory
 /// grows with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts
@@ -174,7 +174,7 @@ pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<S
     segment(facets::surface(mesh), options, progress)
 }
 
-/// The elements of a cloud. Normals come from the nearest neighbours, so edges are known no sharper than the points lie
+/// The elements of a cloud. Normals come from the nearest neighbors, so edges are known no sharper than the points lie
 /// apart.
 ///
 /// Labels are those of points. As [`mesh`] otherwise; about 600 bytes a point.
@@ -360,13 +360,13 @@ fn fitted(
 fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
     let surface = context.surface;
     let foreign = |p: u32| {
-        let near = surface.neighbours(p).iter();
+        let near = surface.neighbors(p).iter();
         near.copied().filter(move |&n| labels[n as usize] != labels[p as usize])
     };
     let faces = match surface.pieces {
         Pieces::Points => {
-            // Single outliers among the neighbours do not make an edge.
-            let inside = |p: u32| 4 * foreign(p).count() <= surface.neighbours(p).len();
+            // Single outliers among the neighbors do not make an edge.
+            let inside = |p: u32| 4 * foreign(p).count() <= surface.neighbors(p).len();
             return (0..surface.len() as u32).map(|p| 2 * u8::from(inside(p))).collect();
         }
         Pieces::Facets(faces) => faces,

@@ -23,7 +23,7 @@ const QUANTILE: f64 = 1.15;
 /// What one piece tells by itself, and how well.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
-    /// Standard deviation of the measured points across the surface, millimetres.
+    /// Standard deviation of the measured points across the surface, millimeters.
     pub distance: f64,
     /// Typical angle between the normal of a piece and that of the surface, radians.
     pub angle: f64,

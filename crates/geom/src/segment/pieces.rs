@@ -1,4 +1,4 @@
-//! What regions are grown on: pieces of surface with a normal, and which of them are neighbours.
+//! What regions are grown on: pieces of surface with a normal, and which of them are neighbors.
 //!
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
@@ -17,10 +17,10 @@ pub(super) enum Pieces<'a> {
     Points,
 }
 
-/// Pieces of surface and their neighbours.
+/// Pieces of surface and their neighbors.
 #[derive(Debug)]
 pub(super) struct PieceGraph<'a> {
-    /// The measured points, millimetres.
+    /// The measured points, millimeters.
     pub points: &'a [Point],
     pub pieces: Pieces<'a>,
     /// Middle of each piece.
@@ -29,7 +29,7 @@ pub(super) struct PieceGraph<'a> {
     pub normals: Vec<Vector>,
     /// Area of each piece, mm²; of a point, 1.
     pub weights: Vec<f64>,
-    /// The neighbours of piece `i` are `others[first[i]..first[i + 1]]`.
+    /// The neighbors of piece `i` are `others[first[i]..first[i + 1]]`.
     pub first: Vec<u32>,
     pub others: Vec<u32>,
 }
@@ -37,7 +37,7 @@ pub(super) struct PieceGraph<'a> {
 /// How far a piece may be from an element that it belongs to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Band {
-    /// Distance, millimetres.
+    /// Distance, millimeters.
     pub distance: f64,
     /// Cosine of the angle between the normals.
     pub cosine: f64,
@@ -48,8 +48,8 @@ impl PieceGraph<'_> {
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
-    /// The neighbours of a piece.
-    pub(super) fn neighbours(&self, piece: u32) -> &[u32] {
+    /// The neighbors of a piece.
+    pub(super) fn neighbors(&self, piece: u32) -> &[u32] {
         let i = piece as usize;
         &self.others[self.first[i] as usize..self.first[i + 1] as usize]
     }
@@ -87,7 +87,7 @@ impl PieceGraph<'_> {
         some.into_iter().map(|i| self.points[i as usize]).collect()
     }
     /// Whether a piece lies within `band` of the element. Of a facet two corners must; the third, which may be one of
-    /// a neighbouring face that is shared at an edge, may be four times as far.
+    /// a neighboring face that is shared at an edge, may be four times as far.
     #[inline]
     pub(super) fn belongs(&self, piece: u32, element: &Probe, band: &Band) -> bool {
         let i = piece as usize;

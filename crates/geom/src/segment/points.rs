@@ -1,18 +1,18 @@
-//! The surface of a cloud: points, normals by local planes, neighbours by nearness.
+//! The surface of a cloud: points, normals by local planes, neighbors by nearness.
 
 use super::pieces::{PieceGraph, Pieces};
 use crate::fit::eigen;
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use crate::spatial::lists::lists;
-use crate::spatial::neighbours::{Neighbour, PointTree};
+use crate::spatial::neighbors::{Neighbor, PointTree};
 use std::f64::consts::TAU;
 
-/// Neighbours that make a normal, and that make one where so few lie along a line, as on a scanner's row.
+/// Neighbors that make a normal, and that make one where so few lie along a line, as on a scanner's row.
 const NORMAL: [usize; 2] = [16, 64];
-/// Mean square width over length of the neighbourhood, below which it is a line.
+/// Mean square width over length of the neighborhood, below which it is a line.
 const LINE: f64 = 0.03;
-/// Neighbours that a region grows to.
+/// Neighbors that a region grows to.
 const NEAR: usize = 8;
 
 /// The points of a finite cloud.
@@ -44,11 +44,10 @@ pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
     }
 }
 
-/// Normal at point `i`, which lies at `p`, and the neighbours that made it, nearest first.
-fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<Neighbour>) {
-    let places = |near: &[Neighbour]| -> Vec<Point> {
-        near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect()
-    };
+/// Normal at point `i`, which lies at `p`, and the neighbors that made it, nearest first.
+fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<Neighbor>) {
+    let places =
+        |near: &[Neighbor]| -> Vec<Point> { near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect() };
     let near = tree.k_nearest(p, NORMAL[0], Some(i));
     let (values, rows) = spread(&places(&near));
     if values[1] >= LINE * values[2] && values[1] > 0.0 {
@@ -58,9 +57,9 @@ fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<
     (flattest(&places(&near)), near)
 }
 
-/// The neighbours that a region grows to from `p`: the nearest one in each direction along the surface, for the nearest
+/// The neighbors that a region grows to from `p`: the nearest one in each direction along the surface, for the nearest
 /// of all may lie on one row, and then the nearest of the others.
-fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbour]) -> Vec<u32> {
+fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbor]) -> Vec<u32> {
     let first = near.iter().find_map(|n| {
         let q = minus(points[n.1 as usize], *p);
         unit(minus(q, times(dot(q, normal), normal)))
@@ -68,13 +67,13 @@ fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbour]) -> Ve
     let Some((u, _)) = first else { return near.iter().take(NEAR).map(|n| n.1).collect() };
     let v = cross(normal, u);
     let mut taken = [false; NEAR];
-    // The first neighbour is in the middle of its sector, so that a row lies in two of them.
-    let mut alone = |n: &&Neighbour| {
+    // The first neighbor is in the middle of its sector, so that a row lies in two of them.
+    let mut alone = |n: &&Neighbor| {
         let q = minus(points[n.1 as usize], *p);
         let turns = libm::atan2(dot(q, v), dot(q, u)) / TAU + 1.0 + 0.5 / NEAR as f64;
         !std::mem::replace(&mut taken[(turns * NEAR as f64) as usize % NEAR], true)
     };
-    let (mut chosen, others): (Vec<&Neighbour>, Vec<&Neighbour>) = near.iter().partition(|n| alone(n));
+    let (mut chosen, others): (Vec<&Neighbor>, Vec<&Neighbor>) = near.iter().partition(|n| alone(n));
     let missing = NEAR - chosen.len();
     chosen.extend(others.into_iter().take(missing));
     chosen.into_iter().map(|n| n.1).collect()

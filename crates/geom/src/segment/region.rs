@@ -12,7 +12,7 @@ pub(super) struct GrownRegion {
     pub shape: Shape,
     pub pieces: Vec<u32>,
     pub weight: f64,
-    /// Root mean square distance of some of its points, millimetres.
+    /// Root mean square distance of some of its points, millimeters.
     pub rms: f64,
 }
 

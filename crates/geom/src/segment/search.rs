@@ -18,7 +18,7 @@ use crate::progress::{Cancelled, Progress};
 const BATCH: u64 = 32;
 /// Pieces that a trial may reach; regions that are taken grow on.
 const TRIAL: usize = 500;
-/// A neighbourhood that was tried in vain.
+/// A neighborhood that was tried in vain.
 const TRIED: usize = 16;
 /// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-4.
 const TRIALS: f64 = 4.0;
@@ -113,7 +113,7 @@ fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     grown.weight >= limits.weight && context.surface.points_of(some.iter().copied()).len() >= fewest
 }
 
-/// Nothing starts from the seed and its nearest neighbours again.
+/// Nothing starts from the seed and its nearest neighbors again.
 fn mark_tried(context: &Context, seed: u32, tried: &mut [bool], marks: &mut Marks) {
     for piece in patch(context.surface, seed, TRIED, context.crease, marks, |_| true) {
         tried[piece as usize] = true;

@@ -1,4 +1,4 @@
-//! Where to try next: random pieces, large ones more often, each neighbourhood once.
+//! Where to try next: random pieces, large ones more often, each neighborhood once.
 
 use super::pieces::{NONE, PieceGraph};
 use crate::num::random::Random;

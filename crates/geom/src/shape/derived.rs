@@ -8,7 +8,7 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 /// A point and a unit normal or direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// A point of the plane or line, millimetres.
+    /// A point of the plane or line, millimeters.
     pub point: Point,
     /// Unit normal or direction.
     pub direction: Vector,

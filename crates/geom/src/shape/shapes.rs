@@ -5,7 +5,7 @@ use super::kind::Kind;
 use crate::frame::Pose;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 
-/// A fitted element, millimetres and radians. Directions are unit vectors whose component of largest magnitude
+/// A fitted element, millimeters and radians. Directions are unit vectors whose component of largest magnitude
 /// is positive, except a cone's, which points from the apex into the cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs)] // the fields are named as in every textbook
@@ -35,9 +35,9 @@ pub enum Shape {
 /// One parameter of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parameter {
-    /// Millimetres or radians.
+    /// Millimeters or radians.
     Number(f64),
-    /// A place in millimetres or a unit direction.
+    /// A place in millimeters or a unit direction.
     Vector([f64; 3]),
 }
 
@@ -121,7 +121,7 @@ impl Shape {
         });
         (numbers, count)
     }
-    /// Distance of `p` from the element, positive on the outer side: away from the axis or centre, along the
+    /// Distance of `p` from the element, positive on the outer side: away from the axis or center, along the
     /// normal of a plane, to the left of a line in the plane. For lines and circles in space it has no sign.
     /// Not a number where `p` is none.
     pub fn distance(&self, p: Point) -> f64 {

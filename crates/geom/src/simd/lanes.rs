@@ -217,7 +217,7 @@ fn fused(a: f32, b: f32, c: f32) -> f32 {
     let back = sum - p;
     let lost = (p - (sum - back)) + (c - back);
     let bits = sum.to_bits();
-    // An even sum that lost something goes to its odd neighbour on that side.
+    // An even sum that lost something goes to its odd neighbor on that side.
     let away = (lost > 0.0) == (sum > 0.0);
     let odd = if away { bits.wrapping_add(1) } else { bits.wrapping_sub(1) };
     let is_inexact = lost.abs() > 0.0 && bits & 1 == 0;

@@ -1,4 +1,4 @@
-//! Lists of neighbours, one behind the other in one array.
+//! Lists of neighbors, one behind the other in one array.
 
 use crate::parallel::prelude::*;
 

@@ -2,5 +2,5 @@
 
 pub(crate) mod columns;
 pub(crate) mod lists;
-pub mod neighbours;
+pub mod neighbors;
 pub(crate) mod seen;

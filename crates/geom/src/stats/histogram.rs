@@ -199,9 +199,9 @@ impl Sketch {
 /// Counts against two limits, both of which belong to the inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Lower limit, millimetres.
+    /// Lower limit, millimeters.
     pub lower: f64,
-    /// Upper limit, millimetres.
+    /// Upper limit, millimeters.
     pub upper: f64,
     /// Values below the lower limit.
     pub below: u64,

@@ -1,6 +1,6 @@
 //! Which of several references lies nearer to the same points, and whether the difference is more than chance.
 //!
-//! All tests treat the points as independent. Neighbouring points of a scan are not: their deviations go together, so
+//! All tests treat the points as independent. Neighboring points of a scan are not: their deviations go together, so
 //! the true uncertainty is larger than stated and small p values mean little where the deviations are smooth.
 //! [`super::research::blocks`] gives an interval that allows for it.
 
@@ -32,9 +32,9 @@ pub struct Comparison {
     pub first_nearer: u64,
     /// Points nearer to the second.
     pub second_nearer: u64,
-    /// Mean difference, millimetres.
+    /// Mean difference, millimeters.
     pub mean: Number,
-    /// Sample standard deviation of the differences, millimetres.
+    /// Sample standard deviation of the differences, millimeters.
     pub std_dev: Number,
     /// Confidence interval of the mean at 95 %, by Student's t.
     pub interval: Result<[f64; 2], Missing>,

@@ -27,7 +27,7 @@ pub struct Course {
     pub max: f64,
     /// Standard deviation of all values.
     pub std_dev: f64,
-    /// Mean of the differences of neighbours, without their signs.
+    /// Mean of the differences of neighbors, without their signs.
     pub moving_range: f64,
     /// Standard deviation by the moving ranges: what is left of slow changes.
     pub within: f64,
@@ -121,11 +121,11 @@ impl Course {
             range_limit,
             signals: vec![],
         };
-        course.signals = course.signalled(values, &ranges);
+        course.signals = course.signaled(values, &ranges);
         Some(course)
     }
 
-    fn signalled(&self, values: &[f64], ranges: &[f64]) -> Vec<Signal> {
+    fn signaled(&self, values: &[f64], ranges: &[f64]) -> Vec<Signal> {
         let mut signals = Vec::new();
         let (mut run, mut steady) = ((0.0, 0), (0.0, 1));
         let extended = |row: (f64, usize), way: f64| if way != 0.0 && way == row.0 { row.1 + 1 } else { 1 };

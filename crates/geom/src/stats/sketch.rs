@@ -100,12 +100,12 @@ impl Sketch {
     pub(crate) fn at(&self, ranks: &[u64]) -> Vec<f64> {
         weighted_ranks(self.bins(), ranks)
     }
-    /// The same for the distances of a part's values from `centre`, each within [`RELATIVE_ERROR`] of the value.
-    pub(crate) fn distances_at(&self, part: Part, centre: f64, ranks: &[u64]) -> Vec<f64> {
+    /// The same for the distances of a part's values from `center`, each within [`RELATIVE_ERROR`] of the value.
+    pub(crate) fn distances_at(&self, part: Part, center: f64, ranks: &[u64]) -> Vec<f64> {
         let mut distances: Vec<(f64, u64)> = self
             .bins()
             .filter(|(x, _)| part.holds(*x))
-            .map(|(x, count)| ((x - centre).abs(), count))
+            .map(|(x, count)| ((x - center).abs(), count))
             .collect();
         distances.par_sort_by(|a, b| a.0.total_cmp(&b.0));
         weighted_ranks(distances, ranks)

@@ -32,7 +32,7 @@ pub enum Missing {
 /// A statistic, or the reason why there is none. Never NaN.
 pub type Number = Result<f64, Missing>;
 
-/// The statistics of one set of numbers (millimetres; variance in square millimetres).
+/// The statistics of one set of numbers (millimeters; variance in square millimeters).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// How many.
@@ -59,9 +59,9 @@ pub struct Statistics {
     pub median: Number,
     /// Median of the absolute differences from the median; not scaled to σ.
     pub mad: Number,
-    /// Third standardised moment, of the values as a population (g1).
+    /// Third standardized moment, of the values as a population (g1).
     pub skewness: Number,
-    /// Fourth standardised moment less 3, of the values as a population (g2); 0 for the normal distribution.
+    /// Fourth standardized moment less 3, of the values as a population (g2); 0 for the normal distribution.
     pub kurtosis: Number,
     /// Six standard deviations.
     pub six_sigma: Number,
@@ -129,7 +129,7 @@ pub struct Summary {
     pub positive: Statistics,
     /// Those below zero.
     pub negative: Statistics,
-    /// 95 % of the absolute values are no greater; the range of a colour scale.
+    /// 95 % of the absolute values are no greater; the range of a color scale.
     pub p95_abs: Number,
     /// Values that are exactly zero: in `all`, in neither of the others.
     pub zeros: u64,
@@ -259,7 +259,7 @@ impl SignedMoments {
             [&positive, &negative].map(|m| m.mean.value().abs() * (m.count as f64 / all.count as f64));
         let [of_all, of_positive, of_negative] =
             ordered(values, [&all, &positive, &negative], negative.count + zeros);
-        let sizes = values.distances_at(Part::All, &all, 0.0, &neighbours(0, all.count, 95.0));
+        let sizes = values.distances_at(Part::All, &all, 0.0, &neighbors(0, all.count, 95.0));
         Summary {
             p95_abs: match sizes[..] {
                 [a, b] => Ok(interpolate(a, b, position(all.count, 95.0).1)),
@@ -288,8 +288,8 @@ impl Chunks {
 trait Order {
     /// The values of these ranks among all finite values, whose moments are known.
     fn at(&self, all: &Moments, ranks: &[u64]) -> Vec<f64>;
-    /// The same for the distances of a part's values from `centre`.
-    fn distances_at(&self, part: Part, moments: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64>;
+    /// The same for the distances of a part's values from `center`.
+    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64>;
 }
 
 /// Values in memory. The moments' extremes bound what is searched.
@@ -303,12 +303,12 @@ impl Order for Exact<'_> {
         let high = if all.max == 0.0 { 0.0 } else { all.max };
         Keyed { values: self.0, key, low: key_of(low), high: key_of(high), count: all.count }.at(ranks)
     }
-    fn distances_at(&self, part: Part, moments: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
         let (above, below) = part.limits();
         // No branch: scattered signs would mispredict it.
         let key =
-            move |x: f64| key_of((x - centre).abs()) | (NO_KEY * u64::from(!((x > above) & (x < below))));
-        let farthest = (moments.min - centre).abs().max((moments.max - centre).abs());
+            move |x: f64| key_of((x - center).abs()) | (NO_KEY * u64::from(!((x > above) & (x < below))));
+        let farthest = (moments.min - center).abs().max((moments.max - center).abs());
         Keyed { values: self.0, key, low: key_of(0.0), high: key_of(farthest), count: moments.count }
             .at(ranks)
     }
@@ -318,8 +318,8 @@ impl Order for Sketch {
     fn at(&self, _: &Moments, ranks: &[u64]) -> Vec<f64> {
         self.at(ranks)
     }
-    fn distances_at(&self, part: Part, _: &Moments, centre: f64, ranks: &[u64]) -> Vec<f64> {
-        self.distances_at(part, centre, ranks)
+    fn distances_at(&self, part: Part, _: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
+        self.distances_at(part, center, ranks)
     }
 }
 
@@ -332,7 +332,7 @@ struct Ordered {
 fn ordered(values: &impl Order, moments: [&Moments; 3], first_positive: u64) -> [Option<Ordered>; 3] {
     let parts = [(Part::All, 0), (Part::Positive, first_positive), (Part::Negative, 0)];
     let ranks: Vec<u64> = std::iter::zip(parts, moments)
-        .flat_map(|((_, first), m)| PERCENTILES.iter().flat_map(move |p| neighbours(first, m.count, *p)))
+        .flat_map(|((_, first), m)| PERCENTILES.iter().flat_map(move |p| neighbors(first, m.count, *p)))
         .collect();
     let found = values.at(moments[0], &ranks);
     std::array::from_fn(|i| {
@@ -344,14 +344,14 @@ fn ordered(values: &impl Order, moments: [&Moments; 3], first_positive: u64) -> 
         let percentiles = std::array::from_fn(|k| {
             interpolate(of_part[2 * k], of_part[2 * k + 1], position(count, PERCENTILES[k]).1)
         });
-        let distances = values.distances_at(part, moments[i], percentiles[5], &neighbours(0, count, 50.0));
+        let distances = values.distances_at(part, moments[i], percentiles[5], &neighbors(0, count, 50.0));
         let [a, b] = distances[..] else { return None };
         Some(Ordered { percentiles, mad: interpolate(a, b, position(count, 50.0).1) })
     })
 }
 
 /// The two ranks that a percentile lies between.
-fn neighbours(first: u64, count: u64, p: f64) -> [u64; 2] {
+fn neighbors(first: u64, count: u64, p: f64) -> [u64; 2] {
     let (below, _) = position(count, p);
     [first + below, first + (below + 1).min(count.saturating_sub(1))]
 }

@@ -46,7 +46,7 @@ use crate::progress::Progress;
 use crate::space::Point;
 use crate::spline::basis::Knots;
 
-/// The B-spline surface of least squares through `points` (millimetres).
+/// The B-spline surface of least squares through `points` (millimeters).
 ///
 /// The answer is the same on any number of threads. Cost: some passes over the points, and `n b²` multiplications for each
 /// weight tried, with `n` control points and `b` of them in a band (degree times the smaller number in a direction). Memory: about

@@ -40,7 +40,7 @@ pub enum Layout {
     Spans([usize; 2]),
     /// These knots. Their degrees count.
     Knots([Knots; 2]),
-    /// As many as keep all points within this distance, millimetres, or as the noise of the points allows.
+    /// As many as keep all points within this distance, millimeters, or as the noise of the points allows.
     Tolerance(f64),
 }
 

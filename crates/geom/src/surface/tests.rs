@@ -294,7 +294,7 @@ fn layers_are_told() {
 #[test]
 fn corrected_parameters_fit_round_bodies_better() {
     let random = &mut Random::new(21);
-    // Two thirds of a cylinder and a cap beyond the equator: with their own bases, to a micrometre.
+    // Two thirds of a cylinder and a cap beyond the equator: with their own bases, to a micrometer.
     let cylinder: Vec<Point> = (0..6000)
         .map(|_| (4.0 * random.unit(), 60.0 * random.unit()))
         .map(|(a, z)| [15.0 * a.cos() + 3.0, z, 15.0 * a.sin()])

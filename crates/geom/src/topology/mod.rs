@@ -5,7 +5,7 @@
 //! | facets to a mesh whose vertices are distinct positions | [`weld`] |
 //! | edges, shells, places where the mesh is not a surface | [`Topology`] |
 //! | may signs and volumes be trusted? | [`Soundness`] |
-//! | area, volume, centre of mass | [`Properties`] |
+//! | area, volume, center of mass | [`Properties`] |
 
 mod connect;
 mod connected;

@@ -1,4 +1,4 @@
-//! Area, volume and centre of mass.
+//! Area, volume and center of mass.
 //!
 //! The volume is the sum over the facets of the signed tetrahedra to one place (the divergence theorem). That place is
 //! the middle of the box, so little cancels, and sums are carried in two numbers: the result is good to about 1e-15 of
@@ -22,18 +22,18 @@ pub struct Properties {
     /// Volume enclosed, mm³: positive where the facets look outwards. Means nothing unless the mesh is closed and
     /// consistently oriented.
     pub signed_volume: f64,
-    /// Centre of mass of the volume; `None` where the volume is zero to rounding.
-    pub centre_of_mass: Option<Point>,
-    /// Centre of mass of the surface; `None` where the area is zero.
-    pub centre_of_area: Option<Point>,
+    /// Center of mass of the volume; `None` where the volume is zero to rounding.
+    pub center_of_mass: Option<Point>,
+    /// Center of mass of the surface; `None` where the area is zero.
+    pub center_of_area: Option<Point>,
     /// Area of each shell, mm².
     pub shell_areas: Vec<f64>,
     /// Signed volume of each shell, mm³.
     pub shell_volumes: Vec<f64>,
 }
 
-/// Sums over some facets, lengths measured from the middle of the box: area, area times three times the centre of each
-/// facet, six times the volume, and six times the volume times four times the centre of each tetrahedron.
+/// Sums over some facets, lengths measured from the middle of the box: area, area times three times the center of each
+/// facet, six times the volume, and six times the volume times four times the center of each tetrahedron.
 type Moments = [Sum; 8];
 const AREA: usize = 0;
 const VOLUME: usize = 4;
@@ -64,7 +64,7 @@ impl Properties {
             }
         }
         let (area, volume) = (all[AREA].value(), all[VOLUME].value() / 6.0);
-        let centre = |of: usize, scale: f64| {
+        let center = |of: usize, scale: f64| {
             plus(origin, times(scale, std::array::from_fn(|k| all[of + 1 + k].value())))
         };
         let sides = bounds.sides();
@@ -74,8 +74,8 @@ impl Properties {
             bounds,
             area,
             signed_volume: volume,
-            centre_of_mass: (volume.abs() > noise).then(|| centre(VOLUME, 1.0 / (24.0 * volume))),
-            centre_of_area: (area > 0.0).then(|| centre(AREA, 1.0 / (3.0 * area))),
+            center_of_mass: (volume.abs() > noise).then(|| center(VOLUME, 1.0 / (24.0 * volume))),
+            center_of_area: (area > 0.0).then(|| center(AREA, 1.0 / (3.0 * area))),
             shell_areas: shells.iter().map(|s| s.0.value()).collect(),
             shell_volumes: shells.iter().map(|s| s.1.value() / 6.0).collect(),
         }

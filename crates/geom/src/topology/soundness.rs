@@ -1,7 +1,7 @@
 //! Whether a mesh bounds a solid, so that inside and outside have a meaning.
 //!
 //! The rule: no two facets coincide; two facets meet at every edge; the facets around every vertex form one closed fan,
-//! as many facets as edges, at least three. To it belongs, for signs, that neighbours run the same way round and that
+//! as many facets as edges, at least three. To it belongs, for signs, that neighbors run the same way round and that
 //! the facets look outwards. Statistics of deviations from a mesh that breaks the rule are of doubtful worth.
 
 use super::{EdgeAt, Properties, Topology, weld::WeldError};
@@ -21,7 +21,7 @@ pub enum Flaw {
     NonManifoldVertex(u32),
     /// Two facets with the same corners.
     DuplicateFacets([u32; 2]),
-    /// Neighbours that run in different directions.
+    /// Neighbors that run in different directions.
     InconsistentEdge(EdgeAt),
     /// All facets look inwards: the volume is negative, or zero.
     Inverted,
@@ -47,7 +47,7 @@ pub struct Soundness {
     pub sound: bool,
     /// There is a facet, and no boundary edge.
     pub closed: bool,
-    /// No two neighbours run in different directions.
+    /// No two neighbors run in different directions.
     pub consistently_oriented: bool,
     /// The signed volume is positive.
     pub outward: bool,
@@ -63,7 +63,7 @@ pub struct Soundness {
     pub degenerate_facets: usize,
     /// Facets with a coordinate that is not finite; they were left out.
     pub not_finite_facets: usize,
-    /// Edges at which neighbours run in different directions.
+    /// Edges at which neighbors run in different directions.
     pub inconsistent_edges: usize,
     /// Parts connected through edges.
     pub shells: usize,

@@ -98,12 +98,12 @@ fn compare_with_plain_twin(mesh: &Mesh, name: &str) {
     }
     let common = |a: u32, b: u32| corners(a).iter().filter(|v| corners(b).contains(v)).count();
     // Shells and fans.
-    let colour = paint(&counting, &|a, b| common(a, b) >= 2);
-    let mut first: Vec<u32> = colour.clone();
+    let color = paint(&counting, &|a, b| common(a, b) >= 2);
+    let mut first: Vec<u32> = color.clone();
     first.sort_unstable();
     first.dedup();
     let mut shell_of = vec![u32::MAX; mesh.faces.len()];
-    for (f, c) in counting.iter().zip(&colour) {
+    for (f, c) in counting.iter().zip(&color) {
         shell_of[*f as usize] = first.binary_search(c).unwrap() as u32;
     }
     let broken = (0..mesh.positions.len() as u32).filter(|&v| {
@@ -162,7 +162,7 @@ fn a_block_is_sound_and_has_its_volume() {
     let near = |a: f64, b: f64| (a - b).abs() < 1e-14 * b;
     assert!(near(p.area, 54.0) && near(p.signed_volume, 27.0), "{p:?}");
     assert!(
-        p.centre_of_mass.unwrap().iter().chain(&p.centre_of_area.unwrap()).all(|x| near(*x, 1.5)),
+        p.center_of_mass.unwrap().iter().chain(&p.center_of_area.unwrap()).all(|x| near(*x, 1.5)),
         "{p:?}"
     );
     assert_eq!((p.bounds.min, p.bounds.max), ([0.0; 3], [3.0; 3]));

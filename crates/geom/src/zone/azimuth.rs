@@ -48,7 +48,7 @@ impl Cone {
         let samples: Vec<f64> = (0..SAMPLES).map(|k| at(k as f64 * step)).collect();
         let around = |k: usize| [samples[(k + SAMPLES - 1) % SAMPLES], samples[(k + 1) % SAMPLES]];
         let mut low: Vec<usize> =
-            (0..SAMPLES).filter(|&k| around(k).iter().all(|neighbour| samples[k] <= *neighbour)).collect();
+            (0..SAMPLES).filter(|&k| around(k).iter().all(|neighbor| samples[k] <= *neighbor)).collect();
         low.sort_by(|&i, &j| samples[i].total_cmp(&samples[j]).then(i.cmp(&j)));
         low.truncate(FOLLOWED);
         let bottoms = low.into_iter().map(|k| {

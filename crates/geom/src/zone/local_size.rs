@@ -9,13 +9,13 @@ use crate::frame::Pose;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, plus, times, unit};
-use crate::spatial::neighbours::PointTree;
+use crate::spatial::neighbors::PointTree;
 
 /// Points that the other end is interpolated among.
 const AMONG: usize = 8;
-/// Part of a turn, radians, beyond which neighbours tell nothing of a place on a cylinder.
+/// Part of a turn, radians, beyond which neighbors tell nothing of a place on a cylinder.
 const REACH: f64 = std::f64::consts::FRAC_PI_4;
-/// Neighbours lie in a row where their moment across it is below this share of that along it: then they tell no slope across.
+/// Neighbors lie in a row where their moment across it is below this share of that along it: then they tell no slope across.
 const ROW: f64 = 0.03;
 /// Angle by which rounding may bend a row that a place is the middle of.
 const ROUNDING: f64 = 1e-9;
@@ -25,14 +25,14 @@ const BESIDE: f64 = 0.3;
 /// A two-point size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoPoint {
-    /// Millimetres.
+    /// Millimeters.
     pub size: f64,
     /// The measured point, and the place opposite.
     pub ends: [Point; 2],
 }
 
 /// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1): one for each of
-/// `points` whose opposite place is between others, in their order. Millimetres. Points on the axis and those that are not
+/// `points` whose opposite place is between others, in their order. Millimeters. Points on the axis and those that are not
 /// finite have none. Cost: `n log n`.
 ///
 /// # Errors
@@ -93,7 +93,7 @@ pub fn two_point_diameters(
 }
 
 /// The two-point sizes of two opposite planes along their common `normal` (of length 1): of each point of either with a place
-/// opposite that is between points of the other; those of the first, then those of the second. Millimetres.
+/// opposite that is between points of the other; those of the first, then those of the second. Millimeters.
 /// Cost: `n log n`.
 ///
 /// # Errors
@@ -229,14 +229,14 @@ mod tests {
     fn diameters_of_an_oval_are_those_of_its_formula() {
         let (points, middle, direction, radius) = oval(0.0..std::f64::consts::TAU);
         let found = two_point_diameters(&points, middle, direction, &Silent).unwrap();
-        // The ends of the cylinder have neighbours on one side only.
+        // The ends of the cylinder have neighbors on one side only.
         assert!(found.len() > 1000, "{}", found.len());
         let [x, y, _] = Pose::along([0.0; 3], direction).axes;
         for d in &found {
             let [a, b] = d.ends.map(|p| minus(p, middle));
             assert!((dot(minus(b, a), direction)).abs() < 1e-9, "the ends lie at one station");
             let turn = dot(a, y).atan2(dot(a, x));
-            // A chord of neighbours 0.8 mm apart is 0.003 mm within the oval at most.
+            // A chord of neighbors 0.8 mm apart is 0.003 mm within the oval at most.
             assert!((d.size - 2.0 * radius(turn)).abs() < 0.02, "{} {}", d.size, 2.0 * radius(turn));
             let away = minus(b, a);
             assert!((dot(away, away).sqrt() - d.size).abs() < 1e-9);

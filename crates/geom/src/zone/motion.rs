@@ -132,7 +132,7 @@ struct Work<'a> {
     points: &'a [Point],
     distance: &'a Distance<'a>,
     search: &'a Search,
-    /// Turns are about this place, in units that move the farthest point by a millimetre.
+    /// Turns are about this place, in units that move the farthest point by a millimeter.
     center: Point,
     reach: f64,
 }

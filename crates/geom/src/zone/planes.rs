@@ -10,7 +10,7 @@ use crate::space::{Point, Vector, dot, minus, unit};
 pub struct Slab {
     /// Unit normal of both.
     pub normal: Vector,
-    /// Their distance, millimetres.
+    /// Their distance, millimeters.
     pub width: f64,
     /// The first point on the lower plane.
     pub low: usize,

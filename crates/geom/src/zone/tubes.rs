@@ -13,7 +13,7 @@ pub struct Tube {
     pub point: Point,
     /// Unit direction of its axis.
     pub direction: Vector,
-    /// Its diameter, millimetres: the value of a zone with the sign ∅.
+    /// Its diameter, millimeters: the value of a zone with the sign ∅.
     pub diameter: f64,
     /// Points on it: two or three.
     pub touching: Vec<usize>,

@@ -53,7 +53,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
         ..Options::default()
     };
     let references = [Reference { name: "nominal.stl".into(), mesh: reference, splines: None }];
-    let sink = |_: &compare::Block| Ok::<(), Infallible>(());
+    let sink = |_: &compare::DeviationBlock| Ok::<(), Infallible>(());
     let found = compare::run(&mut Once(Some(points.to_vec())), &references, &options, &Silent, sink).unwrap();
     let files = vec![
         record(Role::Measured, "points.xyz", points.len(), None),
@@ -123,7 +123,7 @@ fn fine_cube(n: u32) -> Mesh {
 }
 
 /// A million points 0.02 mm before or behind the faces of that cube, at random; but for 25 single ones, which lie 0.3 mm under
-/// the top at every third millimetre from 4 to 16.
+/// the top at every third millimeter from 4 to 16.
 fn a_million() -> Vec<Point> {
     let mut random = Random::new(3);
     let mut point = |_| {

@@ -118,7 +118,7 @@ fn cube() -> Body {
     for (axis, side) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
         let value =
             [[0.2, 0.0], [0.0, -0.15], [0.1, 0.1 + 2.0 * 0.2 / 32_760.0]][axis][usize::from(side < 0.0)];
-        // The hair's breadth keeps equal places of neighbouring faces apart.
+        // The hair's breadth keeps equal places of neighboring faces apart.
         let half = 10.0 - 1e-9;
         let first = measured.positions.len() as u32;
         for (u, v) in [(-half, -half), (half, -half), (half, half), (-half, half)] {

@@ -176,7 +176,7 @@ fn characteristic(f: &Found) -> CharacteristicRecord {
         decision_rule: "iso14253-1".into(),
         verdict,
         reason: f.value.is_none().then(|| "there are no points".into()),
-        utilisation: None,
+        utilization: None,
         witness: vec![],
         anchor: None,
         parts: Default::default(),

@@ -56,7 +56,7 @@ pub trait Characteristic: Sync + Debug {
     fn measure(&self, m: &Measuring) -> Result<Value, Missing>;
 }
 
-/// A characteristic that can be evaluated. Lengths in millimetres, angles in radians.
+/// A characteristic that can be evaluated. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug)]
 pub struct Spec {
     /// Its name.

@@ -35,7 +35,7 @@ use trueness_geom::zone::motion::{Placed, Search, placed};
 
 /// Halvings of the search with a shifting datum: the answer's bounds then differ by nothing that shows.
 const HALVINGS: usize = 48;
-/// Millimetres by which rounding alone may put the datum's surface beyond its boundary.
+/// Millimeters by which rounding alone may put the datum's surface beyond its boundary.
 const ROUNDING: f64 = 1e-9;
 
 /// A straight line in the frame's coordinates.

@@ -5,7 +5,7 @@ use trueness_geom::space::Point;
 use trueness_geom::zone::ZoneError;
 use trueness_geom::zone::datum::DatumError;
 
-/// What was measured. Lengths in millimetres, angles in degrees.
+/// What was measured. Lengths in millimeters, angles in degrees.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Value {
     /// The value.

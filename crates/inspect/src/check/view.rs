@@ -3,7 +3,7 @@
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
-use trueness_geom::check::{Kind, Shows};
+use trueness_geom::check::{DefectKind, Shows};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, plus, unit};
 use trueness_geom::topology::Topology;
@@ -41,9 +41,9 @@ impl<'a> View<'a> {
 }
 
 /// The listed defects of each kind found in a mesh.
-pub(crate) fn groups(found: &[(&Kind, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
+pub(crate) fn groups(found: &[(&DefectKind, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
     let mut shells = Shells::default();
-    let group = |(n, (kind, defects)): (usize, &(&Kind, &Defects))| MarkGroup {
+    let group = |(n, (kind, defects)): (usize, &(&DefectKind, &Defects))| MarkGroup {
         key: format!("defect.{}", kind.name),
         color: category(n),
         items: defects.items.iter().map(|item| mark(mesh, kind.shows, item, &mut shells)).collect(),

@@ -10,7 +10,7 @@ use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
-use trueness_geom::check::{Found, Kind};
+use trueness_geom::check::{DefectKind, Found};
 use trueness_geom::deviation::paper::Differences;
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::stats::histogram::Limits;
@@ -217,7 +217,7 @@ fn soundness(c: &Compared) -> Soundness {
     }
 }
 
-fn finding((kind, found): &(&'static Kind, Found)) -> (String, Defects) {
+fn finding((kind, found): &(&'static DefectKind, Found)) -> (String, Defects) {
     (kind.name.to_string(), crate::check::defects(kind, Some(found)))
 }
 

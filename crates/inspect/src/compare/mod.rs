@@ -33,7 +33,7 @@ pub use region::{Extent, RegionError, RegionRule, Regions};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
 pub use view::View;
-pub use worst::Place;
+pub use worst::WorstPoint;
 
 use reference::{Running, Taken};
 use trueness_geom::closest::{MeshError, QueryError, Tree};
@@ -46,7 +46,7 @@ use trueness_geom::topology::TopologyError;
 
 /// A block of points with their deviations, on its way to a file.
 #[derive(Clone, Copy, Debug)]
-pub struct Block<'a> {
+pub struct DeviationBlock<'a> {
     /// The points, in file order.
     pub points: &'a [Point],
     /// For each reference, one deviation a point; not finite where the point is excluded (see [`Excluded`]).
@@ -101,7 +101,7 @@ pub fn run<S: PointStream + ?Sized, K>(
     references: &[Reference],
     options: &Options,
     progress: &dyn Progress,
-    mut sink: impl FnMut(&Block) -> Result<(), K>,
+    mut sink: impl FnMut(&DeviationBlock) -> Result<(), K>,
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
@@ -176,7 +176,7 @@ fn count<S, K>(
     places: usize,
     points: &[Point],
     taken: Vec<Taken>,
-    sink: &mut impl FnMut(&Block) -> Result<(), K>,
+    sink: &mut impl FnMut(&DeviationBlock) -> Result<(), K>,
 ) -> Result<(), CompareError<S, K>> {
     let mut taken = taken;
     let all = running.iter_mut().zip(&mut taken);
@@ -193,7 +193,11 @@ fn count<S, K>(
         let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
         out.shown.add(out.count, points, &lists);
     }
-    let block = Block { points, deviations: &deviations, measured: measured.as_ref().unwrap_or(&deviations) };
+    let block = DeviationBlock {
+        points,
+        deviations: &deviations,
+        measured: measured.as_ref().unwrap_or(&deviations),
+    };
     sink(&block).map_err(CompareError::Sink)?;
     out.bounds = out.bounds.union(&Aabb::of(points));
     out.count += points.len() as u64;
@@ -202,7 +206,7 @@ fn count<S, K>(
 
 /// Puts the worst places that the sample has left out beside it.
 fn flag(out: &mut Comparisons, running: &[Running]) -> Result<(), PaperError> {
-    let mut places: Vec<Place> = running.iter().flat_map(Running::worst_places).collect();
+    let mut places: Vec<WorstPoint> = running.iter().flat_map(Running::worst_places).collect();
     places.retain(|p| out.shown.indices.binary_search(&p.index).is_err());
     places.sort_by_key(|p| p.index);
     places.dedup_by_key(|p| p.index);

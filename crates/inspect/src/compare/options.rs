@@ -34,11 +34,11 @@ pub enum Coverage {
     /// Three times as far as the points lie apart.
     #[default]
     Auto,
-    /// So far along the surface, millimetres.
+    /// So far along the surface, millimeters.
     Within(f64),
 }
 
-/// `auto` or millimetres.
+/// `auto` or millimeters.
 ///
 /// # Errors
 /// A sentence that says what can be written.

@@ -20,13 +20,13 @@ const SIGMA_OVER_MAD: f64 = 1.482_602_218_505_602;
 /// The limits that a rule gives; they belong to what counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlierLimits {
-    /// Mean or median, millimetres.
+    /// Mean or median, millimeters.
     pub center: f64,
-    /// Standard deviation, or 1.4826 MAD, millimetres.
+    /// Standard deviation, or 1.4826 MAD, millimeters.
     pub spread: f64,
-    /// Least deviation that counts, millimetres.
+    /// Least deviation that counts, millimeters.
     pub lower: f64,
-    /// Greatest deviation that counts, millimetres.
+    /// Greatest deviation that counts, millimeters.
     pub upper: f64,
 }
 

@@ -7,7 +7,7 @@
 use crate::results::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::space::{minus, norm};
 
-/// Quotients of two units of length in use: micrometres, millimetres, centimetres, inches, metres.
+/// Quotients of two units of length in use: micrometers, millimeters, centimeters, inches, meters.
 const RATIOS: [f64; 8] = [10.0, 25.4, 1000.0 / 25.4, 100.0, 1000.0, 1e4, 25400.0, 1e6];
 /// How far a ratio of sizes may lie from one of units, as a factor. The diagonal of a box grows by noise and strays, and
 /// changes as the part is turned.
@@ -100,7 +100,7 @@ mod tests {
         let moved = |d: f64| of([d, 0.0, 0.0], [100.0 + d, 60.0, 20.0]);
         assert_eq!(kinds(&moved(50.0), &part), []);
         assert_eq!(kinds(&moved(120.0), &part), [WarningKind::HardlyOverlapping]);
-        // A scan of one face, off by a tenth of a millimetre.
+        // A scan of one face, off by a tenth of a millimeter.
         assert_eq!(kinds(&of([0.0, 0.0, 20.1], [100.0, 60.0, 20.1]), &part), []);
         let sheet = of([0.0; 3], [100.0, 60.0, 0.0]);
         assert_eq!(kinds(&of([0.0, 0.0, 0.3], [100.0, 60.0, 0.3]), &sheet), []);

@@ -9,7 +9,7 @@ use super::options::{Coverage, Method, Options};
 use super::outliers::{NoLimits, OutlierLimits, OutlierRule};
 use super::region::{RegionRule, Regions};
 use super::target::{Asked, Measures, Target};
-use super::worst::{Place, WorstPlaces, sort};
+use super::worst::{WorstPlaces, WorstPoint, sort};
 use crate::tolerance::badness;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{QueryError, Tree};
@@ -24,7 +24,7 @@ use trueness_geom::stats::statistics::{Accumulator, Statistics, Summary};
 
 /// What was found about one reference.
 pub struct Compared {
-    /// Diagonal of the reference's box, millimetres.
+    /// Diagonal of the reference's box, millimeters.
     pub diagonal: f64,
     /// Along what lines deviations are; `None` for those to the nearest place.
     pub along: Option<AlongRule>,
@@ -55,7 +55,7 @@ pub struct Compared {
     pub paper_vs_exact: Option<Differences>,
     /// Of B-spline surfaces.
     pub splines: Option<SplinesFound>,
-    /// The reference coloured by the points near each place, for a report and for what is not covered.
+    /// The reference colored by the points near each place, for a report and for what is not covered.
     pub map: Option<MapSurface>,
 }
 
@@ -99,7 +99,7 @@ pub struct SplinesFound {
     pub surfaces: usize,
     /// Points whose nearest place is not beyond doubt.
     pub uncertain: u64,
-    /// How far the facets that draw them may be from the surfaces, millimetres.
+    /// How far the facets that draw them may be from the surfaces, millimeters.
     pub drawn_within: f64,
 }
 
@@ -107,7 +107,7 @@ pub struct SplinesFound {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstPlace {
     /// The measured point.
-    pub place: Place,
+    pub place: WorstPoint,
     /// The nearest place on the reference, or where its line meets it.
     pub nearest: Point,
     /// Unit normal of the facet there; `None` if it has no area.
@@ -286,8 +286,8 @@ impl<'a> Running<'a> {
     }
 
     /// The places that the result will name.
-    pub fn worst_places(&self) -> Vec<Place> {
-        let mut places: Vec<Place> = self.worst.pick(WORST).into_iter().flatten().collect();
+    pub fn worst_places(&self) -> Vec<WorstPoint> {
+        let mut places: Vec<WorstPoint> = self.worst.pick(WORST).into_iter().flatten().collect();
         match self.regions {
             Some(_) => places.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index))),
             None => sort(&mut places, self.limits.as_ref().map(|l| [l.lower, l.upper])),
@@ -296,8 +296,8 @@ impl<'a> Running<'a> {
     }
 
     /// Deviations of points that have been counted already.
-    pub fn again(&self, places: &[Place]) -> Result<Vec<f64>, PaperError> {
-        let one = |place: &Place| {
+    pub fn again(&self, places: &[WorstPoint]) -> Result<Vec<f64>, PaperError> {
+        let one = |place: &WorstPoint| {
             let asked = Asked { start: place.index, map: None, facing: self.facing.as_ref(), regions: None };
             let points = [place.point];
             let mut deviation = self.target.measure(&points, &asked, &Silent)?.deviations[0];
@@ -393,7 +393,7 @@ impl Values {
 }
 
 /// The worst places with their nearest places on the reference.
-fn worst(target: &Target, places: &[Place]) -> Result<Vec<WorstPlace>, QueryError> {
+fn worst(target: &Target, places: &[WorstPoint]) -> Result<Vec<WorstPlace>, QueryError> {
     let mut out = vec![];
     for &place in places {
         if let Some(found) = target.nearest(&place)? {

@@ -23,7 +23,7 @@ pub struct RegionRule {
     pub required_share: f64,
 }
 
-/// What belongs to a region. Places in the coordinates of the reference, millimetres.
+/// What belongs to a region. Places in the coordinates of the reference, millimeters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Extent {
     /// The plane, cylinder, cone or sphere of the reference around this place, as the segmentation finds it.

@@ -54,7 +54,7 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
                 expected: m.expected,
                 p_value: m.p,
                 count: m.count,
-                neighbour_distance: m.neighbour_distance,
+                neighbor_distance: m.neighbor_distance,
             })
         }),
     }

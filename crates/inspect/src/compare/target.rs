@@ -7,7 +7,7 @@ use super::facing::{Facing, facet_normal};
 use super::map::{Foot, PointMap};
 use super::options::Options;
 use super::region::Regions;
-use super::worst::Place;
+use super::worst::WorstPoint;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::along::Along;
@@ -209,7 +209,7 @@ impl<'a> Target<'a> {
     }
 
     /// Where a point is nearest, or where its line meets the reference; `None` for one that cannot be measured.
-    pub fn nearest(&self, place: &Place) -> Result<Option<Nearest>, QueryError> {
+    pub fn nearest(&self, place: &WorstPoint) -> Result<Option<Nearest>, QueryError> {
         let p = &place.point;
         match self {
             Target::Facets { surface, mesh, along: Some(along) } => {

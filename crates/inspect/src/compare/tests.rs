@@ -47,13 +47,13 @@ fn compared(points: &[Point], mesh: &Mesh, options: &Options) -> (Comparisons, C
     let objects = view.objects();
     let Geometry::Mesh(drawn) = &objects[1].geometry else { panic!("the reference is a mesh") };
     let values = objects[1].fields[0].values;
-    let grey = drawn.faces.iter().filter(|f| f.iter().any(|v| !values[*v as usize].is_finite()));
+    let gray = drawn.faces.iter().filter(|f| f.iter().any(|v| !values[*v as usize].is_finite()));
     let area = |f: &[u32; 3]| {
         let [a, b, c] = f.map(|v| drawn.positions[v as usize]);
         0.5 * norm(cross(minus(b, a), minus(c, a)))
     };
-    let grey = grey.map(area).sum();
-    (found, document, grey)
+    let gray = gray.map(area).sum();
+    (found, document, gray)
 }
 
 struct Blocks(Vec<Vec<Point>>);
@@ -70,32 +70,32 @@ impl PointStream for Blocks {
 }
 
 #[test]
-fn what_is_not_covered_is_what_the_map_shows_grey() {
+fn what_is_not_covered_is_what_the_map_shows_gray() {
     let (mesh, points) = (cube(40.0), open_at_the_top(20_000, 40.0));
     for shown in [0, 2000] {
         let options = Options { shown, coverage: Some(Coverage::Auto), ..Options::default() };
-        let (_, document, grey) = compared(&points, &mesh, &options);
+        let (_, document, gray) = compared(&points, &mesh, &options);
         let c = document.comparisons[0].coverage.as_ref().unwrap();
-        assert!((c.uncovered - grey).abs() < 1e-9 * c.area, "{} drawn grey, {} told", grey, c.uncovered);
+        assert!((c.uncovered - gray).abs() < 1e-9 * c.area, "{} drawn grey, {} told", gray, c.uncovered);
         // Creases part the sides: one of six, whole and alone.
         assert!((c.area - 9600.0).abs() < 1e-9 && (c.uncovered - 1600.0).abs() < 1e-9, "{c:?}");
         assert!((c.uncovered_share.unwrap() - 1.0 / 6.0).abs() < 1e-12);
     }
     // A report alone tells it too.
     let options = Options { shown: 2000, ..Options::default() };
-    let (_, document, grey) = compared(&points, &mesh, &options);
-    assert!((document.comparisons[0].coverage.as_ref().unwrap().uncovered - grey).abs() < 1e-6);
-    // Where the points end within a side, pieces with one corner too far count as the map draws them: grey.
+    let (_, document, gray) = compared(&points, &mesh, &options);
+    assert!((document.comparisons[0].coverage.as_ref().unwrap().uncovered - gray).abs() < 1e-6);
+    // Where the points end within a side, pieces with one corner too far count as the map draws them: gray.
     let half: Vec<Point> = points.iter().filter(|p| p[0] < 17.0).copied().collect();
-    let (_, document, grey) = compared(&half, &mesh, &options);
+    let (_, document, gray) = compared(&half, &mesh, &options);
     let c = document.comparisons[0].coverage.as_ref().unwrap();
-    assert!((c.uncovered - grey).abs() < 1e-6 && c.uncovered > 1600.0, "{grey} drawn grey, {c:?}");
+    assert!((c.uncovered - gray).abs() < 1e-6 && c.uncovered > 1600.0, "{gray} drawn grey, {c:?}");
     // Points that are left out cover nothing: of those that look downward only the lower side is left.
     let down = Facing::new(0.5, vec![[0.0, 0.0, -1.0]; points.len()]);
     let options = Options { shown: 2000, facing: Some(down), ..Options::default() };
-    let (_, document, grey) = compared(&points, &mesh, &options);
+    let (_, document, gray) = compared(&points, &mesh, &options);
     let c = document.comparisons[0].coverage.as_ref().unwrap();
-    assert!((c.uncovered - 8000.0).abs() < 1e-6 && (c.uncovered - grey).abs() < 1e-6, "{c:?}");
+    assert!((c.uncovered - 8000.0).abs() < 1e-6 && (c.uncovered - gray).abs() < 1e-6, "{c:?}");
 }
 
 #[test]

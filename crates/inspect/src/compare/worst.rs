@@ -16,12 +16,12 @@ const APART: f64 = 0.05;
 
 /// A measured point with its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct WorstPoint {
     /// Number of the point, from 0 in file order.
     pub index: u64,
-    /// The point, millimetres.
+    /// The point, millimeters.
     pub point: Point,
-    /// Its deviation, millimetres.
+    /// Its deviation, millimeters.
     pub deviation: f64,
     /// How bad it is: the size of the deviation, or how far it is beyond the tolerance of its region.
     pub badness: f64,
@@ -34,7 +34,7 @@ pub struct WorstPlaces {
     origin: Point,
     per_cell: Point,
     diagonal: f64,
-    cells: Vec<Option<Place>>,
+    cells: Vec<Option<WorstPoint>>,
 }
 
 impl WorstPlaces {
@@ -45,7 +45,7 @@ impl WorstPlaces {
         WorstPlaces { origin: bounds.min, per_cell, diagonal: bounds.diagonal(), cells: Self::empty() }
     }
 
-    fn empty() -> Vec<Option<Place>> {
+    fn empty() -> Vec<Option<WorstPoint>> {
         vec![None; 2 * SIDE * SIDE * SIDE]
     }
 
@@ -66,7 +66,8 @@ impl WorstPlaces {
                 }
                 let at = n * TASK + i;
                 let (badness, region) = judged(at);
-                let place = Place { index: start + at as u64, point: *point, deviation, badness, region };
+                let place =
+                    WorstPoint { index: start + at as u64, point: *point, deviation, badness, region };
                 if deviation > 0.0 {
                     keep(&mut cells[2 * self.cell(point)], place);
                 } else if deviation < 0.0 {
@@ -92,11 +93,12 @@ impl WorstPlaces {
     }
 
     /// The `n` highest and the `n` lowest places that are not near one another, worst first.
-    pub fn pick(&self, n: usize) -> [Vec<Place>; 2] {
+    pub fn pick(&self, n: usize) -> [Vec<WorstPoint>; 2] {
         [0, 1].map(|side| {
-            let mut all: Vec<Place> = self.cells.iter().skip(side).step_by(2).flatten().copied().collect();
+            let mut all: Vec<WorstPoint> =
+                self.cells.iter().skip(side).step_by(2).flatten().copied().collect();
             all.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index)));
-            let mut picked: Vec<Place> = vec![];
+            let mut picked: Vec<WorstPoint> = vec![];
             for p in all {
                 let apart = picked.iter().all(|q| norm(minus(p.point, q.point)) >= APART * self.diagonal);
                 if picked.len() < n && apart {
@@ -110,13 +112,13 @@ impl WorstPlaces {
 
 /// Puts places into the order in which people look at them: the farthest beyond the tolerance first, without one the
 /// greatest deviation; of equally bad ones, the first in the file.
-pub fn sort(places: &mut [Place], zone: Option<[f64; 2]>) {
-    let bad = |p: &Place| badness(p.deviation, zone);
+pub fn sort(places: &mut [WorstPoint], zone: Option<[f64; 2]>) {
+    let bad = |p: &WorstPoint| badness(p.deviation, zone);
     places.sort_by(|a, b| bad(b).total_cmp(&bad(a)).then(a.index.cmp(&b.index)));
 }
 
 /// The worse one stays; of equal ones, the first in the file.
-fn keep(cell: &mut Option<Place>, p: Place) {
+fn keep(cell: &mut Option<WorstPoint>, p: WorstPoint) {
     let better = cell.is_none_or(|c| p.badness > c.badness || (p.badness == c.badness && p.index < c.index));
     if better {
         *cell = Some(p);
@@ -128,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_regions_and_not_neighbours() {
+    fn finds_regions_and_not_neighbors() {
         let bounds = Aabb { min: [0.0; 3], max: [100.0, 100.0, 0.0] };
         let mut w = WorstPlaces::new(&bounds);
         // A plate with two dents and one bump, 10,000 points a block, in two blocks.
@@ -154,14 +156,14 @@ mod tests {
     #[test]
     fn what_fails_comes_before_what_does_not() {
         let order = |zone| {
-            let of = |(index, deviation): (u64, f64)| Place {
+            let of = |(index, deviation): (u64, f64)| WorstPoint {
                 index,
                 point: [0.0; 3],
                 deviation,
                 badness: deviation.abs(),
                 region: 0,
             };
-            let mut places: Vec<Place> =
+            let mut places: Vec<WorstPoint> =
                 (0..).zip([0.039, 0.02, 0.01, -0.495, -0.07, 0.07]).map(of).collect();
             sort(&mut places, zone);
             places.iter().map(|p| p.index).collect::<Vec<_>>()

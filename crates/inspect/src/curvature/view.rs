@@ -1,6 +1,6 @@
-//! What a report draws of curvatures: the mesh or cloud in the colours of each of them.
+//! What a report draws of curvatures: the mesh or cloud in the colors of each of them.
 
-use super::kind::{Kind, values};
+use super::kind::{CurvatureKind, values};
 use crate::report::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::curvature::CurvatureDocument;
 use trueness_geom::curvature::{Curvatures, NoCurvature};
@@ -32,9 +32,9 @@ impl<'a> View<'a> {
         View {
             name,
             mesh,
-            values: Kind::ALL.map(|kind| values(found, kind)),
+            values: CurvatureKind::ALL.map(|kind| values(found, kind)),
             reasons: found.places.iter().map(why).collect(),
-            keep: Kind::ALL.into_iter().flat_map(ends).map(|place| place.index as u32).collect(),
+            keep: CurvatureKind::ALL.into_iter().flat_map(ends).map(|place| place.index as u32).collect(),
         }
     }
 

@@ -73,7 +73,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// Colour of a point that touches the outer or the inner boundary.
+/// Color of a point that touches the outer or the inner boundary.
 pub fn side_color(side: i8) -> crate::scale::palette::Rgb {
     category(if side > 0 { 0 } else { 4 })
 }

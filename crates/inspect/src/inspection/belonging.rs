@@ -3,7 +3,7 @@
 //! Nearness to a nominal surface alone does not tell the points of a plane from those at the upper end of a wall beside it, and a
 //! cloud has no facets that would tell by their angle. Where the reference is at hand, it does: a point that lies upon one of
 //! its facets that runs at an angle to the feature is none of the feature's. Upon: as near as most of the cloud lies to the
-//! reference. Of what lies farther off, as a bore larger than its model, the planes of the neighbours of each point tell
+//! reference. Of what lies farther off, as a bore larger than its model, the planes of the neighbors of each point tell
 //! which way it faces: a piece that faces away from the feature and goes on beyond it is of another surface if the
 //! reference has one there that faces as it does. Everything else counts, so that no dent is taken for the wall beside it. Without a
 //! reference such pieces are left out too, and nothing that depends on it passes.

@@ -6,7 +6,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
 use trueness_geom::space::{Point, Vector};
 
-/// What was measured, in measured coordinates, millimetres.
+/// What was measured, in measured coordinates, millimeters.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
     /// The measured mesh; a cloud has no facets.

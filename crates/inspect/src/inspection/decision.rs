@@ -26,7 +26,7 @@ pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<f64>) -> Verdi
 }
 
 /// Share of what is allowed that the value takes up: 1 at a limit.
-pub fn utilisation(value: f64, limits: &Limits) -> Option<f64> {
+pub fn utilization(value: f64, limits: &Limits) -> Option<f64> {
     let share = match *limits {
         // A bonus below zero may leave nothing: then there is no share of it.
         Limits::Greatest(t) if t < 0.0 => f64::INFINITY,
@@ -67,8 +67,8 @@ mod tests {
             [simple(11.95), simple(12.2), simple(11.8)],
             [Verdict::Pass, Verdict::Pass, Verdict::Fail]
         );
-        assert_eq!(utilisation(12.2, &size).map(|u| (u * 1e9).round()), Some(1e9));
-        assert_eq!(utilisation(0.0, &Limits::Greatest(0.0)), None);
+        assert_eq!(utilization(12.2, &size).map(|u| (u * 1e9).round()), Some(1e9));
+        assert_eq!(utilization(0.0, &Limits::Greatest(0.0)), None);
     }
 
     #[test]

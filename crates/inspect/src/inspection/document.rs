@@ -1,6 +1,6 @@
 //! From what was found by a plan to the result document.
 
-use super::decision::{utilisation, verdict};
+use super::decision::{utilization, verdict};
 use super::left_out;
 use super::{Element, Found, Inspection, Taken};
 use crate::characteristic::Value;
@@ -241,7 +241,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         decision_rule: rule.word().into(),
         verdict: judged_with.verdict,
         reason: value.as_ref().err().cloned(),
-        utilisation: measured.and_then(|v| utilisation(v.value, &limits)),
+        utilization: measured.and_then(|v| utilization(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
         parts: measured

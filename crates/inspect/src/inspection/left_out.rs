@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use trueness_geom::feature::{Nearness, Nominal, in_cloud};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, Vector, minus, times};
-use trueness_geom::spatial::neighbours::{Neighbour, PointTree};
+use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
 
 /// A place of the feature was not measured if no point is within so many mean spacings of it: the chance of that is one in a
 /// million where points lie at random.
@@ -85,7 +85,7 @@ fn over_gaps(cloud: &[Point], taken: &[Point], nominal: &Nominal, near: &Nearnes
     let counts = |n: usize, (p, off, way): &(Point, f64, Vector)| {
         let foot = minus(*p, times(*off, *way));
         let is_gap = own.nearest(&foot).is_none_or(|(square, _)| square > gap * gap);
-        let last = |n: Vec<Neighbour>, count: usize| n.get(count - 1).map_or(f64::INFINITY, |n| n.0);
+        let last = |n: Vec<Neighbor>, count: usize| n.get(count - 1).map_or(f64::INFINITY, |n| n.0);
         let reach = last(own.k_nearest(p, OWN, None), OWN);
         is_gap || last(beyond.k_nearest(p, OTHERS, Some(n as u32)), OTHERS) > reach
     };
@@ -160,7 +160,7 @@ pub(super) fn judge_left_out(
     result
 }
 
-/// To the micrometre.
+/// To the micrometer.
 fn round(x: f64) -> f64 {
     (1e6 * x).round() / 1e6
 }

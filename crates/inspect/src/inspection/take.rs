@@ -15,7 +15,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, Vector, cross, minus, norm, plus, times};
-use trueness_geom::spatial::neighbours::PointTree;
+use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::zone::datum::{self, Datum, mean};
 
 /// All features of the plan, in its order.

@@ -26,7 +26,7 @@ const MOST_CORNERS: usize = 200_000;
 /// The expanded uncertainty of a value (k = 2), and where it comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// Millimetres, or degrees for an angle.
+    /// Millimeters, or degrees for an angle.
     pub expanded: f64,
     /// `plan`, `noise`, or `plan and noise`.
     pub source: &'static str,

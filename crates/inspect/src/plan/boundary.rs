@@ -9,7 +9,7 @@ pub struct Boundary {
     pub word: MaterialWord,
     /// Whether the surface must lie within it, as that of a shaft in a gauge ring; else around it.
     pub around: bool,
-    /// Maximum or least material size: a diameter, millimetres.
+    /// Maximum or least material size: a diameter, millimeters.
     pub size: f64,
 }
 

@@ -7,7 +7,7 @@ use std::ops::Range;
 /// A text under examination: what is wrong is told with its place.
 pub(super) struct Checker<'a> {
     pub(super) text: &'a str,
-    /// Millimetres in the plan's unit.
+    /// Millimeters in the plan's unit.
     pub(super) unit: f64,
 }
 
@@ -16,7 +16,7 @@ impl Checker<'_> {
         Err(PlanError::at(self.text, span, what))
     }
 
-    /// A finite length in millimetres.
+    /// A finite length in millimeters.
     pub(super) fn length(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
         match number.value.is_finite() {
             true => Ok(number.value * self.unit),
@@ -24,7 +24,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A finite length in millimetres that is not below zero.
+    /// A finite length in millimeters that is not below zero.
     pub(super) fn not_negative(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
         match self.length(number, what)? {
             x if x >= 0.0 => Ok(x),

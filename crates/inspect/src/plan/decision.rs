@@ -9,7 +9,7 @@ use super::text::{DecisionText, PlanText, RuleWord};
 pub struct Decision {
     /// The rule.
     pub rule: Rule,
-    /// Expanded uncertainty of values that have none of their own, millimetres (degrees for angles).
+    /// Expanded uncertainty of values that have none of their own, millimeters (degrees for angles).
     pub uncertainty: Option<f64>,
     /// The noise of the measured points, from which uncertainties are found.
     pub noise: Option<Noise>,
@@ -18,9 +18,9 @@ pub struct Decision {
 /// The noise of measured points, and how often it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Standard deviation of each coordinate, millimetres.
+    /// Standard deviation of each coordinate, millimeters.
     pub deviation: f64,
-    /// Length within which points move together, millimetres; 0 where each moves alone.
+    /// Length within which points move together, millimeters; 0 where each moves alone.
     pub correlation: f64,
     /// Number of draws.
     pub draws: u32,

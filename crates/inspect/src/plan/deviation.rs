@@ -8,7 +8,7 @@ use super::tolerance_region::{Region, regions, share, zone};
 use crate::compare::{AlongRule, Coverage, OutlierRule};
 use crate::tolerance::Tolerance;
 
-/// What is asked of the deviations. Lengths in millimetres.
+/// What is asked of the deviations. Lengths in millimeters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     /// The zone that they must keep; without it they are told and not judged.

@@ -397,7 +397,7 @@ fn extract(checker: &Checker, written: Option<&ExtractText>) -> Result<Extract, 
     })
 }
 
-/// What of the measured data belongs to a feature of the model. Lengths in millimetres.
+/// What of the measured data belongs to a feature of the model. Lengths in millimeters.
 #[derive(Clone, Copy, Debug)]
 pub struct Extract {
     distance: Option<f64>,

@@ -1,6 +1,6 @@
 //! What is given and what is allowed.
 
-/// Theoretically exact dimensions, millimetres and radians.
+/// Theoretically exact dimensions, millimeters and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Basic {
     /// Coordinates in the datum system.
@@ -17,13 +17,13 @@ pub enum ZoneOffset {
     /// Evenly about it.
     #[default]
     None,
-    /// About its offset by this many millimetres out of the material (UZ).
+    /// About its offset by this many millimeters out of the material (UZ).
     By(f64),
     /// About the offset that makes it narrowest (OZ).
     Free,
 }
 
-/// What is allowed; the limits belong to it. Millimetres; degrees for angles.
+/// What is allowed; the limits belong to it. Millimeters; degrees for angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limits {
     /// No more than this.

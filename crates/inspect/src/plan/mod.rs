@@ -40,7 +40,7 @@ use text::{PlanText, UnitWord};
 /// Name of the plan's schema.
 pub const SCHEMA: &str = "trueness/plan/1";
 
-/// A plan that can be evaluated. Lengths in millimetres, angles in radians.
+/// A plan that can be evaluated. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Heading.
@@ -91,7 +91,7 @@ impl Plan {
     /// ```
     pub fn parse(text: &str) -> Result<Plan, PlanError> {
         let written: PlanText = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
-        let unit = written.units.as_ref().map_or(1.0, |u| u.value.millimetres());
+        let unit = written.units.as_ref().map_or(1.0, |u| u.value.millimeters());
         let checker = Checker { text, unit };
         if written.schema.value != SCHEMA {
             let what = format!("the schema is \"{}\"; this program reads \"{SCHEMA}\"", written.schema.value);

@@ -23,7 +23,7 @@ pub struct Region {
 /// Most regions: their numbers are kept for each facet.
 const MOST: usize = 1000;
 
-/// The regions of a file: `[[region]]` with `id`, `seed` or `between`, `tolerance`, `inside`; lengths in millimetres.
+/// The regions of a file: `[[region]]` with `id`, `seed` or `between`, `tolerance`, `inside`; lengths in millimeters.
 ///
 /// # Errors
 /// The first fault, with line and column, as of plans.
@@ -80,7 +80,7 @@ fn region(checker: &Checker, written: &RegionText, features: &[Feature]) -> Resu
     Ok(Region { rule, feature, span: written.id.span.clone() })
 }
 
-/// A zone as it is written, in millimetres.
+/// A zone as it is written, in millimeters.
 pub(super) fn zone(checker: &Checker, written: &At<[f64; 2]>) -> Result<Tolerance, PlanError> {
     let [lower, upper] = written.value.map(|x| x * checker.unit);
     if lower.is_finite() && upper.is_finite() && lower <= upper {

@@ -10,9 +10,9 @@ use trueness_geom::space::{Point, Vector, normal};
 
 /// Facets drawn as new or gone, at most.
 const MOST: usize = 100_000;
-/// Colour of facets that came.
+/// Color of facets that came.
 pub const NEW: Rgb = [0x00, 0x91, 0x3f];
-/// Colour of facets that went.
+/// Color of facets that went.
 pub const GONE: Rgb = [0xc8, 0x1e, 0x1e];
 
 /// A repair prepared for drawing.

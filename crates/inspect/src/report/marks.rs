@@ -15,18 +15,18 @@ pub struct Marks {
     pub groups: Vec<MarkGroup>,
 }
 
-/// Marks of one colour.
+/// Marks of one color.
 #[derive(Clone, Debug)]
 pub struct MarkGroup {
     /// Key of its name in the table of words.
     pub key: String,
-    /// Its colour.
+    /// Its color.
     pub color: Rgb,
     /// What is drawn; one each for a row of the list, if there are rows.
     pub items: Vec<Mark>,
 }
 
-/// One thing that is marked, millimetres. Coordinates that are not finite are left out.
+/// One thing that is marked, millimeters. Coordinates that are not finite are left out.
 #[derive(Clone, Debug, Default)]
 pub struct Mark {
     /// Areas.
@@ -50,7 +50,7 @@ impl Marks {
         self.groups.iter().flat_map(|g| &g.items)
     }
 
-    /// All marks with their colours.
+    /// All marks with their colors.
     pub fn colored(&self) -> impl Iterator<Item = (&Mark, Rgb)> {
         self.groups.iter().flat_map(|g| g.items.iter().map(|m| (m, g.color)))
     }

@@ -45,7 +45,7 @@ pub struct ReportSummary {
     pub points_shown: usize,
     /// Points given for drawing.
     pub points_given: usize,
-    /// Farthest that what is drawn lies from what was given, millimetres.
+    /// Farthest that what is drawn lies from what was given, millimeters.
     pub display_error: f64,
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 
-/// What an object is to the reader: what it is called, its colour, and what switches it on and off.
+/// What an object is to the reader: what it is called, its color, and what switches it on and off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ViewRole {
@@ -60,7 +60,7 @@ impl ViewRole {
         !matches!(self, ViewRole::Edges | ViewRole::IsoLines)
     }
 
-    /// Colour of what has no map: warm grey for what was measured, blue-grey for what it is compared with.
+    /// Color of what has no map: warm gray for what was measured, blue-gray for what it is compared with.
     pub fn color(self) -> Rgb {
         match self {
             ViewRole::Reference | ViewRole::Before | ViewRole::Surface => [0x8f, 0xa3, 0xbf],
@@ -76,7 +76,7 @@ pub struct ViewObject<'a> {
     pub role: ViewRole,
     /// Shown to the reader; any text at all.
     pub name: &'a str,
-    /// Colour of what has no map; the role's own where there is none.
+    /// Color of what has no map; the role's own where there is none.
     pub color: Option<Rgb>,
     /// For a reference, its number in the result's `comparisons`.
     pub comparison: Option<usize>,
@@ -93,13 +93,13 @@ pub struct ViewObject<'a> {
 /// How an object shows points that are not its own places.
 #[derive(Clone, Copy, Debug)]
 pub struct Gathered {
-    /// Farthest that a shown point can be, along the surface, from where it is shown, millimetres.
+    /// Farthest that a shown point can be, along the surface, from where it is shown, millimeters.
     pub reach: f64,
     /// Vertices of the surface before it was refined for drawing.
     pub vertices: usize,
 }
 
-/// Places, millimetres.
+/// Places, millimeters.
 #[derive(Clone, Copy)]
 pub enum Geometry<'a> {
     /// A cloud.
@@ -112,7 +112,7 @@ pub enum Geometry<'a> {
 pub struct ViewField<'a> {
     /// Number in the result's `comparisons`.
     pub comparison: usize,
-    /// Millimetres, + outside; NaN where there is none.
+    /// Millimeters, + outside; NaN where there is none.
     pub values: &'a [f64],
     /// Why there is none, place by place; where the list is too short the reason is unknown.
     pub reasons: &'a [NoValue],

@@ -5,7 +5,7 @@ use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::check::{KINDS, Kind, Severity};
+use trueness_geom::check::{DefectKind, KINDS, Severity};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/check/1";
@@ -49,10 +49,12 @@ pub struct CheckDocument {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub volume_note: Option<String>,
     /// Centre of mass of that volume.
-    pub centre_of_mass: Option<[f64; 3]>,
+    #[serde(rename = "centre_of_mass")]
+    pub center_of_mass: Option<[f64; 3]>,
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub centre_of_mass_reason: Option<String>,
+    #[serde(rename = "centre_of_mass_reason")]
+    pub center_of_mass_reason: Option<String>,
     /// Vertices − edges + facets.
     pub euler_characteristic: i64,
     /// Handles of all shells together; `null` unless the mesh is a closed, consistently oriented surface.
@@ -123,14 +125,14 @@ pub struct Item {
 
 impl CheckDocument {
     /// Kinds that were found, as [`found`] orders them.
-    pub fn found(&self) -> Vec<(&'static Kind, &Defects)> {
+    pub fn found(&self) -> Vec<(&'static DefectKind, &Defects)> {
         found(&self.defects)
     }
 }
 
 /// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
 /// which the check tells them.
-pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static Kind, &Defects)> {
+pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static DefectKind, &Defects)> {
     let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
     let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
     let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);

@@ -198,7 +198,8 @@ pub struct CharacteristicRecord {
     /// Why there is no value.
     pub reason: Option<String>,
     /// Share of what is allowed that the value takes up; 1 is at a limit.
-    pub utilisation: Option<f64>,
+    #[serde(rename = "utilisation")]
+    pub utilization: Option<f64>,
     /// Places where the value is reached.
     pub witness: Vec<[f64; 3]>,
     /// Where a leader may end: on the feature.
@@ -278,7 +279,7 @@ impl InspectDocument {
     /// most of what is allowed.
     pub fn rows(&self) -> Vec<&CharacteristicRecord> {
         let mut rows: Vec<&CharacteristicRecord> = self.characteristics.iter().collect();
-        let used = |c: &CharacteristicRecord| c.utilisation.unwrap_or(0.0);
+        let used = |c: &CharacteristicRecord| c.utilization.unwrap_or(0.0);
         rows.sort_by(|a, b| rank(b.verdict).cmp(&rank(a.verdict)).then(used(b).total_cmp(&used(a))));
         rows
     }

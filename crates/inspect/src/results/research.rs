@@ -114,5 +114,6 @@ pub struct Moran {
     /// Points looked at.
     pub count: u64,
     /// Mean distance of the neighbours, millimetres.
-    pub neighbour_distance: f64,
+    #[serde(rename = "neighbour_distance")]
+    pub neighbor_distance: f64,
 }

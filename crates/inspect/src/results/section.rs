@@ -14,7 +14,7 @@ use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::section::{
-    Continuity, Contour, Geometry, Kind, Method, Options, Search, Segment, Taken, Uncertainty,
+    Continuity, Contour, Geometry, Method, Options, Search, Segment, SegmentKind, Taken, Uncertainty,
 };
 
 /// Name of this document's schema.
@@ -373,7 +373,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         })
         .collect();
     let reason = match &found.segments[..] {
-        [one] if one.geometry.kind() != Kind::Line => {
+        [one] if one.geometry.kind() != SegmentKind::Line => {
             Some("one segment fits all points; no line segment found")
         }
         [_] => Some("one line fits all points"),
@@ -422,7 +422,7 @@ fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
     });
     let reason = match (found.geometry.kind(), taken) {
         _ if uncertainty.is_some() => None,
-        (Kind::Spline, _) => Some("a spline is not known by single numbers"),
+        (SegmentKind::Spline, _) => Some("a spline is not known by single numbers"),
         (_, Taken::Facets) => Some("facets of a drawing carry no random noise"),
         _ => Some("the points alone do not tell it"),
     };

@@ -81,9 +81,9 @@ statistics! {
     median median_reason,
     /// Median of the distances from the median.
     mad mad_reason,
-    /// Third standardised moment.
+    /// Third standardized moment.
     skewness skewness_reason,
-    /// Fourth standardised moment less 3.
+    /// Fourth standardized moment less 3.
     kurtosis kurtosis_reason,
 }
 

@@ -1,9 +1,9 @@
-//! Colours of the bands: three sets of anchors, and what lies between them.
+//! Colors of the bands: three sets of anchors, and what lies between them.
 //!
-//! Between anchors colours are mixed in OKLab (B. Ottosson, "A perceptual color space for image processing", 2020), where
+//! Between anchors colors are mixed in OKLab (B. Ottosson, "A perceptual color space for image processing", 2020), where
 //! equal steps look equal.
 
-/// A colour as sRGB bytes.
+/// A color as sRGB bytes.
 pub type Rgb = [u8; 3];
 
 /// Its six hexadecimal digits.
@@ -19,12 +19,12 @@ const INSPECT: Anchors = [
     0x14104f, 0x1b2fd0, 0x2a7df0, 0x37bdf2, 0x7fe3dc, 0x2fa84a, 0xdfee7a, 0xf7cf1e, 0xee8420, 0xd3201f,
     0x650812,
 ];
-/// Blue to brown, apart for every kind of colour vision.
+/// Blue to brown, apart for every kind of color vision.
 const SAFE: Anchors = [
     0x0a1c47, 0x17509e, 0x3f86c9, 0x7fb6de, 0xbcd9ec, 0xeef0ea, 0xf7dcae, 0xf0b765, 0xde8a2c, 0xa9500f,
     0x541f04,
 ];
-/// Greys for print; the hatching's direction tells the sides apart.
+/// Grays for print; the hatching's direction tells the sides apart.
 const MONO: Anchors = [
     0x1c1c1c, 0x4a4a4a, 0x737373, 0x9a9a9a, 0xc2c2c2, 0xf2f2f2, 0xc2c2c2, 0x9a9a9a, 0x737373, 0x4a4a4a,
     0x1c1c1c,
@@ -33,7 +33,7 @@ const MONO: Anchors = [
 /// Names of the palettes, the default first.
 pub const NAMES: [&str; 3] = ["inspect", "safe", "mono"];
 
-/// Colours of `bands` bands from low to high, between the two caps: `bands + 2` in all.
+/// Colors of `bands` bands from low to high, between the two caps: `bands + 2` in all.
 /// An unknown name means `inspect`. With nine bands they are the anchors themselves.
 pub fn colors(name: &str, bands: usize) -> Vec<Rgb> {
     let anchors = match name {
@@ -53,11 +53,11 @@ pub fn colors(name: &str, bands: usize) -> Vec<Rgb> {
     all
 }
 
-/// Colours that tell kinds apart, each clear of the grey of a part in light and shade.
+/// Colors that tell kinds apart, each clear of the gray of a part in light and shade.
 const CATEGORIES: [u32; 10] =
     [0xd6006c, 0xf07800, 0x0b62e0, 0x00913f, 0x7d3cf0, 0xc81e1e, 0x008fa3, 0x9a6700, 0x5c6b00, 0xff5fa8];
 
-/// The colour of the `n`-th kind. Beyond ten the same come again, lighter or darker.
+/// The color of the `n`-th kind. Beyond ten the same come again, lighter or darker.
 pub fn category(n: usize) -> Rgb {
     let base = bytes(CATEGORIES[n % CATEGORIES.len()]);
     let round = n / CATEGORIES.len();
@@ -70,7 +70,7 @@ fn bytes(hex: u32) -> Rgb {
     [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8]
 }
 
-/// The colour a share `t` (0 to 1) of the way from `a` to `b`; exactly `a` at 0 and `b` at 1.
+/// The color a share `t` (0 to 1) of the way from `a` to `b`; exactly `a` at 0 and `b` at 1.
 pub fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
     if t <= 0.0 {
         return a;
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grey_between_greys_is_grey() {
+    fn a_gray_between_grays_is_gray() {
         let [r, g, b] = mix([0, 0, 0], [255, 255, 255], 0.5);
         // OKLab lightness 0.5 is linear 0.125, sRGB byte 99.
         assert_eq!((r, g, b), (99, 99, 99));

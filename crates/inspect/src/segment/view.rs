@@ -1,4 +1,4 @@
-//! What a report draws of a segmentation: every region in its own colour, with the lines between them.
+//! What a report draws of a segmentation: every region in its own color, with the lines between them.
 
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::segment::SegmentDocument;

@@ -1,7 +1,7 @@
-//! What a report draws of a fitted surface: the surface in the colours of its curvatures, the points over it in those of their
+//! What a report draws of a fitted surface: the surface in the colors of its curvatures, the points over it in those of their
 //! deviations, the control net, and the iso-lines at the knots.
 
-use crate::curvature::Kind;
+use crate::curvature::CurvatureKind;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::surface::SurfaceDocument;
 use crate::scale::palette::Rgb;
@@ -29,7 +29,7 @@ pub struct View<'a> {
     deviations: &'a [f64],
     keep: [u32; 1],
     mesh: Mesh,
-    /// Curvatures at the vertices, in the order of [`Kind::ALL`].
+    /// Curvatures at the vertices, in the order of [`CurvatureKind::ALL`].
     curvatures: [Vec<f64>; 4],
     reasons: Vec<NoValue>,
     /// Iso-lines, then the control net.
@@ -52,7 +52,7 @@ impl<'a> View<'a> {
             .iter()
             .map(|held| if *held { NoValue::Undetermined } else { NoValue::NotMeasured })
             .collect();
-        let curvatures = Kind::ALL.map(|kind| {
+        let curvatures = CurvatureKind::ALL.map(|kind| {
             let value =
                 |(b, held): (&Option<Bend>, &bool)| b.filter(|_| *held).map_or(f64::NAN, |b| kind.of(&b));
             bends.iter().zip(&held).map(value).collect()
@@ -182,7 +182,7 @@ fn iso_lines(surface: &Surface<Point>, patches: &Patches, [us, vs]: &[Vec<f64>; 
     mark
 }
 
-/// The control points and the lines between neighbours.
+/// The control points and the lines between neighbors.
 fn net(surface: &Surface<Point>) -> Mark {
     let [m, n] = surface.counts();
     let points = surface.points();

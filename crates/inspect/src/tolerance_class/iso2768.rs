@@ -9,7 +9,7 @@ use super::error::ClassError;
 type Table<const RANGES: usize, const CLASSES: usize, T> =
     ([f64; RANGES], [(&'static str, [T; RANGES]); CLASSES]);
 
-/// Ends of the lengths of linear dimensions, millimetres, and their limit deviations by class.
+/// Ends of the lengths of linear dimensions, millimeters, and their limit deviations by class.
 const LINEAR: Table<8, 4, Option<f64>> = (
     [3.0, 6.0, 30.0, 120.0, 400.0, 1000.0, 2000.0, 4000.0],
     [

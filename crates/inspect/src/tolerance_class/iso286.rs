@@ -1,17 +1,17 @@
 //! Tolerance classes of sizes: ISO 286-1:2010, tables 1, 4 and 5, for nominal sizes up to 500 mm.
 //!
 //! A class is a fundamental deviation (letters) and a standard tolerance grade (number). The tables hold the shafts' values
-//! in micrometres as ISO 286-1 rounds them; those of holes follow by its rules: the mirrored value for D to
+//! in micrometers as ISO 286-1 rounds them; those of holes follow by its rules: the mirrored value for D to
 //! H, and for K to S the mirrored value and the difference Δ of the grade and the next finer one.
 //!
 //! Letters that are not here (a to c, cd, ef, fg, j of holes, t to zc) and sizes above 500 mm are refused.
 
 use super::error::ClassError;
 
-/// Upper ends of the nominal sizes, millimetres; a range is above the one before it, up to and including its end.
+/// Upper ends of the nominal sizes, millimeters; a range is above the one before it, up to and including its end.
 const ENDS: [f64; 13] = [3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0, 315.0, 400.0, 500.0];
 
-/// Standard tolerances IT1 to IT18, micrometres (ISO 286-1:2010, table 1).
+/// Standard tolerances IT1 to IT18, micrometers (ISO 286-1:2010, table 1).
 const IT: [[f64; 13]; 18] = [
     [0.8, 1.0, 1.0, 1.2, 1.5, 1.5, 2.0, 2.5, 3.5, 4.5, 6.0, 7.0, 8.0],
     [1.2, 1.5, 1.5, 2.0, 2.5, 2.5, 3.0, 4.0, 5.0, 7.0, 8.0, 9.0, 10.0],
@@ -33,7 +33,7 @@ const IT: [[f64; 13]; 18] = [
     [1400.0, 1800.0, 2200.0, 2700.0, 3300.0, 3900.0, 4600.0, 5400.0, 6300.0, 7200.0, 8100.0, 8900.0, 9700.0],
 ];
 
-/// Magnitude of the upper deviation of shafts d to g, micrometres (ISO 286-1:2010, table 4).
+/// Magnitude of the upper deviation of shafts d to g, micrometers (ISO 286-1:2010, table 4).
 const CLEAR: [(&str, [f64; 13]); 4] = [
     ("d", [20.0, 30.0, 40.0, 50.0, 65.0, 80.0, 100.0, 120.0, 145.0, 170.0, 190.0, 210.0, 230.0]),
     ("e", [14.0, 20.0, 25.0, 32.0, 40.0, 50.0, 60.0, 72.0, 85.0, 100.0, 110.0, 125.0, 135.0]),
@@ -41,7 +41,7 @@ const CLEAR: [(&str, [f64; 13]); 4] = [
     ("g", [2.0, 4.0, 5.0, 6.0, 7.0, 9.0, 10.0, 12.0, 14.0, 15.0, 17.0, 18.0, 20.0]),
 ];
 
-/// Lower deviation of shafts k (IT4 to IT7) to p, micrometres (ISO 286-1:2010, table 5).
+/// Lower deviation of shafts k (IT4 to IT7) to p, micrometers (ISO 286-1:2010, table 5).
 const TIGHT: [(&str, [f64; 13]); 4] = [
     ("k", [0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0, 5.0]),
     ("m", [2.0, 4.0, 6.0, 7.0, 8.0, 9.0, 11.0, 13.0, 15.0, 17.0, 20.0, 21.0, 23.0]),
@@ -49,13 +49,13 @@ const TIGHT: [(&str, [f64; 13]); 4] = [
     ("p", [6.0, 12.0, 15.0, 18.0, 22.0, 26.0, 32.0, 37.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
 ];
 
-/// Upper ends of the finer ranges of r and s, millimetres.
+/// Upper ends of the finer ranges of r and s, millimeters.
 const FINE_ENDS: [f64; 22] = [
     3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 65.0, 80.0, 100.0, 120.0, 140.0, 160.0, 180.0, 200.0, 225.0, 250.0,
     280.0, 315.0, 355.0, 400.0, 450.0, 500.0,
 ];
 
-/// Lower deviation of shafts r and s, micrometres (ISO 286-1:2010, table 5).
+/// Lower deviation of shafts r and s, micrometers (ISO 286-1:2010, table 5).
 const TIGHTER: [(&str, [f64; 22]); 2] = [
     (
         "r",
@@ -73,7 +73,7 @@ const TIGHTER: [(&str, [f64; 22]); 2] = [
     ),
 ];
 
-/// Lower deviation of shafts j5 and j6, and of j7, micrometres (ISO 286-1:2010, table 4).
+/// Lower deviation of shafts j5 and j6, and of j7, micrometers (ISO 286-1:2010, table 4).
 const J: [[f64; 13]; 2] = [
     [-2.0, -2.0, -2.0, -3.0, -4.0, -5.0, -7.0, -9.0, -11.0, -13.0, -16.0, -18.0, -20.0],
     [-4.0, -4.0, -5.0, -6.0, -8.0, -10.0, -12.0, -15.0, -18.0, -21.0, -26.0, -28.0, -32.0],
@@ -86,7 +86,7 @@ fn range(ends: &[f64], nominal: f64) -> Option<usize> {
     ends.iter().position(|end| nominal <= *end).filter(|_| nominal > 0.0)
 }
 
-/// Lower and upper limit deviation in millimetres.
+/// Lower and upper limit deviation in millimeters.
 pub(super) fn limits(class: &str, nominal: f64) -> Result<[f64; 2], ClassError> {
     let digits = class.find(|c: char| c.is_ascii_digit()).unwrap_or(class.len());
     let (letters, number) = class.split_at(digits);
@@ -112,7 +112,7 @@ pub(super) fn limits(class: &str, nominal: f64) -> Result<[f64; 2], ClassError> 
     }
     let width = IT[grade - 1][at];
     let class = Class { text: class, letters: &lower, hole, grade, at, fine, width };
-    let [from, to] = class.micrometres(nominal)?.ok_or_else(unknown)?;
+    let [from, to] = class.micrometers(nominal)?.ok_or_else(unknown)?;
     Ok([from / 1000.0, to / 1000.0])
 }
 
@@ -129,8 +129,8 @@ struct Class<'a> {
 }
 
 impl Class<'_> {
-    /// Limits in micrometres; `None` for letters that are in no table.
-    fn micrometres(&self, nominal: f64) -> Result<Option<[f64; 2]>, ClassError> {
+    /// Limits in micrometers; `None` for letters that are in no table.
+    fn micrometers(&self, nominal: f64) -> Result<Option<[f64; 2]>, ClassError> {
         let (width, grade) = (self.width, self.grade);
         if self.letters == "js" {
             return Ok(Some([-0.5 * width, 0.5 * width]));

@@ -33,8 +33,8 @@ impl Table {
         !matches!(self, Table::Size | Table::Linear | Table::Runout)
     }
 
-    /// Lower and upper limit deviation by a class; of a form or attitude 0 and the tolerance. Millimetres, of an angle
-    /// degrees. `nominal` is the nominal value, `length` the length that a table goes by, both in millimetres.
+    /// Lower and upper limit deviation by a class; of a form or attitude 0 and the tolerance. Millimeters, of an angle
+    /// degrees. `nominal` is the nominal value, `length` the length that a table goes by, both in millimeters.
     ///
     /// # Errors
     /// [`ClassError`]: letters, grades and ranges that are not in the tables.

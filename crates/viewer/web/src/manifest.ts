@@ -17,7 +17,7 @@ export interface Manifest {
   display_error: number
 }
 
-/** Colours of each palette, hexadecimal. */
+/** Colors of each palette, hexadecimal. */
 export type Palettes = Record<string, { bands: string; ramp: string; go_no_go: string }>
 
 export type AnyObject = ViewObject | MarksObject
@@ -40,7 +40,7 @@ export interface ViewObject extends Entry {
   color: string
   comparison: number | null
   source_vertices: number
-  /** Set where a place shows the worst measured point near it: how far that can be, millimetres. */
+  /** Set where a place shows the worst measured point near it: how far that can be, millimeters. */
   reach?: number | null
   triangles?: number
   corners?: { blob: number }
@@ -96,7 +96,7 @@ export interface FirstView {
   places: number[]
 }
 
-/** Values that can be shown as colours, with what the scale draws beside them. */
+/** Values that can be shown as colors, with what the scale draws beside them. */
 export interface MapEntry {
   name: string
   count: number
@@ -105,9 +105,9 @@ export interface MapEntry {
   histogram: Histogram | null
   /** Least to greatest, evenly spaced; all values where they are as many as `count`. */
   quantiles: number[]
-  /** How many values have each colour of the scale as the page opens; absent where not all values are at hand. */
+  /** How many values have each color of the scale as the page opens; absent where not all values are at hand. */
   slots: number[] | null
-  /** Where maps differ in it: their own scale, the colours of that, and the words as in the manifest. */
+  /** Where maps differ in it: their own scale, the colors of that, and the words as in the manifest. */
   scale: ScaleObject | null
   palettes: Palettes | null
   quantity: [string, string, string] | null

@@ -8,7 +8,7 @@ export class State {
   colors: Colors
   /** Number of the map that is shown. */
   comparison = 0
-  /** Only deviations in this range are coloured. */
+  /** Only deviations in this range are colored. */
   only: [number, number] | null = null
   /** Deviation under the cursor. */
   hover: number | null = null
@@ -96,7 +96,7 @@ export class State {
     return distribution.known ? distribution.between(from, to) : null
   }
 
-  /** Share of the deviations with a colour of the scale, 0 being the low cap; a limit belongs to the band nearer the middle. */
+  /** Share of the deviations with a color of the scale, 0 being the low cap; a limit belongs to the band nearer the middle. */
   slotShare(slot: number): Share | null {
     const { limits } = this.colors
     const zone = this.current?.tolerance
@@ -183,7 +183,7 @@ export class State {
     this.visible[role] = on
     const other = { before: 'after', after: 'before', part: 'deviation', deviation: 'part' }[role]
     if (other && other in this.visible) this.visible[other] = !on
-    // Rims in the colours of verdicts belong to the features, not to the map in their place.
+    // Rims in the colors of verdicts belong to the features, not to the map in their place.
     if (other === 'deviation' || other === 'part') this.followPart()
     this.tell('look')
   }

@@ -54,7 +54,7 @@ export async function screen(page) {
   return decode(await page.screenshot())
 }
 
-/** Decodes a PNG of 8-bit colours without interlacing. */
+/** Decodes a PNG of 8-bit colors without interlacing. */
 export function decode(png) {
   const chunks = []
   let width, height, channels

@@ -2,11 +2,11 @@
 
 use crate::console::columns;
 use crate::number::{EDGES, FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped};
-use trueness_geom::check::Kind;
+use trueness_geom::check::DefectKind;
 use trueness_inspect::results::check::{CheckDocument, Defects};
 
 /// The whole text; kinds in the order given.
-pub fn text(d: &CheckDocument, kinds: &[&Kind]) -> String {
+pub fn text(d: &CheckDocument, kinds: &[&DefectKind]) -> String {
     let mut out = head(d);
     let mut rows = vec![];
     for kind in kinds {
@@ -51,7 +51,7 @@ fn head(d: &CheckDocument) -> String {
             (None, reason) => format!("none: {}", reason.as_deref().unwrap_or_default()),
         },
     ));
-    if let Some(place) = d.centre_of_mass {
+    if let Some(place) = d.center_of_mass {
         rows.push(("centre", format!("{} (of mass)", place.map(|x| fixed(x, 6)).join(", "))));
     }
     let genus = d.genus.map(|g| format!(", genus {g}")).unwrap_or_default();

@@ -50,7 +50,7 @@ impl OutputArgs {
             .report(self.report.html.as_ref())
     }
 
-    /// The colour scale of `--scale`.
+    /// The color scale of `--scale`.
     pub fn read_scale(&self) -> anyhow::Result<Option<Scale>> {
         let Some(path) = &self.scale else { return Ok(None) };
         let shown = path.display();
@@ -85,7 +85,7 @@ fn numbered(path: &Path, i: usize, references: usize) -> PathBuf {
     }
 }
 
-/// The per-point files of `--out`: one a reference. Files that are looked at, PLY and VTP, are coloured always, the others
+/// The per-point files of `--out`: one a reference. Files that are looked at, PLY and VTP, are colored always, the others
 /// where the scale is known beforehand.
 pub struct PointFiles {
     files: Vec<PointFile>,
@@ -94,7 +94,7 @@ pub struct PointFiles {
 }
 
 enum PointFile {
-    /// Written as the points come, coloured if there is a scale.
+    /// Written as the points come, colored if there is a scale.
     Now(PointsFile, Option<Scale>),
     /// Written when the scale is known.
     Later(HeldPoints),
@@ -115,7 +115,7 @@ impl PointFiles {
         let file = |i: usize| match &scale {
             None if looked_at => HeldPoints::create(&name(i), reasons).map(PointFile::Later),
             scale => {
-                let layout = Layout { deviation: true, reason: reasons, colour: scale.is_some() };
+                let layout = Layout { deviation: true, reason: reasons, color: scale.is_some() };
                 Ok(PointFile::Now(write::points(&name(i), layout)?, scale.clone()))
             }
         };
@@ -123,7 +123,7 @@ impl PointFiles {
     }
 
     /// Adds a block to every file.
-    pub fn write(&mut self, block: &compare::Block) -> Result<(), WriteError> {
+    pub fn write(&mut self, block: &compare::DeviationBlock) -> Result<(), WriteError> {
         let numbers = |values: &[f64]| -> Vec<f64> {
             values.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect()
         };
@@ -135,12 +135,12 @@ impl PointFiles {
                 if self.reasons { deviations.par_iter().map(number).collect() } else { vec![] };
             match file {
                 PointFile::Now(file, scale) => {
-                    let colour = scale.as_ref().map_or(vec![], |scale| colours(scale, &numbers(deviations)));
+                    let color = scale.as_ref().map_or(vec![], |scale| colors(scale, &numbers(deviations)));
                     file.write(&write::Block {
                         points: block.points,
                         deviation: &deviation,
                         reason: &reason,
-                        colour: &colour,
+                        color: &color,
                     })?;
                 }
                 PointFile::Later(file) => file.write(block.points, &deviation, &reason)?,
@@ -149,16 +149,16 @@ impl PointFiles {
         Ok(())
     }
 
-    /// Puts the files in their places, in the colours of `scale` if they have not got any yet.
+    /// Puts the files in their places, in the colors of `scale` if they have not got any yet.
     pub fn finish(self, scale: &Scale) -> Result<(), WriteError> {
         self.files.into_iter().try_for_each(|file| match file {
             PointFile::Now(file, _) => file.finish().map(drop),
-            PointFile::Later(file) => file.finish(|deviation| colours(scale, deviation)).map(drop),
+            PointFile::Later(file) => file.finish(|deviation| colors(scale, deviation)).map(drop),
         })
     }
 }
 
-/// The colour of each deviation; grey for none.
-fn colours(scale: &Scale, deviation: &[f64]) -> Vec<[u8; 3]> {
+/// The color of each deviation; gray for none.
+fn colors(scale: &Scale, deviation: &[f64]) -> Vec<[u8; 3]> {
     deviation.par_iter().map(|&d| scale.color(d)).collect()
 }

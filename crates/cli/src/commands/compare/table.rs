@@ -298,7 +298,7 @@ fn research(r: &Research) -> String {
             [] => "–".into(),
         }),
         line("Moran's I", &r.moran, |m| {
-            format!("{} over {} mm (p {})", fixed(m.i, 4), number(m.neighbour_distance), p_value(m.p_value))
+            format!("{} over {} mm (p {})", fixed(m.i, 4), number(m.neighbor_distance), p_value(m.p_value))
         }),
     ];
     let width = rows.iter().map(|r| r[0].chars().count()).max().unwrap_or(0);

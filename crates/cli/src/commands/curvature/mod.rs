@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::curvature::{Kind, View, document, without};
+use trueness_inspect::curvature::{CurvatureKind, View, document, without};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::curvature::CurvatureDocument;
@@ -68,13 +68,13 @@ enum ColorArg {
     K2,
 }
 
-impl From<ColorArg> for Kind {
-    fn from(color: ColorArg) -> Kind {
+impl From<ColorArg> for CurvatureKind {
+    fn from(color: ColorArg) -> CurvatureKind {
         match color {
-            ColorArg::Mean => Kind::Mean,
-            ColorArg::Gaussian => Kind::Gaussian,
-            ColorArg::K1 => Kind::K1,
-            ColorArg::K2 => Kind::K2,
+            ColorArg::Mean => CurvatureKind::Mean,
+            ColorArg::Gaussian => CurvatureKind::Gaussian,
+            ColorArg::K1 => CurvatureKind::K1,
+            ColorArg::K2 => CurvatureKind::K2,
         }
     }
 }
@@ -188,7 +188,7 @@ fn write(
     mesh: &Mesh,
     found: &Curvatures,
     document: &CurvatureDocument,
-    kind: Kind,
+    kind: CurvatureKind,
 ) -> anyhow::Result<()> {
     let scale = &document.quantity(kind).scale;
     let row = |i: usize| -> [f64; 17] {

@@ -3,7 +3,7 @@
 use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_digits};
 use crate::{console, read};
 use std::fmt::Write;
-use trueness_inspect::curvature::Kind;
+use trueness_inspect::curvature::CurvatureKind;
 use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place, PlaceKind, Range};
 
 /// The document as text.
@@ -27,9 +27,12 @@ pub fn table(document: &CurvatureDocument) -> String {
     let shown = |x: Option<f64>| x.map_or_else(|| "-".to_string(), six_digits);
     let mut rows =
         vec![["curvature", "min", "2.5 %", "median", "mean", "97.5 %", "max"].map(String::from).to_vec()];
-    for (name, kind) in
-        [("k1", Kind::K1), ("k2", Kind::K2), ("mean", Kind::Mean), ("gaussian", Kind::Gaussian)]
-    {
+    for (name, kind) in [
+        ("k1", CurvatureKind::K1),
+        ("k2", CurvatureKind::K2),
+        ("mean", CurvatureKind::Mean),
+        ("gaussian", CurvatureKind::Gaussian),
+    ] {
         let s = &document.quantity(kind).statistics;
         let p = &s.percentiles;
         let all = [s.min, p.p2_5, s.median, s.mean, p.p97_5, s.max];

@@ -68,7 +68,7 @@ pub fn csv(documents: &[InspectDocument]) -> String {
                 c.unit.clone(),
                 number(c.uncertainty),
                 c.verdict.word().into(),
-                number(c.utilisation),
+                number(c.utilization),
                 c.reason.clone().unwrap_or_default(),
             ];
             out.push_str(&cells.map(cell).join(","));

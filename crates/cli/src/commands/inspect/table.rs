@@ -119,7 +119,7 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
     };
     let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
     let value = c.uncertainty.map_or(value.clone(), |u| format!("{value} ± {}", six_digits(u)));
-    let used = c.utilisation.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
+    let used = c.utilization.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
     let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
     vec![
         c.id.clone(),

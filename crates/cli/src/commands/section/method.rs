@@ -4,7 +4,7 @@ use super::found::Sections;
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
-use trueness_geom::section::{self, Kind, Method, Options, Search, SectionError};
+use trueness_geom::section::{self, Method, Options, Search, SectionError, SegmentKind};
 
 /// How the join of a line and a curve is found, if not by the likelihood of the whole contour.
 #[derive(Args, Debug)]
@@ -70,7 +70,7 @@ impl MethodArgs {
             return Ok(((sections, rows), None));
         };
         let profile = self.interval != Some(IntervalArg::Paper);
-        let first = found.segments.first().is_some_and(|s| s.geometry.kind() == Kind::Line);
+        let first = found.segments.first().is_some_and(|s| s.geometry.kind() == SegmentKind::Line);
         let join = if first { found.joins.first() } else { found.joins.last() };
         let interval = join.filter(|_| profile).map(|j| j.interval);
         let (methods, reversed) = section::line_and_curve(points, found, interval, stage)?;

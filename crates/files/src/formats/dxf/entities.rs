@@ -36,7 +36,7 @@ impl Said<'_> {
         self.group(code).map_or(Ok(default), Group::number)
     }
     fn length(&self, code: i64) -> Result<f64> {
-        Ok(self.unit.to_millimetres(self.number(code)?))
+        Ok(self.unit.to_millimeters(self.number(code)?))
     }
     fn place(&self, code: i64) -> Result<[f64; 2]> {
         Ok([self.length(code)?, self.length(code + 10)?])
@@ -45,7 +45,7 @@ impl Said<'_> {
         self.groups.iter().filter(|g| g.code == code).map(Group::number).collect()
     }
     fn lengths(&self, code: i64) -> Result<Vec<f64>> {
-        Ok(self.all(code)?.into_iter().map(|x| self.unit.to_millimetres(x)).collect())
+        Ok(self.all(code)?.into_iter().map(|x| self.unit.to_millimeters(x)).collect())
     }
 
     /// Whether the entity is drawn as seen from below; refused where its plane is another one than that of the drawing.
@@ -113,9 +113,9 @@ pub(super) fn vertices(said: &Said) -> Result<Vec<Vertex>> {
     let (mut all, mut x): (Vec<Vertex>, Option<f64>) = (vec![], None);
     for group in said.groups {
         match group.code {
-            10 => x = Some(said.unit.to_millimetres(group.number()?)),
+            10 => x = Some(said.unit.to_millimeters(group.number()?)),
             20 => {
-                let y = said.unit.to_millimetres(group.number()?);
+                let y = said.unit.to_millimeters(group.number()?);
                 let x = x.take().ok_or_else(|| group.wrong("the first coordinate before the second"))?;
                 all.push(([x, y], 0.0));
             }

@@ -72,10 +72,10 @@ fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
     Ok(Some(match group.integer()? {
         0 => return Ok(None),
         1 => Unit::Inch,
-        4 => Unit::Millimetre,
-        5 => Unit::Centimetre,
-        6 => Unit::Metre,
-        13 => Unit::Micrometre,
+        4 => Unit::Millimeter,
+        5 => Unit::Centimeter,
+        6 => Unit::Meter,
+        13 => Unit::Micrometer,
         _ => {
             let what = "the unit of the drawing ($INSUNITS) is none of um, mm, cm, m and inch:".into();
             return Err(Fault::Unsupported { what, remedy: "save it in millimetres" }.at_line(group.line));

@@ -58,7 +58,7 @@ fn what_is_written_reads_back() {
     let mut out = vec![];
     super::write(&mut out, &[layer]).unwrap();
     let (found, unit, warnings) = read(std::str::from_utf8(&out).unwrap()).unwrap();
-    assert_eq!((found.entities.len(), unit, warnings), (4, Unit::Millimetre, vec![]));
+    assert_eq!((found.entities.len(), unit, warnings), (4, Unit::Millimeter, vec![]));
     assert!(found.entities.iter().all(|e| e.layer == "section-1"));
     let drawn = |i: usize| &found.entities[i].drawn;
     assert_eq!(*drawn(0), Drawn::Line { start: [0.1, 0.2], end: [1e-20, 3.0] });
@@ -89,7 +89,7 @@ fn polylines_have_bulges() {
             to[0], to[1]
         );
         let (found, unit, _) = read(&drawing("", &text)).unwrap();
-        assert_eq!((unit, found.entities.len()), (Unit::Millimetre, 1));
+        assert_eq!((unit, found.entities.len()), (Unit::Millimeter, 1));
         let half = (0.5 * sweep.to_radians()).sin_cos();
         is_at(place(&found.entities[0].drawn, 0.5), [half.1, half.0]);
         is_at(place(&found.entities[0].drawn, 1.0), to);

@@ -1,4 +1,4 @@
-//! DXF drawings of version AC1015 (2000), ASCII: LINE, ARC, CIRCLE and SPLINE, millimetres, a layer for each contour.
+//! DXF drawings of version AC1015 (2000), ASCII: LINE, ARC, CIRCLE and SPLINE, millimeters, a layer for each contour.
 //!
 //! Arcs run counter-clockwise in DXF, so one of negative sweep is written from its end. The tables hold what AutoCAD's
 //! reference demands: line types, layers, styles, block records; every object has a handle and an owner.
@@ -73,7 +73,7 @@ pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
 fn header(g: &mut Groups, layers: &[Layer]) -> io::Result<()> {
     let [low, high] = bounds(layers).unwrap_or_default();
     g.all(&[(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1015"), (9, "$HANDSEED"), (5, "FFFFFF")])?;
-    // 4: millimetres; 1: metric.
+    // 4: millimeters; 1: metric.
     g.all(&[(9, "$INSUNITS"), (70, "4"), (9, "$MEASUREMENT"), (70, "1")])?;
     for (name, p) in [("$EXTMIN", low), ("$EXTMAX", high)] {
         g.put(9, name)?;

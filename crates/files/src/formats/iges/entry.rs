@@ -112,7 +112,7 @@ fn header(name: &str, most: f64) -> Vec<String> {
         "15".into(),
         text(name),
         real(1.0),
-        // Millimetres.
+        // Millimeters.
         "2".into(),
         text("MM"),
         "1".into(),

@@ -59,10 +59,10 @@ fn unit(global: &[Vec<u8>]) -> Result<Option<Unit>> {
     let found = match (integer(word(14)), &word(15).to_ascii_uppercase()[..]) {
         (None, b"") if word(14).is_empty() => return Ok(None),
         (Some(1), _) | (Some(3), b"IN" | b"INCH") => Unit::Inch,
-        (Some(2), _) | (Some(3), b"MM") => Unit::Millimetre,
-        (Some(6), _) | (Some(3), b"M") => Unit::Metre,
-        (Some(9), _) | (Some(3), b"UM") => Unit::Micrometre,
-        (Some(10), _) | (Some(3), b"CM") => Unit::Centimetre,
+        (Some(2), _) | (Some(3), b"MM") => Unit::Millimeter,
+        (Some(6), _) | (Some(3), b"M") => Unit::Meter,
+        (Some(9), _) | (Some(3), b"UM") => Unit::Micrometer,
+        (Some(10), _) | (Some(3), b"CM") => Unit::Centimeter,
         _ => {
             let what = "the unit of the model is none of um, mm, cm, m and inch:".into();
             return Err(Fault::Unsupported { what, remedy: "export it in millimetres" }.into());
@@ -84,14 +84,14 @@ fn matrix(file: &Model, entity: &Entity) -> Result<Option<Vec<f64>>> {
     found.reals(0, 12).map(Some)
 }
 
-/// Control points where they lie, millimetres.
+/// Control points where they lie, millimeters.
 fn placed(matrix: Option<&[f64]>, numbers: &[f64], unit: Unit) -> Vec<[f64; 3]> {
     let (points, _) = numbers.as_chunks::<3>();
     let place = |p: &[f64; 3]| match matrix {
         Some(m) => [0, 4, 8].map(|r| m[r] * p[0] + m[r + 1] * p[1] + m[r + 2] * p[2] + m[r + 3]),
         None => *p,
     };
-    points.iter().map(|p| place(p).map(|x| unit.to_millimetres(x))).collect()
+    points.iter().map(|p| place(p).map(|x| unit.to_millimeters(x))).collect()
 }
 
 /// Upper indices and degrees: parameter `k` and the next as counts.
@@ -189,7 +189,7 @@ fn on_border(file: &Model, surface: u64, bound: u64) -> Result<bool> {
     if surface.kind != 128 || bound.kind != 142 {
         return Ok(false);
     }
-    let (_, domain) = of_surface(file, surface, Unit::Millimetre)?;
+    let (_, domain) = of_surface(file, surface, Unit::Millimeter)?;
     let mut places = vec![];
     collect(file, u64::try_from(bound.integer(2)?).unwrap_or(0), 0, &mut places)?;
     // A curve lies on a side if all of its control points do.
@@ -218,8 +218,8 @@ fn collect(file: &Model, number: u64, depth: usize, places: &mut Vec<Vec<[f64; 3
                 }
             }
         }
-        110 => places.push(placed(None, &entity.reals(0, 6)?, Unit::Millimetre)),
-        126 => places.push(of_curve(file, entity, Unit::Millimetre)?.points),
+        110 => places.push(placed(None, &entity.reals(0, 6)?, Unit::Millimeter)),
+        126 => places.push(of_curve(file, entity, Unit::Millimeter)?.points),
         _ => places.push(vec![[f64::NAN; 3]]),
     }
     Ok(())

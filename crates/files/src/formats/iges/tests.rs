@@ -32,7 +32,7 @@ fn what_was_written_reads_back_bit_for_bit() {
     let mut bytes = vec![];
     surface(&mut bytes, &SplineSurface { degree: [3, 2], knots: [&u, &v], points: &points }).unwrap();
     let (model, unit, warnings) = model(&bytes);
-    assert!(unit == Unit::Millimetre && warnings.is_empty());
+    assert!(unit == Unit::Millimeter && warnings.is_empty());
     let [Nurbs::Plain(found)] = &model.surfaces[..] else { panic!("{}", model.surfaces.len()) };
     assert_eq!((found.knots()[0].values(), found.knots()[1].values()), (&u[..], &v[..]));
     assert_eq!(found.points(), points);

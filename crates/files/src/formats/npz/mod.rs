@@ -45,11 +45,11 @@ fn header(descr: &str, rows: u64, width: Option<u32>) -> Vec<u8> {
 
 fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
     let spool = || Spool::beside(&file);
-    let (deviation, excluded, colour) = (spool(), spool(), spool());
+    let (deviation, excluded, color) = (spool(), spool(), spool());
     let mut archive = Archive::new(file);
     // The shape is written again when the points are counted.
     archive.begin("points.npy", HEADER)?;
-    Ok(Box::new(Arrays { archive, layout, count: 0, deviation, excluded, colour }))
+    Ok(Box::new(Arrays { archive, layout, count: 0, deviation, excluded, color }))
 }
 
 struct Arrays {
@@ -58,7 +58,7 @@ struct Arrays {
     count: u64,
     deviation: Spool,
     excluded: Spool,
-    colour: Spool,
+    color: Spool,
 }
 
 impl PointsSink for Arrays {
@@ -69,7 +69,7 @@ impl PointsSink for Arrays {
         }
         self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
         self.excluded.write(block.excluded())?;
-        self.colour.write(block.colour.iter().flatten().copied())?;
+        self.color.write(block.color.iter().flatten().copied())?;
         self.count += block.points.len() as u64;
         Ok(())
     }
@@ -87,8 +87,8 @@ impl PointsSink for Arrays {
             let kind = if self.layout.reason { "|u1" } else { "|b1" };
             add("excluded.npy", kind, None, &mut self.excluded)?;
         }
-        if self.layout.colour {
-            add("colour.npy", "|u1", Some(3), &mut self.colour)?;
+        if self.layout.color {
+            add("colour.npy", "|u1", Some(3), &mut self.color)?;
         }
         Ok(self.archive.finish()?)
     }

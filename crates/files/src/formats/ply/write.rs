@@ -26,7 +26,7 @@ fn header(layout: Layout, count: u64, faces: Option<usize>) -> String {
     if layout.deviation {
         text.push_str("property double deviation\nproperty uchar excluded\n");
     }
-    if layout.colour {
+    if layout.color {
         text.push_str("property uchar red\nproperty uchar green\nproperty uchar blue\n");
     }
     if let Some(faces) = faces {
@@ -63,7 +63,7 @@ impl PointsSink for Rows {
                     bytes.extend(d.to_le_bytes());
                     bytes.push(block.reason.get(i).copied().unwrap_or(u8::from(d.is_nan())));
                 }
-                bytes.extend(block.colour.get(i).into_iter().flatten());
+                bytes.extend(block.color.get(i).into_iter().flatten());
             }
             self.file.write_all(&bytes)?;
         }

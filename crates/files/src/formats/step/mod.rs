@@ -1,4 +1,4 @@
-//! STEP files (ISO 10303-21): what all of them say that are written, of application protocol 214 and in millimetres; and what
+//! STEP files (ISO 10303-21): what all of them say that are written, of application protocol 214 and in millimeters; and what
 //! is read of others'.
 //!
 //! The header's time stamp is fixed, so that the same model gives the same bytes.

@@ -107,20 +107,20 @@ fn length(file: &Instances, number: u64) -> Result<Option<Unit>> {
         return Ok(None);
     }
     let unit = match (has(b"SI_UNIT"), has(b"CONVERSION_BASED_UNIT")) {
-        (Some([Value::Word(prefix), Value::Word(metre)]), _) if metre == b"METRE" => match &prefix[..] {
-            b"MILLI" => Some(Unit::Millimetre),
-            b"CENTI" => Some(Unit::Centimetre),
-            b"MICRO" => Some(Unit::Micrometre),
+        (Some([Value::Word(prefix), Value::Word(meter)]), _) if meter == b"METRE" => match &prefix[..] {
+            b"MILLI" => Some(Unit::Millimeter),
+            b"CENTI" => Some(Unit::Centimeter),
+            b"MICRO" => Some(Unit::Micrometer),
             _ => None,
         },
-        (Some([Value::Nothing, Value::Word(metre)]), _) if metre == b"METRE" => Some(Unit::Metre),
+        (Some([Value::Nothing, Value::Word(meter)]), _) if meter == b"METRE" => Some(Unit::Meter),
         (_, Some([Value::Text(name), _])) if name.to_ascii_uppercase().starts_with(b"INCH") => {
             Some(Unit::Inch)
         }
         (_, Some([Value::Text(name), _])) => match &name.to_ascii_uppercase()[..] {
-            b"MILLIMETRE" | b"MILLIMETER" | b"MM" => Some(Unit::Millimetre),
-            b"CENTIMETRE" | b"CENTIMETER" | b"CM" => Some(Unit::Centimetre),
-            b"METRE" | b"METER" | b"M" => Some(Unit::Metre),
+            b"MILLIMETRE" | b"MILLIMETER" | b"MM" => Some(Unit::Millimeter),
+            b"CENTIMETRE" | b"CENTIMETER" | b"CM" => Some(Unit::Centimeter),
+            b"METRE" | b"METER" | b"M" => Some(Unit::Meter),
             _ => None,
         },
         _ => None,
@@ -185,7 +185,7 @@ fn list(value: Option<&Value>) -> Option<&[Value]> {
     }
 }
 
-/// Points in millimetres, each read once.
+/// Points in millimeters, each read once.
 struct Points<'a> {
     file: &'a Instances<'a>,
     unit: Unit,
@@ -210,7 +210,7 @@ impl Points<'_> {
         if place.is_some_and(|p| p.iter().any(|x| !x.is_finite())) {
             return Err(self.file.fault(number, Fault::NotFinite { what: "point", number }));
         }
-        let place = place.map(|p| p.map(|x| self.unit.to_millimetres(x)));
+        let place = place.map(|p| p.map(|x| self.unit.to_millimeters(x)));
         self.known.insert(number, place);
         Ok(place)
     }

@@ -43,10 +43,10 @@ fn what_was_written_reads_back_bit_for_bit() {
     let input = read(&written([&U, &V], [3, 2], &points), Some(Unit::Inch)).unwrap();
     assert_eq!(
         (input.provenance.unit_assumed, input.provenance.unit_from),
-        (Unit::Millimetre, UnitFrom::Header)
+        (Unit::Millimeter, UnitFrom::Header)
     );
     let (model, warnings) = model(input);
-    assert_eq!(warnings, [Warning::UnitKept { said: Unit::Millimetre, asked: Unit::Inch }]);
+    assert_eq!(warnings, [Warning::UnitKept { said: Unit::Millimeter, asked: Unit::Inch }]);
     let [Nurbs::Plain(found)] = &model.surfaces[..] else { panic!("{}", model.surfaces.len()) };
     assert_eq!((found.knots()[0].values(), found.knots()[1].values()), (&U[..], &V[..]));
     assert_eq!(found.points(), points);
@@ -54,7 +54,7 @@ fn what_was_written_reads_back_bit_for_bit() {
     assert_eq!(model.curves.len(), 4);
 }
 
-/// A file of these instances, in metres.
+/// A file of these instances, in meters.
 fn file(instances: &str) -> Vec<u8> {
     format!(
         "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('it''s; a /* test'),'2;1');\nENDSEC;\nDATA;\n\
@@ -73,7 +73,7 @@ const QUARTER: &str = "/* a quarter of a cylinder; */ #10=(\n BOUNDED_SURFACE ( 
     REPRESENTATION_ITEM('')SURFACE());";
 
 #[test]
-fn rational_surfaces_of_complex_instances_in_metres() {
+fn rational_surfaces_of_complex_instances_in_meters() {
     let (found, warnings) = model(read(&file(QUARTER), None).unwrap());
     assert!(warnings.is_empty() && matches!(found.surfaces[..], [Nurbs::Rational(_)]));
     for (u, v) in [(0.0, 0.0), (0.3, 0.2), (0.9, 1.0)] {

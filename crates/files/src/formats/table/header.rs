@@ -127,7 +127,7 @@ fn split(name: String) -> (String, Said) {
             && let said @ (Said::Unit(_) | Said::Foreign(_)) = unit_of(last)
         {
             let base = base.strip_suffix(" in").unwrap_or(base);
-            // "x_m" may be metres or what was measured.
+            // "x_m" may be meters or what was measured.
             let unclear = last == "m" && sign != '/' && !base.is_empty() && !name.ends_with(" in m");
             return (base.trim().into(), if unclear { Said::Foreign("m".into()) } else { said });
         }
@@ -151,12 +151,12 @@ pub(super) fn unit_of(word: &str) -> Said {
     let known = match word.trim() {
         "" => return Said::Nothing,
         "mm" | "millimeter" | "millimetre" | "millimeters" | "millimetres" | "\u{43c}\u{43c}"
-        | "\u{6beb}\u{7c73}" => Unit::Millimetre,
-        "cm" | "centimeter" | "centimetre" | "centimeters" | "centimetres" | "zentimeter" => Unit::Centimetre,
-        "m" | "meter" | "metre" | "meters" | "metres" => Unit::Metre,
+        | "\u{6beb}\u{7c73}" => Unit::Millimeter,
+        "cm" | "centimeter" | "centimetre" | "centimeters" | "centimetres" | "zentimeter" => Unit::Centimeter,
+        "m" | "meter" | "metre" | "meters" | "metres" => Unit::Meter,
         "in" | "inch" | "inches" | "zoll" | "\"" => Unit::Inch,
         "um" | "\u{b5}m" | "\u{3bc}m" | "micron" | "microns" | "micrometer" | "micrometre"
-        | "micrometers" | "micrometres" | "mikrometer" => Unit::Micrometre,
+        | "micrometers" | "micrometres" | "mikrometer" => Unit::Micrometer,
         word if FOREIGN.contains(&word) => return Said::Foreign(word.into()),
         word => return Said::Remark(word.into()),
     };
@@ -254,15 +254,15 @@ mod tests {
         let said = |name: &str| Name::of(name.as_bytes()).unit;
         for (name, unit) in [
             ("X [in]", Unit::Inch),
-            ("X (mm)", Unit::Millimetre),
-            ("x/mm", Unit::Millimetre),
-            ("x in mm", Unit::Millimetre),
-            ("x_mm", Unit::Millimetre),
-            ("Xmm", Unit::Millimetre),
-            ("x [m]", Unit::Metre),
-            ("x in m", Unit::Metre),
-            ("X [\u{b5}m]", Unit::Micrometre),
-            ("X{cm}", Unit::Centimetre),
+            ("X (mm)", Unit::Millimeter),
+            ("x/mm", Unit::Millimeter),
+            ("x in mm", Unit::Millimeter),
+            ("x_mm", Unit::Millimeter),
+            ("Xmm", Unit::Millimeter),
+            ("x [m]", Unit::Meter),
+            ("x in m", Unit::Meter),
+            ("X [\u{b5}m]", Unit::Micrometer),
+            ("X{cm}", Unit::Centimeter),
             ("X (Zoll)", Unit::Inch),
             ("X inch", Unit::Inch),
         ] {
@@ -271,7 +271,7 @@ mod tests {
                 Header { line: 0, comment: false, names: vec![Name::of(name.as_bytes()), Name::of(b"y")] };
             assert_eq!(same.axes(), Axes::Named(vec![0, 1]), "{name}");
         }
-        assert_eq!(Name::of(b"X [\xb5m]").unit, Said::Unit(Unit::Micrometre));
+        assert_eq!(Name::of(b"X [\xb5m]").unit, Said::Unit(Unit::Micrometer));
         assert_eq!(said("x [ft]"), Said::Foreign("ft".into()));
         assert_eq!(said("x_m"), Said::Foreign("m".into()));
         assert_eq!(said("X (Ist)"), Said::Remark("ist".into()));

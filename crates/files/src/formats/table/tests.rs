@@ -428,13 +428,13 @@ fn columns_that_are_asked_for_are_taken() {
 
 #[test]
 fn units_that_are_asked_for_go_before_those_of_the_header() {
-    let options = ReadOptions { units: Some(Unit::Millimetre), ..ReadOptions::default() };
+    let options = ReadOptions { units: Some(Unit::Millimeter), ..ReadOptions::default() };
     let read = read_with(b"X [in],Y [in],Z [in]\n1,2,3\n", &options).unwrap();
-    let warning = Warning::UnitOverruled { header: Unit::Inch, asked: Unit::Millimetre };
+    let warning = Warning::UnitOverruled { header: Unit::Inch, asked: Unit::Millimeter };
     assert_eq!(read.warnings, [warning]);
     assert!(read_with(b"X [ft],Y [ft],Z [ft]\n1,2,3\n", &options).is_ok());
     let latin = read_with(b"X [\xb5m];Y [\xb5m];Z [\xb5m]\n1;2;3\n", &ReadOptions::default()).unwrap();
-    assert_eq!(latin.unit, Some(Unit::Micrometre));
+    assert_eq!(latin.unit, Some(Unit::Micrometer));
     for text in [
         "% unit in\n1 2 3\n4 5 6\n",
         "# Units (length): inches\n1 2 3\n4 5 6\n",
@@ -445,7 +445,7 @@ fn units_that_are_asked_for_go_before_those_of_the_header() {
         assert_eq!(self::read(text).unwrap().unit, Some(Unit::Inch), "{text}");
     }
     let both = self::read("# units: inch\nX [mm],Y [mm],Z [mm]\n1,2,3\n").unwrap();
-    assert_eq!(both.unit, Some(Unit::Millimetre));
+    assert_eq!(both.unit, Some(Unit::Millimeter));
     assert_eq!(self::read("The unit is under test: 7\n1 2 3\n4 5 6\n").unwrap().unit, None);
     let remark = self::read("X (Ist);Y (Ist);Z (Ist)\n1;2;3\n").unwrap();
     assert_eq!(remark.warnings.len(), 3);

@@ -47,7 +47,7 @@ pub(super) fn begin(
     if layout.reason {
         names.push("excluded");
     }
-    if layout.colour {
+    if layout.color {
         names.extend(["red", "green", "blue"]);
     }
     let names = names.join(&char::from(style.separator).to_string());
@@ -89,7 +89,7 @@ fn rows(block: &Block, start: usize, style: Style) -> Vec<u8> {
             }
             if v.is_finite() { push_number(&mut text, *v) } else { text.extend(style.nothing.bytes()) }
         }
-        for c in block.reason.get(i).into_iter().chain(block.colour.get(i).into_iter().flatten()) {
+        for c in block.reason.get(i).into_iter().chain(block.color.get(i).into_iter().flatten()) {
             text.push(style.separator);
             // Writing to a vector cannot fail.
             let _ = write!(text, "{c}");

@@ -247,7 +247,7 @@ fn a_patch_of_a_plane_slides_and_turns() {
 
 #[test]
 fn noise_and_uncertainty_agree() {
-    // Of noisy copies, the pose is off by what the covariance says: the mean of the squared normalised error of each of
+    // Of noisy copies, the pose is off by what the covariance says: the mean of the squared normalized error of each of
     // the six is 1.
     let reference = bracket(6.0);
     let tree = Tree::build(&reference).unwrap();

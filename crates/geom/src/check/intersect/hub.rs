@@ -22,7 +22,7 @@ pub(super) struct Hub {
     center: u32,
     /// Where all facets have an edge in common.
     book: Option<Book>,
-    /// Neighbours stand near each other.
+    /// Neighbors stand near each other.
     arcs: Vec<View>,
     root: Node,
 }

@@ -442,7 +442,7 @@ impl Walk<'_> {
                 let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
-            // A leaf may have very many neighbours.
+            // A leaf may have very many neighbors.
             if out.count > before {
                 self.found.fetch_add(out.count - before, Relaxed);
                 before = out.count;

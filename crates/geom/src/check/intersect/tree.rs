@@ -98,7 +98,7 @@ fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x2492_4924_9249
 }
 
-/// Faces that are `wanted`, sorted by the Morton code of the centres of their boxes, as keys; and how many low bits of
+/// Faces that are `wanted`, sorted by the Morton code of the centers of their boxes, as keys; and how many low bits of
 /// a key are the face.
 fn sorted(
     mesh: &Mesh,

@@ -24,7 +24,7 @@ pub(crate) struct Node {
 const FEW: usize = 8;
 
 impl Node {
-    /// Of all views; puts neighbours near each other.
+    /// Of all views; puts neighbors near each other.
     pub(crate) fn of(views: &mut [View]) -> Node {
         node(views, 0)
     }

@@ -9,8 +9,8 @@ use crate::space::{minus, norm, times};
 fn around(mesh: &Mesh, d: &mut TestRandom, n: usize) -> Vec<Point> {
     let bounds = mesh.bounds();
     let size = bounds.sides().into_iter().fold(1e-300, f64::max);
-    let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
-    let mut points = vec![centre];
+    let center: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
+    let mut points = vec![center];
     for i in 0..n {
         let c = mesh.faces[d.bits() as usize % mesh.faces.len()].map(|v| mesh.positions[v as usize]);
         let (s, t) = (d.unit().abs(), d.unit().abs());
@@ -28,8 +28,8 @@ fn around(mesh: &Mesh, d: &mut TestRandom, n: usize) -> Vec<Point> {
             3 => plus(on, d.point(1e-9 * size)),
             4 => plus(on, d.point(1e-4 * size)),
             5 => plus(on, d.point(0.02 * size)),
-            6 => plus(centre, d.point(0.8 * size)),
-            _ => plus(centre, d.point(far * size)),
+            6 => plus(center, d.point(0.8 * size)),
+            _ => plus(center, d.point(far * size)),
         });
     }
     points
@@ -96,7 +96,7 @@ fn soups_equal_brute_force() {
     check("small triangles", soup(d, 3000, small), d, 1500);
 }
 
-/// Few points make one wide block, whose outer points have other winners than its centre.
+/// Few points make one wide block, whose outer points have other winners than its center.
 #[test]
 fn wide_blocks_equal_brute_force() {
     let d = &mut TestRandom(7);

@@ -28,12 +28,12 @@ fn error(mesh: &Mesh, points: &[Point]) -> (f64, f64) {
 fn around(mesh: &Mesh, d: &mut TestRandom, n: usize) -> Vec<Point> {
     let bounds = mesh.bounds();
     let size = bounds.sides().into_iter().fold(0.0, f64::max);
-    let centre: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
+    let center: Point = std::array::from_fn(|k| 0.5 * (bounds.min[k] + bounds.max[k]));
     (0..n)
         .map(|i| match i % 3 {
             0 => plus(mesh.positions[d.bits() as usize % mesh.positions.len()], d.point(0.01 * size)),
-            1 => plus(centre, d.point(0.7 * size)),
-            _ => plus(centre, d.point(5.0 * size)),
+            1 => plus(center, d.point(0.7 * size)),
+            _ => plus(center, d.point(5.0 * size)),
         })
         .collect()
 }
@@ -163,7 +163,7 @@ fn points_on_corners_and_edges_have_a_number() {
 }
 
 #[test]
-fn does_not_depend_on_neighbours_or_threads() {
+fn does_not_depend_on_neighbors_or_threads() {
     let d = &mut TestRandom(14);
     let mesh = sphere(40, 1.0, [0.0; 3]);
     let tree = Tree::build(&mesh).unwrap();

@@ -12,7 +12,7 @@ pub struct Differences {
     pub differing: u64,
     /// Of those, points where the paper's value is too small.
     pub too_small: u64,
-    /// Greatest difference, millimetres; 0 where none differs.
+    /// Greatest difference, millimeters; 0 where none differs.
     pub max_difference: f64,
     sizes: Sketch,
 }
@@ -34,7 +34,7 @@ impl Differences {
         self.max_difference = sizes.iter().copied().fold(self.max_difference, f64::max);
         self.sizes.push(&sizes);
     }
-    /// Median size of the differences where the values differ, millimetres, to a relative error of 2^-15.
+    /// Median size of the differences where the values differ, millimeters, to a relative error of 2^-15.
     pub fn median_difference(&self) -> Option<f64> {
         let last = self.sizes.count().checked_sub(1)?;
         let middle = self.sizes.at(&[last / 2, last.div_ceil(2)]);

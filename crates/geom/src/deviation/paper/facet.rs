@@ -5,9 +5,9 @@ use crate::space::{Point, cross, dot, minus, norm};
 /// A distance by the paper's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
-    /// Millimetres, unsigned.
+    /// Millimeters, unsigned.
     pub distance: f64,
-    /// What rounding in this evaluation and in that of the exact distance to the same facet may amount to, millimetres.
+    /// What rounding in this evaluation and in that of the exact distance to the same facet may amount to, millimeters.
     ///
     /// Both see differences of coordinates, which are good to half a unit in the last place, so errors go with the
     /// distances to the corners, not with the coordinates. To a segment that is a dozen roundings. To a plane the

@@ -140,7 +140,7 @@ fn every_reference_is_met_to_its_last_digits() {
 }
 
 /// The circle through six points of Gander, Golub and Strebel, Least-squares fitting of circles and ellipses,
-/// BIT 34 (1994): centre (4.7398, 2.9835), radius 4.7142.
+/// BIT 34 (1994): center (4.7398, 2.9835), radius 4.7142.
 #[test]
 fn the_published_circle() {
     let points = [[1.0, 7.0], [2.0, 6.0], [5.0, 8.0], [7.0, 7.0], [9.0, 5.0], [3.0, 7.0]];
@@ -151,7 +151,7 @@ fn the_published_circle() {
     assert!((radius - 4.7142).abs() < 5e-5);
 }
 
-/// The ellipse of the same paper, example of section 6: half axes 6.5187 and 3.0319, centre (2.6996, 3.8160).
+/// The ellipse of the same paper, example of section 6: half axes 6.5187 and 3.0319, center (2.6996, 3.8160).
 #[test]
 fn the_published_ellipse() {
     let points =

@@ -15,7 +15,7 @@ fn a_third_of_outliers_does_not_move_the_element() {
         for p in points.iter_mut() {
             if random.unit() < 0.33 {
                 moved += 1;
-                // One-sided, as burrs and neighbours of a feature are.
+                // One-sided, as burrs and neighbors of a feature are.
                 for k in 0..if kind.is_flat() { 2 } else { 3 } {
                     p[k] += 1.0 + 12.0 * random.unit();
                 }

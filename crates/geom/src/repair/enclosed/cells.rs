@@ -10,7 +10,7 @@ pub(super) type Point2 = [f64; 2];
 /// A piece that no segment cuts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
-    pub centre: Point2,
+    pub center: Point2,
     pub corners: [Point2; 4],
     pub area: f64,
 }
@@ -46,7 +46,7 @@ pub(super) fn cells(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<
             let [from, to] = [x[0], x[1]];
             let width = to.middle - from.middle;
             let corners = [[from.low, low], [to.low, low], [to.high, high], [from.high, high]];
-            cells.push(Cell { centre: [from.middle + 0.5 * width, y], corners, area: width * (high - low) });
+            cells.push(Cell { center: [from.middle + 0.5 * width, y], corners, area: width * (high - low) });
         }
     }
     Some(cells)

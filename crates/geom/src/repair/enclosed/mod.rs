@@ -2,7 +2,7 @@
 //!
 //! The volume of a set of places is an integral over its boundary (the divergence theorem), and the boundary of the places
 //! with winding number 1 or more is made of those parts of facets where the number passes from below 1 to 1. Facets
-//! that meet no other are such parts as a whole or not at all, and their neighbours likewise; facets that meet others are
+//! that meet no other are such parts as a whole or not at all, and their neighbors likewise; facets that meet others are
 //! cut up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
 //! exactly. What is rounded are places of cuts alone. The vector area of a closed boundary is zero: what it is off by
 //! tells how much of the boundary was missed.
@@ -81,7 +81,7 @@ const ROUNDING: f64 = 1e-14;
 /// Facets at one place, at most.
 const HEAP: usize = 64;
 
-/// Whether every facet that counts has a neighbour at each edge.
+/// Whether every facet that counts has a neighbor at each edge.
 pub(super) fn is_closed(topology: &Topology) -> bool {
     topology.boundary_edges.is_empty() && topology.not_finite.is_empty() && topology.counting_facets > 0
 }
@@ -111,8 +111,8 @@ pub(super) fn enclosed(
     shortest.sort_by(|i: &usize, j| sides[*i].total_cmp(&sides[*j]));
     let mut is_whole = vec![true; mesh.faces.len()];
     meets.keys().for_each(|f| is_whole[*f as usize] = false);
-    let centre = times(0.5, plus(bounds.min, bounds.max));
-    let solid = Solid { mesh, shortest, centre, meets: &meets, is_whole: &is_whole, progress };
+    let center = times(0.5, plus(bounds.min, bounds.max));
+    let solid = Solid { mesh, shortest, center, meets: &meets, is_whole: &is_whole, progress };
     let sheets = solid.sheets(topology);
     let cut: Vec<u32> = meets.keys().copied().collect();
     let parts: Vec<Vec<Part>> = cut.par_iter().map(|&f| solid.cut(f)).collect::<Result<_, _>>()?;
@@ -233,7 +233,7 @@ struct Part {
 
 struct Solid<'a> {
     mesh: &'a Mesh,
-    centre: Point,
+    center: Point,
     /// The axes, by the extent of the mesh along them.
     shortest: [usize; 3],
     meets: &'a BTreeMap<u32, Vec<u32>>,
@@ -246,7 +246,7 @@ impl Solid<'_> {
     fn facet(&self, f: u32) -> Facet {
         let vertices = self.mesh.faces[f as usize];
         let places = vertices.map(|v| self.mesh.positions[v as usize]);
-        Facet { vertices, places, local: places.map(|p| minus(p, self.centre)) }
+        Facet { vertices, places, local: places.map(|p| minus(p, self.center)) }
     }
 
     /// The axis for rays from a facet with this normal: of those that it is not too steep to, the one along which the mesh is
@@ -283,7 +283,7 @@ impl Solid<'_> {
         }
         let asked = |facet: u32| {
             let [a, b, c] = self.facet(facet).local;
-            let at = plus(self.centre, times(1.0 / 3.0, plus(a, plus(b, c))));
+            let at = plus(self.center, times(1.0 / 3.0, plus(a, plus(b, c))));
             Part { facet, at, corners: [at; 4], area: 0.0, upon: vec![] }
         };
         Sheets { sheet_of, asked: largest.into_iter().map(|f| f.map(asked)).collect() }
@@ -315,13 +315,13 @@ impl Solid<'_> {
             }
         }
         let found = cells(&facet.local.map(|p| flat(&p)), &segments).ok_or(NotEnclosed::Tangle)?;
-        let place = |p: Point2| plus(self.centre, lifted(&facet, vector, axis, p));
-        let part = |Cell { centre, corners, area }: Cell| Part {
+        let place = |p: Point2| plus(self.center, lifted(&facet, vector, axis, p));
+        let part = |Cell { center, corners, area }: Cell| Part {
             facet: f,
-            at: place(centre),
+            at: place(center),
             corners: corners.map(place),
             area,
-            upon: upon.iter().filter(|u| holds(&u.2, &centre)).map(|u| (u.0, u.1)).collect(),
+            upon: upon.iter().filter(|u| holds(&u.2, &center)).map(|u| (u.0, u.1)).collect(),
         };
         Ok(found.into_iter().map(part).collect())
     }

@@ -1,8 +1,8 @@
 //! Making a patch as smooth as what it joins.
 //!
-//! The umbrella vector of a vertex points from it to the mean of its neighbours. The new vertices are moved to where the squares
+//! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the squares
 //! of the umbrella vectors of all vertices of the patch, the rim included, have the least sum: at the rim the
-//! neighbours outside take part, so the patch starts in their direction (Kobbelt, Campagna, Vorsatz and Seidel,
+//! neighbors outside take part, so the patch starts in their direction (Kobbelt, Campagna, Vorsatz and Seidel,
 //! Interactive multi-resolution modeling on arbitrary meshes, 1998). A sparse linear least-squares problem, solved by
 //! conjugate gradients in a fixed order.
 
@@ -32,7 +32,7 @@ pub(super) fn fair(site: &Site, ring: &Ring, patch: &mut Patch) {
         }
     }
     for &v in &ring.vertices {
-        around.entry(v).or_default().extend(site.neighbours(v));
+        around.entry(v).or_default().extend(site.neighbors(v));
     }
     let umbrellas: Vec<Umbrella> = around.iter().map(|(v, near)| umbrella(site, *v, near)).collect();
     solve(&umbrellas, &mut patch.places);

@@ -20,7 +20,7 @@ const MOST: usize = 100;
 pub(super) enum Aim {
     /// The area.
     Area,
-    /// The largest angle between neighbours, then the area.
+    /// The largest angle between neighbors, then the area.
     Bend,
 }
 

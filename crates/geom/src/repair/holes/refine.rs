@@ -75,7 +75,7 @@ fn is_smooth(site: &Site, ring: &Ring, patch: &Patch) -> bool {
 /// Mean length of the edges at a vertex of the mesh.
 fn mean_edge(site: &Site, v: u32) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for w in site.neighbours(v) {
+    for w in site.neighbors(v) {
         sum += norm(minus(site.work.at(w), site.work.at(v)));
         count += 1.0;
     }

@@ -16,7 +16,7 @@ impl Site<'_, '_> {
         self.known.topology.has_edge(self.work.mesh(), [a, b])
     }
     /// The vertices of the mesh that share an edge with `v`, ascending.
-    pub(super) fn neighbours(&self, v: u32) -> BTreeSet<u32> {
+    pub(super) fn neighbors(&self, v: u32) -> BTreeSet<u32> {
         let facets = self.known.topology.facets_at_vertex(v);
         let all = facets.into_iter().flat_map(|f| self.work.mesh().faces[f as usize]);
         all.filter(|w| *w != v).collect()

@@ -403,8 +403,8 @@ fn two_flat_facets_at_one_facet_are_cut_out_one_after_the_other() {
 }
 
 #[test]
-fn a_flat_facet_is_cut_out_of_its_neighbours() {
-    // A cap on a side of the block: its middle vertex splits the long edge of the neighbour.
+fn a_flat_facet_is_cut_out_of_its_neighbors() {
+    // A cap on a side of the block: its middle vertex splits the long edge of the neighbor.
     let mut mesh = block(1, 4.0);
     let at = |p: Point| mesh.positions.iter().position(|q| *q == p).unwrap() as u32;
     let [a, b] = [at([0.0; 3]), at([4.0, 0.0, 0.0])];

@@ -4,7 +4,7 @@
 //! the ends of an open row) are its ends. It is smooth: where a round edge runs into a side its curvature cannot jump, and it swings
 //! beside. A contour that ends at the same edges, and costs less by the same measure, is taken in its place.
 
-use super::super::chain::Kind;
+use super::super::chain::SegmentKind;
 use super::super::result::{Continuity, Contour};
 use super::ends::{Around, TrailingEdge, distance};
 use super::error::AirfoilError;
@@ -67,7 +67,7 @@ impl Course {
             if let Some((cost, course)) = of_contour(&own, own.ends.map(|i| numbers[i]), contour, count) {
                 if smooth.as_ref().map_or(true, |s| cost < s.cost) {
                     // What a free curve of a contour takes from scatter, a B-spline does not, or elsewhere.
-                    let free = contour.segments.iter().any(|s| s.geometry.kind() == Kind::Spline);
+                    let free = contour.segments.iter().any(|s| s.geometry.kind() == SegmentKind::Spline);
                     return Ok((own, course, smooth.ok().filter(|_| free).map(|s| s.course(&around))));
                 }
                 other = Some(course);

@@ -1,6 +1,6 @@
 //! The normal equations of a chain: what each unknown does to all that follows, and what must vanish.
 
-use super::super::chain::{Chain, Kind};
+use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
 use super::work::{Held, Variable, Work};
 
@@ -17,8 +17,8 @@ impl Work {
             let motions = &mut self.motions[g];
             motions.clear();
             match piece.kind {
-                Kind::Line => motions.push(about([1.0, 0.0], 0.0)),
-                Kind::Arc => {
+                SegmentKind::Line => motions.push(about([1.0, 0.0], 0.0)),
+                SegmentKind::Arc => {
                     let turn = piece.length * piece.coefficients[0];
                     let (sin, cos) = libm::sincos(turn);
                     motions.push(about([cos, sin], piece.coefficients[0]));
@@ -30,7 +30,7 @@ impl Work {
                     };
                     motions.push(about([square * shift[0], square * shift[1]], piece.length));
                 }
-                Kind::Spline => {
+                SegmentKind::Spline => {
                     let table = &self.layout.tables[g];
                     let turns = std::iter::once(table.turn / piece.length).chain(table.end_turns());
                     motions.extend(table.end_motions().iter().zip(turns).map(|(m, t)| about(*m, t)));
@@ -69,8 +69,8 @@ impl Work {
             } else if piece == g {
                 // The length of a line or arc moves nothing of its own.
                 match (chain.pieces[g].kind, index) {
-                    (Kind::Spline, index) => own = Some((3 + index, factor)),
-                    (Kind::Arc, 1) => own = Some((3, factor)),
+                    (SegmentKind::Spline, index) => own = Some((3 + index, factor)),
+                    (SegmentKind::Arc, 1) => own = Some((3, factor)),
                     _ => {}
                 }
             }
@@ -103,8 +103,8 @@ impl Work {
             deviation(each.map(|(motion, own)| f(motion, own)).collect())
         };
         match chain.pieces[g].kind {
-            Kind::Line => Some(Uncertainty::Line { angle: of(&|m, _| m[2]) }),
-            Kind::Arc => {
+            SegmentKind::Line => Some(Uncertainty::Line { angle: of(&|m, _| m[2]) }),
+            SegmentKind::Arc => {
                 // The center moves with the piece as a rigid body, and along the normal of its start with the radius.
                 let curvature = chain.pieces[g].coefficients[0];
                 let (pose, radius) = (&self.layout.poses[g], 1.0 / curvature);
@@ -119,7 +119,7 @@ impl Work {
                     radius: of(&|_, own| stretch(own)),
                 })
             }
-            Kind::Spline => None,
+            SegmentKind::Spline => None,
         }
     }
 
@@ -251,7 +251,7 @@ fn bends(chain: &Chain) -> impl Iterator<Item = Bend> + '_ {
     let scale = size(chain) * size(chain);
     joins.filter_map(move |after| {
         let before = (after + n - 1) % n;
-        let free = [before, after].iter().any(|g| chain.pieces[*g].kind == Kind::Spline);
+        let free = [before, after].iter().any(|g| chain.pieces[*g].kind == SegmentKind::Spline);
         free.then(|| (end_coefficient(chain, before, true), end_coefficient(chain, after, false), scale))
     })
 }

@@ -33,13 +33,13 @@ pub(super) enum Variable {
 
 /// Sums of products over the points of a piece: the lower triangle, and with the distances.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Block {
+pub(super) struct PieceSums {
     pub(super) size: usize,
     pub(super) products: Vec<f64>,
     pub(super) right: Vec<f64>,
 }
 
-impl Block {
+impl PieceSums {
     pub(super) fn reset(&mut self, size: usize) {
         self.size = size;
         self.products.clear();
@@ -86,7 +86,7 @@ impl Block {
 #[derive(Debug, Default)]
 pub(in crate::section) struct Work {
     pub layout: Layout,
-    pub(super) blocks: Vec<Block>,
+    pub(super) blocks: Vec<PieceSums>,
     pub(super) motions: Vec<Vec<[f64; 3]>>,
     pub(super) variables: Vec<Variable>,
     pub(super) matrix: Vec<f64>,

@@ -1,6 +1,6 @@
 //! Deviations in closed form, and by brute force.
 
-use super::super::{Kind, Options, contour};
+use super::super::{Options, SegmentKind, contour};
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
@@ -73,7 +73,7 @@ fn a_contour_found_is_a_nominal() {
     for _ in 0..2 {
         let options = Options { closed: Some(true), ..Options::default() };
         let found = contour(&points, &options, &Silent).unwrap();
-        assert!(found.segments.iter().all(|s| s.geometry.kind() != Kind::Spline));
+        assert!(found.segments.iter().all(|s| s.geometry.kind() != SegmentKind::Spline));
         let nominal = with_material_inside(vec![Outline::of(&found)]);
         let found = deviations(&[[10.0, 4.5], [26.0, 0.0], [-3.0, 0.0], [10.0, 1.0]], &nominal);
         for (found, truth) in found.iter().zip([0.5, 2.0, -1.0, -3.0]) {

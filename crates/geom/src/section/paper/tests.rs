@@ -3,7 +3,7 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::section::{Kind, contour};
+use crate::section::{SegmentKind, contour};
 
 /// The paper's example: a line at 45° to the join (5, 1), then a curve whose curvature starts with a jump; points 0.5 apart.
 fn example(noise: f64, seed: u64) -> Vec<[f64; 2]> {
@@ -16,7 +16,7 @@ fn example(noise: f64, seed: u64) -> Vec<[f64; 2]> {
     for i in (0..30).rev() {
         points.push([5.0 - (0.5 * f64::from(i) + 0.2) * cos, 1.0 - (0.5 * f64::from(i) + 0.2) * sin]);
     }
-    // Curvature −0.25 and rising by 0.02 a millimetre: by small steps of the middle's direction.
+    // Curvature −0.25 and rising by 0.02 a millimeter: by small steps of the middle's direction.
     let (step, mut s) = (1e-3, 0.0);
     while points.len() < 62 {
         let heading = |s: f64| eighth - 0.25 * s + 0.01 * s * s;
@@ -36,7 +36,7 @@ fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 fn methods(points: &[[f64; 2]]) -> (Vec<Method>, bool, Contour) {
     let found = contour(points, &Options::default(), &Silent).unwrap();
-    let kinds: Vec<Kind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
+    let kinds: Vec<SegmentKind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
     let answer = line_and_curve(points, &found, None, &Silent);
     let (all, reversed) = answer.unwrap_or_else(|e| panic!("{e}: {kinds:?}, closed: {}", found.closed));
     (all, reversed, found)
@@ -78,8 +78,8 @@ fn a_row_run_through_from_its_end_has_the_same_joins() {
     let options = Options::default();
     let one = method_contour(&points, &found, &forward[2], false, &options);
     let two = method_contour(&turned, &other, &backward[2], true, &options);
-    assert_eq!(one.segments[0].geometry.kind(), Kind::Line);
-    assert_eq!(two.segments[1].geometry.kind(), Kind::Line);
+    assert_eq!(one.segments[0].geometry.kind(), SegmentKind::Line);
+    assert_eq!(two.segments[1].geometry.kind(), SegmentKind::Line);
     assert!(far(one.segments[0].end, one.segments[1].start) < 1e-12);
     assert!(far(two.segments[0].end, two.segments[1].start) < 1e-9);
     for (a, b) in one.residuals.iter().zip(two.residuals.iter().rev()) {

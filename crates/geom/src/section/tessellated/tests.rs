@@ -3,7 +3,7 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::section::{Kind, Plane, cut};
+use crate::section::{Plane, SegmentKind, cut};
 
 /// The walls of prisms over closed outlines, each quad in two facets, rounded to single precision.
 fn prisms(outlines: &[Vec<[f64; 2]>], noise: f64) -> Mesh {
@@ -49,9 +49,9 @@ fn sections(outlines: &[Vec<[f64; 2]>]) -> Vec<Contour> {
 }
 
 /// Kinds in order around, from the longest line on.
-fn kinds(contour: &Contour) -> Vec<Kind> {
-    let mut all: Vec<Kind> = contour.segments.iter().map(|s| s.geometry.kind()).collect();
-    let size = |s: &Segment| if s.geometry.kind() == Kind::Line { s.length } else { 0.0 };
+fn kinds(contour: &Contour) -> Vec<SegmentKind> {
+    let mut all: Vec<SegmentKind> = contour.segments.iter().map(|s| s.geometry.kind()).collect();
+    let size = |s: &Segment| if s.geometry.kind() == SegmentKind::Line { s.length } else { 0.0 };
     let first = contour.segments.iter().enumerate().max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
     all.rotate_left(first.unwrap().0);
     all
@@ -76,7 +76,7 @@ fn polygons_are_lines_with_corners() {
     let bracket: Vec<[f64; 2]> =
         vec![[0.0, 60.0], [70.0, 60.0], [70.0, 65.0], [30.0, 80.0], [5.0, 80.0], [5.0, 120.0], [0.0, 120.0]];
     for (contour, corners) in sections(&[square, hexagon, bracket]).iter().zip([4, 6, 7]) {
-        assert_eq!(kinds(contour), vec![Kind::Line; corners]);
+        assert_eq!(kinds(contour), vec![SegmentKind::Line; corners]);
         assert!(contour.closed && contour.joins.iter().all(|j| j.continuity == Continuity::G0));
         assert!(contour.joins.iter().all(|j| j.uncertainty < 1e-3));
         holds_together(contour);
@@ -108,7 +108,7 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
         assert!((sweep.abs() - std::f64::consts::TAU).abs() < 1e-9);
         holds_together(contour);
     }
-    use Kind::{Arc, Line};
+    use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found[2]), [Line, Arc, Line, Arc]);
     for join in &found[2].joins {
         assert_eq!(join.continuity, Continuity::G1);
@@ -140,7 +140,7 @@ fn polygons_of_up_to_ten_sides_are_lines_and_of_eleven_circles() {
             let start = 360.0 * random.unit();
             let outline = arc(center, 1.0 + 20.0 * random.unit(), start, start + 360.0, sides);
             let found = &sections(&[outline])[0];
-            let want = if sides <= 10 { vec![Kind::Line; sides] } else { vec![Kind::Arc] };
+            let want = if sides <= 10 { vec![SegmentKind::Line; sides] } else { vec![SegmentKind::Arc] };
             assert_eq!(kinds(found), want, "{sides} {center:?} {start}");
             holds_together(found);
         }
@@ -171,7 +171,7 @@ fn a_pyramid_of_ten_sides_has_ten_lines() {
         let options = Options::default();
         let found =
             chain_contour(&chains[0], &plane.frame().unwrap(), rounding(&mesh), &options, &Silent).unwrap();
-        assert_eq!((kinds(&found), found.taken), (vec![Kind::Line; sides], Taken::Facets));
+        assert_eq!((kinds(&found), found.taken), (vec![SegmentKind::Line; sides], Taken::Facets));
     }
 }
 
@@ -183,7 +183,7 @@ fn coarse_slots_have_arcs() {
         let left = arc([20.0, 0.0], 6.0, 90.0, 270.0, chords);
         let slot = [right, vec![[50.0, 6.0]], left, vec![[20.0, -6.0]]].concat();
         let found = &sections(&[slot])[0];
-        use Kind::{Arc, Line};
+        use SegmentKind::{Arc, Line};
         assert_eq!(kinds(found), [Line, Arc, Line, Arc], "{chords}");
         assert!(found.joins.iter().all(|j| j.continuity == Continuity::G1), "{chords}");
         holds_together(found);
@@ -273,7 +273,7 @@ fn a_free_curve_between_lines_is_a_spline() {
     outline.extend((0..=40).rev().map(f64::from).map(|x| [x, wave(x)]));
     outline.push([-30.0, 0.0]);
     let found = &sections(&[outline.clone()])[0];
-    use Kind::{Line, Spline};
+    use SegmentKind::{Line, Spline};
     assert_eq!(kinds(found), [Line, Line, Line, Spline, Line, Line]);
     let spline = found.segments.iter().find(|s| s.geometry.kind() == Spline).unwrap();
     for p in outline.iter().filter(|p| p[0] > 3.0 && p[0] < 37.0 && p[1] > -1.0) {
@@ -299,7 +299,7 @@ fn a_scan_is_a_row_of_independent_points() {
     let chains = cut(&mesh, &plane, &Silent).unwrap();
     let found = chain_contour(&chains[0], &frame, rounding(&mesh), &Options::default(), &Silent).unwrap();
     assert_eq!(found.taken, Taken::Scan);
-    use Kind::{Arc, Line};
+    use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
     for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
         let join = found.joins.iter().find(|j| length(j.point, truth) < 0.5).unwrap();

@@ -96,7 +96,7 @@ fn short_exact_triangles_have_their_corners() {
         let contour = contour(&points, &options, &Silent).unwrap();
         let around: f64 = (0..3).map(|k| far(corners[k], corners[(k + 1) % 3])).sum();
         assert!((contour.length() / around - 1.0).abs() < 1e-3, "{n}: {} of {around}", contour.length());
-        assert!(contour.segments.iter().all(|s| s.geometry.kind() == Kind::Line), "{n}");
+        assert!(contour.segments.iter().all(|s| s.geometry.kind() == SegmentKind::Line), "{n}");
     }
 }
 
@@ -135,7 +135,7 @@ fn exact_polygons_have_their_corners() {
             true => (0..sides).map(|k| far(corners[k], corners[(k + 1) % sides])).sum(),
             false => points.windows(2).map(|w| far(w[0], w[1])).sum::<f64>(),
         };
-        assert_eq!(kinds(&contour), vec![Kind::Line; sides], "{seed}");
+        assert_eq!(kinds(&contour), vec![SegmentKind::Line; sides], "{seed}");
         assert!((contour.length() / around - 1.0).abs() < 1e-5, "{seed}: {} of {around}", contour.length());
         assert!(contour.astray.is_empty(), "{seed}");
     }
@@ -214,7 +214,7 @@ fn a_square_has_no_tangent_joins() {
         .map(|p| [p[0] + 0.01 * normal(&mut random), p[1] + 0.01 * normal(&mut random)])
         .collect();
     let free = found(&points);
-    assert_eq!((kinds(&free), free.joins.len()), (vec![Kind::Line; 4], 4));
+    assert_eq!((kinds(&free), free.joins.len()), (vec![SegmentKind::Line; 4], 4));
     for continuity in [Continuity::G1, Continuity::G2] {
         let forced =
             contour(&points, &Options { continuity: Some(continuity), ..Options::default() }, &Silent);

@@ -35,8 +35,9 @@ fn noisy_rounded_rectangles_are_lines_and_arcs() {
         let exact = rounded_rectangle(64, 0.08 * seed as f64, sizes, 0.2, 15);
         let contour = found(&with_noise(&exact, noise, 40 + seed));
         assert!(!hides_form(&contour, noise), "{seed}: {:?} {}", kinds(&contour), contour.noise);
-        let by_turns =
-            kinds(&contour).chunks(2).all(|k| k == [Kind::Line, Kind::Arc] || k == [Kind::Arc, Kind::Line]);
+        let by_turns = kinds(&contour).chunks(2).all(|k| {
+            k == [SegmentKind::Line, SegmentKind::Arc] || k == [SegmentKind::Arc, SegmentKind::Line]
+        });
         told += usize::from(by_turns && contour.segments.len() == 8);
         right += usize::from(contour.astray.is_empty() && is_right(&contour, sizes, 1.0));
     }
@@ -52,7 +53,7 @@ fn noisy_polygons_are_no_circles() {
         for seed in 0..12 {
             let contour = found(&with_noise(&polygon(sides, each), 0.02, 70 + seed));
             assert!(!hides_form(&contour, 0.02), "{sides} {each} {seed}: {:?}", kinds(&contour));
-            let lines = kinds(&contour).iter().all(|k| *k == Kind::Line);
+            let lines = kinds(&contour).iter().all(|k| *k == SegmentKind::Line);
             right += usize::from(lines && contour.segments.len() == sides);
         }
         assert!(right >= fewest, "{sides} sides of {each}: {right} of 12");
@@ -65,7 +66,8 @@ fn corners_that_points_cannot_tell_are_named() {
     for sides in [5, 6, 8, 10, 12] {
         for noise in [0.0, 0.005, 0.01] {
             let contour = found(&with_noise(&polygon(sides, 2), noise, sides as u64));
-            let polygon = contour.segments.len() == sides && kinds(&contour).iter().all(|k| *k == Kind::Line);
+            let polygon =
+                contour.segments.len() == sides && kinds(&contour).iter().all(|k| *k == SegmentKind::Line);
             assert!(polygon || !contour.astray.is_empty(), "{sides} {noise}: {:?}", kinds(&contour));
         }
     }
@@ -93,7 +95,7 @@ fn noise_alone_is_not_astray() {
                 .map(|(s, c)| [10.0 * c, 10.0 * s])
                 .collect();
             let line: Vec<[f64; 2]> = (0..count).map(|i| [f64::from(i), 0.3 * f64::from(i)]).collect();
-            for (row, kind) in [(circle, Kind::Arc), (line, Kind::Line)] {
+            for (row, kind) in [(circle, SegmentKind::Arc), (line, SegmentKind::Line)] {
                 let contour = found(&with_noise(&row, 0.03, seed));
                 all += 1;
                 astray += usize::from(!contour.astray.is_empty() || kinds(&contour) != [kind]);

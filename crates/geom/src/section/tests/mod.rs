@@ -38,7 +38,7 @@ fn bends(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn kinds(contour: &Contour) -> Vec<Kind> {
+fn kinds(contour: &Contour) -> Vec<SegmentKind> {
     contour.segments.iter().map(|s| s.geometry.kind()).collect()
 }
 
@@ -53,7 +53,7 @@ fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
 #[test]
 fn exact_points_give_the_exact_joins() {
     let contour = found(&bends(150, 0.0, 0));
-    assert_eq!(kinds(&contour), [Kind::Line, Kind::Arc, Kind::Line]);
+    assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line]);
     for (join, truth) in contour.joins.iter().zip([[8.0, 0.0], [13.0, 5.0]]) {
         assert!(far(join.point, truth) < 1e-6, "{join:?}");
         assert_eq!(join.continuity, Continuity::G1);
@@ -70,7 +70,7 @@ fn intervals_cover_over_fresh_noise() {
     let (mut inside, mut all, mut z, mut other) = (0, 0, 0.0, 0);
     for seed in 0..150 {
         let contour = found(&bends(120, 0.01, 1000 + seed));
-        if kinds(&contour) != [Kind::Line, Kind::Arc, Kind::Line] {
+        if kinds(&contour) != [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line] {
             other += 1;
             continue;
         }
@@ -100,7 +100,7 @@ fn uncertainties_of_segments_are_those_of_fresh_noise() {
     let mut count = 0.0;
     for seed in 0..240 {
         let contour = found(&bends(120, 0.01, 1000 + seed));
-        if kinds(&contour) != [Kind::Line, Kind::Arc, Kind::Line] {
+        if kinds(&contour) != [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line] {
             continue;
         }
         count += 1.0;
@@ -206,7 +206,7 @@ fn wrong_rows_are_refused_and_odd_ones_answered() {
     let random = &mut Random::new(4);
     let wild: Vec<[f64; 2]> = (0..2000).map(|i| [f64::from(i) * 0.01, 0.1 * normal(random)]).collect();
     let line = found(&wild);
-    assert_eq!(kinds(&line), [Kind::Line]);
+    assert_eq!(kinds(&line), [SegmentKind::Line]);
     assert!((line.noise - 0.1).abs() < 0.01);
 }
 
@@ -324,7 +324,7 @@ fn segments_end_at_their_joins() {
             .map(|p| [p[0] + 0.004 * normal(random), p[1] + 0.004 * normal(random)])
             .collect();
         let contour = found(&points);
-        assert_eq!(kinds(&contour)[..2], [Kind::Line, Kind::Spline], "{seed}");
+        assert_eq!(kinds(&contour)[..2], [SegmentKind::Line, SegmentKind::Spline], "{seed}");
         assert_eq!(contour.joins[0].continuity, Continuity::G0);
         let Geometry::Spline { curve, .. } = &contour.segments[1].geometry else { panic!() };
         let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
@@ -335,7 +335,7 @@ fn segments_end_at_their_joins() {
         let line = (0..60).map(|i| [f64::from(i) * 0.3 - 17.9, 0.0]);
         let points: Vec<[f64; 2]> = line.chain(bow).map(|p| noisy(p, random)).collect();
         let contour = found(&points);
-        assert_eq!(kinds(&contour), [Kind::Line, Kind::Arc], "{seed}");
+        assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc], "{seed}");
         let Geometry::Arc { center, radius, start, .. } = contour.segments[1].geometry else { panic!() };
         let (sin, cos) = libm::sincos(start);
         let own = [center[0] + radius * cos, center[1] + radius * sin];

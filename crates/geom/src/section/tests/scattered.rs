@@ -111,7 +111,7 @@ fn a_scattered_rectangle_has_four_sides() {
             .collect();
         let found = order(&points, None, &Silent).unwrap();
         let contour = ordered_contour(&points, &found.rows[0], &Options::default(), &Silent).unwrap();
-        assert_eq!(kinds(&contour), [Kind::Line; 4], "{count} {noise}");
+        assert_eq!(kinds(&contour), [SegmentKind::Line; 4], "{count} {noise}");
         assert!((contour.length() - 200.0).abs() < 0.05, "{count} {noise}: {}", contour.length());
     }
 }

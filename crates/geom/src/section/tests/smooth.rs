@@ -35,7 +35,7 @@ fn smooth_curves_are_found_in_few_rounds() {
             for points in [closed, wave] {
                 let rounds = Rounds::default();
                 let contour = contour(&points, &Options::default(), &rounds).unwrap();
-                assert_eq!(kinds(&contour), [Kind::Spline], "{noise} {count}");
+                assert_eq!(kinds(&contour), [SegmentKind::Spline], "{noise} {count}");
                 assert!(contour.noise < 1.2 * noise + 1e-4, "{noise} {count}: {}", contour.noise);
                 let rounds = rounds.0.into_inner();
                 assert!(rounds <= 12, "{noise} {count}: {rounds} rounds");
@@ -57,7 +57,7 @@ fn long_waves_are_few_free_curves() {
             .collect();
         let rounds = Rounds::default();
         let contour = contour(&points, &Options::default(), &rounds).unwrap();
-        assert!(kinds(&contour).iter().all(|k| *k == Kind::Spline), "{count}: {:?}", kinds(&contour));
+        assert!(kinds(&contour).iter().all(|k| *k == SegmentKind::Spline), "{count}: {:?}", kinds(&contour));
         assert!(contour.segments.len() <= 4 && contour.noise < 1.2 * noise, "{count}: {}", contour.noise);
         assert!(rounds.0.into_inner() <= 12, "{count}");
     }
@@ -91,7 +91,7 @@ fn an_arc_between_free_curves_is_found() {
         }
         let contour = contour(&points, &Options::default(), &Silent).unwrap();
         rows += 1;
-        found += usize::from(kinds(&contour) == [Kind::Spline, Kind::Arc, Kind::Spline]);
+        found += usize::from(kinds(&contour) == [SegmentKind::Spline, SegmentKind::Arc, SegmentKind::Spline]);
     }
     assert!(found + 1 >= rows, "{found} of {rows}");
 }

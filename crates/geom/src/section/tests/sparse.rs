@@ -101,7 +101,7 @@ fn sparse_slots_and_brackets_are_right() {
     .concat();
     let contour = contour(&slot, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
     assert!(contour.astray.is_empty() && contour.closed, "{:?} {}", kinds(&contour), contour.noise);
-    assert_eq!(kinds(&contour), [Kind::Line, Kind::Arc, Kind::Line, Kind::Arc]);
+    assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line, SegmentKind::Arc]);
     assert!((contour.length() - 40.0 - 10.0 * std::f64::consts::PI).abs() < 1e-7, "{}", contour.length());
     let bracket = [
         vec![[0.0, 0.0], [5.0, 0.0], [10.0, 0.0], [16.0, 0.0]],
@@ -111,7 +111,7 @@ fn sparse_slots_and_brackets_are_right() {
     .concat();
     let contour = found(&bracket);
     assert!(contour.astray.is_empty() && !contour.closed);
-    assert_eq!(kinds(&contour), [Kind::Line, Kind::Arc, Kind::Line, Kind::Line]);
+    assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line, SegmentKind::Line]);
     let truth =
         [([17.0, 0.0], Continuity::G1), ([20.0, 3.0], Continuity::G1), ([20.0, 15.0], Continuity::G0)];
     for (join, (at, continuity)) in contour.joins.iter().zip(truth) {

@@ -221,7 +221,7 @@ fn a_cloud_has_the_same_faces() {
     matched(&part, &found, 0.85);
 }
 
-/// Rows of a scanner: fifteen times as far apart as the points of a row, so that a point's nearest neighbours are all on
+/// Rows of a scanner: fifteen times as far apart as the points of a row, so that a point's nearest neighbors are all on
 /// its own row.
 #[test]
 fn rows_of_points_are_one_face() {

@@ -1,4 +1,4 @@
-//! Parts whose faces are known: a ring of sections, each a chain of corners, neighbours joined by two facets.
+//! Parts whose faces are known: a ring of sections, each a chain of corners, neighbors joined by two facets.
 
 use crate::mesh::Mesh;
 use crate::num::random::Random;
@@ -41,7 +41,7 @@ pub(in crate::segment) fn turned(turn: f64, steps: usize) -> Part {
     // The cone leaves the fillet in the direction of its tangent.
     let foot = [10.0 - 4.0 * (1.0 - cos), 24.0 + 4.0 * sin];
     let top = [foot[0] - 7.0 * sin, foot[1] + 7.0 * cos];
-    // A ball larger than the end of the cone, with its centre on the axis.
+    // A ball larger than the end of the cone, with its center on the axis.
     let radius = top[0] * 1.25;
     let center = top[1] + (radius * radius - top[0] * top[0]).sqrt();
     let start = ((top[1] - center) / radius).asin().to_degrees();

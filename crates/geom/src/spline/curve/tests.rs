@@ -59,7 +59,7 @@ fn a_curve_is_the_bezier_curves_it_consists_of() {
     }
 }
 
-/// Halving ends where the digits end: before, a curve of a micrometre a metre away was halved 2⁴⁰ times.
+/// Halving ends where the digits end: before, a curve of a micrometer a meter away was halved 2⁴⁰ times.
 #[test]
 fn lengths_of_curves_shorter_than_their_digits_end() {
     let knots = Knots::uniform(3, 2, 0.0, 1.0);

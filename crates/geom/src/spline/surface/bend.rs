@@ -3,7 +3,7 @@
 use super::Surface;
 use crate::space::{Point, Vector, cross, dot, norm, plus, times, unit};
 
-/// Normal and curvatures of a surface at a place. Lengths in millimetres, curvatures in their reciprocal.
+/// Normal and curvatures of a surface at a place. Lengths in millimeters, curvatures in their reciprocal.
 ///
 /// The normal is that of the derivative by `u` times the derivative by `v`. A curvature is positive where the surface bends
 /// towards the normal.

@@ -14,7 +14,7 @@ use crate::spline::spans::Spans;
 use crate::spline::value::Value;
 
 /// The polynomials of a surface.
-pub(super) enum Shape {
+pub(super) enum Polynomials {
     Plain(Patches<3>),
     Rational(Patches<4>),
 }
@@ -22,23 +22,23 @@ pub(super) enum Shape {
 /// First and last span of a part of a surface, in both directions.
 pub(super) type Part = [[usize; 2]; 2];
 
-impl Shape {
-    fn new(surface: &Nurbs) -> Shape {
+impl Polynomials {
+    fn new(surface: &Nurbs) -> Polynomials {
         match surface {
-            Nurbs::Plain(s) => Shape::Plain(Patches::new(s)),
+            Nurbs::Plain(s) => Polynomials::Plain(Patches::new(s)),
             Nurbs::Rational(s) => {
                 let masses = s.masses();
                 let points: Vec<[f64; 4]> =
                     masses.points().iter().map(|m| [m.moment[0], m.moment[1], m.moment[2], m.mass]).collect();
                 let spans = masses.knots().each_ref().map(Spans::new);
-                Shape::Rational(Patches::of(spans, &points, masses.counts()[1]))
+                Polynomials::Rational(Patches::of(spans, &points, masses.counts()[1]))
             }
         }
     }
     pub(super) fn spans(&self) -> &[Spans; 2] {
         match self {
-            Shape::Plain(p) => &p.spans,
-            Shape::Rational(p) => &p.spans,
+            Polynomials::Plain(p) => &p.spans,
+            Polynomials::Rational(p) => &p.spans,
         }
     }
     fn locate(&self, part: &Part, at: [f64; 2]) -> [(usize, f64); 2] {
@@ -48,11 +48,11 @@ impl Shape {
     pub(super) fn jet(&self, part: &Part, at: [f64; 2]) -> Jet {
         let [u, v] = self.locate(part, at);
         match self {
-            Shape::Plain(p) => {
+            Polynomials::Plain(p) => {
                 let [place, su, sv, suu, suv, svv] = p.six(u, v);
                 Jet { place, first: [su, sv], second: [suu, suv, svv] }
             }
-            Shape::Rational(p) => quotient(p.six(u, v)),
+            Polynomials::Rational(p) => quotient(p.six(u, v)),
         }
     }
     /// The place, at the border of the part seen from within.
@@ -60,8 +60,8 @@ impl Shape {
         let [(i, s), (j, t)] = self.locate(part, at);
         let cell = i * self.spans()[1].count() + j;
         match self {
-            Shape::Plain(p) => p.value(cell, s, t),
-            Shape::Rational(p) => {
+            Polynomials::Plain(p) => p.value(cell, s, t),
+            Polynomials::Rational(p) => {
                 let [x, y, z, w] = p.value(cell, s, t);
                 [x / w, y / w, z / w]
             }
@@ -70,12 +70,12 @@ impl Shape {
     /// Bounds of the second derivatives of a patch by its own coordinates; `least` is the least weight that acts there.
     fn bounds(&self, cell: usize, least: f64) -> [f64; 3] {
         match self {
-            Shape::Plain(p) => {
+            Polynomials::Plain(p) => {
                 let (own, q) = p.patch(cell);
                 let [_, _, _, ss, st, tt] = sizes(own.iter().map(|c| norm(*c)), q);
                 [ss, st, tt]
             }
-            Shape::Rational(p) => {
+            Polynomials::Rational(p) => {
                 let (own, q) = p.patch(cell);
                 let w0 = own[0][3];
                 let middle = [0, 1, 2].map(|k| own[0][k] / w0);
@@ -126,13 +126,13 @@ fn sizes(coefficients: impl Iterator<Item = f64>, q: usize) -> [f64; 6] {
 /// A surface of which it is known how much it bends, but not yet how fine its grid must be.
 pub(super) struct Bent<'a> {
     surface: &'a Nurbs,
-    shape: Shape,
+    shape: Polynomials,
     bounds: Vec<[f64; 3]>,
 }
 
 impl<'a> Bent<'a> {
     pub(super) fn new(surface: &'a Nurbs) -> Bent<'a> {
-        let shape = Shape::new(surface);
+        let shape = Polynomials::new(surface);
         Bent { surface, bounds: patch_bounds(surface, &shape), shape }
     }
     /// Cells of a grid that keep within `slack` of their facets.
@@ -144,7 +144,7 @@ impl<'a> Bent<'a> {
 
 /// A surface over a grid.
 pub(super) struct Grid {
-    pub(super) shape: Shape,
+    pub(super) shape: Polynomials,
     /// Parameters of the lines in both directions.
     pub(super) lines: [Vec<f64>; 2],
     /// The span of each step between lines.
@@ -277,7 +277,7 @@ fn runs(knots: &Knots) -> Vec<[usize; 2]> {
     out
 }
 
-fn patch_bounds(surface: &Nurbs, shape: &Shape) -> Vec<[f64; 3]> {
+fn patch_bounds(surface: &Nurbs, shape: &Polynomials) -> Vec<[f64; 3]> {
     let spans = shape.spans();
     let n = surface.counts()[1];
     let least = |i: usize, j: usize| match surface {
@@ -297,7 +297,7 @@ fn patch_bounds(surface: &Nurbs, shape: &Shape) -> Vec<[f64; 3]> {
 const MOST: f64 = 65536.0;
 
 /// Steps in each span of both directions, so that each direction has half of the slack.
-fn steps(shape: &Shape, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2] {
+fn steps(shape: &Polynomials, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2] {
     let most = |which: usize| bounds.iter().map(|b| b[which]).fold(0.0, f64::max);
     let counts = shape.spans().each_ref().map(Spans::count);
     // 2hk M₂ is no more than (r h² + k² / r) M₂.

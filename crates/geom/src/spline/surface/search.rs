@@ -2,7 +2,7 @@
 //!
 //! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a tree
 //! of boxes. From a cell that may hold a nearer place than the best one known, Newton's method starts; then the cell is
-//! done away with in one of three ways. Its bound says that it is too far. Or it lies within a neighbourhood of the best place
+//! done away with in one of three ways. Its bound says that it is too far. Or it lies within a neighborhood of the best place
 //! over which the squared distance is convex, by a bound of its second derivatives, so that the minimum found is the only one. Or it
 //! is cut in four, whose bounds are a quarter, until they are [`SHARE`] of the surfaces' size.
 
@@ -113,7 +113,7 @@ struct Best {
     alone: Option<Alone>,
 }
 
-/// A neighbourhood of a place in which the squared distance is convex: all within the parameters `from` to `to` whose scaled
+/// A neighborhood of a place in which the squared distance is convex: all within the parameters `from` to `to` whose scaled
 /// distance from `at` is no more than `radius`.
 struct Alone {
     at: [f64; 2],
@@ -437,7 +437,7 @@ impl Alone {
     }
 }
 
-/// The neighbourhood in which a place is the only minimum, if one can be named.
+/// The neighborhood in which a place is the only minimum, if one can be named.
 ///
 /// Parameters are scaled so that the derivatives have length 1 at the place; with the cosine `c` of their angle, the derivative in
 /// any direction is there at least `√(1 − c)` long, and within `r` of it no shorter than `√(1 − c) − M r`, with a bound `M` of the second

@@ -1,4 +1,4 @@
-//! The interval of a mean when neighbouring values go together.
+//! The interval of a mean when neighboring values go together.
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::student_quantile;
@@ -24,7 +24,7 @@ pub struct BlockMean {
 const FEWEST: u64 = 10;
 
 /// The mean of the finite `values` at `points`, its uncertainty taken from the scatter of whole cubes of side `size`
-/// (millimetres) instead of single points.
+/// (millimeters) instead of single points.
 ///
 /// Values in different cubes are taken as independent, those in one cube as correlated in any way whatever: the
 /// cluster-robust variance (Liang and Zeger 1986) with Student's t for the number of cubes. So `size` should exceed the
@@ -74,7 +74,7 @@ mod tests {
 
     /// Values that are equal within each cube: the cubes are the independent values.
     #[test]
-    fn equal_neighbours_count_once() {
+    fn equal_neighbors_count_once() {
         let mut random = Random::new(4);
         let level: Vec<f64> = (0..400).map(|_| random.unit()).collect();
         let points: Vec<Point> =

@@ -41,9 +41,9 @@ impl Default for Options {
 /// Intervals, as if the values were independent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intervals {
-    /// Of the mean, millimetres.
+    /// Of the mean, millimeters.
     pub mean: [f64; 2],
-    /// Of the sample standard deviation, millimetres.
+    /// Of the sample standard deviation, millimeters.
     pub std_dev: [f64; 2],
     /// Values behind them.
     pub count: u64,
@@ -206,8 +206,8 @@ mod tests {
             let of_mean = 1.96 * s / n.sqrt();
             let of_s = 1.96 * s * ((all.kurtosis.unwrap() + 2.0) / (4.0 * n)).sqrt();
             let found = bootstrap(&values, &Options { replicates: 4000, ..Options::default() }).unwrap();
-            for (ends, centre, half) in [(found.mean, mean, of_mean), (found.std_dev, s, of_s)] {
-                let [low, high] = ends.map(|e| (e - centre) / half);
+            for (ends, center, half) in [(found.mean, mean, of_mean), (found.std_dev, s, of_s)] {
+                let [low, high] = ends.map(|e| (e - center) / half);
                 assert!((low + 1.0).abs() < 0.08 && (high - 1.0).abs() < 0.08, "{count}: {low} {high}");
             }
         }

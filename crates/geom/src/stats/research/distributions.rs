@@ -267,7 +267,7 @@ mod tests {
     }
 
     /// Expected: `fit`, `logpdf`, `kstest` of SciPy 1.17's `norm`, `laplace`, `logistic`, `t`, `halfnorm`, `expon`,
-    /// `lognorm` on the same numbers (its optimiser stops some 1e-5 from the maximum).
+    /// `lognorm` on the same numbers (its optimizer stops some 1e-5 from the maximum).
     #[test]
     fn equals_scipy() {
         let fits_found = fits(&logistic_values(), 5000, 1).unwrap();

@@ -3,10 +3,10 @@
 //! | question | where |
 //! |---|---|
 //! | how sure are mean and σ? | [`bootstrap`](bootstrap::bootstrap) |
-//! | … when neighbouring deviations go together? | [`blocks`](blocks::mean_of_blocks) |
+//! | … when neighboring deviations go together? | [`blocks`](blocks::mean_of_blocks) |
 //! | are they normal? | [`normality`] |
 //! | which distribution describes them best? | [`distributions`](distributions::fits) |
-//! | do neighbouring deviations go together? | [`moran`](moran::autocorrelation) |
+//! | do neighboring deviations go together? | [`moran`](moran::autocorrelation) |
 //!
 //! Whatever draws numbers takes a seed; the results are the same for any number of threads and on every machine.
 //! These methods look at a sample where the whole would cost more than it tells; the result says how large it was.

@@ -1,35 +1,35 @@
-//! Do neighbouring deviations go together?
+//! Do neighboring deviations go together?
 //!
-//! Moran's I (Biometrika 37, 1950) with the weights of a nearest-neighbour graph; its expectation and variance under
+//! Moran's I (Biometrika 37, 1950) with the weights of a nearest-neighbor graph; its expectation and variance under
 //! random rearrangement of the values after Cliff and Ord, Spatial processes (1981).
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::normal_p;
 use crate::parallel::prelude::*;
 use crate::space::Point;
-use crate::spatial::neighbours::PointTree;
+use crate::spatial::neighbors::PointTree;
 
 /// How to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Points looked at.
     pub sample: usize,
-    /// Neighbours of each.
-    pub neighbours: usize,
+    /// Neighbors of each.
+    pub neighbors: usize,
     /// Decides which points.
     pub seed: u64,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { sample: 10_000, neighbours: 8, seed: 1 }
+        Options { sample: 10_000, neighbors: 8, seed: 1 }
     }
 }
 
 /// Spatial autocorrelation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moran {
-    /// 1: neighbours have the same deviation; about 0: they have nothing to do with each other; below: they alternate.
+    /// 1: neighbors have the same deviation; about 0: they have nothing to do with each other; below: they alternate.
     pub i: f64,
     /// What chance gives on average: `-1 / (count - 1)`.
     pub expected: f64,
@@ -39,28 +39,28 @@ pub struct Moran {
     pub p: f64,
     /// Points looked at.
     pub count: u64,
-    /// Mean distance of the neighbours, millimetres: the length the answer is about. A sparser sample has a larger one,
+    /// Mean distance of the neighbors, millimeters: the length the answer is about. A sparser sample has a larger one,
     /// and less correlation.
-    pub neighbour_distance: f64,
+    pub neighbor_distance: f64,
 }
 
 /// Moran's I of the finite `values` at the `points` of a sample. Cost: some 20 ms for 10,000 points.
 ///
 /// # Errors
-/// Fewer than ten values or no more than neighbours, or all equal.
+/// Fewer than ten values or no more than neighbors, or all equal.
 pub fn autocorrelation(points: &[Point], values: &[f64], options: &Options) -> Result<Moran, Missing> {
     let (chosen, sample) =
         super::subsample(&values[..values.len().min(points.len())], options.sample, options.seed);
-    let fewest = (options.neighbours + 2).max(10);
-    if sample.len() < fewest || options.neighbours == 0 {
+    let fewest = (options.neighbors + 2).max(10);
+    if sample.len() < fewest || options.neighbors == 0 {
         return Err(Missing::TooFew(fewest as u64));
     }
     let all = Summary::of(&sample).all;
     let (mean, kurtosis) = (all.mean?, all.kurtosis? + 3.0);
     let places: Vec<Point> = chosen.iter().map(|i| points[*i]).collect();
-    let (graph, neighbour_distance) = graph(&places, options.neighbours);
+    let (graph, neighbor_distance) = graph(&places, options.neighbors);
     let n = sample.len() as f64;
-    let k = options.neighbours as f64;
+    let k = options.neighbors as f64;
     let i = index(&graph, &sample.iter().map(|x| x - mean).collect::<Vec<f64>>());
     let (expected, variance) = by_chance(&graph, n, k, kurtosis);
     let std_dev = variance.sqrt();
@@ -70,7 +70,7 @@ pub fn autocorrelation(points: &[Point], values: &[f64], options: &Options) -> R
         std_dev,
         p: normal_p((i - expected) / std_dev),
         count: sample.len() as u64,
-        neighbour_distance,
+        neighbor_distance,
     })
 }
 
@@ -85,10 +85,10 @@ fn graph(points: &[Point], k: usize) -> (Vec<Vec<u32>>, f64) {
 }
 
 /// Moran's I of values whose mean is zero. Each row of weights adds up to one.
-fn index(graph: &[Vec<u32>], centred: &[f64]) -> f64 {
-    let near = |row: &[u32]| row.iter().map(|j| centred[*j as usize]).sum::<f64>() / row.len() as f64;
-    let products = graph.iter().zip(centred).map(|(row, x)| x * near(row)).sum::<f64>();
-    products / centred.iter().map(|x| x * x).sum::<f64>()
+fn index(graph: &[Vec<u32>], centerd: &[f64]) -> f64 {
+    let near = |row: &[u32]| row.iter().map(|j| centerd[*j as usize]).sum::<f64>() / row.len() as f64;
+    let products = graph.iter().zip(centerd).map(|(row, x)| x * near(row)).sum::<f64>();
+    products / centerd.iter().map(|x| x * x).sum::<f64>()
 }
 
 /// Mean and variance of I when the values are put to the points in random order.
@@ -127,9 +127,9 @@ mod tests {
         let points = scattered(60, 1);
         let mut random = Random::new(2);
         let mut values: Vec<f64> = points.iter().map(|_| random.unit().powi(6)).collect();
-        let options = Options { neighbours: 5, ..Options::default() };
+        let options = Options { neighbors: 5, ..Options::default() };
         let formula = autocorrelation(&points, &values, &options).unwrap();
-        let (graph, _) = graph(&points, options.neighbours);
+        let (graph, _) = graph(&points, options.neighbors);
         let mean = values.iter().sum::<f64>() / 60.0;
         values.iter_mut().for_each(|x| *x -= mean);
         let mut drawn = vec![];
@@ -160,16 +160,16 @@ mod tests {
         assert_eq!(autocorrelation(&points[..5], &free, &smaller), Err(Missing::TooFew(10)));
     }
 
-    /// Four values around a ring of ten, by hand: each point's two neighbours on a line of pairs.
+    /// Four values around a ring of ten, by hand: each point's two neighbors on a line of pairs.
     #[test]
     fn equals_the_sum_by_hand() {
         let points: Vec<Point> = (0..10).map(|i| [f64::from(i), 0.0, 0.0]).collect();
         let values = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let found =
-            autocorrelation(&points, &values, &Options { neighbours: 1, ..Options::default() }).unwrap();
-        // The nearest of i is i - 1 (the lower number of two equally near), of 0 it is 1. Centred: 0.8, 0.8, -0.2 …
+            autocorrelation(&points, &values, &Options { neighbors: 1, ..Options::default() }).unwrap();
+        // The nearest of i is i - 1 (the lower number of two equally near), of 0 it is 1. Centerd: 0.8, 0.8, -0.2 …
         let products = 0.64 + 0.64 - 0.16 + 7.0 * 0.04;
         assert!((found.i - products / (2.0 * 0.64 + 8.0 * 0.04)).abs() < 1e-15, "{found:?}");
-        assert_eq!(found.neighbour_distance, 1.0);
+        assert_eq!(found.neighbor_distance, 1.0);
     }
 }

@@ -104,16 +104,16 @@ fn equals_numpy_and_scipy() {
 #[test]
 fn closed_forms_far_from_zero() {
     let count = 1_000_001_u64;
-    let (centre, step) = (1e6, 2f64.powi(-28)); // σ = 1.1e-3; every value is exact.
+    let (center, step) = (1e6, 2f64.powi(-28)); // σ = 1.1e-3; every value is exact.
     let n = count as f64;
-    let values: Vec<f64> = (0..count).map(|i| centre + (i as f64 - (n - 1.0) / 2.0) * step).collect();
+    let values: Vec<f64> = (0..count).map(|i| center + (i as f64 - (n - 1.0) / 2.0) * step).collect();
     let s = Summary::of(&values).all;
-    assert_eq!(s.mean, Ok(centre));
+    assert_eq!(s.mean, Ok(center));
     close(s.variance, n * (n + 1.0) / 12.0 * step * step, 1e-15);
     close(s.kurtosis, -1.2 * (n * n + 1.0) / (n * n - 1.0), 1e-14);
     assert!(s.skewness.unwrap().abs() < 1e-14);
-    assert_eq!(s.median, Ok(centre));
-    close(s.percentiles[0], centre + (0.001 - 0.5) * (n - 1.0) * step, 1e-16);
+    assert_eq!(s.median, Ok(center));
+    close(s.percentiles[0], center + (0.001 - 0.5) * (n - 1.0) * step, 1e-16);
     close(s.mad, (n - 1.0) / 4.0 * step, 1e-10);
 }
 

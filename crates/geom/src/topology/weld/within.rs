@@ -13,7 +13,7 @@ type Placed = ([f64; 3], u32);
 /// Makes one vertex of all vertices that lie within `distance` of one another, directly or through others, and drops those
 /// that no face uses. It stands where the first of them stood: no place is invented.
 ///
-/// `distance` is in millimetres; 0 joins equal positions only, and so does one that is not above 0. Vertices that are not
+/// `distance` is in millimeters; 0 joins equal positions only, and so does one that is not above 0. Vertices that are not
 /// finite stay as they are. Facets whose corners have become one stay as well, as faces with a repeated vertex. Vertices are
 /// numbered by first appearance in the faces. Cost: n log n, unless very many vertices crowd at two places which lie just
 /// farther apart than `distance`.

@@ -37,7 +37,7 @@ pub enum Datum {
 /// The measured feature of a datum.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
-    /// Its points, millimetres.
+    /// Its points, millimeters.
     pub points: &'a [Point],
     /// What it is: plane, line, cylinder, cone, circle or sphere.
     pub kind: Kind,

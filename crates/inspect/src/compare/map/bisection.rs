@@ -15,7 +15,7 @@ const DEEPEST: usize = 60;
 pub struct Bisection {
     /// 0 for a piece that is not cut, else `first half << 2 | number of the edge`.
     nodes: Vec<u32>,
-    /// Longest edge of a piece, millimetres; the facets' own where they are shorter.
+    /// Longest edge of a piece, millimeters; the facets' own where they are shorter.
     pub edge: f64,
 }
 

@@ -27,7 +27,7 @@ pub fn corners(mesh: &Mesh) -> Vec<u32> {
         let (one, two) = (*one, *two);
         let smooth = match (normals[one as usize / 3], normals[two as usize / 3]) {
             (Some(m), Some(n)) => dot(m, n) >= SHARP,
-            // A facet without area belongs to its neighbours.
+            // A facet without area belongs to its neighbors.
             _ => true,
         };
         if !smooth {

@@ -10,9 +10,9 @@ use trueness_geom::space::{minus, norm};
 /// Ways are shortened round by round (R. Bellman, "On a routing problem", 1958): with a reach of a few edges there are few rounds.
 pub fn fill(mesh: &Mesh, values: &mut [f64], reach: f64) {
     let empty: Vec<bool> = values.iter().map(|v| v.is_nan()).collect();
-    let (starts, neighbours) = around_empty(mesh, &empty);
+    let (starts, neighbors) = around_empty(mesh, &empty);
     let length = |a: u32, b: u32| norm(minus(mesh.positions[a as usize], mesh.positions[b as usize]));
-    let list = |v: u32| &neighbours[starts[v as usize] as usize..starts[v as usize + 1] as usize];
+    let list = |v: u32| &neighbors[starts[v as usize] as usize..starts[v as usize + 1] as usize];
     let empty = |v: &u32| empty[*v as usize];
     // The shortest way so far to a vertex with a value, and that vertex.
     let mut nearest: Vec<(f64, u32)> = (0..values.len() as u32)

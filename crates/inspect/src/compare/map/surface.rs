@@ -24,17 +24,17 @@ const CREASED: usize = 200_000;
 pub struct MapSurface {
     /// The refined surface; `None` where the reference itself is fine enough, and the values are for its vertices.
     pub mesh: Option<Mesh>,
-    /// Millimetres; NaN where no point is near.
+    /// Millimeters; NaN where no point is near.
     pub values: Vec<f64>,
     /// Vertices that show flagged points.
     pub keep: Vec<u32>,
-    /// Farthest that a shown point's nearest place can be from the vertex that shows it, millimetres.
+    /// Farthest that a shown point's nearest place can be from the vertex that shows it, millimeters.
     pub reach: f64,
-    /// How far the points' nearest places lie apart, millimetres.
+    /// How far the points' nearest places lie apart, millimeters.
     pub spacing: f64,
-    /// Area of the surface, square millimetres.
+    /// Area of the surface, square millimeters.
     pub area: f64,
-    /// Area of the facets with a corner that has no value, which are drawn grey.
+    /// Area of the facets with a corner that has no value, which are drawn gray.
     pub uncovered: f64,
 }
 
@@ -112,17 +112,17 @@ impl MapSurface {
 
 /// The area of a mesh, and that of its facets with a vertex without a value. Summed in the order of the facets.
 fn areas(mesh: &Mesh, values: &[f64]) -> [f64; 2] {
-    let (mut all, mut grey) = (0.0, 0.0);
+    let (mut all, mut gray) = (0.0, 0.0);
     for f in &mesh.faces {
         let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
         let area = 0.5 * norm(cross(minus(b, a), minus(c, a)));
         // A facet with a coordinate that is not finite is no part of the reference.
         if area.is_finite() {
             all += area;
-            grey += if f.iter().any(|v| values[*v as usize].is_nan()) { area } else { 0.0 };
+            gray += if f.iter().any(|v| values[*v as usize].is_nan()) { area } else { 0.0 };
         }
     }
-    [all, grey]
+    [all, gray]
 }
 
 impl<'a> Drawing<'a> {

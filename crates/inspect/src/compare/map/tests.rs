@@ -103,7 +103,7 @@ fn check(mesh: &Mesh, points: &[Point], tolerance: Option<Tolerance>) -> MapSurf
     for (v, value) in surface.values.iter().enumerate().filter(|(v, _)| !normals[*v].is_empty()) {
         let near = || known.iter().filter(|k| same_face(v, k) && away(v, k) <= surface.reach);
         if value.is_nan() {
-            // Grey: no point within what every place looks through at least.
+            // Gray: no point within what every place looks through at least.
             let least =
                 known.iter().filter(|k| same_face(v, k)).map(|k| away(v, k)).fold(f64::INFINITY, f64::min);
             assert!(least > 0.2 * surface.reach, "grey at {:?}, a point {least} away", shown.positions[v]);
@@ -147,22 +147,22 @@ fn a_dent_between_the_vertices_of_a_coarse_cube() {
         let top = normals[v].iter().any(|n| n[2] > 0.9);
         assert!(!value.is_nan());
         assert!(top || value.abs() <= 0.011, "{value} at {p:?}");
-        let centre = (p[0] - 10.0).hypot(p[1] - 10.0);
-        assert!(!top || centre > 1.0 || *value < -0.3, "{value} in the dent at {p:?}");
-        assert!(!top || centre < 5.0 || value.abs() <= 0.03, "{value} beside the dent at {p:?}");
+        let center = (p[0] - 10.0).hypot(p[1] - 10.0);
+        assert!(!top || center > 1.0 || *value < -0.3, "{value} in the dent at {p:?}");
+        assert!(!top || center < 5.0 || value.abs() <= 0.03, "{value} beside the dent at {p:?}");
     }
 }
 
 #[test]
-fn what_was_not_measured_is_grey() {
+fn what_was_not_measured_is_gray() {
     let mesh = cube(20.0);
     let points = measured(4000, 20.0, |p| p[0] < 8.0);
     let surface = check(&mesh, &points, None);
     let shown = surface.mesh.as_ref().unwrap();
-    let grey = |v: usize| surface.values[v].is_nan();
+    let gray = |v: usize| surface.values[v].is_nan();
     for (v, p) in shown.positions.iter().enumerate() {
-        assert!(p[0] > 8.0 - surface.reach || grey(v), "{p:?}");
-        assert!(p[0] < 9.0 || !grey(v), "{p:?}");
+        assert!(p[0] > 8.0 - surface.reach || gray(v), "{p:?}");
+        assert!(p[0] < 9.0 || !gray(v), "{p:?}");
     }
 }
 
@@ -182,7 +182,7 @@ fn an_asymmetric_zone_decides_what_is_worst() {
 }
 
 #[test]
-fn a_fine_reference_keeps_its_facets_and_few_points_leave_most_grey() {
+fn a_fine_reference_keeps_its_facets_and_few_points_leave_most_gray() {
     let mut mesh = cube(20.0);
     let refined = {
         let points = measured(6000, 20.0, |_| false);
@@ -192,6 +192,6 @@ fn a_fine_reference_keeps_its_facets_and_few_points_leave_most_grey() {
     let surface = check(&mesh, &measured(3000, 20.0, |_| false), None);
     assert!(surface.keep.len() == 3 && surface.values.iter().filter(|v| v.is_nan()).count() < 200);
     let few = drawn(&cube(20.0), &measured(40, 20.0, |_| false), None).1;
-    let grey = few.values.iter().filter(|v| v.is_nan()).count();
-    assert!(2 * grey > few.values.len(), "{grey} of {}", few.values.len());
+    let gray = few.values.iter().filter(|v| v.is_nan()).count();
+    assert!(2 * gray > few.values.len(), "{gray} of {}", few.values.len());
 }

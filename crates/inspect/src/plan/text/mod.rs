@@ -56,8 +56,8 @@ pub enum UnitWord {
 }
 
 impl UnitWord {
-    /// Millimetres in one of it.
-    pub fn millimetres(self) -> f64 {
+    /// Millimeters in one of it.
+    pub fn millimeters(self) -> f64 {
         match self {
             UnitWord::Mm => 1.0,
             UnitWord::Cm => 10.0,

@@ -11,7 +11,7 @@ use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::{Rgb, category};
 use maud::{Markup, Render, html};
 use serde_json::Value;
-use trueness_geom::check::{Kind, Measure, Severity};
+use trueness_geom::check::{DefectKind, Measure, Severity};
 
 /// Rows of a kind at most, the worst first.
 const LISTED: usize = 100;
@@ -74,7 +74,7 @@ impl Subject for CheckDocument {
     /// Errors before warnings, the largest first.
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
         let kinds = self.found();
-        let errors = |(_, d): &(&Kind, &Defects)| {
+        let errors = |(_, d): &(&DefectKind, &Defects)| {
             std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(LISTED))
         };
         let errors: Vec<bool> = kinds.iter().flat_map(errors).collect();
@@ -90,7 +90,7 @@ impl Subject for CheckDocument {
 }
 
 /// The places of all rows of [`kinds`]; their marks are numbered from `first_mark`.
-pub fn picks(found: &[(&Kind, &Defects)], first_mark: usize) -> Vec<Pick> {
+pub fn picks(found: &[(&DefectKind, &Defects)], first_mark: usize) -> Vec<Pick> {
     let mut first = first_mark;
     let mut picks = vec![];
     for (kind, defects) in found {
@@ -101,7 +101,7 @@ pub fn picks(found: &[(&Kind, &Defects)], first_mark: usize) -> Vec<Pick> {
 }
 
 /// The items with a row, worst first, and their numbers in the document.
-fn rows<'a>(kind: &Kind, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
+fn rows<'a>(kind: &DefectKind, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
     let mut items: Vec<(usize, &Item)> = defects.items.iter().enumerate().collect();
     let by_size = |a: &(usize, &Item), b: &(usize, &Item)| a.1.size.total_cmp(&b.1.size);
     match kind.measure.less_is_worse() {
@@ -157,7 +157,7 @@ fn severity(s: Style, d: &CheckDocument, key: &str, severity: Severity, class: &
 }
 
 /// The kinds found, each with its places; the rows' numbers begin at `first_pick`.
-pub fn kinds(s: Style, found: &[(&Kind, &Defects)], first_pick: usize) -> Markup {
+pub fn kinds(s: Style, found: &[(&DefectKind, &Defects)], first_pick: usize) -> Markup {
     let mut first = first_pick;
     let parts = found.iter().enumerate().map(|(n, (of, defects))| {
         let from = first;
@@ -169,7 +169,7 @@ pub fn kinds(s: Style, found: &[(&Kind, &Defects)], first_pick: usize) -> Markup
 }
 
 /// A kind with its places, whose rows begin at `first`.
-fn kind(s: Style, (kind, defects): (&Kind, &Defects), color: Rgb, first: usize, open: bool) -> Markup {
+fn kind(s: Style, (kind, defects): (&DefectKind, &Defects), color: Rgb, first: usize, open: bool) -> Markup {
     let rows = rows(kind, defects);
     let count = defects.count.unwrap_or(0);
     html! {
@@ -188,7 +188,7 @@ fn kind(s: Style, (kind, defects): (&Kind, &Defects), color: Rgb, first: usize, 
     }
 }
 
-fn table(s: Style, kind: &Kind, rows: &[(usize, &Item)], first: usize) -> Markup {
+fn table(s: Style, kind: &DefectKind, rows: &[(usize, &Item)], first: usize) -> Markup {
     if rows.is_empty() {
         return Markup::default();
     }
@@ -250,9 +250,9 @@ fn model(s: Style, d: &CheckDocument) -> Markup {
             (fact(s, "volume", html! {
                 (volume(s, d)) @if d.volume_note.is_some() { " (" (s.word("volume.overlaps")) ")" }
             }))
-            (fact(s, "centre_of_mass", match d.centre_of_mass {
+            (fact(s, "centre_of_mass", match d.center_of_mass {
                 Some(place) => series(s, place, ", ", 3),
-                None => or_why(&d.centre_of_mass_reason),
+                None => or_why(&d.center_of_mass_reason),
             }))
             (fact(s, "euler", s.number(d.euler_characteristic as f64, 0)))
             (fact(s, "genus", match d.genus {

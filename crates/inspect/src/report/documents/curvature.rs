@@ -3,7 +3,7 @@
 use super::super::number::Style;
 use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use super::{Head, Map, Pick, Subject};
-use crate::curvature::Kind;
+use crate::curvature::CurvatureKind;
 use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Range};
 use crate::scale::Scale;
 use maud::{Markup, Render, html};
@@ -28,7 +28,7 @@ impl Subject for CurvatureDocument {
     }
 
     fn numbers(&self, s: Style) -> Markup {
-        html! { @for (n, kind) in Kind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } }
+        html! { @for (n, kind) in CurvatureKind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } }
     }
 
     fn list(&self, s: Style) -> Markup {
@@ -67,11 +67,11 @@ impl Subject for CurvatureDocument {
     }
 
     fn quantity(&self) -> [&'static str; 3] {
-        words(Kind::Mean)
+        words(CurvatureKind::Mean)
     }
 
     fn maps(&self) -> Vec<Map<'_>> {
-        let of = |kind: Kind| {
+        let of = |kind: CurvatureKind| {
             let found = CurvatureDocument::quantity(self, kind);
             Map {
                 name: kind.name(),
@@ -83,11 +83,11 @@ impl Subject for CurvatureDocument {
                 quantity: Some(words(kind)),
             }
         };
-        Kind::ALL.map(of).into()
+        CurvatureKind::ALL.map(of).into()
     }
 
     fn picks(&self) -> Vec<Pick> {
-        let of = |(n, kind): (usize, Kind)| {
+        let of = |(n, kind): (usize, CurvatureKind)| {
             ends(self, kind).map(|(place, value)| Pick {
                 position: place.position,
                 normal: Some(place.bend.normal),
@@ -96,7 +96,7 @@ impl Subject for CurvatureDocument {
                 ..Pick::default()
             })
         };
-        Kind::ALL.into_iter().enumerate().flat_map(of).collect()
+        CurvatureKind::ALL.into_iter().enumerate().flat_map(of).collect()
     }
 
     fn json(&self) -> serde_json::Result<Value> {
@@ -114,12 +114,12 @@ impl CurvatureDocument {
 }
 
 /// Keys of the words for a curvature, and for the high and the low end of its scale.
-pub fn words(kind: Kind) -> [&'static str; 3] {
+pub fn words(kind: CurvatureKind) -> [&'static str; 3] {
     match kind {
-        Kind::Mean => ["curvature.mean", "ends.curvature.high", "ends.curvature.low"],
-        Kind::Gaussian => ["curvature.gaussian", "ends.gaussian.high", "ends.gaussian.low"],
-        Kind::K1 => ["curvature.k1", "ends.curvature.high", "ends.curvature.low"],
-        Kind::K2 => ["curvature.k2", "ends.curvature.high", "ends.curvature.low"],
+        CurvatureKind::Mean => ["curvature.mean", "ends.curvature.high", "ends.curvature.low"],
+        CurvatureKind::Gaussian => ["curvature.gaussian", "ends.gaussian.high", "ends.gaussian.low"],
+        CurvatureKind::K1 => ["curvature.k1", "ends.curvature.high", "ends.curvature.low"],
+        CurvatureKind::K2 => ["curvature.k2", "ends.curvature.high", "ends.curvature.low"],
     }
 }
 
@@ -136,21 +136,21 @@ fn reason_key(reason: NoCurvature) -> &'static str {
 }
 
 /// Where a curvature is greatest and least, with its value.
-fn ends(d: &CurvatureDocument, kind: Kind) -> [(&Place, f64); 2] {
+fn ends(d: &CurvatureDocument, kind: CurvatureKind) -> [(&Place, f64); 2] {
     let found = CurvatureDocument::quantity(d, kind);
     [&found.maximum, &found.minimum].map(|place| {
         let value = match kind {
-            Kind::Mean => place.bend.mean,
-            Kind::Gaussian => place.bend.gaussian,
-            Kind::K1 => place.bend.k1,
-            Kind::K2 => place.bend.k2,
+            CurvatureKind::Mean => place.bend.mean,
+            CurvatureKind::Gaussian => place.bend.gaussian,
+            CurvatureKind::K1 => place.bend.k1,
+            CurvatureKind::K2 => place.bend.k2,
         };
         (place, value)
     })
 }
 
 /// The key numbers of a curvature, those of map `n`.
-fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: Kind) -> Markup {
+fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: CurvatureKind) -> Markup {
     let found = CurvatureDocument::quantity(d, kind);
     let (all, p) = (&found.statistics, &found.statistics.percentiles);
     let value = |x| s.optional(x, found.scale.decimals as usize).signed();
@@ -173,13 +173,13 @@ fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: Kind) -> Markup {
 
 /// Every curvature in a row, which shows its map.
 fn quantities(s: Style, d: &CurvatureDocument) -> Markup {
-    let row = |kind: Kind| {
+    let row = |kind: CurvatureKind| {
         let found = CurvatureDocument::quantity(d, kind);
         let p = &found.statistics.percentiles;
         let digits = found.scale.decimals as usize;
         Choice { key: words(kind)[0], values: [p.p2_5, p.p50, p.p97_5], digits, unit: kind.unit() }
     };
-    choices(s, ["p2_5", "median", "p97_5"], Kind::ALL.into_iter().map(row))
+    choices(s, ["p2_5", "median", "p97_5"], CurvatureKind::ALL.into_iter().map(row))
 }
 
 /// A quantity of which a map can be shown, with three of its values.
@@ -213,7 +213,7 @@ pub fn choices(s: Style, columns: [&str; 3], rows: impl Iterator<Item = Choice>)
 
 fn extremes(s: Style, d: &CurvatureDocument) -> Markup {
     html! {
-        @for (n, kind) in Kind::ALL.into_iter().enumerate() {
+        @for (n, kind) in CurvatureKind::ALL.into_iter().enumerate() {
             @let digits = CurvatureDocument::quantity(d, kind).scale.decimals as usize;
             div data-comparison=(n) hidden[n > 0] {
                 table.pick {
@@ -238,7 +238,7 @@ fn plain(s: Style, x: f64) -> Markup {
     if x == 0.0 || x >= 0.1 { s.number(x, 3).render() } else { s.scientific(x, 1).render() }
 }
 
-/// How the neighbourhoods were, and what the fits say of themselves.
+/// How the neighborhoods were, and what the fits say of themselves.
 fn known(s: Style, d: &CurvatureDocument) -> Markup {
     let range = |range: &Range, unit: &str| {
         html! { (plain(s, range.median)) " (≤\u{a0}" (plain(s, range.max)) ")\u{a0}" (unit) }

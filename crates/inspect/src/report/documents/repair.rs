@@ -127,7 +127,7 @@ fn length(s: Style, x: f64) -> Markup {
 
 fn changes(s: Style, d: &RepairDocument) -> Markup {
     let steps = by_step(d);
-    // The places of a step have its colour, the facets that came and went have their own.
+    // The places of a step have its color, the facets that came and went have their own.
     let came_and_went = [(d.facets.added, NEW, "facets.new"), (d.facets.removed, GONE, "facets.gone")];
     let starts = steps.iter().scan(0, |next, (_, changes)| {
         let start = *next;

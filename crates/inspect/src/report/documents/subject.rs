@@ -61,7 +61,7 @@ pub trait Subject {
     fn seed(&self) -> Option<u64> {
         None
     }
-    /// The colour scale, if values are mapped; that of the first map, where they have several.
+    /// The color scale, if values are mapped; that of the first map, where they have several.
     fn scale(&self) -> Option<&Scale> {
         None
     }
@@ -108,7 +108,7 @@ pub trait Drawn {
     fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup;
 }
 
-/// Values that can be shown as colours.
+/// Values that can be shown as colors.
 #[derive(Default)]
 pub struct Map<'a> {
     /// What distinguishes it from the others.
@@ -121,7 +121,7 @@ pub struct Map<'a> {
     pub tolerance: Option<ToleranceShares>,
     /// Their counts.
     pub histogram: Option<&'a Histogram>,
-    /// Their own colour scale, where maps differ in it.
+    /// Their own color scale, where maps differ in it.
     pub scale: Option<&'a Scale>,
     /// Their own words, as in [`Subject::quantity`].
     pub quantity: Option<[&'static str; 3]>,
@@ -134,7 +134,7 @@ pub struct Pick {
     pub position: Point,
     /// The place of the reference that it was measured from.
     pub surface: Option<Point>,
-    /// Half the size of what to bring into view, millimetres; without it the view keeps its size.
+    /// Half the size of what to bring into view, millimeters; without it the view keeps its size.
     pub reach: Option<f64>,
     /// Which way the surface looks there.
     pub normal: Option<Vector>,

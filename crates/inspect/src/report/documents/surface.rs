@@ -5,7 +5,7 @@ use super::super::page::parts::{Headline, Tone, fact, key_number, place_cells, p
 use super::super::values::Text;
 use super::curvature::{Choice, choices, words};
 use super::{Head, Map, Pick, Subject};
-use crate::curvature::Kind;
+use crate::curvature::CurvatureKind;
 use crate::results::Verdict;
 use crate::results::compare::ToleranceShares;
 use crate::results::curvature::Range;
@@ -128,16 +128,16 @@ fn map<'a>(
 }
 
 /// The curvatures that have values, in the order of their maps.
-fn curvatures(d: &SurfaceDocument) -> impl Iterator<Item = (Kind, &MapRecord)> {
-    Kind::ALL.into_iter().filter_map(|kind| Some((kind, d.curvature.maps.get(kind.name())?)))
+fn curvatures(d: &SurfaceDocument) -> impl Iterator<Item = (CurvatureKind, &MapRecord)> {
+    CurvatureKind::ALL.into_iter().filter_map(|kind| Some((kind, d.curvature.maps.get(kind.name())?)))
 }
 
-fn range(d: &SurfaceDocument, kind: Kind) -> Option<Range> {
+fn range(d: &SurfaceDocument, kind: CurvatureKind) -> Option<Range> {
     match kind {
-        Kind::Mean => d.curvature.mean,
-        Kind::Gaussian => d.curvature.gaussian,
-        Kind::K1 => d.curvature.k1,
-        Kind::K2 => d.curvature.k2,
+        CurvatureKind::Mean => d.curvature.mean,
+        CurvatureKind::Gaussian => d.curvature.gaussian,
+        CurvatureKind::K1 => d.curvature.k1,
+        CurvatureKind::K2 => d.curvature.k2,
     }
 }
 
@@ -164,7 +164,7 @@ fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
 }
 
 /// The key numbers of a curvature, those of map `n`.
-fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: Kind, map: &MapRecord) -> Markup {
+fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: CurvatureKind, map: &MapRecord) -> Markup {
     let range = range(d, kind);
     let value = |x| s.optional(x, map.scale.decimals as usize).signed();
     html! {

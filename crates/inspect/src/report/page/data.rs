@@ -75,7 +75,7 @@ struct PickEntry {
     frame: Option<Frame>,
 }
 
-/// Every palette's colours for one scale.
+/// Every palette's colors for one scale.
 struct Palettes(Vec<(&'static str, PaletteEntry)>);
 
 impl Serialize for Palettes {
@@ -84,7 +84,7 @@ impl Serialize for Palettes {
     }
 }
 
-/// Colours, six hexadecimal digits each.
+/// Colors, six hexadecimal digits each.
 #[derive(Serialize)]
 struct PaletteEntry {
     /// For the scale's bands.
@@ -185,7 +185,7 @@ fn sorted(input: &ReportInput, map: usize) -> Vec<f64> {
     sorted
 }
 
-/// How many values have each colour of the scale as it opens, from the low cap to the high one; absent where some of the
+/// How many values have each color of the scale as it opens, from the low cap to the high one; absent where some of the
 /// values are not at hand, for then nobody can count them.
 fn slots(sorted: &[f64], count: u64, scale: Option<&Scale>) -> Option<Vec<u64>> {
     let limits = scale.filter(|_| sorted.len() as u64 == count)?.limits();

@@ -1,4 +1,4 @@
-//! Histogram and colour scale on one axis, as SVG: for print, narrow screens, and readers without scripts.
+//! Histogram and color scale on one axis, as SVG: for print, narrow screens, and readers without scripts.
 
 use super::super::number::Style;
 use super::super::values::leaf;
@@ -10,7 +10,7 @@ use maud::{Markup, html};
 const WIDTH: f64 = 760.0;
 const LEFT: f64 = 34.0;
 const RIGHT: f64 = WIDTH - 34.0;
-/// Foot of the bars, and top of the coloured strip.
+/// Foot of the bars, and top of the colored strip.
 const FOOT: f64 = 96.0;
 const BARS: f64 = 84.0;
 const STRIP: f64 = 14.0;
@@ -49,7 +49,7 @@ fn filled([x, w]: [f64; 2], [y, height]: [&dyn maud::Render; 2], color: Rgb) -> 
     leaf("rect", &[("x", &x), ("y", y), ("width", &w), ("height", height), ("fill", &fill)])
 }
 
-/// Bars within the scale, each in the colour of its middle; what lies beyond stands as one share at each end.
+/// Bars within the scale, each in the color of its middle; what lies beyond stands as one share at each end.
 fn bars(histogram: &Histogram, scale: &Scale, at: &impl Fn(f64) -> f64) -> Markup {
     let [lower, upper] = scale.ends();
     let greatest = histogram.counts.iter().copied().max().unwrap_or(0).max(1) as f64;

@@ -3,12 +3,12 @@
 use super::super::text::{Language, word};
 use crate::results::Verdict;
 
-/// What the page says first: a word in a colour, with an icon, so that colour is never the only sign.
+/// What the page says first: a word in a color, with an icon, so that color is never the only sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Headline {
     /// The word is `verdict.<key>` in the table.
     pub key: &'static str,
-    /// Its colour and icon.
+    /// Its color and icon.
     pub tone: Tone,
 }
 
@@ -23,12 +23,12 @@ pub enum Tone {
     Undecided,
     /// There is nothing to judge.
     Unknown,
-    /// No judgement was asked for.
+    /// No judgment was asked for.
     Neutral,
 }
 
 impl Tone {
-    /// Name of its colour in the style sheet.
+    /// Name of its color in the style sheet.
     pub fn name(self) -> &'static str {
         match self {
             Tone::Pass => "pass",

@@ -7,7 +7,7 @@ use crate::results::{InputRecord, Role};
 use crate::scale::palette::Rgb;
 use maud::{Markup, Render, html};
 
-/// A headline as icon and word in its colour.
+/// A headline as icon and word in its color.
 pub fn badge(s: Style, headline: Headline) -> Markup {
     let Headline { key, tone } = headline;
     html! {
@@ -37,7 +37,7 @@ pub fn key_number(s: Style, key: &str, class: &str, value: impl Render) -> Marku
     html! { div class=(class) { dt { (s.word(key)) } dd { (value) } } }
 }
 
-/// The colour of a kind, beside its name.
+/// The color of a kind, beside its name.
 pub fn swatch([r, g, b]: Rgb) -> Markup {
     let fill = format!("#{r:02x}{g:02x}{b:02x}");
     html! {

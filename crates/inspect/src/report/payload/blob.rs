@@ -10,7 +10,7 @@ const FRAME: usize = 64;
 
 /// What bytes are like, which decides where deflate looks for repetitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ByteKind {
     /// Differences from a prediction: noise and runs of one value. Looking for anything but runs takes thirty times as long and
     /// makes more bytes.
     Differences,
@@ -19,8 +19,8 @@ pub enum Kind {
 }
 
 /// Gzip of `bytes`. There is room for whatever comes out; if there was not the blob would be empty, which the page reports.
-pub fn gzip(bytes: &[u8], kind: Kind) -> Vec<u8> {
-    let strategy = if kind == Kind::Differences { Strategy::Rle } else { Strategy::Default };
+pub fn gzip(bytes: &[u8], kind: ByteKind) -> Vec<u8> {
+    let strategy = if kind == ByteKind::Differences { Strategy::Rle } else { Strategy::Default };
     packed(bytes, DeflateConfig { window_bits: GZIP, strategy, ..DeflateConfig::new(6) })
 }
 
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn gzip_has_no_time_and_comes_back() {
         let bytes: Vec<u8> = (0..10_000u32).map(|i| (i * i % 251) as u8).collect();
-        for kind in [Kind::Differences, Kind::Code] {
+        for kind in [ByteKind::Differences, ByteKind::Code] {
             let packed = gzip(&bytes, kind);
             assert_eq!(packed[4..8], [0; 4]);
             let mut back = vec![];

@@ -1,6 +1,6 @@
 //! The manifest and its blobs.
 
-use super::blob::{self, Kind, base64};
+use super::blob::{self, ByteKind, base64};
 use super::entry::{Blob, Entry};
 
 /// Objects of the manifest and the blobs they name.
@@ -12,7 +12,7 @@ pub struct Payload {
     pub blobs: Vec<String>,
     /// Points drawn and points given, of measured clouds.
     pub points: (usize, usize),
-    /// Farthest that what is drawn lies from what was given, millimetres.
+    /// Farthest that what is drawn lies from what was given, millimeters.
     pub display_error: f64,
     /// Something was left out or coarsened beyond the grid's rounding.
     pub simplified: bool,
@@ -25,7 +25,7 @@ impl Payload {
     }
 
     /// Adds a blob.
-    pub(super) fn add(&mut self, bytes: &[u8], kind: Kind) -> Blob {
+    pub(super) fn add(&mut self, bytes: &[u8], kind: ByteKind) -> Blob {
         self.blobs.push(base64(&blob::gzip(bytes, kind)));
         Blob { blob: self.blobs.len() - 1 }
     }

@@ -14,9 +14,9 @@ pub enum NoValue {
     NotMeasured = 3,
     /// The surface ends there.
     Boundary = 4,
-    /// It has too few neighbours.
+    /// It has too few neighbors.
     FewNeighbors = 5,
-    /// Its neighbours do not determine the value.
+    /// Its neighbors do not determine the value.
     Undetermined = 6,
     /// It lies on no surface, or not on one alone.
     NoSurface = 7,
@@ -76,12 +76,12 @@ const FINENESS: f64 = 500.0;
 pub struct Codes {
     /// 2 or 3.
     pub bytes: usize,
-    /// Millimetres a code.
+    /// Millimeters a code.
     pub step: f64,
 }
 
 impl Codes {
-    /// Two bytes where that resolves a 500th of `range` (the tolerance zone or the colour range), else three.
+    /// Two bytes where that resolves a 500th of `range` (the tolerance zone or the color range), else three.
     pub fn for_values(values: &[f64], range: f64) -> Codes {
         let greatest = values.iter().filter(|v| v.is_finite()).fold(0.0f64, |m, v| m.max(v.abs()));
         let with = |bytes: usize| {

@@ -5,7 +5,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, dot, minus, norm};
 
-/// For each vertex of the mesh the one that stands for it: itself if it is among `left`, else that of a neighbour along an edge,
+/// For each vertex of the mesh the one that stands for it: itself if it is among `left`, else that of a neighbor along an edge,
 /// the nearest of those that offer themselves first. `u32::MAX` where no way leads to one that is left.
 pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
     let mut owners = vec![u32::MAX; mesh.positions.len()];
@@ -46,7 +46,7 @@ pub fn owners(mesh: &Mesh, left: &[u32]) -> Vec<u32> {
     }
 }
 
-/// Farthest that a vertex lies from the one that stands for it, millimetres.
+/// Farthest that a vertex lies from the one that stands for it, millimeters.
 pub fn farthest(mesh: &Mesh, owners: &[u32]) -> f64 {
     let place = |v: u32| mesh.positions.get(v as usize);
     let away = |(p, owner): (&Point, &u32)| place(*owner).map_or(0.0, |q| norm(minus(*p, *q)));

@@ -5,9 +5,9 @@ use trueness_geom::space::{Aabb, Point};
 /// A cubic grid: the place of `q` is `origin + step · q`, with `origin` in full `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Place of the grid's zero, millimetres.
+    /// Place of the grid's zero, millimeters.
     pub origin: Point,
-    /// Distance of neighbouring grid points along an axis, millimetres; above 0.
+    /// Distance of neighboring grid points along an axis, millimeters; above 0.
     pub step: f64,
     /// Greatest coordinate.
     last: f64,
@@ -28,7 +28,7 @@ impl Grid {
         std::array::from_fn(|k| ((p[k] - self.origin[k]) / self.step).round().clamp(0.0, self.last) as u16)
     }
 
-    /// Farthest that rounding can move a point of the box, millimetres.
+    /// Farthest that rounding can move a point of the box, millimeters.
     pub fn error(&self) -> f64 {
         0.5 * self.step * 3f64.sqrt()
     }

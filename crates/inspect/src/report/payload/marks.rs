@@ -1,7 +1,7 @@
 //! Marks as blobs: their places on a grid, and for each triangle, line and dot the number of its mark.
 
 use super::super::marks::{Mark, MarkGroup, Marks};
-use super::blob::Kind;
+use super::blob::ByteKind;
 use super::contents::Payload;
 use super::entry::{GroupEntry, MarksEntry};
 use super::grid::Grid;
@@ -54,8 +54,8 @@ pub fn pack_marks(part: &mut Payload, marks: &Marks, around: &Aabb, first: usize
         triangles: total(counts[0]),
         segments: total(counts[1]),
         points: total(counts[2]),
-        positions: part.add(&positions, Kind::Differences),
-        items: part.add(&numbers, Kind::Differences),
+        positions: part.add(&positions, ByteKind::Differences),
+        items: part.add(&numbers, ByteKind::Differences),
         id,
     }
 }

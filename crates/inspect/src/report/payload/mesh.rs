@@ -19,11 +19,11 @@ const LEVELS: [usize; 3] = [600_000, 150_000, 40_000];
 pub struct Ordered {
     /// Corners.
     pub triangles: Vec<[u32; 3]>,
-    /// Places, millimetres.
+    /// Places, millimeters.
     pub positions: Vec<Point>,
     /// For each vertex its number in the mesh that came in.
     pub source: Vec<u32>,
-    /// Bound of what simplification moved the surface by, millimetres; 0 when nothing was left out.
+    /// Bound of what simplification moved the surface by, millimeters; 0 when nothing was left out.
     pub error: f64,
 }
 
@@ -144,7 +144,7 @@ pub fn level_sizes(triangles: usize) -> impl Iterator<Item = usize> {
     LEVELS.into_iter().filter(move |t| 10 * t < 7 * triangles)
 }
 
-/// Coarser index lists over the same vertices, each made from the one before: code, triangles, error in millimetres.
+/// Coarser index lists over the same vertices, each made from the one before: code, triangles, error in millimeters.
 pub fn levels(mesh: &Ordered, progress: &dyn Progress) -> Result<Vec<(Vec<u8>, usize, f64)>, ReportError> {
     let places = Places::of(&mesh.positions);
     let locks = vec![false; mesh.positions.len()];

@@ -29,7 +29,7 @@ pub use packed::Purpose;
 use super::marks::Marks;
 use super::picture::first_view;
 use super::{ReportError, ViewObject};
-use blob::Kind;
+use blob::ByteKind;
 use entry::{LevelEntry, PlacesEntry};
 use packed::{Packed, Quality, coarse_grid_is_fine, pack_object};
 use trueness_geom::parallel::prelude::*;
@@ -87,7 +87,7 @@ fn with_levels(packed: Vec<Packed>, purpose: &Purpose) -> Result<Payload, Report
     let add = |Packed { mut part, mesh }: Packed| {
         let levels = mesh.map_or(Ok(vec![]), |m| mesh::levels(&m, purpose.progress))?;
         let blobs: Vec<String> =
-            levels.par_iter().map(|(code, ..)| base64(&blob::gzip(code, Kind::Code))).collect();
+            levels.par_iter().map(|(code, ..)| base64(&blob::gzip(code, ByteKind::Code))).collect();
         let entry =
             |((_, triangles, error), blob)| LevelEntry { triangles, error, code: entry::Blob { blob } };
         let entries = levels.into_iter().zip(part.blobs.len()..).map(entry).collect();

@@ -22,7 +22,7 @@ impl Curve {
         Curve { scale: if longest > 0.0 { 0.5 * CELLS / longest as f32 } else { 0.0 } }
     }
 
-    /// The triangles along the curve by their first corner's place; with another `shift` neighbouring pieces meet elsewhere.
+    /// The triangles along the curve by their first corner's place; with another `shift` neighboring pieces meet elsewhere.
     pub fn sorted(&self, corners: &[u32], place: impl Fn(u32) -> [f32; 3] + Sync, shift: usize) -> Vec<u32> {
         let shift = shift as f32 * CELLS * 0.117;
         let mut keys: Vec<(u64, u32)> = (0..corners.len() as u32 / 3)

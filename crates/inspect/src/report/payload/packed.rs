@@ -1,7 +1,7 @@
 //! One object as blobs, in a given quality.
 
 use super::super::{Geometry, ReportError, ViewObject, ViewRole};
-use super::blob::Kind;
+use super::blob::ByteKind;
 use super::contents::Payload;
 use super::entry::{CountEntry, Entry, FieldEntry, ObjectEntry, PlacesEntry};
 use super::field::Codes;
@@ -138,8 +138,8 @@ fn pack_mesh(
     }
     part.simplified = ordered.error > 0.0;
     part.display_error = ordered.error + grid.error();
-    let corners = part.add(&bytes.triangles, Kind::Code);
-    let positions = part.add(&bytes.positions, Kind::Differences);
+    let corners = part.add(&bytes.triangles, ByteKind::Code);
+    let positions = part.add(&bytes.positions, ByteKind::Differences);
     let mut reach = object.gathered.map(|g| g.reach);
     let owners = reach.filter(|_| part.simplified).map(|r| {
         let owners = gather::owners(mesh, &ordered.source);
@@ -155,7 +155,7 @@ fn pack_mesh(
             None => field.at(v),
         };
         let packed = bytes.field(&codes, |v| at(ordered.source[v as usize] as usize));
-        fields.push(FieldEntry::new(field.comparison, codes, part.add(&packed, Kind::Differences)));
+        fields.push(FieldEntry::new(field.comparison, codes, part.add(&packed, ByteKind::Differences)));
     }
     let places = PlacesEntry::Mesh {
         triangles: ordered.triangles.len(),
@@ -195,7 +195,7 @@ fn pack_points(
             planes::pack(differences, 2)
         })
         .collect();
-    let positions = part.add(&positions, Kind::Differences);
+    let positions = part.add(&positions, ByteKind::Differences);
     let fields = object
         .fields
         .iter()
@@ -208,7 +208,7 @@ fn pack_points(
             let differences =
                 (0..count).into_par_iter().map(|i| at(i).wrapping_sub(if i > 0 { at(i - 1) } else { 0 }));
             let packed = planes::pack(differences, codes.bytes);
-            FieldEntry::new(field.comparison, codes, part.add(&packed, Kind::Differences))
+            FieldEntry::new(field.comparison, codes, part.add(&packed, ByteKind::Differences))
         })
         .collect();
     part.display_error = grid.error();

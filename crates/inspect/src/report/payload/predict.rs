@@ -17,7 +17,7 @@ pub enum Rule {
     Across(u32, u32, u32),
 }
 
-/// Triangles looked back through for the neighbour across an edge.
+/// Triangles looked back through for the neighbor across an edge.
 const WINDOW: usize = 16;
 
 /// One rule a vertex. `triangles` name the vertices in order of first use; every one of `vertices` is used.

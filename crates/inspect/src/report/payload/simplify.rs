@@ -31,7 +31,7 @@ impl Places {
     }
 
     /// Collapses edges onto existing vertices until about `target` triangles are left. Vertices in `locks` stay. The error is
-    /// in millimetres, a bound of the sum over all rounds.
+    /// in millimeters, a bound of the sum over all rounds.
     pub fn simplify(
         &self,
         corners: &[u32],

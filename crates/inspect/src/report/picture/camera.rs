@@ -21,7 +21,7 @@ pub struct Camera {
     /// Unit vector from the part to the eye.
     pub toward: Vector,
     center: [f64; 2],
-    /// Pixels a millimetre.
+    /// Pixels a millimeter.
     pub scale: f64,
     size: [f64; 2],
 }

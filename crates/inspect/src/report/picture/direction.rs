@@ -54,8 +54,8 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     important.sort_by_key(|n| off[*n]);
     important.truncate(PLACES);
     let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
-    let place = |n: &usize| Place::of(&picks[*n], off[*n], input.marks, measured, diagonal);
-    let places: Vec<Place> = important.iter().map(place).collect();
+    let place = |n: &usize| PlaceToSee::of(&picks[*n], off[*n], input.marks, measured, diagonal);
+    let places: Vec<PlaceToSee> = important.iter().map(place).collect();
     let opaque = opaque(input.objects, &shown);
     let all = candidates(input.options.up, subject.facing(), &places);
     let usual = View::of(&places, &all[..1], &opaque).remove(0);
@@ -74,7 +74,7 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let mut hidden = vec![false; picks.len()];
     let mapped = mapped(&shown);
     let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n], mapped)).collect();
-    let flags: Vec<Place> = flagged.iter().map(place).collect();
+    let flags: Vec<PlaceToSee> = flagged.iter().map(place).collect();
     let mut ends: Vec<Point> = picks.iter().map(|p| p.position).collect();
     let blocked = blocked(&probes(&flags), &[best.toward], &opaque);
     let mut first = 0;
@@ -132,23 +132,23 @@ fn distance(pick: &Pick) -> f64 {
 }
 
 /// A place that ought to be seen.
-struct Place {
+struct PlaceToSee {
     samples: Vec<Point>,
     normal: Option<Vector>,
-    /// What is nearer to it does not hide it, millimetres.
+    /// What is nearer to it does not hide it, millimeters.
     near: f64,
     /// It is seen where any of the samples is; else most of them must be.
     any: bool,
 }
 
-impl Place {
+impl PlaceToSee {
     /// Whether it is seen from direction `d`, by the bits of [`blocked`] of its samples.
     fn is_seen(&self, blocked: &[u64], d: usize) -> bool {
         let free = blocked.iter().filter(|b| *b & (1 << d) == 0).count();
         2 * free > blocked.len() || self.any && free > 0
     }
 
-    fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> Place {
+    fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> PlaceToSee {
         let mark = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
         // A mark lies where its row says, as the script has it: a facet of it may be seen where the fault is not.
         let on = mark.is_some() || off || measured;
@@ -158,7 +158,7 @@ impl Place {
         let samples = [vec![anchor], others].concat();
         let under = if off { 0.0 } else { OBLIQUE * distance(pick) };
         let normal = pick.normal.or(mark.and_then(|m: &Mark| m.normal));
-        Place {
+        PlaceToSee {
             samples,
             normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),
             near: under.max(NEAR * diagonal),
@@ -168,12 +168,12 @@ impl Place {
 }
 
 /// All samples of places, with what does not hide them.
-fn probes(places: &[Place]) -> Vec<(Point, f64)> {
+fn probes(places: &[PlaceToSee]) -> Vec<(Point, f64)> {
     places.iter().flat_map(|p| p.samples.iter().map(|s| (*s, p.near))).collect()
 }
 
 /// Directions to look from, the usual one first: corners, sides, then what faces each place obliquely.
-fn candidates(up: Up, facing: Option<Vector>, places: &[Place]) -> Vec<Vector> {
+fn candidates(up: Up, facing: Option<Vector>, places: &[PlaceToSee]) -> Vec<Vector> {
     let (vertical, front) = vertical_and_front(up);
     let right = cross(front, times(-1.0, vertical));
     let of = |[x, y, z]: [f64; 3]| plus(plus(times(x, right), times(y, front)), times(z, vertical));
@@ -204,7 +204,7 @@ fn candidates(up: Up, facing: Option<Vector>, places: &[Place]) -> Vec<Vector> {
 
 /// Directions straight on each side and each place: deep in a bore there is no other way out. Hardly tilted, so that there is an
 /// upright from above too.
-fn straight(up: Up, places: &[Place]) -> Vec<Vector> {
+fn straight(up: Up, places: &[PlaceToSee]) -> Vec<Vector> {
     let (vertical, front) = vertical_and_front(up);
     let right = cross(front, times(-1.0, vertical));
     let sides = [vertical, front, right].into_iter().flat_map(|v| [v, times(-1.0, v)]);
@@ -220,7 +220,7 @@ struct View {
 }
 
 impl View {
-    fn of(places: &[Place], directions: &[Vector], opaque: &[&ViewObject]) -> Vec<View> {
+    fn of(places: &[PlaceToSee], directions: &[Vector], opaque: &[&ViewObject]) -> Vec<View> {
         let blocked = blocked(&probes(places), directions, opaque);
         let view = |(d, toward): (usize, &Vector)| {
             let mut first = 0;
@@ -377,10 +377,10 @@ mod tests {
     }
 
     /// The middles of the cube's faces, a little off the middle, `depth` under the surface.
-    fn middles(depth: f64) -> Vec<Place> {
+    fn middles(depth: f64) -> Vec<PlaceToSee> {
         let axes =
             (0..3).flat_map(|k| [1.0, -1.0].map(|s| std::array::from_fn(|i| if i == k { s } else { 0.0 })));
-        axes.map(|n: Vector| Place {
+        axes.map(|n: Vector| PlaceToSee {
             any: false,
             samples: vec![plus(times(1.0 - depth, n), [0.0123 * n[1], 0.0123 * n[2], 0.0123 * n[0]])],
             normal: Some(n),
@@ -390,7 +390,7 @@ mod tests {
     }
 
     /// Every candidate sees of a convex body what looks to it, unless that is more `oblique`, and nothing else.
-    fn sees_one_side_only(places: &[Place], opaque: &[&ViewObject], oblique: f64) {
+    fn sees_one_side_only(places: &[PlaceToSee], opaque: &[&ViewObject], oblique: f64) {
         for view in View::of(places, &candidates(Up::Z, None, places), opaque) {
             for (place, seen) in places.iter().zip(&view.seen) {
                 let looks = place.normal.map_or(0.0, |n| dot(n, view.toward));

@@ -1,4 +1,4 @@
-//! The sharp edges of a surface as lines: without them faces of one colour run into each other.
+//! The sharp edges of a surface as lines: without them faces of one color run into each other.
 
 use super::camera::Camera;
 use super::canvas::{Band, Canvas, FINE};
@@ -15,7 +15,7 @@ const BENT: f64 = 0.965_925_826_289_068_3;
 const WIDE: f64 = 1.3 * FINE as f64;
 /// How much of what lies under an edge it covers.
 const OPACITY: f64 = 0.75;
-/// Edges may cover this share of the surface; where they lie denser than that they step back, for the colours' sake.
+/// Edges may cover this share of the surface; where they lie denser than that they step back, for the colors' sake.
 const SHARE: f64 = 0.1;
 /// Fainter than this they are left out.
 const FAINTEST: f64 = 0.15;

@@ -1,6 +1,6 @@
 //! The picture that is stored in the report: for readers without WebGL, and for print.
 //!
-//! A plain software rasteriser. Like the script's, it colours each pixel from the value interpolated there.
+//! A plain software rasterizer. Like the script's, it colors each pixel from the value interpolated there.
 
 mod camera;
 mod canvas;

@@ -11,7 +11,7 @@ const DOT: f64 = 4.0 * FINE as f64;
 /// Opacity of what the part hides.
 const BEHIND: f64 = 0.4;
 
-/// Draws a mark in its colour. `through`: it is seen where the part is in front of it.
+/// Draws a mark in its color. `through`: it is seen where the part is in front of it.
 pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, through: bool) {
     // What lies in the surface is in front of it.
     let lift = 1e-3 * f64::from(canvas.width);
@@ -36,7 +36,7 @@ pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, throu
 }
 
 impl Band<'_> {
-    /// The colour itself where nothing is in front; where something is, nothing, or a mixture, but only once.
+    /// The color itself where nothing is in front; where something is, nothing, or a mixture, but only once.
     fn blend(&mut self, x: u32, y: u32, depth: f64, color: Rgb, through: bool) {
         let at = self.at(x, y);
         if depth as f32 >= self.depth[at] {

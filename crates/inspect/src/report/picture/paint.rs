@@ -1,4 +1,4 @@
-//! Meshes and points drawn in the colours of their values.
+//! Meshes and points drawn in the colors of their values.
 
 use super::camera::Camera;
 use super::canvas::{Band, Canvas};
@@ -20,7 +20,7 @@ const TASK: usize = 1 << 15;
 /// Places drawn between two questions whether to go on.
 const ASKED: usize = 16;
 
-/// What an object is coloured by: its values where it has some, else its own colour.
+/// What an object is colored by: its values where it has some, else its own color.
 pub struct Paint<'a> {
     pub base: Rgb,
     pub values: Option<(&'a [f64], Colors<'a>)>,
@@ -104,7 +104,7 @@ impl Canvas {
 }
 
 impl Band<'_> {
-    /// A point as a cone: each sample belongs to the point whose middle is nearest, and none is lost under its neighbours.
+    /// A point as a cone: each sample belongs to the point whose middle is nearest, and none is lost under its neighbors.
     fn cone(&mut self, [x, y, z]: [f64; 3], radius: f64, color: Rgb) {
         let tip = (z + radius) as f32;
         self.disc([x, y], radius, |band, px, py, square| {
@@ -183,7 +183,7 @@ impl Colors<'_> {
     }
 
     /// How far a point of this value and `radius` comes forward, in samples: one out of tolerance lies over those within it
-    /// that are up to a radius nearer, and where material is missing up to another one. `scale`: samples a millimetre.
+    /// that are up to a radius nearer, and where material is missing up to another one. `scale`: samples a millimeter.
     fn forward(&self, value: f64, radius: f64, scale: f64) -> f64 {
         match self.scale.tolerance {
             Some([lower, upper]) if value < lower || value > upper => {

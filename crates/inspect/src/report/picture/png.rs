@@ -1,4 +1,4 @@
-//! PNG (RFC 2083), true colour with opacity, eight bits.
+//! PNG (RFC 2083), true color with opacity, eight bits.
 
 use super::super::payload::zlib;
 use zlib_rs::crc32::crc32;

@@ -24,7 +24,7 @@ export interface DecodedObject {
   packed: Uint16Array
   /** Corners of the full level, then of each coarser one. Empty for points; the numbers of marks. */
   corners: Uint32Array
-  /** One array a field, in millimetres; from 1e30 upwards: no value, for reason value / 1e30 − 1. */
+  /** One array a field, in millimeters; from 1e30 upwards: no value, for reason value / 1e30 − 1. */
   fields: Float32Array[]
   /** Of a mesh. */
   edges: SharpEdges | null

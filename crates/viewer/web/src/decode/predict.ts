@@ -1,7 +1,7 @@
 /**
  * For each vertex the earlier ones it is predicted from: four numbers a vertex, `kind, a, b, c`.
  * The writer's rules exactly: vertices stand in order of first use, known corners come in the triangle's order, and the
- * neighbour across an edge is sought among the last sixteen triangles.
+ * neighbor across an edge is sought among the last sixteen triangles.
  */
 export const ZERO = 0
 export const LIKE = 1

@@ -1,4 +1,4 @@
-/** What of a drawing is seen: the part of its plane in millimetres, y down as SVG has it. */
+/** What of a drawing is seen: the part of its plane in millimeters, y down as SVG has it. */
 export interface Seen {
   x: number
   y: number
@@ -27,7 +27,7 @@ export class PlanView {
     this.signs = [...drawing.querySelectorAll<SVGGElement>('.join')]
   }
 
-  /** Millimetres of a pixel. The drawing lies in its box as a whole, in the middle. */
+  /** Millimeters of a pixel. The drawing lies in its box as a whole, in the middle. */
   get pixel(): number {
     const box = this.drawing.getBoundingClientRect()
     return Math.max(this.seen.width / Math.max(1, box.width), this.seen.height / Math.max(1, box.height))

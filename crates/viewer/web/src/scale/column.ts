@@ -6,7 +6,7 @@ import { drawScale, type Drawing } from './drawing'
 /** The scale's column beside the stage, and the same lying under it for narrow screens and print. */
 export function scaleColumn(state: State, words: Words): void {
   const column = need('scale')
-  // Colours of what is not shown would be taken for those that are.
+  // Colors of what is not shown would be taken for those that are.
   const appear = () => {
     column.hidden = need('figure').hidden = !state.mapped
     document.body.classList.toggle('no-scale', !state.mapped)

@@ -2,7 +2,7 @@ import type { Palettes, ScaleObject } from '../manifest'
 
 export type Rgb = [number, number, number]
 
-/** Where the colour changes: the same rule as the program's, because the reader can change the range. */
+/** Where the color changes: the same rule as the program's, because the reader can change the range. */
 export function limitsOf(scale: ScaleObject): number[] {
   const zone = scale.tolerance
   if (scale.mode === 'go_no_go') return zone ? [...zone] : [scale.lower, scale.upper]
@@ -30,7 +30,7 @@ export function slotOf(limits: number[], value: number): number {
   return slot
 }
 
-/** Colours of a scale: those of the slots, and the ramp for continuous mode. All come from the file. */
+/** Colors of a scale: those of the slots, and the ramp for continuous mode. All come from the file. */
 export class Colors {
   readonly limits: number[]
   readonly slots: Rgb[]

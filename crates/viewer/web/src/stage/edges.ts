@@ -9,18 +9,18 @@ const WIDE = 1.3
 const LIFT = 2
 /** How much of what lies under an edge it covers. */
 const OPACITY = 0.75
-/** Edges may cover this share of the surface; where they lie denser than that they step back, for the colours' sake. */
+/** Edges may cover this share of the surface; where they lie denser than that they step back, for the colors' sake. */
 const SHARE = 0.1
 /** Fainter than this they are left out. */
 const FAINTEST = 0.15
 /** More than these are not drawn while the picture moves and its triangles are fewer. */
 const QUICK = 20_000
 
-/** The sharp edges of a surface, drawn as lines: without them faces of one colour run into each other. */
+/** The sharp edges of a surface, drawn as lines: without them faces of one color run into each other. */
 export class EdgeLines {
   readonly drawn: Mesh
   private readonly uniforms = { viewport: { value: new Vector2() }, wide: { value: 1 }, lift: { value: 0 }, opacity: { value: OPACITY } }
-  /** Length of all for each area of the surface, per millimetre. */
+  /** Length of all for each area of the surface, per millimeter. */
   private readonly dense: number
   private readonly count: number
   private asked = true
@@ -28,7 +28,7 @@ export class EdgeLines {
   private faint = false
   private under = false
 
-  /** `packed`: four numbers a vertex; `matrix` leads from its grid to the stage, with `step` millimetres a step. */
+  /** `packed`: four numbers a vertex; `matrix` leads from its grid to the stage, with `step` millimeters a step. */
   constructor(edges: SharpEdges, packed: Uint16Array, matrix: Matrix4, step: number) {
     this.count = edges.ends.length / 2
     this.dense = edges.area > 0 ? edges.length / (edges.area * step) : Infinity
@@ -55,7 +55,7 @@ export class EdgeLines {
     this.apply()
   }
 
-  /** What depends on the eye; the surface is drawn `sunk` millimetres farther away, `under` one with edges of its own. */
+  /** What depends on the eye; the surface is drawn `sunk` millimeters farther away, `under` one with edges of its own. */
   update(eye: Eye, ratio: number, sunk: number, under: boolean): void {
     this.under = under
     const { viewport, wide, lift, opacity } = this.uniforms

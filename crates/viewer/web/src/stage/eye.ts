@@ -18,13 +18,13 @@ function facing(toward: Vector3, up: Vector3): Quaternion {
   return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(r, t.clone().cross(r), t))
 }
 
-/** Where the reader looks from. Places are relative to the stage's centre, in millimetres. */
+/** Where the reader looks from. Places are relative to the stage's center, in millimeters. */
 export class Eye {
   /** From the eye's axes (right, up, toward the reader) to the model's. */
   readonly turn = new Quaternion()
   /** Place in the middle of the stage. */
   readonly target = new Vector3()
-  /** Millimetres from the stage's foot to its top. */
+  /** Millimeters from the stage's foot to its top. */
   height = 1
   perspective = false
   width = 1
@@ -37,12 +37,12 @@ export class Eye {
     this.look('iso')
   }
 
-  /** The radius around the stage's centre that everything lies in. */
+  /** The radius around the stage's center that everything lies in. */
   setRadius(radius: number): void {
     this.radius = radius
   }
 
-  /** Of everything, millimetres. */
+  /** Of everything, millimeters. */
   get size(): number {
     return 2 * this.radius
   }

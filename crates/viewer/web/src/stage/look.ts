@@ -11,7 +11,7 @@ const MOST_LIMITS = 34
 const slots = texture(36)
 const ramp = texture(256)
 
-/** What all objects are coloured by: changing it costs one frame and touches no vertex. */
+/** What all objects are colored by: changing it costs one frame and touches no vertex. */
 const shared: Record<string, IUniform> = {
   flatColors: { value: false },
   perspective: { value: false },

@@ -1,4 +1,4 @@
-/** Colour of what is chosen in the list, with a dark rim: no surface and no other mark has it. */
+/** Color of what is chosen in the list, with a dark rim: no surface and no other mark has it. */
 const CHOSEN = 'vec3(1.0, 0.88, 0.0)'
 
 /** Outside of everything that is drawn. */
@@ -92,7 +92,7 @@ void main() {
   color = vec4(mix(vTint, vec3(0.08), rim), covered * opacity);
 }`
 
-/** A line of the part itself: thin and dark, whatever colours lie beside it. */
+/** A line of the part itself: thin and dark, whatever colors lie beside it. */
 export const EDGE_VERTEX = `
 ${STRIP}
 uniform float wide, lift;

@@ -19,7 +19,7 @@ const BEHIND = 0.38
  */
 export class Marks {
   readonly drawn = new Group()
-  /** Three numbers each, relative to the stage's centre. */
+  /** Three numbers each, relative to the stage's center. */
   private readonly places: Float32Array
   private readonly shared: Record<'viewport' | 'ratio' | 'lift' | 'selected' | 'pulse', IUniform> = {
     viewport: { value: new Vector2() },
@@ -102,7 +102,7 @@ interface Pass {
   chosen: boolean
 }
 
-/** Places relative to the stage's centre, three numbers each. */
+/** Places relative to the stage's center, three numbers each. */
 function placesOf(object: MarksObject, data: DecodedObject, center: Vector3): Float32Array {
   const out = new Float32Array(3 * object.vertices)
   for (let v = 0; v < object.vertices; v++)
@@ -110,7 +110,7 @@ function placesOf(object: MarksObject, data: DecodedObject, center: Vector3): Fl
   return out
 }
 
-/** A colour for each area, line and dot: that of its group. */
+/** A color for each area, line and dot: that of its group. */
 function tintsOf(object: MarksObject, numbers: Uint32Array): Uint8Array {
   const colors = object.groups.flatMap((g) => Array<number[]>(g.count).fill(parse(g.color)[0]))
   const out = new Uint8Array(3 * numbers.length)

@@ -5,13 +5,13 @@ import { EdgeLines } from './edges'
 import type { Eye } from './eye'
 import { materialsFor, type Materials } from './look'
 
-/** What can hide a place: the places of a coarse level, relative to the stage's centre, and its triangles or its points' size. */
+/** What can hide a place: the places of a coarse level, relative to the stage's center, and its triangles or its points' size. */
 export interface Cover {
   places: Float32Array
   corners: Uint32Array
-  /** Radius of a point, millimetres. */
+  /** Radius of a point, millimeters. */
   radius: number
-  /** How far the level may lie from what it stands for, millimetres. */
+  /** How far the level may lie from what it stands for, millimeters. */
   error: number
 }
 
@@ -23,7 +23,7 @@ const SINKING: Record<string, number> = { reference: 1.5, before: 1.5, surface: 
 
 /** Points that stand for a cloud which hides something. */
 const COVER_POINTS = 60_000
-/** Points whose neighbours tell how far apart a cloud's points lie, and the neighbour that is as far as that. */
+/** Points whose neighbors tell how far apart a cloud's points lie, and the neighbor that is as far as that. */
 const PROBES = 32
 const NEIGHBOUR = 4
 /** Discs of points, in spacings: of this diameter they close the surface but for a few gaps where points lie at random. */
@@ -96,7 +96,7 @@ export class Part {
     this.edges?.update(eye, ratio, sunk, this.sinks && others)
   }
 
-  /** Steps back to grey while another object is meant. */
+  /** Steps back to gray while another object is meant. */
   setBack(back: boolean): void {
     this.materials.own.back.value = back
   }
@@ -155,7 +155,7 @@ export class Part {
     return best
   }
 
-  /** Corners of the box around all vertices, relative to the stage's centre. */
+  /** Corners of the box around all vertices, relative to the stage's center. */
   corners(): Vector3[] {
     const low = [65535, 65535, 65535]
     const high = [0, 0, 0]
@@ -215,7 +215,7 @@ export class Part {
     own.rise.value = opaque ? 0 : radius
   }
 
-  /** How far behind its nearest place a surface of discs may have points of its own, millimetres. */
+  /** How far behind its nearest place a surface of discs may have points of its own, millimeters. */
   get depth(): number {
     return this.object.kind === 'points' ? OPAQUE * this.spacing(this.object.vertices) : 0
   }
@@ -228,13 +228,13 @@ export class Part {
     own.near.value = near
   }
 
-  /** How far apart the points lie where only the first `count` are drawn, an even sample: millimetres. */
+  /** How far apart the points lie where only the first `count` are drawn, an even sample: millimeters. */
   spacing(count: number): number {
     return this.apart * Math.sqrt(this.object.vertices / Math.max(1, Math.min(count, this.object.vertices)))
   }
 
   /**
-   * How far apart all points lie: the median distance of some of them from their fourth neighbour, which is the same on a
+   * How far apart all points lie: the median distance of some of them from their fourth neighbor, which is the same on a
    * grid and where they lie at random. Made when first asked for.
    */
   private get apart(): number {
@@ -263,7 +263,7 @@ export class Part {
     return (this.measured = (found[found.length >> 1] ?? 65535) * this.object.step)
   }
 
-  /** Up to `n` evenly chosen vertices, relative to the stage's centre: enough to frame the part. */
+  /** Up to `n` evenly chosen vertices, relative to the stage's center: enough to frame the part. */
   sample(n: number): Vector3[] {
     const { packed } = this.data
     const stride = 4 * Math.max(1, Math.floor(packed.length / 4 / n))

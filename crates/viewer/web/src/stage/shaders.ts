@@ -6,7 +6,7 @@ export const OBLIQUE = 3
  * radius nearer, and the farther beyond the higher. Where material is missing, points lie under the surface that they are
  * of, and discs beside them close over a narrow place: they come up to that surface, if they are of the one that is seen:
  * where they lie as deep under it as they measure. What lies far deeper is of a far side, and stays hidden. Of a chosen
- * range all come forward before what is grey.
+ * range all come forward before what is gray.
  */
 const FORWARD = `
 #ifdef POINTS
@@ -77,7 +77,7 @@ void main() {
 
 /**
  * A point is a disc, and lies in the depths as a cone with its tip to the eye: where discs overlap each pixel belongs to
- * the point whose middle is nearest, so that they close a surface and none is lost under its neighbours; but what matters
+ * the point whose middle is nearest, so that they close a surface and none is lost under its neighbors; but what matters
  * more comes forward.
  * Only for points: a shader that may discard keeps the GPU from leaving out what is hidden.
  */
@@ -96,7 +96,7 @@ void disc() {
 }
 #endif`
 
-/** The picture. The colour is found at the pixel from the interpolated value, so band edges are iso-lines. */
+/** The picture. The color is found at the pixel from the interpolated value, so band edges are iso-lines. */
 export const FRAGMENT = `
 precision highp float;
 precision highp int;

@@ -28,7 +28,7 @@ export class Sight {
     private readonly surfaces: () => Part[] | null,
   ) {}
 
-  /** `slack`: how far the place may lie under the surface, millimetres. */
+  /** `slack`: how far the place may lie under the surface, millimeters. */
   hidden(place: Vector3, slack: number): boolean {
     const { eye, values } = this
     const p = eye.project(place)
@@ -59,7 +59,7 @@ interface Seen {
   corners: Uint32Array
   /** Radius of a point, pixels. */
   radius: number
-  /** How far before a place it may lie without hiding it, millimetres. */
+  /** How far before a place it may lie without hiding it, millimeters. */
   margin: number
 }
 

@@ -159,7 +159,7 @@ export class Stage {
     this.settle()
   }
 
-  /** The page's colours have changed. */
+  /** The page's colors have changed. */
   recolor(): void {
     this.ground = null
     this.draw()
@@ -207,7 +207,7 @@ export class Stage {
     return (tools?.offsetHeight ?? 0) + 2 * TOOLS
   }
 
-  /** Place of a pick relative to the stage's centre. */
+  /** Place of a pick relative to the stage's center. */
   placeOf(pick: Pick): Vector3 {
     return this.fromCenter(pick.position)
   }
@@ -226,7 +226,7 @@ export class Stage {
     return pick.surface && this.fromCenter(pick.surface)
   }
 
-  /** How far a pick may lie under the surface it belongs to and still be seen on it, millimetres. */
+  /** How far a pick may lie under the surface it belongs to and still be seen on it, millimeters. */
   slackOf(pick: Pick): number {
     return pick.off ? 0 : OBLIQUE * (this.surfaceOf(pick)?.distanceTo(this.placeOf(pick)) ?? 0)
   }
@@ -316,7 +316,7 @@ export class Stage {
   }
 
   /**
-   * The view as it is, drawn in full at another size on the canvas's own colour. `look` is called while it stands, when
+   * The view as it is, drawn in full at another size on the canvas's own color. `look` is called while it stands, when
    * what lies over it is laid out for that size.
    */
   pictureOf(width: number, height: number, ratio: number, room: () => number, look: () => void): string {

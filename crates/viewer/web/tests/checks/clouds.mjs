@@ -11,7 +11,7 @@ const read = (page) => page.evaluate(() => ({ text: document.getElementById('rea
 const shown = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent).objects.filter((o) => o.shown).map((o) => o.role))
 /** Low deviations are blue in this palette, high ones red. */
 const blue = (c) => c[2] > c[0] + 40 && c[2] > c[1]
-/** Coloured, and neither green nor green mixed with the ground at the rim of a point. */
+/** Colored, and neither green nor green mixed with the ground at the rim of a point. */
 const out = (c) => Math.max(...c) - Math.min(...c) > 40 && !(c[1] >= Math.max(c[0], c[2]) && c[2] - c[0] > -5 && c[2] - c[0] < 45)
 const count = (picture, box, test) => {
   let n = 0
@@ -138,7 +138,7 @@ export const clouds = [
         const worst = await page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent).result.comparisons[0].worst.find((w) => w.deviation < 0))
         await page.mouse.move(...at(...worst.point))
         const dent = await read(page)
-        // The cursor is within a pixel of the worst point; the dent is deeper than 0.47 within half a millimetre, the noise 0.02.
+        // The cursor is within a pixel of the worst point; the dent is deeper than 0.47 within half a millimeter, the noise 0.02.
         assert.ok(Number(dent.value) < -0.44 && Number(dent.value) >= worst.deviation - 1e-4 && worst.deviation > -0.53, `${dent.value}, worst ${worst.deviation}`)
         assert.match(dent.text, /out of tolerance/)
         assert.match(dent.text, reference ? /worst measured point near here/ : /measured point/)
@@ -267,7 +267,7 @@ export const clouds = [
               found.push(Number((await read(page)).value))
             }
             assert.ok(found.some((v) => Math.abs(v + 0.3) < 1e-3), `${found} at ${x}, ${y} (reference: ${reference})`)
-            // Between them no place is coloured, and none shows what no point has: a mean would lie between.
+            // Between them no place is colored, and none shows what no point has: a mean would lie between.
             const [k, l] = at(x + 1.5, y + 1.5)
             assert.ok(!out(picture.at(k, l)), `${x + 1.5}, ${y + 1.5}`)
             await page.mouse.move(k, l)

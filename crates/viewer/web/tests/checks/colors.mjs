@@ -1,4 +1,4 @@
-// The colour on the part is the colour on the scale, at the pixel.
+// The color on the part is the color on the scale, at the pixel.
 import assert from 'node:assert/strict'
 import { hex, near, screen, settled, stageBox, tool } from '../browser.mjs'
 
@@ -9,13 +9,13 @@ const key = async (page, k) => {
   await page.keyboard.press(k)
   await settled(page)
 }
-/** Colour in the middle of the stage, seen in a standard view without light. */
+/** Color in the middle of the stage, seen in a standard view without light. */
 const middle = async (page, view) => {
   await key(page, view)
   const box = await stageBox(page)
   return (await screen(page)).at(box.cx, box.cy)
 }
-/** Colour of the scale's strip at a deviation. */
+/** Color of the scale's strip at a deviation. */
 const legend = (page, value) =>
   page.evaluate((value) => {
     const bars = [...document.querySelectorAll('.chart .bar')]
@@ -162,7 +162,7 @@ export const colors = [
   ],
 ]
 
-/** Millimetres from the stage's foot to its top, from the link that the page keeps. */
+/** Millimeters from the stage's foot to its top, from the link that the page keeps. */
 export async function view(page) {
   await page.waitForFunction(() => location.hash.startsWith('#v='))
   await page.waitForTimeout(700)

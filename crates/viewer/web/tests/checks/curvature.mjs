@@ -46,7 +46,7 @@ async function pixels(page, length = 160) {
   return Array.from({ length }, () => [box.x + 160 + chance() * (box.width - 320), box.y + 60 + chance() * (box.height - 120)].map(Math.round))
 }
 
-/** Compares maps, from number `first` on, at pixels by chance: the value read with the exact one, the colour with the value's. */
+/** Compares maps, from number `first` on, at pixels by chance: the value read with the exact one, the color with the value's. */
 async function agree(page, maps, exact, most, first) {
   const places = await pixels(page)
   for (const [n, map] of maps.entries()) {
@@ -64,7 +64,7 @@ async function agree(page, maps, exact, most, first) {
       const want = exact(found.place)[n]
       assert.ok(Math.abs(found.value - want) < most[n], `${map.name} at ${found.place}: ${found.value}, exact ${want}`)
       met++
-      // In the middle of a band: at its limits the next pixel may have another colour.
+      // In the middle of a band: at its limits the next pixel may have another color.
       const at = ((found.value - lower) / (upper - lower)) * 9
       if (at < 0 || at > 9 || Math.abs(at - Math.floor(at) - 0.5) > 0.35) continue
       const color = bands[1 + Math.floor(at)]
@@ -155,7 +155,7 @@ export const curvature = [
         const found = await read(page, x, y)
         // At the border the surface follows single points.
         if (!found || Math.abs(found.place[0]) > 27 || Math.abs(found.place[1]) > 17) continue
-        // Discs of neighbours lie over one another: which of them is seen is not known, but both are as far from the surface.
+        // Discs of neighbors lie over one another: which of them is seen is not known, but both are as far from the surface.
         const want = 0.02 / Math.hypot(1, found.place[0] / 40, found.place[1] / 60)
         assert.ok(Math.abs(Math.abs(found.value) - want) < 5e-4, `${found.value} at ${found.place}, exact ${want}`)
         signs[Math.sign(found.value)]++

@@ -5,7 +5,7 @@ import { hex, near, screen, settled, stageBox } from '../browser.mjs'
 const CHOSEN = [0xff, 0xe0, 0x00]
 const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
 
-/** Share of the stage in a colour, and how far from the middle of the stage its nearest pixel is. */
+/** Share of the stage in a color, and how far from the middle of the stage its nearest pixel is. */
 async function seen(page, color, tolerance = 10) {
   const box = await stageBox(page)
   const picture = await screen(page)

@@ -1,4 +1,4 @@
-// Sections drawn in the plane: what is drawn lies where the exact lines and arcs do, in the colours of their kinds.
+// Sections drawn in the plane: what is drawn lies where the exact lines and arcs do, in the colors of their kinds.
 import assert from 'node:assert/strict'
 import { near as alike, screen } from '../browser.mjs'
 
@@ -29,7 +29,7 @@ const token = (page, name) =>
     return [1, 3, 5].map((k) => parseInt(c.slice(k, k + 2), 16))
   }, name)
 
-/** Whether a colour is on the screen within a pixel of a place. */
+/** Whether a color is on the screen within a pixel of a place. */
 const has = (picture, [x, y], color) => [-1, 0, 1].some((dx) => [-1, 0, 1].some((dy) => alike(picture.at(x + dx, y + dy), color, 40)))
 
 const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
@@ -39,7 +39,7 @@ const line = [3, 8, 13, 18].map((s) => [1000 + s, -500])
 const arc = [0.3, 0.6, 0.9, 1.2].map((a) => [1020 + 8 * Math.sin(a), -492 - 8 * Math.cos(a)])
 const rest = [[1028, -490], [1028, -483], [1022, -480], [1016, -480]]
 
-/** Points and comb hide the colours of the segments: they are taken away. */
+/** Points and comb hide the colors of the segments: they are taken away. */
 async function bare(page) {
   await page.keyboard.press('c')
   await page.keyboard.press('d')

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict'
 import { settled, stageBox } from '../browser.mjs'
 
-/** A place is this far under a surface, millimetres, before the sphere's own rounding counts. */
+/** A place is this far under a surface, millimeters, before the sphere's own rounding counts. */
 const NEAR = 0.3
 const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
 const flags = (page) =>

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict'
 import { hex, screen, settled, stageBox } from '../browser.mjs'
 
 const texts = (page) => page.evaluate(() => [...document.querySelectorAll('.chart text.tick')].map((t) => t.textContent))
-/** The colour at a place of the sphere: near its equator, where it is within tolerance, unless another is given. */
+/** The color at a place of the sphere: near its equator, where it is within tolerance, unless another is given. */
 const probe = async (page, [right, down] = [40, 60]) => {
   const box = await stageBox(page)
   return hex((await screen(page)).at(box.cx + right, box.cy + down))

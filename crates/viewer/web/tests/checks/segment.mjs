@@ -1,13 +1,13 @@
-// Elements found in a part: each in the list and on the part in one colour.
+// Elements found in a part: each in the list and on the part in one color.
 import assert from 'node:assert/strict'
 import { screen, settled, stageBox } from '../browser.mjs'
 
 const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
 const bytes = (color) => [1, 3, 5].map((k) => parseInt(color.slice(k, k + 2), 16))
-/** Colour of the rim of what is chosen. */
+/** Color of the rim of what is chosen. */
 const CHOSEN = 53
 
-/** Hue in degrees; null for what is nearly grey. */
+/** Hue in degrees; null for what is nearly gray. */
 function hue([r, g, b]) {
   const [most, least] = [Math.max(r, g, b), Math.min(r, g, b)]
   if (most - least < 60) return null
@@ -16,7 +16,7 @@ function hue([r, g, b]) {
 }
 const apart = (a, b) => Math.min((a - b + 360) % 360, (b - a + 360) % 360)
 
-/** Pixels of the stage with each of the colours, and the number of those with another; light and shade do not count. */
+/** Pixels of the stage with each of the colors, and the number of those with another; light and shade do not count. */
 async function painted(page, colors) {
   const box = await stageBox(page)
   const picture = await screen(page)
@@ -103,7 +103,7 @@ export const segment = [
         const column = Array.from({ length: Math.floor(box.height) }, (_, y) => picture.at(x, box.y + y))
         const own = column.flatMap((c, y) => (hue(c) !== null && apart(hue(c), hue(shaft)) < 8 ? [y] : []))
         assert.ok(own.length > 60, `${own.length} pixels of the shaft`)
-        // From its first pixel to its last the shaft is one colour: no line runs behind it.
+        // From its first pixel to its last the shaft is one color: no line runs behind it.
         const inside = column.slice(own[0] + 6, own.at(-1) - 5)
         const spread = [0, 1, 2].map((k) => Math.max(...inside.map((c) => c[k])) - Math.min(...inside.map((c) => c[k])))
         assert.ok(Math.max(...spread) < 16, `scripts ${scripts}: ${spread}`)

@@ -4,7 +4,7 @@ import { near as alike, screen } from '../browser.mjs'
 
 const manifest = (page) => page.evaluate(() => JSON.parse(document.getElementById('manifest').textContent))
 
-/** Colour of a token of the style sheet. */
+/** Color of a token of the style sheet. */
 const token = (page, name) =>
   page.evaluate((name) => {
     const c = getComputedStyle(document.documentElement).getPropertyValue(name).trim()

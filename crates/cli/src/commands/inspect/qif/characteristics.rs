@@ -241,7 +241,7 @@ fn found(c: &CharacteristicRecord) -> Vec<(&'static str, Value)> {
         ("lower", c.lower),
         ("upper", Some(c.upper)),
         ("expanded_uncertainty", c.uncertainty),
-        ("utilisation", c.utilisation),
+        ("utilisation", c.utilization),
         ("value_with_others", c.value_with_others),
     ];
     all.extend(numbers.into_iter().filter_map(|(name, x)| Some((name, x?.into()))));

@@ -1,7 +1,7 @@
 //! The results of one or several parts as QIF 3.0 (ISO 23952:2020): characteristics with what is allowed, the features and values
 //! measured, verdicts, and what they come from.
 //!
-//! Lengths are millimetres, angles degrees. What QIF has no element for stands in `Attributes`. The document's identifier comes
+//! Lengths are millimeters, angles degrees. What QIF has no element for stands in `Attributes`. The document's identifier comes
 //! from what it says: the same results give the same bytes.
 
 mod characteristics;

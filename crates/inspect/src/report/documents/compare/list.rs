@@ -306,7 +306,7 @@ fn outliers(s: Style, o: &OutliersRecord, decimals: usize) -> Markup {
     }
 }
 
-/// What part of the reference no point covers: grey in the map.
+/// What part of the reference no point covers: gray in the map.
 fn uncovered(s: Style, c: &CoverageRecord) -> Markup {
     html! {
         (s.optional_percent(c.uncovered_share, 2).because(c.uncovered_share_reason.as_deref()))

@@ -1,6 +1,6 @@
 //! The contours of one plane, drawn to scale as SVG.
 //!
-//! Places are millimetres from the middle of the drawing (`data-origin` says where that is), so that single precision, in
+//! Places are millimeters from the middle of the drawing (`data-origin` says where that is), so that single precision, in
 //! which browsers draw, has digits enough; y points down in SVG and is negated. Strokes and signs keep their size on the
 //! screen however near one looks.
 
@@ -41,7 +41,7 @@ struct Plan {
     /// Middle, and half the width and height of all.
     middle: [f64; 2],
     half: [f64; 2],
-    /// Greatest curvature, and millimetres of a tooth for each unit of it.
+    /// Greatest curvature, and millimeters of a tooth for each unit of it.
     curvature: f64,
     comb: f64,
 }
@@ -95,7 +95,7 @@ impl Plan {
         [p[0] - self.middle[0], self.middle[1] - p[1] + 0.0]
     }
 
-    /// Millimetres of a pixel at first sight.
+    /// Millimeters of a pixel at first sight.
     fn pixel(&self) -> f64 {
         2.0 * self.half[0].max(self.half[1]) / PIXELS
     }

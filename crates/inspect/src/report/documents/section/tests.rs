@@ -140,7 +140,7 @@ fn joins_intervals_and_points_are_drawn_where_they_are() {
     assert!(course.is_empty(), "residuals have classes of their kinds");
 }
 
-/// Every residual stands at its length and distance, in the colour of its segment.
+/// Every residual stands at its length and distance, in the color of its segment.
 #[test]
 fn residuals_stand_beside_the_length() {
     let document = document(&row(0.01));

@@ -1,4 +1,4 @@
-//! Neighbours among points: nearest, `k` nearest, all in a box.
+//! Neighbors among points: nearest, `k` nearest, all in a box.
 //!
 //! A balanced k-d tree (Bentley 1975) without nodes: the points lie in the order of the tree, the middle one of every
 //! range splits it at the coordinate in which the range is longest. Equal distances are decided by the lower number,
@@ -21,7 +21,7 @@ pub struct PointTree {
 }
 
 /// Squared distance and number of a point.
-pub type Neighbour = (f64, u32);
+pub type Neighbor = (f64, u32);
 
 impl PointTree {
     /// The tree of finite points, numbered from 0. Cost: `n log² n`.
@@ -34,7 +34,7 @@ impl PointTree {
     }
 
     /// The point nearest to `p`; of several the one with the lowest number. `None` in a tree without points.
-    pub fn nearest(&self, p: &Point) -> Option<Neighbour> {
+    pub fn nearest(&self, p: &Point) -> Option<Neighbor> {
         let mut best = (f64::INFINITY, u32::MAX);
         self.approach(p, 0, self.points.len(), &mut |found| {
             if before(&found, &best) {
@@ -46,8 +46,8 @@ impl PointTree {
     }
 
     /// The `k` points nearest to `p` but for number `but`, nearest first; fewer where there are no more.
-    pub fn k_nearest(&self, p: &Point, k: usize, but: Option<u32>) -> Vec<Neighbour> {
-        let mut best: Vec<Neighbour> = Vec::with_capacity(k + 1);
+    pub fn k_nearest(&self, p: &Point, k: usize, but: Option<u32>) -> Vec<Neighbor> {
+        let mut best: Vec<Neighbor> = Vec::with_capacity(k + 1);
         self.approach(p, 0, self.points.len(), &mut |found| {
             if Some(found.1) != but {
                 best.insert(best.partition_point(|b| before(b, &found)), found);
@@ -64,7 +64,7 @@ impl PointTree {
     }
 
     /// Offers the points of a range that may be nearer than the limit that `offer` answers.
-    fn approach(&self, p: &Point, from: usize, to: usize, offer: &mut impl FnMut(Neighbour) -> f64) -> f64 {
+    fn approach(&self, p: &Point, from: usize, to: usize, offer: &mut impl FnMut(Neighbor) -> f64) -> f64 {
         let mut limit = f64::INFINITY;
         if to - from <= LEAF {
             for i in from..to {
@@ -86,7 +86,7 @@ impl PointTree {
         limit
     }
 
-    fn measure(&self, p: &Point, i: usize) -> Neighbour {
+    fn measure(&self, p: &Point, i: usize) -> Neighbor {
         let [x, y, z] = minus(*p, self.points[i]);
         (x * x + y * y + z * z, self.numbers[i])
     }
@@ -110,7 +110,7 @@ impl PointTree {
     }
 }
 
-fn before(a: &Neighbour, b: &Neighbour) -> bool {
+fn before(a: &Neighbor, b: &Neighbor) -> bool {
     a.0 < b.0 || (a.0 == b.0 && a.1 < b.1)
 }
 
@@ -138,8 +138,8 @@ mod tests {
         let mut random = Random::new(seed);
         (0..count).map(|_| std::array::from_fn(|k| random.below([7, 4, 1][k]) as f64)).collect()
     }
-    fn sorted(points: &[Point], p: &Point) -> Vec<Neighbour> {
-        let mut all: Vec<Neighbour> = points
+    fn sorted(points: &[Point], p: &Point) -> Vec<Neighbor> {
+        let mut all: Vec<Neighbor> = points
             .iter()
             .zip(0..)
             .map(|(q, i)| {
@@ -160,7 +160,7 @@ mod tests {
                 let expected = sorted(&points, &p);
                 assert_eq!(tree.nearest(&p), expected.first().copied());
                 assert_eq!(tree.k_nearest(&p, 12, None), expected[..12.min(count)]);
-                let others: Vec<Neighbour> = expected.into_iter().filter(|n| n.1 != 3).take(5).collect();
+                let others: Vec<Neighbor> = expected.into_iter().filter(|n| n.1 != 3).take(5).collect();
                 assert_eq!(tree.k_nearest(&p, 5, Some(3)), others);
             }
         }
