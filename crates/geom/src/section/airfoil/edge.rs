@@ -21,7 +21,7 @@ const GROWTH: f64 = 1.25;
 const UNKNOWNS: usize = 5;
 /// Points belong to the edge within this share of the chord along it.
 const EDGE: f64 = 0.25;
-/// Curvatures of two reaches agree within so many standard deviations of their difference; one below so many uncertainties is none.
+/// Curvatures agree within so many standard uncertainties of that of the smaller reach; one below so many is none.
 const AGREE: f64 = 2.5;
 const SURE: f64 = 2.0;
 
@@ -53,11 +53,7 @@ pub(super) fn radius(
     // One that disagrees may do so by chance, two in succession do not.
     let mut other: Option<Bend> = None;
     while let Some(bend) = fit(&near[..count], noise) {
-        let agrees = |b: &Bend| {
-            let spread =
-                (b.uncertainty * b.uncertainty - bend.uncertainty * bend.uncertainty).max(0.0).sqrt();
-            (b.curvature - bend.curvature).abs() <= AGREE * spread
-        };
+        let agrees = |b: &Bend| (b.curvature - bend.curvature).abs() <= AGREE * b.uncertainty;
         let is_other = !all.iter().all(agrees);
         if is_other && other.is_some() {
             break;
