@@ -1,7 +1,9 @@
 //! The loops themselves: what is done with each item, and what is made of all.
 
 use super::collect::{FromParts, in_place, parts};
-use super::source::{Chunks, Filtered, Flattened, Mapped, Numbered, Numbers, Owned, Slice, Source, Zipped};
+use super::source::{
+    Chunks, Copies, Filtered, Flattened, Mapped, Numbered, Numbers, Owned, Slice, Source, Zipped,
+};
 use super::split::{count_parts, each_part, range};
 use rayon::slice::ParallelSliceMut;
 use std::cmp::Ordering;
@@ -321,8 +323,8 @@ impl<S: Source> Loop<S> {
 
 impl<'a, T: Copy + 'a, S: Source<Item = &'a T>> Loop<S> {
     /// Copies of the items.
-    pub fn copied(self) -> Loop<Mapped<S, fn(&'a T) -> T>> {
-        self.map(|item| *item)
+    pub fn copied(self) -> Loop<Copies<S>> {
+        Loop { least: self.least, source: Copies(self.source) }
     }
 }
 

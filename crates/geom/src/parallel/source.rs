@@ -98,6 +98,21 @@ impl<T: Send> Source for Owned<T> {
     }
 }
 
+/// Copies of what references point to.
+#[derive(Debug)]
+pub struct Copies<S>(pub(super) S);
+
+impl<'a, T: Copy + 'a, S: Source<Item = &'a T>> Source for Copies<S> {
+    type Item = T;
+    const EXACT: bool = S::EXACT;
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = T> {
+        self.0.items(range).copied()
+    }
+}
+
 /// A function of each item.
 #[derive(Debug)]
 pub struct Mapped<S, F> {

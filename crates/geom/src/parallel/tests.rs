@@ -31,10 +31,10 @@ fn items_are_collected_in_order() {
             items.par_iter().copied().zip(5..usize::MAX).enumerate().collect();
         let want: Vec<(usize, (u32, usize))> = items.iter().copied().zip(5..).enumerate().collect();
         assert_eq!(numbers, want);
-        let odd = |x: &&u32| **x % 3 == 0;
+        let odd = |x: &&u32| x.is_multiple_of(3);
         let want: Vec<&u32> = items.iter().filter(odd).collect();
         assert_eq!(items.par_iter().filter(odd).collect::<Vec<&u32>>(), want);
-        let several = |x: &u32| (0..*x % 4).map(|k| u64::from(k)).collect::<Vec<u64>>();
+        let several = |x: &u32| (0..*x % 4).map(u64::from).collect::<Vec<u64>>();
         let want: Vec<u64> = items.iter().flat_map(several).collect();
         assert_eq!(items.par_iter().flat_map_iter(several).collect::<Vec<u64>>(), want);
         let halves: (Vec<u32>, Vec<String>) = items.par_iter().map(|x| (*x, x.to_string())).unzip();
@@ -92,8 +92,8 @@ fn what_is_made_of_all_is_that_of_one_thread() {
             items.iter().max_by_key(|x| **x % 8)
         );
         assert_eq!(
-            items.par_iter().filter(|x| **x % 2 == 0).count(),
-            items.iter().filter(|x| **x % 2 == 0).count()
+            items.par_iter().filter(|x| x.is_multiple_of(2)).count(),
+            items.iter().filter(|x| x.is_multiple_of(2)).count()
         );
     });
 }

@@ -209,7 +209,7 @@ mod tests {
         }
         // Lines cross where theirs do, to rounding; a bow tie whose middle is a point of the row too.
         let tie: Vec<[f64; 2]> = (0..20)
-            .map(|i| f64::from(i))
+            .map(f64::from)
             .flat_map(|i| [[i, i]])
             .chain((0..20).map(|i| [20.0, 20.0 - f64::from(i)]))
             .chain((0..20).map(|i| [20.0 - f64::from(i), f64::from(i)]))

@@ -73,7 +73,7 @@ fn size(points: &[[f64; 2]]) -> f64 {
         let all = points.iter().map(|p| p[k]);
         all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
     };
-    if points.is_empty() { 0.0 } else { range(0).hypot(range(1)) }
+    if points.is_empty() { 0.0 } else { libm::hypot(range(0), range(1)) }
 }
 
 /// A `LINE`.
@@ -144,7 +144,7 @@ pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut
         let ((a, bulge), (b, _)) = (vertices[i], vertices[(i + 1) % n]);
         let [start, end] = [a, b].map(|p| [mirror * p[0], p[1]]);
         let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
-        let (chord, bulge) = (dx.hypot(dy), mirror * bulge);
+        let (chord, bulge) = (libm::hypot(dx, dy), mirror * bulge);
         if chord == 0.0 {
             continue;
         }

@@ -33,7 +33,7 @@ fn rows() -> Vec<Vec<[f64; 2]>> {
         _ => [0.0, 120.0 - f64::from(i)],
     };
     all.push((0..120).map(|i| noisy(square(i), 0.02)).collect());
-    all.push((0..120).map(|i| square(i)).collect());
+    all.push((0..120).map(square).collect());
     all
 }
 
@@ -80,7 +80,7 @@ fn a_row_the_other_way_round_is_measured_as_the_same_row() {
 /// Repeated points repeat the one before, or the first; gaps are after the point told; outliers are far off.
 fn lists_are_those_of_the_row(contour: &Contour, points: &[[f64; 2]], number: usize) {
     let at_start = |i: usize| contour.closed && points[i..].iter().all(|p| *p == points[0]);
-    let repeats = |i: &usize| *i > 0 && points[*i] == points[*i - 1] || *i > 0 && at_start(*i);
+    let repeats = |i: &usize| *i > 0 && (points[*i] == points[*i - 1] || at_start(*i));
     let wanted: Vec<usize> = (0..points.len()).filter(repeats).collect();
     assert_eq!(contour.repeated, wanted, "{number}");
     let mut steps: Vec<f64> = points.windows(2).map(|w| far(w[0], w[1])).filter(|d| *d > 0.0).collect();
