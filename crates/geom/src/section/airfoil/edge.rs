@@ -24,6 +24,8 @@ const EDGE: f64 = 0.25;
 /// Curvatures agree within so many standard uncertainties of that of the smaller reach; one below so many is none.
 const AGREE: f64 = 2.5;
 const SURE: f64 = 2.0;
+/// The scatter counts as much as in a reach of so much fewer points, within which the bend may change unseen.
+const SMALLER: f64 = 0.7;
 
 /// The radius of the points of `row` at `place`, an end of the chord whose other end is `from`.
 ///
@@ -53,7 +55,9 @@ pub(super) fn radius(
     // One that disagrees may do so by chance, two in succession do not.
     let mut other: Option<Bend> = None;
     while let Some(bend) = fit(&near[..count], noise) {
-        let agrees = |b: &Bend| (b.curvature - bend.curvature).abs() <= AGREE * b.uncertainty;
+        // A bend that is not known to be one refutes none but by far.
+        let within = |b: &Bend| if b.curvature.abs() < SURE * b.uncertainty { 2.0 * AGREE } else { AGREE };
+        let agrees = |b: &Bend| (b.curvature - bend.curvature).abs() <= within(b) * b.uncertainty;
         let is_other = !all.iter().all(agrees);
         if is_other && other.is_some() {
             break;
@@ -75,8 +79,8 @@ pub(super) fn radius(
     // was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
     let beside = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
     let changed = (best.curvature - beside.curvature) / (GROWTH * GROWTH - 1.0);
-    let smaller = all[..all.len() - 1].iter().rfind(|b| b.count < best.count).unwrap_or(&best);
-    let scatter = libm::hypot(best.uncertainty, smaller.uncertainty) * std::f64::consts::FRAC_1_SQRT_2;
+    let few = |b: &&Bend| (b.count as f64) < SMALLER * best.count as f64;
+    let scatter = all[..all.len() - 1].iter().rfind(few).unwrap_or(&best).uncertainty;
     let uncertainty = libm::hypot(scatter, changed);
     match best.curvature {
         k if k > SURE * uncertainty => {
