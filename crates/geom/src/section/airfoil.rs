@@ -129,9 +129,18 @@ fn in_order(
     if row.len() < FEWEST {
         return Err(AirfoilError::TooFewPoints { found: row.len() });
     }
-    let (around, course, other) = Course::new(&row, &numbers, contour, progress)?;
+    let (around, mut course, mut other) = Course::new(&row, &numbers, contour, progress)?;
     let round = around.trailing == TrailingEdge::Round;
-    let inscribed = Inscribed::new(&course, progress)?;
+    let mut inscribed = Inscribed::new(&course, progress);
+    // Segments overshoot where they join in a place that the points do not determine; the free curve through all points has no such place.
+    if matches!(inscribed, Err(AirfoilError::Crosses { .. }))
+        && course.of_contour
+        && let Some(smooth) = other.take()
+    {
+        course = smooth;
+        inscribed = Inscribed::new(&course, progress);
+    }
+    let inscribed = inscribed?;
     let (leading, trailing) = inscribed.chord(round);
     let chord = distance(leading, trailing);
     let (center, radius) = inscribed.greatest().ok_or(AirfoilError::Inside)?;

@@ -4,7 +4,7 @@ use super::assembly::Joined;
 use super::chain::SegmentKind;
 use super::convert::segments;
 use super::corner::crossing;
-use super::crossings::crossings;
+use super::crossings::crossings_with_loops;
 use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
@@ -28,6 +28,8 @@ const SHARP: f64 = 0.6;
 const RESOLUTION: f64 = 1e-4;
 /// Parts are searched whose chains cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
 const FAR: f64 = 20.0;
+/// A loop of a contour is told that is longer than so many distances between points: it goes by points of the row.
+const LOOP: f64 = 3.0;
 /// A crossing is followed this far from the chains' ends, in distances between points.
 const FARTHEST: f64 = 20.0;
 
@@ -49,7 +51,7 @@ const FARTHEST: f64 = 20.0;
 /// let arc = (0..30).map(|i| f64::from(i) * 0.05).map(|a| [20.0 * a.sin(), 20.0 - 20.0 * a.cos()]);
 /// let points: Vec<[f64; 2]> = line.chain(arc).collect();
 /// let found = contour(&points, &Options::default(), &trueness_geom::progress::Silent).unwrap();
-/// let kinds: Vec<Kind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
+/// let kinds: Vec<SegmentKind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
 /// assert_eq!(kinds, [SegmentKind::Line, SegmentKind::Arc]);
 /// assert!(found.joins[0].point[0].abs() < 1e-3 && found.joins[0].point[1].abs() < 1e-6);
 /// ```
@@ -90,7 +92,7 @@ pub fn contour(
     }
     let found = found?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
-    found.crossings = crossings(&found.segments, found.closed, progress)?;
+    found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }
 

@@ -98,10 +98,29 @@ pub fn crossings(
     closed: bool,
     progress: &dyn Progress,
 ) -> Result<Vec<[f64; 2]>, Cancelled> {
+    crossings_with_loops(segments, closed, 0.0, progress)
+}
+
+/// The same where both ways round from the place to itself are longer than `least`: of an open contour the one way there is. Where curves
+/// overshoot the place where they join, they cross in a loop that no point of the row is on.
+pub(super) fn crossings_with_loops(
+    segments: &[Segment],
+    closed: bool,
+    least: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<[f64; 2]>, Cancelled> {
     let chords: Vec<Chord> = segments.iter().enumerate().flat_map(|(n, s)| chords(n, s)).collect();
     let ends: Vec<[[f64; 2]; 2]> = chords.iter().map(|c| c.ends).collect();
-    let pairs = crossing_chords(&ends, closed, MOST, progress)?;
-    Ok(pairs.into_iter().map(|(i, j)| place_of(segments, &chords[i], &chords[j])).collect())
+    let mut ways = vec![0.0];
+    for [a, b] in &ends {
+        ways.push(ways[ways.len() - 1] + libm::hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    let is_long = |(i, j): &(usize, usize)| {
+        let way = ways[*j] - ways[*i];
+        way > least && (!closed || ways[ends.len()] - way > least)
+    };
+    let pairs = crossing_chords(&ends, closed, MOST, progress)?.into_iter().filter(is_long);
+    Ok(pairs.map(|(i, j)| place_of(segments, &chords[i], &chords[j])).collect())
 }
 
 /// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.

@@ -225,7 +225,7 @@ fn finding((kind, found): &(&'static DefectKind, Found)) -> (String, Defects) {
 fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     let [below, inside, above] =
         limits.shares().map_or([None; 3], |[below, inside, above]| [Some(below), Some(inside), Some(above)]);
-    let reason = inside.is_none().then(|| "all points are excluded, or there are none".to_string());
+    let reason = inside.is_none().then(|| "all points are excluded".to_string());
     ToleranceShares {
         lower: limits.lower,
         upper: limits.upper,

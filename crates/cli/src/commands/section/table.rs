@@ -36,7 +36,8 @@ pub fn table(document: &SectionDocument) -> String {
         if !contour.astray.is_empty() {
             out.push_str(&astray(contour));
         }
-        if let [[x, y], ..] = contour.crossings[..] {
+        // Of segments that do not run along the points it tells nothing of the part.
+        if let ([[x, y], ..], []) = (&contour.crossings[..], &contour.astray[..]) {
             let often = if contour.crossings.len() > 1 {
                 format!(" {} times, first", contour.crossings.len())
             } else {

@@ -34,8 +34,8 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                 @if !contour.astray.is_empty() {
                     p.note { strong.warning { "⚠" } " " (s.word("contour.astray")) " " (listed(&contour.astray)) }
                 }
-                @if let [[x, y], ..] = contour.crossings[..] {
-                    p.note { strong.warning { "⚠" } " " (s.word("contour.crossings")) " (" (s.number(x, 4)) ", " (s.number(y, 4)) ")" }
+                @if let ([[x, y], ..], []) = (&contour.crossings[..], &contour.astray[..]) {
+                    p.note { strong.warning { "⚠" } " " (s.word("contour.crossings")) " (" (s.number(*x, 4)) ", " (s.number(*y, 4)) ")" }
                 }
                 div.wide { (segments(s, contour, numbers[n])) }
                 @if let Some(reason) = &contour.joins_reason {
