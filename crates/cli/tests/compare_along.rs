@@ -90,12 +90,12 @@ fn lines_that_meet_nothing_are_told_everywhere() {
     let words = ["compare", word(&scan), word(&roof), "--along", "0,0,1", "--out", word(&out), "--html"];
     let shown = stdout(&trueness(words.iter().chain([&word(&html)])));
     assert!(shown.contains("the direction 0, 0, 1, to the nearest crossing"), "{shown}");
-    assert!(shown.contains("2 points (no crossing: the line meets nothing)"), "{shown}");
+    assert!(shown.contains("2 points (no crossing: the line meets nothing near enough)"), "{shown}");
     let text = std::fs::read_to_string(&out).unwrap();
     let codes: Vec<&str> = text.lines().skip(1).map(|l| l.rsplit(',').next().unwrap()).collect();
     assert_eq!((codes[99], &codes[100..]), ("0", &["5", "5", "0"][..]));
     let page = std::fs::read_to_string(&html).unwrap();
-    assert!(page.contains("Measured along") && page.contains("the line meets nothing"));
+    assert!(page.contains("Measured along") && page.contains("the line meets nothing near enough"));
     // All that goes with lines, and what does not.
     let says = |words: &[&str]| {
         let o = trueness([&["compare", word(&scan), word(&roof)], words].concat());

@@ -100,7 +100,7 @@ fn limit(d: &CompareDocument, reason: &str) -> String {
             let degrees = (1e9 * angle.to_degrees()).round() / 1e9;
             format!(": more than {degrees}° from the reference's normal")
         }
-        None if reason == "no_crossing" => ": the line meets nothing".into(),
+        None if reason == "no_crossing" => ": the line meets nothing near enough".into(),
         None => String::new(),
     }
 }

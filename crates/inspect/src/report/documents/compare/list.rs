@@ -165,7 +165,7 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
         html! {
             tr {
                 th scope="row" { (name) }
-                td.r { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }
+                td.r { (limit(t.lower)) br; (limit(t.upper)) }
                 td.r { (s.count(points)) }
                 td.r { (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())) }
                 td { @if let Some(verdict) = verdict { (badge(s, verdict.into())) } }
