@@ -7,6 +7,8 @@ run.py compare MEASURED REFERENCE    the whole command, wall time and peak memor
 run.py check MESH…                   loading, welding, checking, beside MeshLib and ADMesh
 run.py fit [--only WORDS]            least-squares elements beside SciPy, minimum zones, on one thread
 run.py surface [--only WORDS]        B-spline surfaces through a million points and more, beside FITPACK and G+Smo, on one thread
+run.py section --mesh MESH.ply       1,000 planes through a mesh, beside trimesh and MeshLib
+run.py curve                         B-spline curves on the same knots, beside SciPy and geomdl, on one thread
 run.py table --data FOLDER           all of it, against the goals; FOLDER as `inputs.py all` makes it
 
 See README.md. Ratios above 1 mean: the rival needs that many times longer than we do.
@@ -19,7 +21,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
-from harness import check, closest, command, data, fit, machine, readers, report, surface, table  # noqa: E402
+from harness import check, closest, command, data, fit, machine, readers, report, section, surface, table  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -27,7 +29,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 def main():
     o = arguments()
     tools = Tools(o)
-    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "check": do_check, "fit": do_fit, "surface": do_surface, "table": do_table}[o.job](o, tools)
+    rows = {"closest": do_closest, "read": do_read, "compare": do_compare, "check": do_check, "fit": do_fit, "surface": do_surface, "section": do_section, "curve": do_curve, "table": do_table}[o.job](o, tools)
     if o.record:
         report.record(o.record, tools.describe(), o.date, rows)
 
@@ -64,6 +66,10 @@ def arguments():
     five.add_argument("--only", default="", help="cases whose name, like `cylinder 1000 near`, contains this")
     seven = jobs.add_parser("surface", parents=[shared])
     seven.add_argument("--only", default="", help="cases whose name, like `1000000 47 once`, contains this")
+    eight = jobs.add_parser("section", parents=[shared])
+    eight.add_argument("--mesh", required=True, help="PLY as inputs.py writes it")
+    eight.add_argument("--planes", type=int, default=1000)
+    jobs.add_parser("curve", parents=[shared])
     four = jobs.add_parser("table", parents=[shared])
     four.add_argument("--data", required=True)
     four.add_argument("--only", help="lines whose name contains this")
@@ -87,6 +93,8 @@ class Tools:
         self.checkers = {"trueness": [binary("check")], "meshlib": rival("check_meshlib")}
         self.fitters = {"trueness": [binary("fit")], "scipy": rival("fit_scipy")}
         self.surfaces = {"trueness": [binary("surface")], **{n: [*rival("surface"), n] for n in ("fitpack", "gismo")}}
+        self.sections = {"trueness": [binary("section")], **{n: [*rival("section"), n] for n in ("trimesh", "meshlib")}}
+        self.curves = {"trueness": [binary("curve")], **{n: [*rival("curve"), n] for n in ("scipy", "geomdl")}}
         self.programs = {"trueness": [binary("closest")]}
         for added in o.add:
             name, _, words = added.partition("=")
@@ -106,7 +114,7 @@ class Tools:
         return [os.path.join(target(root), "release", "trueness")]
 
     def describe(self):
-        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy", "scipy", "pygismo"])
+        packages = machine.versions(self.python, ["open3d", "meshlib", "numpy", "scipy", "pygismo", "trimesh", "geomdl"])
         packages["parry3d"] = machine.crate_version(os.path.join(HERE, "Cargo.lock"), "parry3d")
         return {"machine": machine.describe(), "versions": packages}
 
@@ -182,6 +190,21 @@ def do_surface(o, tools):
             programs = tools.surfaces if beside else {"trueness": tools.surfaces["trueness"]}
             rows += surface.measure(case, path, programs, o.rounds, o.repeat)
     print(report.markdown(rows, surface.COLUMNS))
+    return rows
+
+
+def do_section(o, tools):
+    rows = section.stack(o.mesh, o.planes, tools.sections, o.rounds, o.repeat, o.threads)
+    print(report.markdown(rows, section.COLUMNS))
+    return rows
+
+
+def do_curve(o, tools):
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for case in section.CURVES:
+            rows += section.curve(case, folder, tools.curves, o.rounds, o.repeat)
+    print(report.markdown(rows, section.CURVE_COLUMNS))
     return rows
 
 

@@ -5,11 +5,11 @@
 //! plane is not cut at all; the loops of a closed mesh close, whatever the plane passes through. The place of a cut edge is
 //! computed once, from its lower-numbered end, and shared by the facets on both sides.
 
+use super::edge_chain::{Edge, EdgeChain, edge_chains};
 use crate::mesh::Mesh;
 use crate::num::exact::Exact;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
-use std::collections::HashMap;
 
 /// The plane of all points `p` with `normal · p = offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,9 +172,7 @@ fn chains<'a>(
 ) -> Result<Vec<Chain>, Cancelled> {
     let sound = |v: &u32| mesh.positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     // Each cut facet leads from the edge at which its rim goes down to the one at which it comes up.
-    let mut next: HashMap<[u32; 2], Vec<[u32; 2]>> = HashMap::new();
-    let mut starts: Vec<[u32; 2]> = vec![];
-    let mut arrivals: HashMap<[u32; 2], u32> = HashMap::new();
+    let mut cut: Vec<[Edge; 2]> = vec![];
     for (n, face) in faces.enumerate() {
         if n % 65536 == 0 && progress.cancelled() {
             return Err(Cancelled);
@@ -193,54 +191,25 @@ fn chains<'a>(
                 _ => {}
             }
         }
-        if let (Some(from), Some(to)) = (from, to) {
-            starts.push(from);
-            next.entry(from).or_default().push(to);
-            *arrivals.entry(to).or_default() += 1;
-        }
+        cut.extend(from.zip(to).map(|(from, to)| [from, to]));
     }
-    next.values_mut().for_each(|list| list.reverse());
     let mut chains = vec![];
-    // Open chains begin where none arrives; what is left is closed.
-    for closed in [false, true] {
-        for start in &starts {
-            if !closed && arrivals.contains_key(start) {
-                continue;
-            }
-            while next.get(start).is_some_and(|list| !list.is_empty()) {
-                let (edges, ends) = follow(*start, &mut next);
-                let mut places: Vec<(Point, [u32; 2])> =
-                    edges.into_iter().map(|e| (place(mesh, plane, e), e)).collect();
-                places.dedup_by_key(|(point, _)| *point);
-                while ends && places.len() > 1 && places[0].0 == places[places.len() - 1].0 {
-                    places.pop();
-                }
-                if places.len() > 1 {
-                    let (points, edges) = places.into_iter().unzip();
-                    chains.push(Chain { points, edges, closed: ends });
-                }
-            }
+    for EdgeChain { edges, closed } in edge_chains(&cut) {
+        let mut places: Vec<(Point, Edge)> = edges.into_iter().map(|e| (place(mesh, plane, e), e)).collect();
+        places.dedup_by_key(|(point, _)| *point);
+        while closed && places.len() > 1 && places[0].0 == places[places.len() - 1].0 {
+            places.pop();
+        }
+        if places.len() > 1 {
+            let (points, edges) = places.into_iter().unzip();
+            chains.push(Chain { points, edges, closed });
         }
     }
     Ok(chains)
 }
 
-/// Edges from `start` on until the way ends or comes back.
-fn follow(start: [u32; 2], next: &mut HashMap<[u32; 2], Vec<[u32; 2]>>) -> (Vec<[u32; 2]>, bool) {
-    let mut edges = vec![start];
-    let mut now = start;
-    while let Some(to) = next.get_mut(&now).and_then(Vec::pop) {
-        if to == start {
-            return (edges, true);
-        }
-        edges.push(to);
-        now = to;
-    }
-    (edges, false)
-}
-
 /// Where the plane cuts an edge, within its box.
-fn place(mesh: &Mesh, plane: &Plane, edge: [u32; 2]) -> Point {
+fn place(mesh: &Mesh, plane: &Plane, edge: Edge) -> Point {
     let [a, b] = edge.map(|v| mesh.positions[v as usize]);
     let (low, high) = (plane.height(&a), plane.height(&b));
     let t = low / (low - high);

@@ -131,8 +131,8 @@ type WithRows = (Section, Vec<Vec<[f64; 2]>>);
 /// What a mesh's facets are where planes cut it.
 pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
     let rounding = section::rounding(mesh);
-    let of = |(cut, facets): (&Cut, Vec<u32>)| -> Result<WithRows, SectionError> {
-        let chains = section::cut_facets(mesh, &cut.plane, &facets, stage)?;
+    let of = |cut: &Cut, facets: &[u32]| -> Result<WithRows, SectionError> {
+        let chains = section::cut_facets(mesh, &cut.plane, facets, stage)?;
         let contours = chains
             .par_iter()
             .map(|chain| section::chain_contour(chain, &cut.frame, rounding, options, stage))
@@ -145,13 +145,14 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
         let rows = chains.iter().map(|c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect());
         Ok((Section { area, ..cut.section(contours) }, rows.collect()))
     };
-    let mut all = vec![];
-    for some in planes.chunks(section::AT_ONCE) {
-        let own: Vec<Plane> = some.iter().map(|cut| cut.plane).collect();
-        let facets = section::facets_near(mesh, &own, stage)?;
-        all.extend(some.par_iter().zip(facets).map(of).collect::<Vec<_>>());
-    }
-    gather(all)
+    let all: Vec<Plane> = planes.iter().map(|cut| cut.plane).collect();
+    let mut found = vec![];
+    section::facets_near::<SectionError>(mesh, &all, stage, |some| {
+        found.extend(some.into_par_iter().map(|(k, facets)| (k, of(&planes[k], &facets))).collect::<Vec<_>>());
+        Ok(())
+    })?;
+    found.sort_by_key(|(k, _)| *k);
+    gather(found.into_iter().map(|(_, each)| each).collect())
 }
 
 /// Contours of a cloud's points near planes.
