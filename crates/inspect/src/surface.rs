@@ -78,6 +78,7 @@ fn base(found: &Base) -> BaseRecord {
         kind: Word(found.kind),
         origin: found.origin,
         axes: found.axes,
+        turned: found.turned,
         radius: found.radius,
         radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
         around: found.around,

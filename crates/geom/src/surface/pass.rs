@@ -6,7 +6,7 @@ use super::solve::Known;
 use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point, plus, times};
+use crate::space::{Aabb, Point, dot, plus, times};
 use crate::spline::basis::Knots;
 use crate::spline::surface::{Patches, Surface, SurfaceFoot};
 
@@ -125,10 +125,9 @@ fn once(
     let feet = feet(&patches, points, parameters, progress)?;
     let reach = patches.reach();
     let doubtful = (0..).zip(&feet).filter(|(_, f)| !f.settled || f.distance >= reach).map(|(i, _)| i);
-    let sides = hull.sides();
-    let far = |p: &&Point| (0..3).any(|k| (p[k] - center[k]).abs() > sides[k].max(0.5 * hull.diagonal()));
+    let far = far(&base, points, 0.5 * hull.diagonal());
     Ok(SurfaceFit {
-        far_control_points: surface.points().iter().filter(far).count(),
+        far_control_points: surface.points().iter().filter(|p| far(p)).count(),
         deviations: feet.iter().zip(points).map(|(f, p)| f.signed(*p)).collect(),
         unsettled: feet.iter().filter(|f| !f.settled).count(),
         doubtful: doubtful.collect(),
@@ -145,6 +144,19 @@ fn once(
         outliers: 0,
         reached: None,
     })
+}
+
+/// Whether a place lies outside of twice the box of the points along the axes of the base; where that is flat, no nearer than `least`.
+fn far(base: &Base, points: &[Point], least: f64) -> impl Fn(&Point) -> bool {
+    let axes = base.axes;
+    let limits = axes.map(|axis| {
+        let (low, high) = points
+            .iter()
+            .map(|p| dot(*p, axis))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        (0.5 * (low + high), (high - low).max(least))
+    });
+    move |p| axes.iter().zip(limits).any(|(axis, (middle, most))| (dot(*p, *axis) - middle).abs() > most)
 }
 
 /// The nearest places of all points, from those of their parameters on.

@@ -100,7 +100,7 @@ impl<const D: usize> Patches<D> {
     }
 
     /// The coefficients of patch number `cell`.
-    pub(super) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
+    pub(crate) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
         let [p, q] = [self.spans[0].degree() + 1, self.spans[1].degree() + 1];
         (&self.coefficients[cell * p * q..(cell + 1) * p * q], q)
     }
