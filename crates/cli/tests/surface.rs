@@ -94,6 +94,35 @@ fn a_tolerance_is_reached_or_not_and_says_so() {
 }
 
 #[test]
+fn a_rectangle_turned_along_a_step_is_told() {
+    let folder = Folder::new();
+    let mut text = String::new();
+    for i in 0..71 * 71 {
+        let (x, y) = (f64::from(i / 71), f64::from(i % 71));
+        let across = (0.6 * (x - 35.0) + 0.8 * (y - 35.0)) / 2.0;
+        text += &format!("{x} {y} {}\n", across.tanh());
+    }
+    let (file, html) = (folder.write("step.xyz", text), folder.file("step.html"));
+    let words = ["surface", file.to_str().unwrap(), "--tolerance", "0.02"];
+    let answer = document(words);
+    let base = &answer["base"];
+    let number = |v: &serde_json::Value| v.as_f64().unwrap();
+    let turned = number(&base["turned"]).to_degrees();
+    // The step runs along (0.8, -0.6), 36.87 degrees off the sides of the square.
+    let off = (turned.abs() - 36.87).abs().min((turned.abs() - 53.13).abs());
+    assert!(off < 0.3, "{turned}");
+    let along = [0, 1].map(|k| (0.6 * number(&base["axes"][k][0]) + 0.8 * number(&base["axes"][k][1])).abs());
+    assert!(along[0].max(along[1]) > 0.998, "{base}");
+    let o = trueness([&words[..], &["--html", html.to_str().unwrap()]].concat());
+    let told =
+        format!("base plane, turned by {turned:.2}° along what bends   5,041 points").replace('-', "−");
+    assert!(stdout(&o).contains(&told), "{told}: {}", stdout(&o));
+    let page = std::fs::read_to_string(html).unwrap();
+    let told = format!("{:.2}", turned.abs());
+    assert!(page.contains("Rectangle turned by") && page.contains(&told), "{told}");
+}
+
+#[test]
 fn models_are_written_the_same_on_any_threads() {
     let folder = Folder::new();
     let file = folder.write("wave.xyz", wave(0.01));
