@@ -71,6 +71,9 @@ impl Base {
 /// Where a point lies over the base: two lengths along it and the height.
 type Seen = ([f64; 2], f64);
 
+/// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
+const LINE: f64 = 1e-6;
+
 /// The parameters of all points.
 pub(super) fn parameters(
     points: &[Point],
@@ -105,7 +108,7 @@ pub(super) fn parameters(
     let [u, v] = [range(&found, 0), range(&found, 1)];
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
     // Also what lies aslant on one line.
-    if short <= 1e-12 * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= 1e-12 * r.sides[0]) {
+    if short <= LINE * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
         return Err(SurfaceError::Line);
     }
     base.folded_share = fold::share(&seen, [u, v]);

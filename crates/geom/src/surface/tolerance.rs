@@ -55,10 +55,9 @@ fn along_what_bends(
         let round = rounds.next()?;
         let (Round::Going(found) | Round::Over(found)) = &round;
         let over = matches!(round, Round::Over(_));
-        if over
-            && reached(found)
-            && best.as_ref().is_none_or(|b| found.support.control_points < b.support.control_points)
-        {
+        // Turning has a price, empty corners: it must be worth a tenth.
+        let fewer = |b: &SurfaceFit| 10 * found.support.control_points < 9 * b.support.control_points;
+        if over && reached(found) && best.as_ref().is_none_or(fewer) {
             best = Some(found.clone());
         }
         let noisy = found.reached == Some(Reached::Noise);
