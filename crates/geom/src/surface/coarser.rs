@@ -28,10 +28,12 @@ pub(super) fn coarser(task: Task, mut found: SurfaceFit) -> Result<SurfaceFit, S
         while found.reached == Some(Reached::Tolerance) && tries < TRIES {
             let spare = spare(&found, task.tolerance, dear, &needed);
             let Some((knots, gone)) = without(found.surface.knots(), &spare) else { break };
-            let (next, _) = task.over(found.base, found.feet.clone(), knots)?;
+            // The parameters are those of nearest places on much the same surface.
+            let (next, _) = task.over(found.base, found.feet.clone(), knots, 0)?;
             tries += 1;
             if task.within(&next) && next.far_control_points <= found.far_control_points {
-                found = SurfaceFit { reached: Some(Reached::Tolerance), ..next };
+                let corrections = found.corrections;
+                found = SurfaceFit { reached: Some(Reached::Tolerance), corrections, ..next };
             } else {
                 missed(&next, task.tolerance, gone, &mut needed);
             }

@@ -15,6 +15,9 @@ const GAIN: f64 = 0.03;
 /// So many such rounds, one after the other, end it.
 const PATIENCE: usize = 2;
 
+/// Corrections of the parameters for each set of knots.
+const CORRECTIONS: usize = 2;
+
 /// Spans of the first surface: four along the shorter side, about square ones.
 pub(super) fn first_spans(domain: [(f64, f64); 2]) -> [usize; 2] {
     let sides = domain.map(|d| d.1 - d.0);
@@ -38,8 +41,9 @@ impl Task<'_> {
         base: Base,
         parameters: Vec<[f64; 2]>,
         knots: [Knots; 2],
+        corrections: usize,
     ) -> Result<(SurfaceFit, Vec<[f64; 2]>), SurfaceError> {
-        let own = Options { corrections: self.options.corrections.min(2), ..self.options.clone() };
+        let own = Options { corrections: self.options.corrections.min(corrections), ..self.options.clone() };
         let local = corrected(self.points, parameters, base, knots, &own, self.progress)?;
         let feet = local.feet.clone();
         Ok((nearest::told(self.points, local, self.tolerance, self.progress)?, feet))
@@ -98,7 +102,8 @@ impl<'a> Rounds<'a> {
 
     pub(super) fn next(&mut self) -> Result<Round, SurfaceError> {
         let Task { points, tolerance, options, .. } = self.task;
-        let (found, feet) = self.task.over(self.base, self.parameters.clone(), self.knots.clone())?;
+        let (found, feet) =
+            self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS)?;
         if self.task.within(&found) {
             return Ok(Round::Over(SurfaceFit { reached: Some(Reached::Tolerance), ..found }));
         }
