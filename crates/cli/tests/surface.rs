@@ -94,6 +94,35 @@ fn a_tolerance_is_reached_or_not_and_says_so() {
 }
 
 #[test]
+fn a_rectangle_turned_along_a_step_is_told() {
+    let folder = Folder::new();
+    let mut text = String::new();
+    for i in 0..71 * 71 {
+        let (x, y) = (f64::from(i / 71), f64::from(i % 71));
+        let across = (0.6 * (x - 35.0) + 0.8 * (y - 35.0)) / 2.0;
+        text += &format!("{x} {y} {}\n", across.tanh());
+    }
+    let (file, html) = (folder.write("step.xyz", text), folder.file("step.html"));
+    let words = ["surface", file.to_str().unwrap(), "--tolerance", "0.02"];
+    let answer = document(words);
+    let base = &answer["base"];
+    let number = |v: &serde_json::Value| v.as_f64().unwrap();
+    let turned = number(&base["turned"]).to_degrees();
+    // The step runs along (0.8, -0.6), 36.87 degrees off the sides of the square.
+    let off = (turned.abs() - 36.87).abs().min((turned.abs() - 53.13).abs());
+    assert!(off < 0.3, "{turned}");
+    let along = [0, 1].map(|k| (0.6 * number(&base["axes"][k][0]) + 0.8 * number(&base["axes"][k][1])).abs());
+    assert!(along[0].max(along[1]) > 0.998, "{base}");
+    let o = trueness([&words[..], &["--html", html.to_str().unwrap()]].concat());
+    let told =
+        format!("base plane, turned by {turned:.2}° along what bends   5,041 points").replace('-', "−");
+    assert!(stdout(&o).contains(&told), "{told}: {}", stdout(&o));
+    let page = std::fs::read_to_string(html).unwrap();
+    let told = format!("{:.2}", turned.abs());
+    assert!(page.contains("Rectangle turned by") && page.contains(&told), "{told}");
+}
+
+#[test]
 fn models_are_written_the_same_on_any_threads() {
     let folder = Folder::new();
     let file = folder.write("wave.xyz", wave(0.01));
@@ -192,6 +221,84 @@ fn wrong_input_is_refused_with_a_remedy() {
         assert!(text.contains(reason), "{words:?}: {text}");
         assert!(stdout(&o).is_empty(), "{words:?}");
     }
+}
+
+/// What comes of points that no surface, or hardly one, goes through: the message or a warning says it, and no number is wild.
+#[test]
+fn ugly_points_are_told() {
+    let folder = Folder::new();
+    let lines = |rows: Vec<[f64; 3]>| -> String {
+        rows.iter().map(|[x, y, z]| format!("{x:.9} {y:.9} {z:.9}\n")).collect()
+    };
+    let wave: Vec<[f64; 3]> = wave(0.01)
+        .lines()
+        .map(|l| {
+            <[f64; 3]>::try_from(l.split(' ').map(|w| w.parse().unwrap()).collect::<Vec<f64>>()).unwrap()
+        })
+        .collect();
+    let keep = |f: &dyn Fn(f64, f64) -> bool| wave.iter().copied().filter(|p| f(p[0], p[1])).collect();
+    let ell: Vec<[f64; 3]> = keep(&|x, y| x < 25.0 || y < 15.0);
+    let steep = wave.iter().map(|[x, y, _]| [*x, *y, 15.0 * (2.0 * (x - 30.0)).tanh()]).collect();
+    // A shelf that hangs over by 20 mm.
+    let over = (0..3600u32).map(|i| (f64::from(i % 90) / 30.0, f64::from(i / 90))).map(|(t, y)| match t {
+        t if t < 1.0 => [40.0 * t, y, 0.0],
+        t if t < 2.0 => [40.0 - 20.0 * (t - 1.0), y, 5.0 * (t - 1.0)],
+        t => [20.0 + 40.0 * (t - 2.0), y, 5.0],
+    });
+    let few = wave.iter().copied().step_by(80).collect();
+    // Written with nine decimals, no point of a line lies on it.
+    let line = (0..400).map(|k| f64::from(k) / 7.0).map(|t| [t, 2.0 * t, 3.0 - t]).collect();
+    let odd = |k: u32| f64::from(k.wrapping_mul(2_654_435_761) >> 16) / 65536.0 - 0.5;
+    let strip =
+        (0..400u32).map(|k| (k, f64::from(k) / 8.0)).map(|(k, t)| [t, 1e-2 * odd(k), 1e-2 * odd(k + 400)]);
+    let stray = |times: f64| {
+        let mut all = wave.clone();
+        all[7] = all[7].map(|x| times * x);
+        all
+    };
+    let refused = |reason| (3, reason);
+    for (name, rows, words, (want, told)) in [
+        (
+            "ell",
+            ell,
+            "",
+            (
+                0,
+                "of the control points have no points near them: there the surface is a thin plate, not data",
+            ),
+        ),
+        ("steep", steep, "--tolerance 0.05", (0, "reached, all points are within")),
+        (
+            "over",
+            over.collect(),
+            "",
+            (1, "of the points lie in layers over one another as seen on the base (plane)"),
+        ),
+        ("few", few, "", (0, "there are fewer points (30) than control points (121)")),
+        ("line", line, "", refused("line.xyz: all points lie on one straight line as seen on the base")),
+        ("strip", strip.collect(), "", (0, "the points lie in a strip of 49.87")),
+        ("same", vec![wave[0]; 50], "", refused("same.xyz: all points lie on one straight line")),
+        ("stray", stray(1e9), "", refused("or one lies very far from the others")),
+        ("astray", stray(1e4), "", (0, "the points lie in a strip of 7569")),
+        ("twice", [wave.clone(), wave.clone()].concat(), "", (0, "4,800 points")),
+    ] {
+        let file = folder.write(&format!("{name}.xyz"), lines(rows));
+        let json = folder.file(&format!("{name}.json"));
+        let files = ["surface", file.to_str().unwrap(), "--json", json.to_str().unwrap()];
+        let o = trueness(files.into_iter().chain(words.split_whitespace()));
+        let text = stdout(&o) + &stderr(&o);
+        assert_eq!(status(&o), want, "{name}: {text}");
+        assert!(text.contains(told), "{name}: {text}");
+        if want != 3 {
+            let answer: serde_json::Value =
+                serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+            assert_eq!(answer["far_control_points"], 0, "{name}");
+        }
+    }
+    let broken = folder.write("nan.xyz", "0 0 0\n1 0 0\n0 1 nan\n1 1 1\n2 1 1\n");
+    let o = trueness(["surface", broken.to_str().unwrap()]);
+    assert_eq!(status(&o), 3);
+    assert!(stderr(&o).contains("nan.xyz, line 3: column 3 (z): expected a finite number"), "{}", stderr(&o));
 }
 
 #[test]

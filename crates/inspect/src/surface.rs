@@ -16,10 +16,13 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-use trueness_geom::surface::{Base, Fairness, Layout, Options, SurfaceFit};
+use trueness_geom::surface::{Base, Fairness, Layout, Options, SurfaceFit, minimum_rectangle};
 
 /// Share of points in layers beyond which the surface is doubtful.
 pub const FOLDED: f64 = 0.01;
+
+/// Sides of the rectangle of the points with a lesser ratio make a strip.
+const SLIM: f64 = 1e-3;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order.
 ///
@@ -78,6 +81,7 @@ fn base(found: &Base) -> BaseRecord {
         kind: Word(found.kind),
         origin: found.origin,
         axes: found.axes,
+        turned: found.turned,
         radius: found.radius,
         radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
         around: found.around,
@@ -166,6 +170,20 @@ fn warnings(fit: &SurfaceFit) -> Vec<String> {
         all.push(format!(
             "{} control points lie outside of twice the box of the points: the points hold them badly",
             fit.far_control_points
+        ));
+    }
+    let points = fit.feet.len();
+    if points < fit.support.control_points {
+        all.push(format!(
+            "there are fewer points ({points}) than control points ({}): between the points the surface is a thin plate, not data",
+            fit.support.control_points
+        ));
+    }
+    if let Some([long, short]) = minimum_rectangle(&fit.feet).map(|r| r.sides)
+        && short < SLIM * long
+    {
+        all.push(format!(
+            "the points lie in a strip of {long:.4} mm by {short:.4} mm: across it the surface may follow their noise alone"
         ));
     }
     if fit.support.unsupported > 0 {

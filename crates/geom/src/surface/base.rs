@@ -19,6 +19,9 @@ pub struct Base {
     /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
     /// first where its angle is 0; of a sphere the first points amid the points and the third to the pole.
     pub axes: [Vector; 3],
+    /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
+    /// rectangle was turned along what bends.
+    pub turned: f64,
     /// Of a cylinder or a sphere.
     pub radius: Option<f64>,
     /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
@@ -68,6 +71,9 @@ impl Base {
 /// Where a point lies over the base: two lengths along it and the height.
 type Seen = ([f64; 2], f64);
 
+/// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
+const LINE: f64 = 1e-6;
+
 /// The parameters of all points.
 pub(super) fn parameters(
     points: &[Point],
@@ -102,7 +108,7 @@ pub(super) fn parameters(
     let [u, v] = [range(&found, 0), range(&found, 1)];
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
     // Also what lies aslant on one line.
-    if short <= 1e-12 * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= 1e-12 * r.sides[0]) {
+    if short <= LINE * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
         return Err(SurfaceError::Line);
     }
     base.folded_share = fold::share(&seen, [u, v]);
@@ -114,6 +120,7 @@ fn xy() -> Base {
         kind: BaseKind::Xy,
         origin: [0.0; 3],
         axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        turned: 0.0,
         radius: None,
         around: false,
         course: Course::default(),
@@ -143,6 +150,36 @@ fn plane(points: &[Point], point: Point, normal: Vector) -> Result<(Base, Vec<Se
         .map(|d| ([dot(d, axes[0]), dot(d, axes[1])], dot(d, normal)))
         .collect();
     Ok((Base { kind: BaseKind::Plane, origin, axes, ..xy() }, seen))
+}
+
+/// The same plane with its parameters along and across `direction`, which is one of its own parameters; the longer side first.
+pub(super) fn turned(points: &[Point], base: &Base, direction: [f64; 2]) -> (Base, Vec<[f64; 2]>) {
+    let [u, v, normal] = base.axes;
+    let along = |[a, b]: [f64; 2]| plus(times(a, u), times(b, v));
+    let seen = |axes: [Vector; 2]| -> Vec<[f64; 2]> {
+        points.iter().map(|p| minus(*p, base.origin)).map(|d| axes.map(|a| dot(d, a))).collect()
+    };
+    let [a, b] = direction;
+    let mut axes = [along([a, b]), along([-b, a])];
+    let mut parameters = seen(axes);
+    let side = |parameters: &[[f64; 2]], k: usize| {
+        let (low, high) = range(parameters, k);
+        high - low
+    };
+    if side(&parameters, 1) > side(&parameters, 0) {
+        axes = [axes[1], times(-1.0, axes[0])];
+    }
+    let largest = axes[0].into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
+    if largest < 0.0 {
+        axes = axes.map(|a| times(-1.0, a));
+    }
+    parameters = seen(axes);
+    let low = [0, 1].map(|k| range(&parameters, k).0);
+    parameters.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= low[k]));
+    let origin = plus(base.origin, plus(times(low[0], axes[0]), times(low[1], axes[1])));
+    let angle = base.turned + libm::atan2(dot(axes[0], v), dot(axes[0], u));
+    let turned = angle - std::f64::consts::PI * (angle / std::f64::consts::PI).round();
+    (Base { origin, axes: [axes[0], axes[1], normal], turned, ..*base }, parameters)
 }
 
 /// Turns angles so that the widest gap between them is where they start and end. The answers are where they start, and whether
@@ -194,7 +231,7 @@ fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base
         .collect();
     let course = longer_first(&mut seen, start);
     let radius = Some(radius);
-    (Base { kind: BaseKind::Cylinder, origin, axes, radius, around, course, folded_share: 0.0 }, seen)
+    (Base { kind: BaseKind::Cylinder, origin, axes, radius, around, course, ..xy() }, seen)
 }
 
 fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
@@ -213,15 +250,7 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
         .collect();
     let course = longer_first(&mut seen, start);
     (
-        Base {
-            kind: BaseKind::Sphere,
-            origin: center,
-            axes,
-            radius: Some(radius),
-            around,
-            course,
-            folded_share: 0.0,
-        },
+        Base { kind: BaseKind::Sphere, origin: center, axes, radius: Some(radius), around, course, ..xy() },
         seen,
     )
 }

@@ -65,14 +65,16 @@ pub enum SurfaceError {
         domain: (f64, f64),
     },
     /// All parameters lie on one line.
-    #[error("all points lie on one straight line as seen on the base: they determine no surface")]
+    #[error(
+        "all points lie on one straight line as seen on the base, or one lies very far from the others: they determine no surface"
+    )]
     Line,
     /// The base could not be fitted.
     #[error("no base: {0}")]
     Base(FitError),
     /// Some control points are near no data.
     #[error(
-        "the points determine only some of the {total} control points ({points} points, {unsupported} control points without any near them): ask for fewer spans or a fairness above 0"
+        "the points determine only some of the {total} control points ({points} points, {unsupported} control points without any near them): ask for fewer spans or a fairness above 0, or leave out points that lie far from all others"
     )]
     Undetermined {
         /// Control points sought.

@@ -1,5 +1,7 @@
 //! Layers: where several parts of a surface lie over the same place of the base.
 
+use crate::parallel::prelude::*;
+
 /// Points to a cell in the mean.
 const PER_CELL: f64 = 16.0;
 
@@ -16,20 +18,33 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
             |k: usize| (((p[k] - domain[k].0) / sides[k] * counts[k] as f64) as usize).min(counts[k] - 1);
         (at(0) * counts[1] + at(1)) as u32
     };
-    let mut order: Vec<(u32, u32)> = seen.iter().enumerate().map(|(i, s)| (cell_of(s.0), i as u32)).collect();
-    order.sort_unstable();
-    let folded: usize = order
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter(|own| {
-            let mut own: Vec<([f64; 2], f64)> = own.iter().map(|(_, i)| seen[*i as usize]).collect();
-            layered(&mut own, cell)
-        })
-        .map(<[(u32, u32)]>::len)
-        .sum();
-    folded as f64 / seen.len() as f64
+    // Points sorted by cell, in their order.
+    let cells: Vec<u32> = seen.par_iter().map(|s| cell_of(s.0)).collect();
+    let mut starts = vec![0u32; counts[0] * counts[1] + 1];
+    cells.iter().for_each(|cell| starts[*cell as usize + 1] += 1);
+    (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
+    let (mut next, mut order) = (starts.clone(), vec![0u32; seen.len()]);
+    for (i, cell) in (0..).zip(&cells) {
+        let at = &mut next[*cell as usize];
+        order[*at as usize] = i;
+        *at += 1;
+    }
+    let folded = |k: usize| {
+        let own = &order[starts[k] as usize..starts[k + 1] as usize];
+        let own: Vec<([f64; 2], f64)> = own.iter().map(|i| seen[*i as usize]).collect();
+        let count = own.len();
+        if layered(own, cell) { count } else { 0 }
+    };
+    (0..starts.len() - 1).into_par_iter().map(folded).sum::<usize>() as f64 / seen.len() as f64
 }
 
-fn layered(own: &mut [([f64; 2], f64)], cell: f64) -> bool {
+fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> bool {
+    let both = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = own.iter().fold(both, |(low, high), p| (low.min(p.1), high.max(p.1)));
+    // No gap is wider than all of it.
+    if own.len() < 4 || high - low <= cell {
+        return false;
+    }
     own.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
     let gap = |i: &usize| own[*i].1 - own[*i - 1].1;
     let Some(at) = (1..own.len()).max_by(|a, b| gap(a).total_cmp(&gap(b))) else { return false };

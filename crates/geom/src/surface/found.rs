@@ -74,7 +74,7 @@ pub struct SurfaceFit {
     pub degrees_of_freedom: Option<f64>,
     /// How well the data hold it.
     pub support: Support,
-    /// Control points outside of twice the box of the points.
+    /// Control points outside of twice the box of the points along the axes of the base; of a flat one, farther than half its diagonal.
     pub far_control_points: usize,
     /// Parameter corrections made.
     pub corrections: usize,

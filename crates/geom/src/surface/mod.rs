@@ -12,7 +12,8 @@
 //! | `hold` | what holds the control points where points are few |
 //! | `solve` | control points; the weight of the thin-plate term |
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
-//! | `refine` | knots for a tolerance |
+//! | `tolerance` | the surface of few control points that keeps to a tolerance |
+//! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
 //! | `nearest` | nearest places of the points, beyond doubt |
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
@@ -20,10 +21,12 @@
 //! Society B 66, 2004 (cross-validation with degrees of freedom counted 1.4 times).
 
 mod base;
+mod coarser;
 mod energy;
 mod error;
 mod fold;
 mod found;
+mod grain;
 mod gram;
 mod hold;
 mod nearest;
@@ -35,6 +38,7 @@ mod solve;
 mod stencil;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 
 pub use base::Base;
 pub use error::SurfaceError;
@@ -95,8 +99,8 @@ pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Resu
                 pass::corrected(points, parameters, base, knots.clone(), options, progress)
             }
             Layout::Tolerance(t) => {
-                let start = refine::first_spans(domain);
-                refine::to_tolerance(points, parameters, base, uniform(start), *t, options, progress)
+                let task = refine::Task { points, tolerance: *t, options, progress };
+                tolerance::to_tolerance(task, base, parameters)
             }
         };
         nearest::told(points, found?, 0.0, progress)

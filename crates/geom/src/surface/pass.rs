@@ -6,9 +6,9 @@ use super::solve::Known;
 use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point, plus, times};
+use crate::space::{Aabb, Point, dot, plus, times};
 use crate::spline::basis::Knots;
-use crate::spline::surface::{Patches, Surface, SurfaceFoot};
+use crate::spline::surface::{Patches, Surface};
 
 /// Corrections go on while they take away this share of the root mean square.
 const GAIN: f64 = 0.01;
@@ -122,17 +122,14 @@ fn once(
         unsupported: solved.support.unsupported,
     })?;
     let patches = Patches::new(&surface);
-    let feet = feet(&patches, points, parameters, progress)?;
-    let reach = patches.reach();
-    let doubtful = (0..).zip(&feet).filter(|(_, f)| !f.settled || f.distance >= reach).map(|(i, _)| i);
-    let sides = hull.sides();
-    let far = |p: &&Point| (0..3).any(|k| (p[k] - center[k]).abs() > sides[k].max(0.5 * hull.diagonal()));
+    let Feet { deviations, feet, doubtful, unsettled } = feet(&patches, points, parameters, progress)?;
+    let far = far(&base, points, 0.5 * hull.diagonal());
     Ok(SurfaceFit {
-        far_control_points: surface.points().iter().filter(far).count(),
-        deviations: feet.iter().zip(points).map(|(f, p)| f.signed(*p)).collect(),
-        unsettled: feet.iter().filter(|f| !f.settled).count(),
-        doubtful: doubtful.collect(),
-        feet: feet.iter().map(|f| f.parameters).collect(),
+        far_control_points: surface.points().iter().filter(|p| far(p)).count(),
+        deviations,
+        feet,
+        doubtful,
+        unsettled,
         sum_of_squares: residuals.iter().map(|d| d * d).sum(),
         max_residual: residuals.iter().fold(0.0, |m, d| m.max(*d)),
         fairness: solved.fairness,
@@ -147,23 +144,71 @@ fn once(
     })
 }
 
+/// Whether a place lies outside of twice the box of the points along the axes of the base; where that is flat, no nearer than `least`.
+fn far(base: &Base, points: &[Point], least: f64) -> impl Fn(&Point) -> bool {
+    let axes = base.axes;
+    let limits = axes.map(|axis| {
+        let (low, high) = points
+            .iter()
+            .map(|p| dot(*p, axis))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        (0.5 * (low + high), (high - low).max(least))
+    });
+    move |p| axes.iter().zip(limits).any(|(axis, (middle, most))| (dot(*p, *axis) - middle).abs() > most)
+}
+
+/// The nearest places of points.
+#[derive(Default)]
+struct Feet {
+    /// Signed distances.
+    deviations: Vec<f64>,
+    /// Parameters.
+    feet: Vec<[f64; 2]>,
+    /// Points for which there may be a nearer place.
+    doubtful: Vec<u32>,
+    /// Points whose place was not found to the last digit.
+    unsettled: usize,
+}
+
 /// The nearest places of all points, from those of their parameters on.
 fn feet(
     surface: &Patches,
     points: &[Point],
     parameters: &[[f64; 2]],
     progress: &dyn Progress,
-) -> Result<Vec<SurfaceFoot>, Cancelled> {
+) -> Result<Feet, Cancelled> {
+    let reach = surface.reach();
     let chunks = points.par_chunks(CHUNK).zip(parameters.par_chunks(CHUNK));
-    let found: Result<Vec<Vec<SurfaceFoot>>, Cancelled> = chunks
+    let found: Result<Vec<Feet>, Cancelled> = chunks
         .map(|(points, parameters)| {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            let found = points.iter().zip(parameters).map(|(p, at)| surface.foot_from(*p, *at)).collect();
+            let mut own = Feet::default();
+            own.deviations.reserve_exact(points.len());
+            own.feet.reserve_exact(points.len());
+            for (point, at) in points.iter().zip(parameters) {
+                let foot = surface.foot_from(*point, *at);
+                if !foot.settled || foot.distance >= reach {
+                    own.doubtful.push(own.feet.len() as u32);
+                }
+                own.unsettled += usize::from(!foot.settled);
+                own.deviations.push(foot.signed(*point));
+                own.feet.push(foot.parameters);
+            }
             progress.advance(points.len() as u64);
-            Ok(found)
+            Ok(own)
         })
         .collect();
-    Ok(found?.concat())
+    let mut all = Feet::default();
+    all.deviations.reserve_exact(points.len());
+    all.feet.reserve_exact(points.len());
+    for part in found? {
+        let first = all.feet.len() as u32;
+        all.doubtful.extend(part.doubtful.iter().map(|k| first + k));
+        all.unsettled += part.unsettled;
+        all.deviations.extend(part.deviations);
+        all.feet.extend(part.feet);
+    }
+    Ok(all)
 }

@@ -86,9 +86,44 @@ fn oriented(x: [f64; 2], low: [f64; 2], high: [f64; 2], sides: [f64; 2]) -> Rect
     Rectangle { corner: best.0, along: best.1, sides: best.2 }
 }
 
+/// The points without those inside of the octagon of the farthest ones in eight directions: none of them is a corner of the hull (Akl
+/// and Toussaint, A fast convex hull algorithm, Information Processing Letters 7, 1978).
+fn outer(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let directions: [[f64; 2]; 8] = [
+        [1.0, 0.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
+        [-1.0, 1.0],
+        [-1.0, 0.0],
+        [-1.0, -1.0],
+        [0.0, -1.0],
+        [1.0, -1.0],
+    ];
+    let mut far = [(f64::NEG_INFINITY, [0.0; 2]); 8];
+    for p in points {
+        for (far, d) in far.iter_mut().zip(directions) {
+            let along = d[0] * p[0] + d[1] * p[1];
+            if along > far.0 {
+                *far = (along, *p);
+            }
+        }
+    }
+    let size = far.iter().fold(0.0, |m: f64, (_, p)| m.max(p[0].abs()).max(p[1].abs()));
+    // Beyond the rounding of the products.
+    let least = 64.0 * f64::EPSILON * size * size;
+    let inside = |p: &[f64; 2]| {
+        (0..8).all(|k| {
+            let (a, b) = (far[k].1, far[(k + 1) % 8].1);
+            a == b || (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > least
+        })
+    };
+    let corner = far.windows(2).any(|w| w[0].1 != w[1].1);
+    points.iter().filter(|p| !(corner && inside(p))).copied().collect()
+}
+
 /// The corners of the convex hull, counter-clockwise from the least (Andrew's monotone chain).
 fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut sorted = points.to_vec();
+    let mut sorted = outer(points);
     sorted.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sorted.dedup();
     let turn =

@@ -1,5 +1,6 @@
 //! Fits against reference coefficients, closed forms, and what must not happen.
 
+mod grain;
 mod holes;
 mod nearest;
 mod references;

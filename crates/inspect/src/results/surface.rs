@@ -84,11 +84,15 @@ pub struct KnotsRecord {
 pub struct BaseRecord {
     /// `plane`, `xy`, `cylinder` or `sphere`.
     pub kind: Word<BaseKind>,
-    /// Of a plane the corner of the minimum bounding rectangle, of a cylinder a place of its axis, of a sphere its center.
+    /// Of a plane the corner of the bounding rectangle, of a cylinder a place of its axis, of a sphere its center.
     pub origin: [f64; 3],
-    /// Right-handed unit axes: of a plane the longer side, the shorter side and the normal; of a cylinder the third is its axis; of a
+    /// Right-handed unit axes: of a plane the sides of the rectangle (the longer one first) and the normal; of a cylinder the third is its axis; of a
     /// sphere the first points amid the points.
     pub axes: [[f64; 3]; 3],
+    /// Angle from the longer side of the minimum bounding rectangle to the first axis, radians from −π/2 to π/2: 0 but of a plane whose
+    /// rectangle was turned for a tolerance, along the direction in which the surface bends most.
+    #[serde(default)]
+    pub turned: f64,
     /// Of a cylinder or a sphere.
     pub radius: Option<f64>,
     /// Why there is none.

@@ -5,7 +5,7 @@ use crate::{console, read};
 use std::fmt::Write;
 use trueness_geom::surface::Reached;
 use trueness_inspect::results::curvature::Range;
-use trueness_inspect::results::surface::SurfaceDocument;
+use trueness_inspect::results::surface::{BaseRecord, SurfaceDocument};
 
 /// The document as text.
 pub fn table(document: &SurfaceDocument) -> String {
@@ -17,8 +17,9 @@ pub fn table(document: &SurfaceDocument) -> String {
     let (m, n) = (document.control_points.len(), document.control_points.first().map_or(0, Vec::len));
     let _ = writeln!(
         out,
-        "degree {p}x{q}   control points {m}x{n}   base {}   {}   mm",
+        "degree {p}x{q}   control points {m}x{n}   base {}{}   {}   mm",
         document.base.kind,
+        turned(&document.base),
         counted(document.deviation.count, POINTS)
     );
     let freedom = document.degrees_of_freedom.map(|d| format!(", {} degrees of freedom", fixed(d, 1)));
@@ -62,6 +63,14 @@ pub fn table(document: &SurfaceDocument) -> String {
     }
     out.push_str(&curvature(document));
     out
+}
+
+/// How far the rectangle of the parameters is turned, where it is.
+fn turned(base: &BaseRecord) -> String {
+    match base.turned {
+        0.0 => String::new(),
+        angle => format!(", turned by {}° along what bends", fixed(angle.to_degrees(), 2)),
+    }
 }
 
 fn reached(value: f64, outside: u64, stopped_by: Reached) -> String {

@@ -100,7 +100,7 @@ impl<const D: usize> Patches<D> {
     }
 
     /// The coefficients of patch number `cell`.
-    pub(super) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
+    pub(crate) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
         let [p, q] = [self.spans[0].degree() + 1, self.spans[1].degree() + 1];
         (&self.coefficients[cell * p * q..(cell + 1) * p * q], q)
     }
@@ -122,26 +122,10 @@ impl<const D: usize> Patches<D> {
     #[inline(always)]
     pub(super) fn six(&self, (i, s): (usize, f64), (j, t): (usize, f64)) -> [[f64; D]; 6] {
         let (own, q) = self.patch(i * self.spans[1].count() + j);
-        // Horner's rule for value, derivative and half the second derivative, in both directions.
-        let mut sum = [[0.0f64; D]; 6];
-        for row in own.chunks_exact(q).rev() {
-            let mut inner = [[0.0f64; D]; 3];
-            for c in row.iter().rev() {
-                for d in 0..D {
-                    inner[2][d] = inner[2][d] * t + inner[1][d];
-                    inner[1][d] = inner[1][d] * t + inner[0][d];
-                    inner[0][d] = inner[0][d] * t + c[d];
-                }
-            }
-            for d in 0..D {
-                sum[3][d] = sum[3][d] * s + sum[1][d];
-                sum[1][d] = sum[1][d] * s + sum[0][d];
-                sum[4][d] = sum[4][d] * s + sum[2][d];
-                sum[0][d] = sum[0][d] * s + inner[0][d];
-                sum[2][d] = sum[2][d] * s + inner[1][d];
-                sum[5][d] = sum[5][d] * s + inner[2][d];
-            }
-        }
+        let sum = match q {
+            4 => horner_six(own.as_chunks::<4>().0.iter(), s, t),
+            _ => horner_six(own.chunks_exact(q), s, t),
+        };
         let (a, b) = (1.0 / self.spans[0].half(i), 1.0 / self.spans[1].half(j));
         let [value, u, v, uu, uv, vv] = sum;
         [
@@ -153,6 +137,38 @@ impl<const D: usize> Patches<D> {
             vv.map(|x| 2.0 * x * b * b),
         ]
     }
+}
+
+/// Value, derivatives and halves of the second derivatives by `s` and by `t`, in the order of [`Patches::six`].
+#[inline(always)]
+fn horner_six<'a, R, const D: usize>(
+    rows: impl DoubleEndedIterator<Item = &'a R>,
+    s: f64,
+    t: f64,
+) -> [[f64; D]; 6]
+where
+    R: AsRef<[[f64; D]]> + ?Sized + 'a,
+{
+    let mut sum = [[0.0f64; D]; 6];
+    for row in rows.rev() {
+        let mut inner = [[0.0f64; D]; 3];
+        for c in row.as_ref().iter().rev() {
+            for d in 0..D {
+                inner[2][d] = inner[2][d] * t + inner[1][d];
+                inner[1][d] = inner[1][d] * t + inner[0][d];
+                inner[0][d] = inner[0][d] * t + c[d];
+            }
+        }
+        for d in 0..D {
+            sum[3][d] = sum[3][d] * s + sum[1][d];
+            sum[1][d] = sum[1][d] * s + sum[0][d];
+            sum[4][d] = sum[4][d] * s + sum[2][d];
+            sum[0][d] = sum[0][d] * s + inner[0][d];
+            sum[2][d] = sum[2][d] * s + inner[1][d];
+            sum[5][d] = sum[5][d] * s + inner[2][d];
+        }
+    }
+    sum
 }
 
 /// The value of a polynomial whose rows are polynomials of `t`, for powers of `s`.

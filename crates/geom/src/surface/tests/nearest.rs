@@ -87,12 +87,14 @@ fn a_tolerance_is_judged_by_the_nearest_places() {
         let domain = [0, 1].map(|k| base::range(&parameters, k));
         let spans = refine::first_spans(domain);
         let knots = [0, 1].map(|k| Knots::uniform(3, spans[k], domain[k].0, domain[k].1));
-        let local = pass::corrected(&points, parameters, base, knots, &options, &Silent).unwrap();
+        let local = pass::corrected(&points, parameters.clone(), base, knots, &options, &Silent).unwrap();
         let (far, true_far) = (most(&local.deviations), most(&brute(&local.surface, &points)));
         if far > true_far + 1e-3 {
             judged += 1;
-            let layout = Layout::Tolerance(0.5 * (far + true_far));
-            let found = fit(&points, &Options { layout, ..options }, &Silent).unwrap();
+            let tolerance = 0.5 * (far + true_far);
+            let task = refine::Task { points: &points, tolerance, options: &options, progress: &Silent };
+            let mut rounds = refine::Rounds::new(task, refine::Halved::Longer, base, parameters);
+            let refine::Round::Over(found) = rounds.next().unwrap() else { panic!("{seed}") };
             assert_eq!((found.reached, found.surface), (Some(Reached::Tolerance), local.surface), "{seed}");
         }
     }

@@ -226,6 +226,9 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
             (fact(s, "degree", by(d.degree)))
             (fact(s, "control_points", by([m as u64, n as u64])))
             (fact(s, "surface.base", s.word(base)))
+            @if d.base.turned != 0.0 {
+                (fact(s, "surface.turned", html! { (s.number(d.base.turned.to_degrees(), 2).signed()) "°" }))
+            }
             (fact(s, "fairness", html! { (fairness) "\u{a0}mm²" }))
             @if let Some(freedom) = d.degrees_of_freedom { (fact(s, "degrees_of_freedom", s.number(freedom, 1))) }
             (fact(s, "corrections", s.count(d.corrections)))
