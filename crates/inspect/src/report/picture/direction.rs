@@ -386,6 +386,35 @@ mod tests {
         assert_eq!(crossing([1.0, 2.0, 0.0], [1.0, 0.0, 0.0], a, b, [0.0, 4.0, 5.0]), None);
     }
 
+    /// Patches leave out nothing that a facet alone would block.
+    #[test]
+    fn patches_block_what_their_facets_do() {
+        let random = &mut trueness_geom::num::random::Random::new(5);
+        let mut around = |middle: Point, size: f64| middle.map(|x| x + size * (random.unit() - 0.5));
+        let directions: Vec<Vector> = (0..20).map(|_| unit(around([0.0; 3], 2.0)).unwrap().0).collect();
+        let probes: Vec<(Point, f64)> =
+            (0..40).map(|n| (around([0.0; 3], 4.0), 0.02 * f64::from(n))).collect();
+        let mut blocked = 0;
+        for n in 0..300 {
+            let (middle, size) = (around([0.0; 3], 6.0), 0.02 * f64::from(n % 30));
+            let mut corner = || around(middle, size);
+            let facets: Vec<[Point; 3]> = (0..1 + n % 7).map(|_| [corner(), corner(), corner()]).collect();
+            let mut bits = vec![0; probes.len()];
+            patch_blocks(&mut bits, &probes, &directions, &facets);
+            for ((from, near), bits) in probes.iter().zip(bits) {
+                for (d, toward) in directions.iter().enumerate() {
+                    let blocks = |[a, b, c]: &[Point; 3]| {
+                        crossing(*from, *toward, *a, *b, *c).is_some_and(|t| t > *near)
+                    };
+                    let any = facets.iter().any(blocks);
+                    assert_eq!(bits >> d & 1 == 1, any, "{n} {d}");
+                    blocked += usize::from(any);
+                }
+            }
+        }
+        assert!(blocked > 1000, "{blocked}");
+    }
+
     /// The cube from −1 to 1.
     fn cube() -> Mesh {
         let corner = |i: u32| [0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 });
