@@ -8,29 +8,20 @@
 
 mod beside;
 mod bounds;
+mod found;
 mod nominal;
 mod rules;
 mod search;
 mod surface;
 
 pub use beside::{Piece, pieces_beside};
+pub use found::Found;
 pub use nominal::{FeatureError, Nearness, Nominal};
 pub use search::FeatureSearch;
 pub use surface::NominalSurface;
 
 use crate::space::Point;
 use rules::Rules;
-
-/// What was found of a feature.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Found {
-    /// Numbers of the facets, ascending; none in a cloud.
-    pub facets: Vec<u32>,
-    /// Numbers of their vertices (without the rim, where it does not count), or of the points of a cloud, ascending.
-    pub points: Vec<u32>,
-    /// Area of the facets, mm².
-    pub area: f64,
-}
 
 /// The points of a cloud that belong to `nominal`: those near it and within its bounds. A cloud without normals does not
 /// tell which way it faces; what lies behind a thin wall is kept apart by the distance alone.
