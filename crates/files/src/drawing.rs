@@ -7,4 +7,4 @@ pub use crate::formats::dxf::write as dxf;
 pub use crate::formats::iges::curves as iges;
 pub use crate::formats::step::curves as step;
 pub use crate::formats::svg::write as svg;
-pub use entity::{Drawing, Drawn, DrawnEntity, Entity, Layer};
+pub use entity::{Clamped, Drawing, Drawn, DrawnEntity, Entity, Layer};

@@ -3,7 +3,7 @@
 //! Arcs are arcs. Cubic splines are Bézier curves, exactly: their knots are inserted until each span stands alone. A spline
 //! of another degree is drawn as a polyline of 64 steps to a span.
 
-use crate::drawing::entity::{Entity, Layer, bounds, whole};
+use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
@@ -43,7 +43,7 @@ fn entity(out: &mut dyn Write, entity: &Entity) -> io::Result<()> {
             let turn = u8::from(*sweep > 0.0);
             writeln!(out, "<path d=\"M {x} {y} A {radius} {radius} 0 {large} {turn} {u} {v}\"/>")
         }
-        Entity::Spline { degree, knots, points } => {
+        Entity::Spline(Clamped { degree, knots, points }) => {
             let Ok(knots) = Knots::new(*degree, knots.clone()) else { return Ok(()) };
             let Ok(curve) = Curve::new(knots, points.clone()) else { return Ok(()) };
             let [x, y] = curve.at(curve.domain().0);
@@ -74,7 +74,7 @@ mod tests {
         let arc = Entity::Arc { center: [0.0, 0.0], radius: 1.0, start: 0.0, sweep: -4.0 };
         let layer = Layer {
             name: "a".into(),
-            entities: vec![Entity::Spline { degree: 3, knots, points }, arc],
+            entities: vec![Entity::Spline(Clamped { degree: 3, knots, points }), arc],
             ..Layer::default()
         };
         let mut out = vec![];

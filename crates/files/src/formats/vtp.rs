@@ -6,10 +6,10 @@ use crate::{
     format::{Format, Head},
     write::{
         Loss,
+        columns::Columns,
         corners::corner_positions,
         named::Values,
         sink::{Block, Layout, PointsSink},
-        spool::Spool,
     },
 };
 use std::{
@@ -85,59 +85,47 @@ fn end(file: &mut AtomicFile) -> io::Result<()> {
 }
 
 fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
-    let spool = || Spool::beside(&file);
-    let (deviation, excluded, color) = (spool(), spool(), spool());
+    let columns = Columns::beside(&file, layout);
     // Header and length of the positions are written again when the points are counted.
     file.write_all(&[b' '; HEADER + 8])?;
-    Ok(Box::new(Points { file, layout, count: 0, deviation, excluded, color }))
+    Ok(Box::new(Points { file, columns }))
 }
 
 struct Points {
     file: AtomicFile,
-    layout: Layout,
-    count: u64,
-    deviation: Spool,
-    excluded: Spool,
-    color: Spool,
+    columns: Columns,
 }
 
 impl PointsSink for Points {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
-        for points in block.points.chunks(1 << 14) {
-            let bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
-            self.file.write_all(&bytes)?;
-        }
-        self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
-        self.excluded.write(block.excluded())?;
-        self.color.write(block.color.iter().flatten().copied())?;
-        self.count += block.points.len() as u64;
-        Ok(())
+        self.columns.write(block, |bytes| self.file.write_all(bytes))
     }
 
     fn finish(mut self: Box<Self>) -> Result<AtomicFile, WriteFault> {
-        let this = &mut *self;
-        let count = this.count;
+        let Points { file, columns } = &mut *self;
+        let Columns { layout, count, deviation, excluded, color } = columns;
+        let count = *count;
         let mut data: Vec<Array> = vec![];
         for (there, name, kind, components, spool) in [
-            (this.layout.deviation, "deviation", "Float64", 1, &mut this.deviation),
-            (this.layout.deviation, "excluded", "UInt8", 1, &mut this.excluded),
-            (this.layout.color, "colour", "UInt8", 3, &mut this.color),
+            (layout.deviation, "deviation", "Float64", 1, deviation),
+            (layout.deviation, "excluded", "UInt8", 1, excluded),
+            (layout.color, "colour", "UInt8", 3, color),
         ] {
             if there {
                 data.push((name, kind, components, spool.len()));
-                this.file.write_all(&spool.len().to_le_bytes())?;
-                spool.play(|bytes| this.file.write_all(bytes))?;
+                file.write_all(&spool.len().to_le_bytes())?;
+                spool.play(|bytes| file.write_all(bytes))?;
             }
         }
         // One cell of all points: programs show points only where cells name them.
         let cells = u64::from(count > 0);
-        numbers(&mut this.file, count, |i| i)?;
-        numbers(&mut this.file, cells, |_| count)?;
-        end(&mut this.file)?;
+        numbers(file, count, |i| i)?;
+        numbers(file, cells, |_| count)?;
+        end(file)?;
         let lists = [("connectivity", "Int64", 1, 8 * count), ("offsets", "Int64", 1, 8 * cells)];
-        this.file.seek(SeekFrom::Start(0))?;
-        this.file.write_all(&header(count, "Verts", cells, &data, &lists))?;
-        this.file.write_all(&(24 * count).to_le_bytes())?;
+        file.seek(SeekFrom::Start(0))?;
+        file.write_all(&header(count, "Verts", cells, &data, &lists))?;
+        file.write_all(&(24 * count).to_le_bytes())?;
         Ok(self.file)
     }
 }

@@ -1,5 +1,6 @@
 //! Writing points and meshes. Files appear whole or not at all.
 
+pub(crate) mod columns;
 pub(crate) mod corners;
 mod held;
 mod loss;

@@ -24,6 +24,10 @@ pub enum DimensionKind {
 }
 
 impl DimensionKind {
+    /// All of them.
+    pub const ALL: [DimensionKind; 4] =
+        [DimensionKind::Angle, DimensionKind::Width, DimensionKind::Centers, DimensionKind::Gap];
+
     /// The word for it: `angle`, `width`, `centers`, `gap`.
     pub fn name(self) -> &'static str {
         match self {

@@ -13,6 +13,7 @@ use trueness_geom::space::Point;
 use trueness_inspect::compare::{self, Inputs, Options, Reference, View};
 use trueness_inspect::report::{self, Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::Role;
+use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::tolerance::Tolerance;
 
 /// Writes them all.
@@ -59,7 +60,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
         record(Role::Measured, "points.xyz", points.len(), None),
         record(Role::Reference, "nominal.stl", reference.positions.len(), Some(reference.faces.len() as u64)),
     ];
-    let inputs = Inputs { files, kind: "points", scale: None, reverse: vec![] };
+    let inputs = Inputs { files, kind: MeasuredKind::Points, scale: None, reverse: vec![] };
     let document = compare::document(&found, inputs, &options);
     let view = View::new("points.xyz", None, &references, &found);
     let (objects, marks) = (view.objects(), view.marks(&document));

@@ -27,15 +27,17 @@ use numbers::{histogram, quantile, sorted, statistics};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
+use trueness_geom::deviation::sign_choice::SignMethod;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
+use trueness_inspect::compare::Method;
 use trueness_inspect::report::{
     self, Answer, Geometry, NoValue, ReportError, ReportInput, ReportOptions, ReportSummary, ViewField,
     ViewObject, ViewRole,
 };
 use trueness_inspect::results::compare::*;
-use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict};
+use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word};
 use trueness_inspect::scale::Scale;
 
 fn main() {
@@ -321,12 +323,12 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         units: UNITS.into(),
         inputs,
         measured: Measured {
-            kind: "vertices".into(),
+            kind: Word(MeasuredKind::Vertices),
             count: body.measured.positions.len() as u64,
             bounds: None,
         },
         alignment: None,
-        method: "exact".into(),
+        method: Word(Method::Exact),
         sign: sign(),
         max_distance: None,
         skip_boundary: false,
@@ -362,7 +364,7 @@ fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRe
 fn sign() -> SignRecord {
     SignRecord {
         requested: "auto".into(),
-        method: "pseudonormal".into(),
+        method: Word(SignBy::Method(SignMethod::Pseudonormal)),
         reason: "the reference is closed and consistently oriented".into(),
         disagreement: Some(0.0),
         disagreement_reason: None,

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::results::check::Defects;
 use crate::results::compare::*;
-use crate::results::{InputRecord, UNITS, VERSION, Verdict};
+use crate::results::{InputRecord, UNITS, VERSION, Verdict, Word};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{DefectKind, Found};
@@ -25,7 +25,7 @@ pub struct Inputs {
     /// The measured file, then the references.
     pub files: Vec<InputRecord>,
     /// `points`, `vertices` or `samples`.
-    pub kind: &'static str,
+    pub kind: MeasuredKind,
     /// The scale to use instead of the default one.
     pub scale: Option<Scale>,
     /// One entry a reference where both directions were asked for.
@@ -65,13 +65,9 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: files,
-        measured: Measured {
-            kind: inputs.kind.into(),
-            count: found.count,
-            bounds: Bounds::of(&found.bounds),
-        },
+        measured: Measured { kind: Word(inputs.kind), count: found.count, bounds: Bounds::of(&found.bounds) },
         alignment: None,
-        method: options.method.name().into(),
+        method: Word(options.method),
         sign: overall_sign(&comparisons, options),
         max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),
         skip_boundary: options.surface.skip_boundary,
@@ -122,11 +118,12 @@ fn comparison(
 }
 
 fn along(rule: AlongRule) -> AlongRecord {
-    let direction = match rule {
-        AlongRule::Direction(d) => Some(d),
-        AlongRule::Reference | AlongRule::Measured => None,
+    let (kind, direction) = match rule {
+        AlongRule::Direction(d) => (AlongKind::Direction, Some(d)),
+        AlongRule::Reference => (AlongKind::Reference, None),
+        AlongRule::Measured => (AlongKind::Measured, None),
     };
-    AlongRecord { kind: rule.name().into(), direction }
+    AlongRecord { kind: Word(kind), direction }
 }
 
 fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {
@@ -164,7 +161,7 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
     let share = disagreement.filter(|d| d.sample > 0).map(|d| d.differing as f64 / d.sample as f64);
     SignRecord {
         requested: choice.requested.name().into(),
-        method: choice.method.name().into(),
+        method: Word(SignBy::Method(choice.method)),
         reason: choice.to_string(),
         disagreement: share,
         disagreement_reason: share.is_none().then(|| match disagreement {
@@ -179,19 +176,19 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
 /// What holds for all references: their common method, their greatest disagreement.
 fn overall_sign(comparisons: &[Comparison], options: &Options) -> SignRecord {
     let first = comparisons.first().map(|c| c.sign.clone());
-    let same = |f: fn(&SignRecord) -> &String| comparisons.windows(2).all(|w| f(&w[0].sign) == f(&w[1].sign));
+    let signs = || comparisons.windows(2).map(|w| (&w[0].sign, &w[1].sign));
     let mut out = first.unwrap_or_else(|| SignRecord {
         requested: options.surface.sign.name().into(),
-        method: "none".into(),
+        method: Word(SignBy::Method(SignMethod::None)),
         reason: "there is no reference".into(),
         disagreement: None,
         disagreement_reason: Some("there is no reference".into()),
         sample: 0,
     });
-    if !same(|s| &s.method) {
-        out.method = "several".into();
+    if signs().any(|(a, b)| a.method != b.method) {
+        out.method = Word(SignBy::Several);
     }
-    if !same(|s| &s.reason) {
+    if signs().any(|(a, b)| a.reason != b.reason) {
         out.reason = "see each comparison".into();
     }
     out.disagreement = comparisons.iter().filter_map(|c| c.sign.disagreement).reduce(f64::max);

@@ -6,6 +6,7 @@ use crate::compare::{
     self, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule, vertex_normals,
 };
 use crate::plan::{Deviation, Plan};
+use crate::results::compare::MeasuredKind;
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 use trueness_geom::closest::{QueryError, Tree};
@@ -24,7 +25,7 @@ pub struct Deviations {
     /// The reference.
     pub reference: Mesh,
     /// `points` of a cloud, `vertices` of a mesh.
-    pub kind: &'static str,
+    pub kind: MeasuredKind,
 }
 
 impl Deviations {
@@ -74,7 +75,7 @@ pub(super) fn deviations(
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
         e => Stop::Deviation(e.to_string()),
     })?;
-    let kind = if measured.faces.is_empty() { "points" } else { "vertices" };
+    let kind = if measured.faces.is_empty() { MeasuredKind::Points } else { MeasuredKind::Vertices };
     Ok(Deviations { found, options, reference, kind })
 }
 

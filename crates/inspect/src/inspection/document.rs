@@ -144,15 +144,15 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         Err(_) => None,
     };
     let (source, extract) = match plan.source {
-        Source::Points(_) => ("points", None),
-        Source::Derived { .. } => ("derived", None),
-        Source::Nominal => ("nominal", extract(plan, taken)),
-        Source::Seed(_) => ("seed", extract(plan, taken)),
+        Source::Points(_) => (FeatureSource::Points, None),
+        Source::Derived { .. } => (FeatureSource::Derived, None),
+        Source::Nominal => (FeatureSource::Nominal, extract(plan, taken)),
+        Source::Seed(_) => (FeatureSource::Seed, extract(plan, taken)),
     };
     FeatureRecord {
         id: taken.id.clone(),
         shape: Word(taken.class),
-        source: source.into(),
+        source: Word(source),
         points: taken.points.len() as u64,
         coverage: taken.coverage,
         coverage_reason: taken

@@ -4,6 +4,7 @@ use super::Inspection;
 use crate::compare;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::Verdict;
+use crate::results::inspect::FeatureSource;
 use crate::results::inspect::InspectDocument;
 use crate::scale::palette::Rgb;
 use crate::segment::{cut_out, rim};
@@ -57,7 +58,7 @@ impl<'a> View<'a> {
             let mesh = match whole {
                 Some(mesh) if !taken.facets.is_empty() => cut_out(mesh, &own),
                 // What is derived is drawn by what it is made of.
-                _ if record.source == "derived" => continue,
+                _ if *record.source == FeatureSource::Derived => continue,
                 _ => Mesh { positions: taken.points.clone(), faces: vec![] },
             };
             parts.push(Part { name: record.id.clone(), mesh, color: worst.map(color) });

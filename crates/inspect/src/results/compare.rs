@@ -1,14 +1,19 @@
 //! `trueness/compare/1`: deviations of measured points from one or several references.
 
+mod words;
+
 use super::align::AlignedTo;
 use super::check::Defects;
 use super::research::Research;
 pub use super::{Bounds, BySide, Histogram, Percentiles, Statistics};
-use super::{InputRecord, Verdict};
+use super::{InputRecord, Verdict, Word};
+use crate::compare::Method;
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+pub use words::{AlongKind, MeasuredKind, SignBy};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/compare/1";
@@ -30,7 +35,7 @@ pub struct CompareDocument {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub alignment: Option<AlignedTo>,
     /// How distances were computed: `exact` or `paper`.
-    pub method: String,
+    pub method: Word<Method>,
     /// The sign method; with several references, what holds for all of them (see each comparison for its own).
     pub sign: SignRecord,
     /// Points farther than this are excluded, millimetres.
@@ -60,7 +65,7 @@ pub struct CompareDocument {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Measured {
     /// `points`, `vertices` (of a mesh) or `samples` (of a mesh's surface).
-    pub kind: String,
+    pub kind: Word<MeasuredKind>,
     /// Their number.
     pub count: u64,
     /// Their box.
@@ -73,7 +78,7 @@ pub struct SignRecord {
     /// What was asked for: `auto`, `pseudonormal`, `winding` or `none`.
     pub requested: String,
     /// What was used: `pseudonormal`, `winding`, `normal` (of B-spline surfaces), `none`, or `several` when references differ.
-    pub method: String,
+    pub method: Word<SignBy>,
     /// Why that one.
     pub reason: String,
     /// Share of the sampled points whose sign the two methods disagree on (0 to 1).
@@ -147,7 +152,7 @@ pub struct Comparison {
 pub struct AlongRecord {
     /// `direction`: the same for all points; `reference`: the reference's normal at the nearest place; `measured`: each point's own
     /// normal.
-    pub kind: String,
+    pub kind: Word<AlongKind>,
     /// The direction, as it was given.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub direction: Option<[f64; 3]>,

@@ -97,7 +97,7 @@ pub struct FeatureRecord {
     /// `point`, `line`, `plane`, `circle`, `sphere`, `cylinder`, `cone` or `torus`.
     pub shape: Word<Class>,
     /// Where it comes from: `points`, `nominal`, `seed` or `derived`.
-    pub source: String,
+    pub source: Word<FeatureSource>,
     /// Number of its points.
     pub points: u64,
     /// Share of its nominal area that was measured.
@@ -214,6 +214,31 @@ pub struct CharacteristicRecord {
     /// The standard and clause that define it.
     pub standard: String,
 }
+
+/// Where a feature's points come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureSource {
+    /// A file of its own.
+    Points,
+    /// The measured data about its nominal element.
+    Nominal,
+    /// The measured data about the surface of the reference that a seed lies on.
+    Seed,
+    /// Other features.
+    Derived,
+}
+
+named!(
+    FeatureSource,
+    "source of a feature",
+    [FeatureSource::Points, FeatureSource::Nominal, FeatureSource::Seed, FeatureSource::Derived],
+    |source| match source {
+        FeatureSource::Points => "points",
+        FeatureSource::Nominal => "nominal",
+        FeatureSource::Seed => "seed",
+        FeatureSource::Derived => "derived",
+    }
+);
 
 /// Form of the zone of a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

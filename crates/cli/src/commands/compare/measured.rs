@@ -16,6 +16,7 @@ use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Vector;
 use trueness_geom::topology::weld;
 use trueness_inspect::compare::{facet_normals, vertex_normals};
+use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::results::{InputRecord, Role};
 
 /// What is compared.
@@ -24,8 +25,8 @@ pub struct Measured {
     pub points: PointSource,
     /// The mesh that they are the vertices or samples of.
     pub mesh: Option<Mesh>,
-    /// `points`, `vertices` or `samples`.
-    pub kind: &'static str,
+    /// What they are.
+    pub kind: MeasuredKind,
     /// Facets of the samples; empty without such.
     faces: Vec<u32>,
     /// How it was brought to the reference.
@@ -54,7 +55,14 @@ impl Measured {
             }
             Body::Points(points) => {
                 let (faces, motion) = (vec![], None);
-                return Ok(Measured { points, mesh: None, kind: "points", faces, motion, record });
+                return Ok(Measured {
+                    points,
+                    mesh: None,
+                    kind: MeasuredKind::Points,
+                    faces,
+                    motion,
+                    record,
+                });
             }
             Body::Mesh(mesh) if format.starts_with("stl") => {
                 weld::mesh(&mesh.mesh).with_context(|| path.display().to_string())?.mesh
@@ -68,9 +76,9 @@ impl Measured {
                 let samples =
                     sample_mesh(&mesh, n as usize, seed).with_context(|| path.display().to_string())?;
                 faces.extend(samples.iter().map(|s| s.face));
-                (samples.into_iter().map(|s| s.point).collect(), "samples")
+                (samples.into_iter().map(|s| s.point).collect(), MeasuredKind::Samples)
             }
-            None => (mesh.positions.clone(), "vertices"),
+            None => (mesh.positions.clone(), MeasuredKind::Vertices),
         };
         let points = Box::new(Whole::new(points));
         Ok(Measured { points, mesh: Some(mesh), kind, faces, motion: None, record })
@@ -118,8 +126,8 @@ impl Measured {
     ) -> anyhow::Result<Vec<Vector>> {
         if let Some(mesh) = &self.mesh {
             return Ok(match self.kind {
-                "samples" => facet_normals(mesh, self.faces.iter().copied()),
-                _ => vertex_normals(mesh),
+                MeasuredKind::Samples => facet_normals(mesh, self.faces.iter().copied()),
+                MeasuredKind::Vertices | MeasuredKind::Points => vertex_normals(mesh),
             });
         }
         let mut normals =

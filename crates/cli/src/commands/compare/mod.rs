@@ -28,6 +28,7 @@ use trueness_inspect::compare::{
 };
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
+use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::results::compare::{Reverse, Sampling};
 use trueness_inspect::scale::Scale;
 use words::FacingArg;
@@ -272,7 +273,11 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let mut document = compare::document(&found, inputs, &options);
     document.alignment = alignment;
     if args.output.report.html.is_some() {
-        let shown = if measured.kind == "vertices" { found.count } else { found.shown.points.len() as u64 };
+        let shown = if measured.kind == MeasuredKind::Vertices {
+            found.count
+        } else {
+            found.shown.points.len() as u64
+        };
         document.sampling = Some(Sampling { shown, total: found.count });
     }
     let drawn = measured.mesh.as_ref().filter(|_| args.sample.is_none());

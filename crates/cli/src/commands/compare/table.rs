@@ -2,6 +2,9 @@
 
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
+use trueness_geom::deviation::sign_choice::SignMethod;
+use trueness_inspect::results::Named;
+use trueness_inspect::results::compare::{AlongKind, SignBy};
 use trueness_inspect::results::compare::{
     AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
 };
@@ -44,7 +47,7 @@ fn head(d: &CompareDocument) -> String {
         rows.push(("aligned".into(), what));
         rows.extend(a.warnings.iter().map(|w| ("!".into(), w.text.clone())));
     }
-    rows.push(("method".into(), d.method.clone()));
+    rows.push(("method".into(), d.method.to_string()));
     for c in &d.comparisons {
         let of = if d.comparisons.len() > 1 { format!("{}: ", short(&c.reference)) } else { String::new() };
         rows.extend(c.warnings.iter().map(|w| ("!".into(), format!("{of}{}", w.text))));
@@ -62,9 +65,9 @@ fn head(d: &CompareDocument) -> String {
         if !c.soundness.sound {
             rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
             rows.extend(places(c).map(|place| (String::new(), format!("  {of}{place}"))));
-            let signs = match c.sign.method.as_str() {
-                "none" => "the deviations have no sign".into(),
-                method => format!("the signs are those of the method {method}"),
+            let signs = match *c.sign.method {
+                SignBy::Method(SignMethod::None) => "the deviations have no sign".into(),
+                method => format!("the signs are those of the method {}", method.name()),
             };
             rows.push((String::new(), format!("  {of}it is compared all the same; {signs}")));
         }
@@ -107,9 +110,11 @@ fn limit(d: &CompareDocument, reason: &str) -> String {
 
 /// Along what lines deviations are.
 pub fn along(a: &AlongRecord) -> String {
-    match (&a.direction, a.kind.as_str()) {
+    match (&a.direction, *a.kind) {
         (Some([x, y, z]), _) => format!("the direction {x}, {y}, {z}, to the nearest crossing"),
-        (_, "reference") => "the reference's normal at the nearest place, to the nearest crossing".into(),
+        (_, AlongKind::Reference) => {
+            "the reference's normal at the nearest place, to the nearest crossing".into()
+        }
         _ => "each point's own normal, to the nearest crossing".into(),
     }
 }
@@ -181,7 +186,7 @@ fn places(c: &Comparison) -> impl Iterator<Item = String> {
 
 /// One reference: statistics in rows, sides in columns.
 fn one(c: &Comparison) -> String {
-    let has_sign = c.sign.method != "none";
+    let has_sign = *c.sign.method != SignBy::Method(SignMethod::None);
     let sides: Vec<&Statistics> = if has_sign {
         vec![&c.deviation.all, &c.deviation.positive, &c.deviation.negative]
     } else {

@@ -3,6 +3,7 @@
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
+use trueness_geom::section::DimensionKind;
 use trueness_inspect::results::section::{
     AirfoilMeasures, AirfoilRecord, ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord,
     NominalRecord, Positive, SectionDocument, SegmentRecord,
@@ -230,11 +231,11 @@ fn dimensions(all: &DimensionsRecord) -> String {
     let mut rows =
         vec![["dimension", "between", "and", "value", "± standard uncertainty"].map(String::from).to_vec()];
     for item in all.items.iter().take(ROWS) {
-        let angle = item.kind == "angle";
+        let angle = *item.kind == DimensionKind::Angle;
         let shown = |x: f64| if angle { x.to_degrees() } else { x };
         let [from, to] = item.of.map(|m| format!("{}.{}", m.contour + 1, m.segment + 1));
         rows.push(vec![
-            item.kind.clone(),
+            item.kind.to_string(),
             from,
             to,
             format!("{}{}", fixed(shown(item.value), 6), if angle { "°" } else { "" }),

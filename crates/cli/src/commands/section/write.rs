@@ -4,7 +4,7 @@ use crate::output::whole_file;
 use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
-use trueness_files::drawing::{self, Entity, Layer};
+use trueness_files::drawing::{self, Clamped, Entity, Layer};
 use trueness_geom::section::{Geometry, PlaneFrame, Segment};
 use trueness_inspect::results::section::{FrameRecord, NominalRecord, Section};
 
@@ -90,11 +90,11 @@ fn layer(number: usize, section: &Section) -> Layer {
         Geometry::Arc { center, radius, start, sweep } => {
             Entity::Arc { center: *center, radius: *radius, start: *start, sweep: *sweep }
         }
-        Geometry::Spline { curve, .. } => Entity::Spline {
+        Geometry::Spline { curve, .. } => Entity::Spline(Clamped {
             degree: curve.knots().degree(),
             knots: curve.knots().values().to_vec(),
             points: curve.points().to_vec(),
-        },
+        }),
     };
     let entities = section.contours.iter().flat_map(|c| &c.segments).map(entity).collect();
     let FrameRecord { origin, x, y, .. } = section.frame;

@@ -1,6 +1,6 @@
 //! What is written reads back; entities by their definition; what is refused.
 
-use crate::drawing::{Drawing, Drawn, Entity, Layer};
+use crate::drawing::{Clamped, Drawing, Drawn, Entity, Layer};
 use crate::write::scratch::Folder;
 use crate::{Body, ReadError, ReadOptions, Unit, open};
 
@@ -48,11 +48,11 @@ fn what_is_written_reads_back() {
         Entity::Line { start: [0.1, 0.2], end: [1e-20, 3.0] },
         Entity::Arc { center: [1.0, 2.0], radius: 0.5, start: 0.3, sweep: 1.1 },
         Entity::Arc { center: [1.0, 2.0], radius: 0.5, start: 0.0, sweep: std::f64::consts::TAU },
-        Entity::Spline {
+        Entity::Spline(Clamped {
             degree: 2,
             knots: vec![0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0],
             points: vec![[0.0, 0.0], [1.0, 2.0], [3.0, 1.0], [4.0, 0.3]],
-        },
+        }),
     ];
     let layer = Layer { name: "section-1".into(), entities, ..Layer::default() };
     let mut out = vec![];

@@ -3,7 +3,7 @@
 //! Arcs run counter-clockwise in DXF, so one of negative sweep is written from its end. The tables hold what AutoCAD's
 //! reference demands: line types, layers, styles, block records; every object has a handle and an owner.
 
-use crate::drawing::entity::{Entity, Layer, bounds, whole};
+use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 
 /// Writes groups of code and value.
@@ -137,7 +137,7 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
         Entity::Line { .. } => "LINE",
         Entity::Arc { sweep, .. } if whole(*sweep) => "CIRCLE",
         Entity::Arc { .. } => "ARC",
-        Entity::Spline { .. } => "SPLINE",
+        Entity::Spline(_) => "SPLINE",
     };
     let handle = g.next();
     g.all(&[(0, name), (5, &handle), (330, MODEL), (100, "AcDbEntity"), (8, layer)])?;
@@ -159,7 +159,7 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
             g.number(50, from.to_degrees().rem_euclid(360.0))?;
             g.number(51, to.to_degrees().rem_euclid(360.0))
         }
-        Entity::Spline { degree, knots, points } => {
+        Entity::Spline(Clamped { degree, knots, points }) => {
             g.put(100, "AcDbSpline")?;
             // The normal of its plane; 8: in a plane.
             g.all(&[(210, "0.0"), (220, "0.0"), (230, "1.0"), (70, "8")])?;

@@ -5,7 +5,7 @@
 
 use super::super::step::real;
 use super::entry::{Entry, file};
-use crate::drawing::entity::{Entity, Layer, bounds, whole};
+use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 use trueness_geom::section::PlaneFrame;
 
@@ -50,7 +50,7 @@ fn numbers(entity: &Entity) -> (u32, Vec<String>) {
             let to = if whole(*sweep) { from } else { at(to) };
             (100, reals(&[0.0, center[0], center[1], from[0], from[1], to[0], to[1]]))
         }
-        Entity::Spline { degree, knots, points } => {
+        Entity::Spline(Clamped { degree, knots, points }) => {
             let mut all: Vec<String> = [points.len() - 1, *degree].map(|k| k.to_string()).to_vec();
             // In a plane, not closed, polynomial, not periodic.
             all.extend([1, 0, 1, 0].map(|k| k.to_string()));

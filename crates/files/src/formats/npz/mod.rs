@@ -7,6 +7,7 @@ use crate::{
     error::WriteFault,
     format::{Format, Head},
     write::{
+        columns::Columns,
         named::Values,
         sink::{Block, Layout, PointsSink},
         spool::Spool,
@@ -44,51 +45,39 @@ fn header(descr: &str, rows: u64, width: Option<u32>) -> Vec<u8> {
 }
 
 fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
-    let spool = || Spool::beside(&file);
-    let (deviation, excluded, color) = (spool(), spool(), spool());
+    let columns = Columns::beside(&file, layout);
     let mut archive = Archive::new(file);
     // The shape is written again when the points are counted.
     archive.begin("points.npy", HEADER)?;
-    Ok(Box::new(Arrays { archive, layout, count: 0, deviation, excluded, color }))
+    Ok(Box::new(Arrays { archive, columns }))
 }
 
 struct Arrays {
     archive: Archive,
-    layout: Layout,
-    count: u64,
-    deviation: Spool,
-    excluded: Spool,
-    color: Spool,
+    columns: Columns,
 }
 
 impl PointsSink for Arrays {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
-        for points in block.points.chunks(1 << 14) {
-            let bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
-            self.archive.write(&bytes)?;
-        }
-        self.deviation.write(block.deviation.iter().flat_map(|d| d.to_le_bytes()))?;
-        self.excluded.write(block.excluded())?;
-        self.color.write(block.color.iter().flatten().copied())?;
-        self.count += block.points.len() as u64;
-        Ok(())
+        self.columns.write(block, |bytes| self.archive.write(bytes))
     }
 
     fn finish(mut self: Box<Self>) -> Result<AtomicFile, WriteFault> {
-        let rows = self.count;
+        let Columns { layout, count: rows, deviation, excluded, color } = &mut self.columns;
+        let rows = *rows;
         self.archive.end(&header("<f8", rows, Some(3)))?;
         let mut add = |name: &str, descr: &str, width: Option<u32>, values: &mut Spool| {
             self.archive.begin(name, HEADER)?;
             values.play(|bytes| self.archive.write(bytes))?;
             self.archive.end(&header(descr, rows, width))
         };
-        if self.layout.deviation {
-            add("deviation.npy", "<f8", None, &mut self.deviation)?;
-            let kind = if self.layout.reason { "|u1" } else { "|b1" };
-            add("excluded.npy", kind, None, &mut self.excluded)?;
+        if layout.deviation {
+            add("deviation.npy", "<f8", None, deviation)?;
+            let kind = if layout.reason { "|u1" } else { "|b1" };
+            add("excluded.npy", kind, None, excluded)?;
         }
-        if self.layout.color {
-            add("colour.npy", "|u1", Some(3), &mut self.color)?;
+        if layout.color {
+            add("colour.npy", "|u1", Some(3), color)?;
         }
         Ok(self.archive.finish()?)
     }

@@ -4,7 +4,7 @@
 //! counter-clockwise about it: it is trimmed from 0 to the angle run through, whatever its sense.
 
 use super::instances::{Instances, file, list, product, real};
-use crate::drawing::entity::{Entity, Layer, whole};
+use crate::drawing::entity::{Clamped, Entity, Layer, whole};
 use std::io::{self, Write};
 use trueness_geom::section::PlaneFrame;
 
@@ -60,7 +60,7 @@ fn curve(model: &mut Instances, frame: &PlaneFrame, entity: &Entity) -> String {
             });
             trimmed(model, &circle, [&ends[0], &ends[1]], sweep.abs())
         }
-        Entity::Spline { degree, knots, points } => {
+        Entity::Spline(Clamped { degree, knots, points }) => {
             let points: Vec<String> = points.iter().map(|p| model.point(frame.place(*p))).collect();
             model.curve(*degree, knots, &points)
         }

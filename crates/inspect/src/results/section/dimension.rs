@@ -1,6 +1,7 @@
 //! Dimensions between the segments of a section.
 
 use super::found::Section;
+use crate::results::Word;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::section::{Dimension, DimensionKind, Taken, dimensions};
@@ -24,7 +25,7 @@ pub struct DimensionsRecord {
 pub struct DimensionRecord {
     /// `angle` that a line and the next of its contour enclose, `width` between parallel lines that face each other, distance of
     /// the `centers` of two arcs, or `gap` between two contours.
-    pub kind: String,
+    pub kind: Word<DimensionKind>,
     /// The segments that it is of.
     pub of: [MemberRecord; 2],
     /// Its value: a length, of an angle radians.
@@ -75,7 +76,7 @@ fn record(found: &Dimension, section: &Section, before: usize) -> DimensionRecor
         _ => Some("the points alone do not tell it"),
     };
     DimensionRecord {
-        kind: found.kind.name().into(),
+        kind: Word(found.kind),
         of: found.of.map(|[contour, segment]| MemberRecord {
             contour: (before + contour) as u64,
             segment: segment as u64,

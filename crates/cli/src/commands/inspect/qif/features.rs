@@ -107,7 +107,7 @@ fn geometry(x: &mut Xml, f: &FeatureRecord) {
 fn attributes(f: &FeatureRecord) -> Vec<(&'static str, Value)> {
     let mut all: Vec<(&'static str, Value)> = vec![
         ("shape", f.shape.name().into()),
-        ("source", f.source.as_str().into()),
+        ("source", f.source.name().into()),
         ("method", f.method.name().into()),
         ("points", (f.points as f64).into()),
     ];

@@ -9,8 +9,8 @@ use super::words::{headline, in_words, sign_key, warning_key};
 use crate::results::Verdict;
 use crate::results::check::found;
 use crate::results::compare::{
-    AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord, Statistics,
-    ToleranceShares, Worst,
+    AlongKind, AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord,
+    Statistics, ToleranceShares, Worst,
 };
 use crate::results::statistics::PAGE_ROWS;
 use maud::{Markup, Render, html};
@@ -284,11 +284,11 @@ pub fn rules(s: Style, c: &Comparison, decimals: usize) -> Markup {
 
 /// Along what lines deviations are.
 fn along(s: Style, a: &AlongRecord) -> Markup {
-    let key = if a.kind == "reference" { "along.reference" } else { "along.measured" };
     html! {
-        @match a.direction {
-            Some(direction) => { (series(s, direction, "; ", 4)) }
-            None => { (s.word(key)) }
+        @match *a.kind {
+            AlongKind::Direction => { @if let Some(direction) = a.direction { (series(s, direction, "; ", 4)) } }
+            AlongKind::Reference => { (s.word("along.reference")) }
+            AlongKind::Measured => { (s.word("along.measured")) }
         }
         br; small { (s.word("along.means")) }
     }

@@ -8,8 +8,10 @@ pub use list::{by_side, excluded, passing, regions, rules, statistics, worst};
 use super::super::number::Style;
 use super::super::page::parts::{Headline, key_number};
 use super::{Head, Map, Pick, Subject, check};
+use crate::compare::Method;
 use crate::results::align::AlignedTo;
 use crate::results::check::found;
+use crate::results::compare::MeasuredKind;
 use crate::results::compare::{CompareDocument, Comparison, Worst};
 use crate::scale::Scale;
 use maud::{Markup, html};
@@ -43,15 +45,15 @@ impl Subject for CompareDocument {
     }
 
     fn method(&self, s: Style) -> Markup {
-        let text = if self.method == "paper" { "method.paper.text" } else { "method.exact.text" };
+        let text = if *self.method == Method::Paper { "method.paper.text" } else { "method.exact.text" };
         // The map is one of points, if they were not a mesh's own vertices.
-        let points = (self.measured.kind != "vertices").then_some("method.points.text");
+        let points = (*self.measured.kind != MeasuredKind::Vertices).then_some("method.points.text");
         let keys = [text, "method.sign.text", "method.map.text"].into_iter().chain(points);
         html! { @for key in keys { p { (s.word(key)) } } }
     }
 
     fn how(&self, s: Style) -> Markup {
-        let method = if self.method == "paper" { "method.paper" } else { "method.exact" };
+        let method = if *self.method == Method::Paper { "method.paper" } else { "method.exact" };
         html! { (s.word(method)) " · " (s.word("sign.method")) ": " (s.word(sign_key(&self.sign))) }
     }
 

@@ -10,6 +10,7 @@ use crate::results::section::{
     SectionDocument, SegmentRecord, UncertaintyRecord,
 };
 use maud::{Markup, html};
+use trueness_geom::section::DimensionKind;
 
 /// Contours that are listed open.
 const OPEN: usize = 3;
@@ -208,7 +209,7 @@ pub fn dimensions(s: Style, all: &DimensionsRecord) -> Markup {
                 (head(s, &["between", "value", "uncertainty"]))
                 tbody {
                     @for (n, item) in all.items.iter().take(LISTED).enumerate() {
-                        @let angle = item.kind == "angle";
+                        @let angle = *item.kind == DimensionKind::Angle;
                         @let shown = |x: f64| if angle { x.to_degrees() } else { x };
                         @let unit = if angle { "°" } else { "" };
                         @let u = item.std_uncertainty.map(shown);
