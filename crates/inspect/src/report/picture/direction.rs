@@ -396,7 +396,7 @@ mod tests {
             (0..40).map(|n| (around([0.0; 3], 4.0), 0.02 * f64::from(n))).collect();
         let mut blocked = 0;
         for n in 0..300 {
-            let (middle, size) = (around([0.0; 3], 6.0), 0.02 * f64::from(n % 30));
+            let (middle, size) = (around([0.0; 3], 6.0), 0.1 * f64::from(n % 30));
             let mut corner = || around(middle, size);
             let facets: Vec<[Point; 3]> = (0..1 + n % 7).map(|_| [corner(), corner(), corner()]).collect();
             let mut bits = vec![0; probes.len()];
