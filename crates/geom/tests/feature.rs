@@ -2,7 +2,7 @@
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, in_cloud, in_mesh};
+use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal, in_cloud};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
@@ -35,7 +35,7 @@ fn rounded_step() -> Mesh {
 }
 
 fn found(mesh: &Mesh, nominal: &Nominal, near: Nearness) -> Found {
-    in_mesh(mesh, &Tree::build(mesh).unwrap(), nominal, &near, &Silent).unwrap()
+    FeatureSearch::new(mesh, Tree::build(mesh).unwrap()).find(nominal, &near, &Silent).unwrap()
 }
 
 fn strips(found: &Found) -> Vec<usize> {

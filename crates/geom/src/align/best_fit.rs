@@ -81,16 +81,20 @@ pub fn best_fit(
         Start::Anywhere => work.search(&samples, progress)?,
         Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
     };
-    let samples = if start.turned { samples.turned() } else { samples };
+    let turned = |samples: Samples| if start.turned { samples.turned() } else { samples };
+    let samples = turned(samples);
     let some = samples.thinned(SOME, options.seed);
     let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
+    // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
-    let ended = all.run(pose, work.reach(sigma), MOST, progress)?;
+    let surface = turned(Samples::of_surface(measured));
+    let surface = work.problem(&surface);
+    let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
     let mut result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
     if let Some(search) = &start.search {
         result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
         if let Some(pose) = nearest(search, &result) {
-            let ended = all.run(pose, work.reach(sigma), MOST, progress)?;
+            let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
             result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
             result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
         }

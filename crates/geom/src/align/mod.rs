@@ -10,7 +10,7 @@
 //! [`best_fit`] goes three steps:
 //! 1. *Start* (`features`, `field`, `start`): poses from principal axes and from pairs of points with normals, each tried
 //!    on a grid of distances about the reference; the best are refined on a few hundred samples.
-//! 2. *Iteration* (`icp`, `system`): closest points and small motions, all samples, area-weighted, normals compatible,
+//! 2. *Iteration* (`icp`, `system`): closest points and small motions, the whole surface, area-weighted, normals compatible,
 //!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
 //! 3. *What the result is worth* (`freedom`): covariance, freedom that the shape leaves, other poses that fit as well.
 //!

@@ -1,9 +1,11 @@
 //! What is aligned, as weighted points: every point stands for its share of the measured surface.
 //!
-//! A vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one place and thin
-//! in another is not drawn towards the dense place. A large facet is represented by places spread over it instead of its
-//! corners: what a mesh of few facets says of the surface lies between its vertices. A point of a cloud stands for
-//! itself.
+//! Where a pose is looked for, a vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one
+//! place and thin in another is not drawn towards the dense place. A large facet is represented by places spread over it instead
+//! of its corners: what a mesh of few facets says of the surface lies between its vertices. A point of a cloud stands for itself.
+//!
+//! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. Of a
+//! square of what is linear on a facet its corners make twice of the variation within it, its middle none.
 
 use crate::fit::eigen;
 use crate::mesh::Mesh;
@@ -15,8 +17,8 @@ use crate::spatial::neighbors::PointTree;
 /// What is brought to the reference, millimeters, in a frame of its own.
 #[derive(Clone, Copy, Debug)]
 pub enum Measured<'a> {
-    /// A mesh with outward facets. Its vertices are aligned, each with the area around it as its weight; of facets of more
-    /// than a thousandth of the whole area, places spread over them.
+    /// A mesh with outward facets. Its surface is aligned: the middles of its facets, or of equal parts of large ones, each with
+    /// their area as its weight.
     Mesh(&'a Mesh),
     /// Points, each of the same weight.
     Points {
@@ -65,6 +67,20 @@ impl Samples {
             },
         };
         let total: f64 = samples.weights.iter().sum();
+        samples.weights.iter_mut().for_each(|w| *w /= total);
+        samples
+    }
+
+    /// The surface of what is measured: places spread over all facets; of a cloud its points.
+    pub fn of_surface(measured: &Measured) -> Samples {
+        let Measured::Mesh(mesh) = measured else { return Samples::all(measured) };
+        let mut samples = Samples { oriented: true, ..Samples::default() };
+        let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
+        for face in &mesh.faces {
+            let double = double_area(mesh, face);
+            let parts = (norm(double) / (FINE * total)).sqrt();
+            samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
+        }
         samples.weights.iter_mut().for_each(|w| *w /= total);
         samples
     }
@@ -204,6 +220,8 @@ fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
 /// A facet of more than this share of the whole area is represented by places on it, each for at most this share.
 const LARGE: f64 = 1.0 / 1000.0;
 const PART: f64 = 1.0 / 4000.0;
+/// No place of the surface stands for more than this share of the area.
+const FINE: f64 = 1.0 / 50_000.0;
 
 fn of_mesh(mesh: &Mesh) -> Samples {
     let mut normals = vec![[0.0; 3]; mesh.positions.len()];

@@ -13,7 +13,7 @@ use super::seed::Seeded;
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use trueness_geom::closest::{Hit, Query, QueryError, Tree};
-use trueness_geom::feature::{Nearness, Nominal, Piece, in_mesh};
+use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{self, Point, Vector, dot};
@@ -35,7 +35,8 @@ const SAME: f64 = 1e-9;
 pub(super) struct Belonging<'a> {
     reference: &'a Mesh,
     measured: &'a [Point],
-    tree: Tree,
+    /// Of the features that the reference has.
+    search: FeatureSearch<'a>,
     size: f64,
     /// Of each measured point the nearest facet and how far off it is, mm; `u32::MAX` for what is elsewhere.
     nearest: Vec<(u32, f64)>,
@@ -63,7 +64,8 @@ impl<'a> Belonging<'a> {
         let mut all: Vec<f64> = nearest.iter().filter(|n| n.0 != u32::MAX).map(|n| n.1).collect();
         all.sort_unstable_by(f64::total_cmp);
         let median = all.get(all.len() / 2).copied().unwrap_or(0.0);
-        Ok(Some(Belonging { reference, measured: &measured.positions, tree, size, nearest, median }))
+        let search = FeatureSearch::new(reference, tree);
+        Ok(Some(Belonging { reference, measured: &measured.positions, search, size, nearest, median }))
     }
 
     /// How far off the measured points are whose nearest facet is one of the nominal's, where that is beyond its distance, mm.
@@ -159,7 +161,7 @@ impl<'a> Belonging<'a> {
 
     /// The facets of the reference that the nominal names, ascending.
     fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
-        in_mesh(self.reference, &self.tree, nominal, near, progress).map_or(vec![], |found| found.facets)
+        self.search.find(nominal, near, progress).map_or(vec![], |found| found.facets)
     }
 }
 

@@ -12,7 +12,7 @@ use std::convert::Infallible;
 use trueness_geom::closest::{QueryError, Tree};
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::surface::SurfaceOptions;
-use trueness_geom::feature::{FeatureError, in_mesh};
+use trueness_geom::feature::{FeatureError, FeatureSearch};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 
@@ -91,6 +91,7 @@ fn regions(
         return Ok(asked.regions.iter().map(|r| r.rule.clone()).collect());
     }
     let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+    let search = FeatureSearch::new(reference, tree);
     let rule = |region: &crate::plan::Region| -> Result<RegionRule, Stop> {
         let Some(number) = region.feature else { return Ok(region.rule.clone()) };
         let feature = &plan.features[number];
@@ -101,7 +102,7 @@ fn regions(
         let nominal = feature.nominal.as_ref().or_else(|| Some(&seeds.get(&number)?.nominal));
         let nominal = nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", feature.id)))?;
         let near = feature.extract.near(nominal);
-        let found = in_mesh(reference, &tree, nominal, &near, progress).map_err(|e| match e {
+        let found = search.find(nominal, &near, progress).map_err(|e| match e {
             FeatureError::Cancelled => Stop::Cancelled,
             e => wrong(e.to_string()),
         })?;

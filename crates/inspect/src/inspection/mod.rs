@@ -29,6 +29,7 @@ use crate::compare::plausibility;
 use crate::plan::{Plan, Spec};
 use crate::results::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::feature::Nominal;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::Aabb;
 
@@ -63,14 +64,15 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     left_out::tell(plan, &data, &seeds, belonging.as_ref(), &mut features, progress)?;
     drop(belonging);
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
-    let values = plan.specs.iter().map(|spec| measured(spec, &features)).collect::<Result<Vec<_>, Stop>>()?;
+    let values =
+        plan.specs.par_iter().map(|spec| measured(spec, &features)).collect::<Result<Vec<_>, Stop>>()?;
     // What the values would be with all that was left out as of other surfaces.
     let whole = take::whole(plan, &features, progress)?;
     let concerned =
         |spec: &Spec| spec.numbers(&plan.features).into_iter().any(|n| !features[n].others.points.is_empty());
     let with_others = plan
         .specs
-        .iter()
+        .par_iter()
         .map(|spec| match &whole {
             Some(whole) if concerned(spec) => measured(spec, whole).map(Some),
             _ => Ok(None),

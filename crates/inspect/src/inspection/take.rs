@@ -8,9 +8,12 @@ use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, in_cloud, in_mesh, pieces_beside};
+use trueness_geom::feature::{
+    FeatureError, FeatureSearch, Found, Nearness, Nominal, in_cloud, pieces_beside,
+};
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
@@ -27,34 +30,43 @@ pub(super) fn features(
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
     let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal | Source::Seed(_)));
-    let tree = match &data.measured {
+    let facets = match &data.measured {
         Some(mesh) if sought && !mesh.faces.is_empty() => {
-            Some(Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?)
+            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+            Some(FeatureSearch::new(mesh, tree))
         }
         _ => None,
     };
     let cloud = data.measured.as_ref().filter(|mesh| sought && mesh.faces.is_empty());
     let cloud = cloud.map(|mesh| PointTree::new(&mesh.positions));
-    let search = Search { tree: tree.as_ref(), cloud: cloud.as_ref(), belonging };
-    let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
-    for (number, feature) in plan.features.iter().enumerate() {
+    let search = Search { facets: facets.as_ref(), cloud: cloud.as_ref(), belonging };
+    let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
         }
         let taken = match &feature.source {
-            Source::Derived { how, of: [a, b] } => derived(feature, *how, &all[*a], &all[*b]),
+            Source::Derived { .. } => return Ok(None),
             Source::Points(_) => {
                 let mut taken = bare(feature);
                 if let Some(own) = data.points.get(&number) {
                     (taken.points, taken.planar) = (own.points.clone(), own.planar);
                 }
                 taken.areas = vec![1.0; taken.points.len()];
-                associated(taken, feature, progress)?
+                taken
             }
-            Source::Nominal | Source::Seed(_) => {
-                let found = found(feature, seeds.get(&number), data, &search, progress)?;
-                associated(found, feature, progress)?
-            }
+            Source::Nominal | Source::Seed(_) => found(feature, seeds.get(&number), data, &search, progress)?,
+        };
+        associated(taken, feature, progress).map(Some)
+    };
+    let own: Vec<Option<Taken>> =
+        plan.features.par_iter().enumerate().map(of).collect::<Result<_, Stop>>()?;
+    let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
+    for (feature, own) in plan.features.iter().zip(own) {
+        let made = |how, a: usize, b: usize| derived(feature, how, &all[a], &all[b]);
+        let taken = match (own, &feature.source) {
+            (Some(taken), _) => taken,
+            (None, Source::Derived { how, of: [a, b] }) => made(*how, *a, *b),
+            (None, _) => bare(feature),
         };
         all.push(taken);
     }
@@ -106,7 +118,7 @@ pub(super) fn again(
 /// What features are sought with.
 struct Search<'a> {
     /// Of a mesh.
-    tree: Option<&'a Tree>,
+    facets: Option<&'a FeatureSearch<'a>>,
     /// Of a cloud.
     cloud: Option<&'a PointTree>,
     belonging: Option<&'a Belonging<'a>>,
@@ -184,8 +196,8 @@ fn found(
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
     let near = feature.extract.near(&nominal);
-    let found = match search.tree {
-        Some(tree) => in_mesh(mesh, tree, &nominal, &near, progress),
+    let found = match search.facets {
+        Some(facets) => facets.find(&nominal, &near, progress),
         None => in_cloud(&mesh.positions, &nominal, &near),
     };
     let mut found = found.map_err(|e| match e {
@@ -199,7 +211,7 @@ fn found(
     taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
     taken.areas = areas(mesh, &found);
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
-    taken.coverage = whole.filter(|_| search.tree.is_some()).map(|whole| found.area / whole);
+    taken.coverage = whole.filter(|_| search.facets.is_some()).map(|whole| found.area / whole);
     taken.facets = found.facets;
     Ok(taken)
 }

@@ -9,6 +9,7 @@ use crate::results::inspect::InspectDocument;
 use crate::scale::palette::Rgb;
 use crate::segment::{cut_out, rim};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 
 /// Color of a verdict.
 pub fn color(verdict: Verdict) -> Rgb {
@@ -101,10 +102,11 @@ impl Part {
 /// One mark a row: the rim of the feature and the places where the value is reached, in the color of the verdict.
 fn marks(document: &InspectDocument, parts: &[Part]) -> Vec<Marks> {
     let mut groups: Vec<MarkGroup> = Vec::new();
+    let rims: Vec<Mark> = parts.par_iter().map(|p| rim(&p.mesh)).collect();
     for c in document.rows() {
         let key = format!("verdict.{}", key(c.verdict));
-        let part = parts.iter().find(|p| p.name == c.feature && !p.mesh.faces.is_empty());
-        let mut mark = part.map_or(Mark::default(), |p| rim(&p.mesh));
+        let part = parts.iter().position(|p| p.name == c.feature && !p.mesh.faces.is_empty());
+        let mut mark = part.map_or(Mark::default(), |p| rims[p].clone());
         mark.points = c.witness.clone();
         if groups.last().is_none_or(|g| g.key != key) {
             groups.push(MarkGroup { key, color: color(c.verdict), items: vec![] });

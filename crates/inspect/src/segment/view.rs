@@ -3,7 +3,7 @@
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::segment::SegmentDocument;
 use crate::scale::palette::{Rgb, category};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, Vector, cross, minus, plus, unit};
 
@@ -90,22 +90,21 @@ pub(crate) fn cut_out(mesh: &Mesh, facets: &[usize]) -> Mesh {
     part
 }
 
-/// Edges with one facet, and which way the facets look on the whole.
+/// Edges with one facet (or an odd number of them), and which way the facets look on the whole.
 pub(crate) fn rim(part: &Mesh) -> Mark {
-    let mut single: BTreeSet<[u32; 2]> = BTreeSet::new();
+    let mut sides: Vec<[u32; 2]> = Vec::with_capacity(3 * part.faces.len());
     let mut sum: Vector = [0.0; 3];
     for f in &part.faces {
         for [a, b] in [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]] {
-            let edge = [a.min(b), a.max(b)];
-            if !single.remove(&edge) {
-                single.insert(edge);
-            }
+            sides.push([a.min(b), a.max(b)]);
         }
         let [a, b, c] = f.map(|v| part.positions[v as usize]);
         sum = plus(sum, cross(minus(b, a), minus(c, a)));
     }
+    sides.sort_unstable();
     let place = |v: u32| -> Point { part.positions[v as usize] };
-    let segments = single.into_iter().map(|e| e.map(place)).collect();
+    let single = sides.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1);
+    let segments = single.map(|same| same[0].map(place)).collect();
     let normal = unit(sum).map(|(n, _)| n).filter(|n| n.iter().all(|x| x.is_finite()));
     Mark { segments, normal, ..Mark::default() }
 }

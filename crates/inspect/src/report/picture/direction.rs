@@ -265,21 +265,20 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
         a
     };
     let by_triangle = |mesh: &Mesh| {
-        let part = |mut bits: Vec<u64>, face: &[u32; 3]| {
-            let corners = face.map(|v| mesh.positions.get(v as usize).copied());
-            if let [Some(a), Some(b), Some(c)] = corners {
-                triangle_blocks(&mut bits, probes, directions, [a, b, c]);
-            }
+        let part = |mut bits: Vec<u64>, faces: &[[u32; 3]]| {
+            patch_blocks(&mut bits, probes, directions, &corners(mesh, faces));
             bits
         };
-        mesh.faces.par_iter().fold(none, part).reduce(none, join)
+        mesh.faces.par_chunks(PATCH).fold(none, part).reduce(none, join)
     };
     let by_point = |points: &[Point]| {
         // Scattered at random, points of this size leave a thousandth of their surface open.
         let finite: Vec<Point> = points.iter().filter(|p| p.iter().all(|x| x.is_finite())).copied().collect();
         let radius = 1.5 * spacing(&finite);
         let part = |mut bits: Vec<u64>, p: &Point| {
-            each_near(&mut bits, probes, directions, *p, radius, |_, _, near, t| t > near + OBLIQUE * radius);
+            for ((from, near), bits) in probes.iter().zip(&mut bits) {
+                *bits |= passing(*from, directions, (*p, radius), near + OBLIQUE * radius, 0.0);
+            }
             bits
         };
         points.par_iter().fold(none, part).reduce(none, join)
@@ -293,38 +292,70 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
     })
 }
 
-fn triangle_blocks(bits: &mut [u64], probes: &[(Point, f64)], directions: &[Vector], [a, b, c]: [Point; 3]) {
-    let middle = times(1.0 / 3.0, plus(plus(a, b), c));
-    let radius = [a, b, c].iter().map(|p| norm(minus(*p, middle))).fold(0.0, f64::max);
-    each_near(bits, probes, directions, middle, radius, |from, toward, near, _| {
-        crossing(from, toward, a, b, c).is_some_and(|t| t > near)
-    });
+/// Facets looked at together: in most files neighbors follow each other.
+const PATCH: usize = 64;
+
+/// The corners of the facets that are there and finite.
+fn corners(mesh: &Mesh, faces: &[[u32; 3]]) -> Vec<[Point; 3]> {
+    let at = |v: u32| mesh.positions.get(v as usize).copied().filter(|p| p.iter().all(|x| x.is_finite()));
+    let of = |[a, b, c]: &[u32; 3]| Some([at(*a)?, at(*b)?, at(*c)?]);
+    faces.iter().filter_map(of).collect()
 }
 
-/// Sets the bits of the directions whose line passes a ball, where `blocks` (place, direction, how near nothing counts, way
-/// to the ball's middle) agrees.
-fn each_near(
-    bits: &mut [u64],
-    probes: &[(Point, f64)],
-    directions: &[Vector],
-    middle: Point,
-    radius: f64,
-    blocks: impl Fn(Point, Vector, f64, f64) -> bool,
-) {
+/// Sets the bits of the directions that one of the facets lies in.
+fn patch_blocks(bits: &mut [u64], probes: &[(Point, f64)], directions: &[Vector], facets: &[[Point; 3]]) {
+    let around = Aabb::of(facets.iter().flatten());
+    if around.is_empty() {
+        return;
+    }
+    let middle = times(0.5, plus(around.min, around.max));
+    let ball = |corners: &[Point; 3]| {
+        let [a, b, c] = *corners;
+        let middle = times(1.0 / 3.0, plus(plus(a, b), c));
+        (middle, corners.iter().map(|p| norm(minus(*p, middle))).fold(0.0, f64::max))
+    };
+    let balls: Vec<(Point, f64)> = facets.iter().map(ball).collect();
+    let radius = balls.iter().map(|(m, r)| norm(minus(*m, middle)) + r).fold(0.0, f64::max);
     for ((from, near), bits) in probes.iter().zip(bits) {
-        let way = minus(middle, *from);
-        let beside = dot(way, way) - radius * radius;
-        for (n, toward) in directions.iter().enumerate() {
-            let t = dot(way, *toward);
-            if t * t >= beside
-                && t > near - radius
-                && *bits & (1 << n) == 0
-                && blocks(*from, *toward, *near, t)
-            {
-                *bits |= 1 << n;
+        let mut open = passing(*from, directions, (middle, radius), near - radius, ROUNDING) & !*bits;
+        for ([a, b, c], ball) in facets.iter().zip(&balls) {
+            if open == 0 {
+                break;
+            }
+            let mut left = open & passing(*from, directions, *ball, near - ball.1, 0.0);
+            while left != 0 {
+                let n = left.trailing_zeros();
+                left &= left - 1;
+                if crossing(*from, directions[n as usize], *a, *b, *c).is_some_and(|t| t > *near) {
+                    *bits |= 1 << n;
+                    open &= !(1 << n);
+                }
             }
         }
     }
+}
+
+/// More than what rounding can make of a square, as a share of it.
+const ROUNDING: f64 = 1e-12;
+
+/// The directions, as bits, in which a line from a place passes a ball, and its middle lies farther than `nearest`; with `slack`,
+/// a share of the squared distance, also those that rounding would lose.
+fn passing(
+    from: Point,
+    directions: &[Vector],
+    (middle, radius): (Point, f64),
+    nearest: f64,
+    slack: f64,
+) -> u64 {
+    let way = minus(middle, from);
+    let square = dot(way, way);
+    let beside = square - radius * radius - slack * (square + radius * radius);
+    let nearest = nearest - slack * (nearest.abs() + radius + square.sqrt());
+    let passes = |d: &Vector| {
+        let t = dot(way, *d);
+        t * t >= beside && t > nearest
+    };
+    directions.iter().enumerate().fold(0, |bits, (n, d)| bits | u64::from(passes(d)) << n)
 }
 
 /// How far along a line a triangle lies (Möller and Trumbore 1997); `None` beside it and along it.
@@ -353,6 +384,35 @@ mod tests {
         assert_eq!(crossing([1.0, 2.0, 9.0], up, a, b, c), Some(-3.0));
         assert_eq!(crossing([3.0, 2.0, 0.0], up, a, b, c), None);
         assert_eq!(crossing([1.0, 2.0, 0.0], [1.0, 0.0, 0.0], a, b, [0.0, 4.0, 5.0]), None);
+    }
+
+    /// Patches leave out nothing that a facet alone would block.
+    #[test]
+    fn patches_block_what_their_facets_do() {
+        let random = &mut trueness_geom::num::random::Random::new(5);
+        let mut around = |middle: Point, size: f64| middle.map(|x| x + size * (random.unit() - 0.5));
+        let directions: Vec<Vector> = (0..20).map(|_| unit(around([0.0; 3], 2.0)).unwrap().0).collect();
+        let probes: Vec<(Point, f64)> =
+            (0..40).map(|n| (around([0.0; 3], 4.0), 0.02 * f64::from(n))).collect();
+        let mut blocked = 0;
+        for n in 0..300 {
+            let (middle, size) = (around([0.0; 3], 6.0), 0.1 * f64::from(n % 30));
+            let mut corner = || around(middle, size);
+            let facets: Vec<[Point; 3]> = (0..1 + n % 7).map(|_| [corner(), corner(), corner()]).collect();
+            let mut bits = vec![0; probes.len()];
+            patch_blocks(&mut bits, &probes, &directions, &facets);
+            for ((from, near), bits) in probes.iter().zip(bits) {
+                for (d, toward) in directions.iter().enumerate() {
+                    let blocks = |[a, b, c]: &[Point; 3]| {
+                        crossing(*from, *toward, *a, *b, *c).is_some_and(|t| t > *near)
+                    };
+                    let any = facets.iter().any(blocks);
+                    assert_eq!(bits >> d & 1 == 1, any, "{n} {d}");
+                    blocked += usize::from(any);
+                }
+            }
+        }
+        assert!(blocked > 1000, "{blocked}");
     }
 
     /// The cube from −1 to 1.

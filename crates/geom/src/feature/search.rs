@@ -1,0 +1,215 @@
+//! The facets of a mesh that belong to nominal features.
+
+use super::rules::Rules;
+use super::{FeatureError, Found, Nearness, Nominal};
+use crate::closest::Tree;
+use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
+use crate::progress::Progress;
+use crate::space::{Point, cross, minus, norm, normal};
+
+/// A mesh in which features are sought, with what every search needs: made once for all of them.
+pub struct FeatureSearch<'a> {
+    mesh: &'a Mesh,
+    tree: Tree,
+    /// Each side of a facet (three times its number and 0, 1 or 2) under its edge, in the order of edges and sides.
+    sides: Vec<(u64, u64)>,
+    /// Of each side, the place in `sides` where its edge begins.
+    first: Vec<usize>,
+}
+
+impl<'a> FeatureSearch<'a> {
+    /// Of a mesh with its own search tree. Cost: one sort of all sides, 40 bytes each.
+    pub fn new(mesh: &'a Mesh, tree: Tree) -> FeatureSearch<'a> {
+        let of = |(f, [a, b, c]): (usize, &[u32; 3])| {
+            let edge = |p: &u32, q: &u32| u64::from(*p.min(q)) << 32 | u64::from(*p.max(q));
+            let side = |k: u64| 3 * f as u64 + k;
+            [(edge(a, b), side(0)), (edge(b, c), side(1)), (edge(c, a), side(2))]
+        };
+        let mut sides: Vec<(u64, u64)> = mesh.faces.iter().enumerate().flat_map(of).collect();
+        sides.par_sort_unstable();
+        let mut first = vec![0; sides.len()];
+        let mut begin = 0;
+        for (n, (edge, side)) in sides.iter().enumerate() {
+            if sides[begin].0 != *edge {
+                begin = n;
+            }
+            first[*side as usize] = begin;
+        }
+        FeatureSearch { mesh, tree, sides, first }
+    }
+
+    /// The search tree of the mesh.
+    pub fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// The facets that belong to `nominal`, and their vertices.
+    ///
+    /// Facets without area, or with a vertex that does not exist, belong to nothing. An empty answer is no error: the feature
+    /// was not measured. Cost: some closest points, one look at each facet next to those found, one at every facet and vertex.
+    ///
+    /// # Errors
+    /// [`FeatureError`]: a nominal feature that makes no sense, [`FeatureError::Cancelled`].
+    ///
+    /// ```
+    /// use trueness_geom::closest::Tree;
+    /// use trueness_geom::feature::{FeatureSearch, Nearness, Nominal};
+    /// use trueness_geom::mesh::Mesh;
+    /// // A square floor of two facets, and a wall.
+    /// let positions = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]];
+    /// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [0, 4, 1]] };
+    /// let boundary = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+    /// let near = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true };
+    /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
+    /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
+    /// assert_eq!((found.facets, found.points), (vec![0, 1], vec![0, 1, 2, 3]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn find(
+        &self,
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Found, FeatureError> {
+        let rules = Rules::new(nominal, near)?;
+        let belongs = |f: u32| {
+            self.corners(f).is_some_and(|corners| normal(corners).is_some_and(|n| rules.facet(corners, n)))
+        };
+        let starts = rules.starts();
+        let nearest = starts.iter().filter_map(|p| self.tree.closest(p, f64::INFINITY).ok().flatten());
+        let mut front: Vec<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();
+        front.sort_unstable();
+        front.dedup();
+        if front.is_empty() {
+            return Ok(Found::default());
+        }
+        let mut found = Marked::new(self.mesh.faces.len());
+        front.iter().for_each(|f| found.add(*f));
+        let mut beside = vec![];
+        while let Some(facet) = front.pop() {
+            if found.count.is_multiple_of(1024) && progress.cancelled() {
+                return Err(FeatureError::Cancelled);
+            }
+            for other in [0, 1, 2].into_iter().flat_map(|k| self.across(facet, k)) {
+                if found.has(other) {
+                    continue;
+                }
+                if belongs(other) {
+                    found.add(other);
+                    front.push(other);
+                } else {
+                    beside.push(other);
+                }
+            }
+        }
+        // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
+        let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c));
+        self.enclosed(&mut found, beside, is_near, progress)?;
+        Ok(self.with_points(&found, near.rim))
+    }
+
+    fn corners(&self, f: u32) -> Option<[Point; 3]> {
+        let [a, b, c] = *self.mesh.faces.get(f as usize)?;
+        let at = |v: u32| self.mesh.positions.get(v as usize).copied();
+        Some([at(a)?, at(b)?, at(c)?])
+    }
+
+    /// The facets at a side of a facet, itself among them.
+    fn across(&self, facet: u32, side: usize) -> impl Iterator<Item = u32> + '_ {
+        let first = self.first[3 * facet as usize + side];
+        let edge = self.sides[first].0;
+        self.sides[first..].iter().take_while(move |s| s.0 == edge).map(|s| (s.1 / 3) as u32)
+    }
+
+    /// Adds the parts, of those that begin with `beside`, whose facets are all near and lie among others on all sides.
+    fn enclosed(
+        &self,
+        found: &mut Marked,
+        beside: Vec<u32>,
+        is_near: impl Fn(u32) -> bool,
+        progress: &dyn Progress,
+    ) -> Result<(), FeatureError> {
+        let mut seen = Marked::new(self.mesh.faces.len());
+        for start in beside {
+            if found.has(start) || seen.has(start) || !is_near(start) {
+                continue;
+            }
+            seen.add(start);
+            let (mut part, mut next, mut enclosed) = (vec![start], 0, true);
+            while let Some(facet) = part.get(next).copied() {
+                if next.is_multiple_of(1024) && progress.cancelled() {
+                    return Err(FeatureError::Cancelled);
+                }
+                next += 1;
+                for side in 0..3 {
+                    // Nothing encloses what ends at a free edge.
+                    enclosed &= self.across(facet, side).count() > 1;
+                    for other in self.across(facet, side) {
+                        if found.has(other) {
+                            continue;
+                        }
+                        if !is_near(other) {
+                            enclosed = false;
+                        } else if !seen.has(other) {
+                            seen.add(other);
+                            part.push(other);
+                        }
+                    }
+                }
+            }
+            if enclosed {
+                part.into_iter().for_each(|f| found.add(f));
+            }
+        }
+        Ok(())
+    }
+
+    /// These facets with their vertices; those that others share only with `rim`.
+    fn with_points(&self, found: &Marked, rim: bool) -> Found {
+        let facets: Vec<u32> = found.all().collect();
+        let area =
+            |f: &u32| self.corners(*f).map_or(0.0, |[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))));
+        let mut points = Marked::new(self.mesh.positions.len());
+        facets.iter().flat_map(|f| self.mesh.faces[*f as usize]).for_each(|v| points.add(v));
+        if !rim {
+            let others = (0..).zip(&self.mesh.faces).filter(|(f, _)| !found.has(*f));
+            others.flat_map(|(_, face)| face).for_each(|v| points.remove(*v));
+        }
+        Found { area: facets.iter().map(area).sum(), facets, points: points.all().collect() }
+    }
+}
+
+/// A set of numbers below a limit.
+struct Marked {
+    is: Vec<bool>,
+    count: usize,
+}
+
+impl Marked {
+    fn new(limit: usize) -> Marked {
+        Marked { is: vec![false; limit], count: 0 }
+    }
+
+    fn has(&self, n: u32) -> bool {
+        self.is.get(n as usize).copied().unwrap_or(false)
+    }
+
+    fn set(&mut self, n: u32, to: bool) -> bool {
+        self.is.get_mut(n as usize).is_some_and(|is| std::mem::replace(is, to) != to)
+    }
+
+    fn add(&mut self, n: u32) {
+        self.count += usize::from(self.set(n, true));
+    }
+
+    fn remove(&mut self, n: u32) {
+        self.count -= usize::from(self.set(n, false));
+    }
+
+    /// All of them, ascending.
+    fn all(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..).zip(&self.is).filter_map(|(n, is)| is.then_some(n))
+    }
+}
