@@ -148,7 +148,8 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
     let all: Vec<Plane> = planes.iter().map(|cut| cut.plane).collect();
     let mut found = vec![];
     section::facets_near::<SectionError>(mesh, &all, stage, |some| {
-        found.extend(some.into_par_iter().map(|(k, facets)| (k, of(&planes[k], &facets))).collect::<Vec<_>>());
+        found
+            .extend(some.into_par_iter().map(|(k, facets)| (k, of(&planes[k], &facets))).collect::<Vec<_>>());
         Ok(())
     })?;
     found.sort_by_key(|(k, _)| *k);
