@@ -73,6 +73,8 @@ fn no_pose_nearby_is_better() {
         let found = found.unwrap();
         let best = found.reference_from_measured;
         assert!(found.greatest < greatest(&points, &mesh, &fit.reference_from_measured));
+        let there = greatest(&points, &mesh, &best);
+        assert!((there - found.greatest).abs() < 1e-12, "{there} {}", found.greatest);
         for k in 0..200 {
             let size = [1e-2, 1e-3, 1e-4][k % 3];
             let turn = Rigid::rotation_about([15.0, 10.0, 4.5], uneven(size / 15.0));

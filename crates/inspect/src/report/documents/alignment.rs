@@ -4,7 +4,7 @@ use super::super::number::Style;
 use super::super::page::parts::{fact, section};
 use super::super::values::Text;
 use crate::results::align::AlignNote;
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 
 /// What there is to be said of an alignment.
 pub struct Facts<'a> {
@@ -22,15 +22,17 @@ pub struct Facts<'a> {
 
 /// The section.
 pub fn alignment(s: Style, of: &Facts) -> Markup {
+    // Four decimals tell nothing of less.
+    let length = |x: f64| if x < 1e-3 { s.small(x) } else { s.number(x, 4).render() };
     section(
         s,
         "alignment",
         html! {
             dl.facts.pairs {
                 (fact(s, "method", s.word(format!("align.{}", of.method))))
-                @if let Some(rms) = of.rms { (fact(s, "rms", html! { (s.number(rms, 4)) "\u{a0}mm" })) }
+                @if let Some(rms) = of.rms { (fact(s, "rms", html! { (length(rms)) "\u{a0}mm" })) }
                 @if let Some(greatest) = of.greatest {
-                    (fact(s, "align.greatest", html! { (s.number(greatest, 4)) "\u{a0}mm" }))
+                    (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
                 }
                 @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
             }
