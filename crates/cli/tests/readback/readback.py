@@ -247,13 +247,14 @@ def surfaces(folder):
     points = np.stack([x, y, 4 * np.sin(x / 15) * np.cos(y / 12)], axis=1)
     np.savetxt(folder / "s.asc", points, fmt="%.17g")
     # A step aslant: the rectangle of the parameters is turned along it.
-    points[:, 2] = np.tanh((0.6 * (x - 540) + 0.8 * (y - 5)) / 3)
-    np.savetxt(folder / "step.asc", points, fmt="%.17g")
+    x, y = (a.ravel() for a in np.meshgrid(np.linspace(500, 580, 71), np.linspace(-20, 30, 71)))
+    step = np.tanh((0.6 * (x - 540) + 0.8 * (y - 5)) / 2)
+    np.savetxt(folder / "step.asc", np.stack([x, y, step], axis=1), fmt="%.17g")
     for data, *options in (
         ("s.asc", "--spans", "9x6"),
         ("s.asc", "--degree", "2x4", "--spans", "3x7", "--base", "xy"),
         ("s.asc", "--tolerance", "0.02"),
-        ("step.asc", "--tolerance", "0.02"),
+        ("step.asc", "--tolerance", "0.005"),
     ):
         files = {"step": folder / "s.stp", "iges": folder / "s.igs"}
         run("surface", folder / data, *options, "--json", folder / "s.json", "--step", files["step"], "--iges", files["iges"])
