@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
-use trueness_geom::shape::Kind;
+use trueness_geom::shape::{Kind, Quantity};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
@@ -203,7 +203,8 @@ fn size(region: &RegionRecord) -> String {
         // The radius of a cone is that at some place.
         let told = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
-        let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
+        let is_angle = region.shape.quantity(name) == Some(Quantity::Angle);
+        let scale = if is_angle { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));
         if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {
             let _ = write!(word, " ± {}", scientific(u * scale, 1));

@@ -13,7 +13,7 @@ use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
 use trueness_geom::surface::{self, SurfaceFit};
 
-/// Every defect of a mesh with its place. Any mesh will do. Options: [`geom::check::check`](check::check).
+/// Every defect of a mesh with its place. Any mesh will do; it is exact for coordinates that are 0 or from 1e-50 to 1e45 mm. Options: [`geom::check::check`](check::check).
 ///
 /// # Errors
 /// [`Error::Check`]: a facet that names no vertex.
@@ -22,14 +22,14 @@ use trueness_geom::surface::{self, SurfaceFit};
 /// let part = trueness::read("../../corpus/broken/hole_one_triangle.stl")?;
 /// let report = trueness::check(&part.mesh)?;
 /// assert!(!report.sound);
-/// assert_eq!(report.found("boundary_edges").map(|found| found.count), Some(3));
+/// assert_eq!(report.count(trueness::geom::check::BOUNDARY_EDGES), 3);
 /// # Ok::<(), trueness::Error>(())
 /// ```
 pub fn check(mesh: &Mesh) -> Result<Report, Error> {
     Ok(check::check(mesh, None, &check::Options::default(), &Silent)?)
 }
 
-/// The mesh mended, with all changes; no vertex that stays is moved. Any mesh will do. Options: [`geom::repair::repair`](repair::repair).
+/// The mesh mended, with all changes; no vertex that stays is moved. Any mesh in that range will do. Options: [`geom::repair::repair`](repair::repair).
 ///
 /// # Errors
 /// [`Error::Repair`]: a facet that names no vertex, coordinates out of range.

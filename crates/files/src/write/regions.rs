@@ -18,6 +18,16 @@ pub enum Pieces<'a> {
     Facets(&'a [[u32; 3]]),
 }
 
+/// The formats that hold regions.
+#[derive(Clone, Copy)]
+pub(super) enum Form {
+    Ply,
+    Csv,
+}
+
+/// Their endings.
+pub(super) const FORMS: &[(&str, Form)] = &[("ply", Form::Ply), ("csv", Form::Csv)];
+
 /// Writes `points` (millimeters) and `pieces`, each with its label, −1 for none, and in a PLY file with a color. In a
 /// PLY file labels are a property `region` of vertices or faces; a CSV file has a row for each point or for the middle
 /// of each facet.
@@ -33,14 +43,16 @@ pub fn regions(
     color: impl Fn(i32) -> [u8; 3],
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let ending = Writable::Regions.ending_of(path)?;
+        let form = Writable::Regions.form(path, FORMS)?;
         let count = check(points, pieces)?;
         if labels.len() != count {
             return Err(WriteFault::Uneven { what: "labels", points: count, values: labels.len() });
         }
-        let writer = if ending == "ply" { ply } else { csv };
         let mut file = BufWriter::new(AtomicFile::create(path)?);
-        writer(&mut file, points, pieces, labels, &color)?;
+        match form {
+            Form::Ply => ply(&mut file, points, pieces, labels, &color)?,
+            Form::Csv => csv(&mut file, points, pieces, labels)?,
+        }
         file.into_inner().map_err(|e| e.into_error())?.commit()?;
         Ok(())
     };
@@ -105,13 +117,7 @@ fn ply(
     Ok(())
 }
 
-fn csv(
-    file: &mut impl Write,
-    points: &[Point],
-    pieces: Pieces,
-    labels: &[i32],
-    _: Color,
-) -> Result<(), WriteFault> {
+fn csv(file: &mut impl Write, points: &[Point], pieces: Pieces, labels: &[i32]) -> Result<(), WriteFault> {
     writeln!(file, "x,y,z,region")?;
     let mut row = |p: Point, label: i32| writeln!(file, "{},{},{},{label}", p[0], p[1], p[2]);
     match pieces {

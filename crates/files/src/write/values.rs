@@ -17,6 +17,37 @@ use trueness_geom::space::Point;
 /// Rows made into bytes by one task.
 const CHUNK: usize = 1 << 12;
 
+/// The formats that hold numbers of points.
+#[derive(Clone, Copy)]
+pub(super) enum Form {
+    Ply,
+    Csv,
+    Npz,
+    Vtp,
+    #[cfg(feature = "parquet")]
+    Parquet,
+}
+
+/// Their endings.
+pub(super) const FORMS: &[(&str, Form)] = &[
+    ("ply", Form::Ply),
+    ("csv", Form::Csv),
+    ("npz", Form::Npz),
+    ("vtp", Form::Vtp),
+    #[cfg(feature = "parquet")]
+    ("parquet", Form::Parquet),
+];
+
+/// The file after `write` through a buffer.
+fn buffered(
+    file: AtomicFile,
+    write: impl FnOnce(&mut BufWriter<AtomicFile>) -> Result<(), WriteFault>,
+) -> Result<AtomicFile, WriteFault> {
+    let mut file = BufWriter::new(file);
+    write(&mut file)?;
+    Ok(file.into_inner().map_err(|e| e.into_error())?)
+}
+
 /// Writes `points` (millimeters), the facets between them if there are any, and what is known of each point.
 ///
 /// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a color, and
@@ -33,25 +64,19 @@ pub fn values<const N: usize>(
     values: &Values<N>,
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let ending = Writable::Values.ending_of(path)?;
+        let form = Writable::Values.form(path, FORMS)?;
         let lost = |face: &[u32; 3]| face.iter().any(|v| *v as usize >= points.len());
         if let Some(face) = faces.iter().position(lost) {
             return Err(WriteFault::NoSuchVertex { face });
         }
         let file = AtomicFile::create(path)?;
-        let file = match ending {
-            "npz" => npz::values(file, points, faces, values)?,
-            "vtp" => vtp::values(file, points, faces, values)?,
+        let file = match form {
+            Form::Npz => npz::values(file, points, faces, values)?,
+            Form::Vtp => vtp::values(file, points, faces, values)?,
             #[cfg(feature = "parquet")]
-            "parquet" => parquet::values(file, points, values)?,
-            _ => {
-                let mut file = BufWriter::new(file);
-                match ending {
-                    "ply" => ply(&mut file, points, faces, values)?,
-                    _ => csv(&mut file, points, values)?,
-                }
-                file.into_inner().map_err(|e| e.into_error())?
-            }
+            Form::Parquet => parquet::values(file, points, values)?,
+            Form::Ply => buffered(file, |file| ply(file, points, faces, values))?,
+            Form::Csv => buffered(file, |file| csv(file, points, values))?,
         };
         file.commit()?;
         Ok(())

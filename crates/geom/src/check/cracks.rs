@@ -10,6 +10,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    missing: None,
     find: |m| {
         m.each(&m.free_edges.chains, |chain| {
             let length = chain.windows(2).map(|p| m.distance([p[0], p[1]])).sum();

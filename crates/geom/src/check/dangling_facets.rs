@@ -9,6 +9,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "neighbours missing",
     measure: Measure::Missing,
     shows: Shows::Facets,
+    missing: None,
     find: |m| {
         let mut facets: Vec<u32> = m.topology.boundary_edges.iter().map(|e| e.facet).collect();
         facets.sort_unstable();

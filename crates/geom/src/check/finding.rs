@@ -97,6 +97,8 @@ pub struct DefectKind {
     pub measure: Measure,
     /// What of a finding shows where it is.
     pub shows: Shows,
+    /// Why it may not be looked for; `None`: it always is.
+    pub missing: Option<&'static str>,
     /// Looks for it; `None` where it cannot be looked for.
     pub(crate) find: fn(&Inspected) -> Option<Found>,
 }

@@ -17,6 +17,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "distance, mm",
     measure: Measure::Distance,
     shows: Shows::PointAndLine,
+    missing: None,
     find: |m| {
         let near = m.free_edges.near(m.mesh);
         let at_edge = |e: &EdgeAt| {

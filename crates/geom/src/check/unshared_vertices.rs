@@ -14,6 +14,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "diagonal of their box, mm",
     measure: Measure::Diagonal,
     shows: Shows::Points,
+    missing: None,
     find: |m| {
         let near = m.free_edges.near(m.mesh);
         let vertices = m.free_edges.vertices();
@@ -56,6 +57,7 @@ pub(super) const KIND: DefectKind = DefectKind {
 
 #[cfg(test)]
 mod tests {
+    use super::KIND;
     use crate::check::{Options, check};
     use crate::mesh::Mesh;
     use crate::num::random::Random;
@@ -97,7 +99,7 @@ mod tests {
             let options = Options { gap: Some(gap), ..Options::default() };
             let report = check(&mesh, None, &options, &Silent).unwrap();
             let mut found: Vec<Vec<u32>> =
-                report.found("unshared_vertices").unwrap().items.iter().map(|f| f.vertices.clone()).collect();
+                report.found(&KIND).unwrap().items.iter().map(|f| f.vertices.clone()).collect();
             found.sort();
             let mut expected = plain(&mesh, gap);
             expected.sort();

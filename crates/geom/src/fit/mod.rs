@@ -106,7 +106,9 @@ pub fn fit(
         match options.method {
             Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
             Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
-            _ => with_family!(kind, zone(&sample, kind, options, progress)),
+            Method::MinimumZone | Method::MinimumCircumscribed | Method::MaximumInscribed => {
+                with_family!(kind, zone(&sample, kind, options, progress))
+            }
         }
     };
     // Among the threads once and for all: from outside, each pass over the points would wake one and wait for it.

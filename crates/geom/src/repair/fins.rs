@@ -8,7 +8,7 @@
 use super::edges::Edges;
 use super::error::RepairError;
 use super::holes;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::union::solid_shells;
 use super::work::Work;
 use crate::deviation::sign_choice::SHEET;
@@ -17,6 +17,7 @@ use crate::space::{Vector, cross, minus, norm, plus};
 pub(super) const STEP: Step = Step {
     name: "fins",
     about: "Removes sheets that hang on edges where two other facets meet: fins, and walls inside.",
+    removes: Removes::Fins,
     run,
 };
 
@@ -94,7 +95,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
             may_go[shell(sheet)] -= if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
             sheet.edges.iter().for_each(|e| meetings[*e].retain(|other| *other != s));
             let place = work.middle(sheet.facets[0]);
-            work.log(STEP.name, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
+            work.log(&STEP, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
             removed.extend(&sheet.facets);
         }
     }

@@ -1,13 +1,14 @@
 //! Shells so small that they are likely dust: removed on request.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 
 pub(super) const STEP: Step = Step {
     name: "islands",
     about: "Removes shells with a diagonal below the share of the whole that is given; without it, none.",
+    removes: Removes::Nothing,
     run,
 };
 
@@ -32,7 +33,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         }
     }
     for (diagonal, place, count) in size.into_iter().flatten() {
-        work.log(STEP.name, "small shell removed", place, count, diagonal);
+        work.log(&STEP, "small shell removed", place, count, diagonal);
     }
     work.replace(&removed, &[]);
     Ok(())

@@ -1,7 +1,7 @@
 //! Closed shells that look the wrong way.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 
@@ -9,6 +9,7 @@ pub(super) const STEP: Step = Step {
     name: "outward",
     about: "Turns closed shells over that are inside out, with those inside them: what they enclose is no material. A shell that \
             looks inwards inside material bounds a cavity and stays. Decided exactly.",
+    removes: Removes::Nothing,
     run,
 };
 
@@ -30,7 +31,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     for finding in wrong {
         let shell = shell_of[finding.facets[0] as usize] as usize;
         turn[shell] = true;
-        work.log(STEP.name, "shell turned over", finding.position, count[shell], finding.size);
+        work.log(&STEP, "shell turned over", finding.position, count[shell], finding.size);
     }
     let facets = (0..).zip(shell_of).filter(|(_, s)| turn.get(**s as usize) == Some(&true)).map(|(f, _)| f);
     work.turn(facets);

@@ -6,7 +6,7 @@
 //!    edge, so that the ends of an edge cannot become one.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::Known;
 use crate::check::{self, near::Near};
@@ -18,6 +18,7 @@ pub(super) const STEP: Step = Step {
     name: "stitch",
     about: "Joins boundary vertices within the gap of one another, and boundary edges whose ends lie nearer to each other than \
             the stitching distance and than a quarter of their length.",
+    removes: Removes::Nothing,
     run,
 };
 
@@ -86,7 +87,7 @@ fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
         let Some(&(_, kept)) = group.iter().max_by_key(|(_, v)| weight(*v)) else { continue };
         let far = |v: u32| norm(minus(work.at(v), work.at(kept)));
         let farthest = group.iter().map(|(_, v)| far(*v)).fold(0.0, f64::max);
-        work.log(STEP.name, "vertices joined", work.at(kept), group.len(), farthest);
+        work.log(&STEP, "vertices joined", work.at(kept), group.len(), farthest);
         renamed.extend(group.iter().filter(|(_, v)| *v != kept).map(|&(_, v)| (v, kept)));
     }
     if renamed.is_empty() {

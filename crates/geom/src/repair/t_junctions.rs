@@ -2,7 +2,7 @@
 
 use super::degenerate::cut;
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 use crate::space::{dot, minus, norm};
@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 pub(super) const STEP: Step = Step {
     name: "t_junctions",
     about: "Cuts facets at boundary vertices that lie within the gap of their boundary edge.",
+    removes: Removes::Nothing,
     run,
 };
 
@@ -43,7 +44,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         if parts.len() > 1 {
             let [_, [a, b], ..] = [[0; 2], on[0].1];
             let length = norm(minus(work.at(b), work.at(a)));
-            work.log(STEP.name, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
+            work.log(&STEP, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
             removed.push(facet);
             added.extend(parts);
         }

@@ -5,7 +5,7 @@
 //! part; once their holes are filled they do.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, boundary_of};
 use crate::check;
@@ -21,6 +21,7 @@ pub(super) const STEP: Step = Step {
     name: "union",
     about: "Unites closed shells that cross, coincide or lie in each other's material; what lies inside is cut away, cavities \
             stay. Decided exactly.",
+    removes: Removes::Nothing,
     run,
 };
 
@@ -141,7 +142,7 @@ fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boun
     if !turned.is_empty() {
         let place = work.middle(turned[0]);
         let size = turned.iter().map(|f| area(work.corners(*f))).sum();
-        work.log(STEP.name, "facets of shells that were inside out turned over", place, turned.len(), size);
+        work.log(&STEP, "facets of shells that were inside out turned over", place, turned.len(), size);
         work.turn(turned);
     }
     if gone.is_empty() {
@@ -180,6 +181,6 @@ fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], is_cut: &[bool]) {
         changes.push((what, middle, place.len(), size));
     }
     for (what, place, facets, size) in changes {
-        work.log(STEP.name, what, place, facets, size);
+        work.log(&STEP, what, place, facets, size);
     }
 }

@@ -8,6 +8,7 @@ use super::error::RepairError;
 use super::options::Options;
 use super::pairs::Pairs;
 use super::state::State;
+use super::step::Step;
 use crate::arrange::ArrangeError;
 use crate::check::around::Around;
 use crate::check::intersect::{self, Crossings};
@@ -330,7 +331,7 @@ impl<'a> Work<'a> {
 
     pub(super) fn log(
         &mut self,
-        step: &'static str,
+        step: &'static Step,
         what: &'static str,
         position: Point,
         facets: usize,

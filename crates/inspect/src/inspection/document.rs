@@ -6,7 +6,7 @@ use super::{Element, Found, Inspection, Taken};
 use crate::characteristic::Value;
 use crate::compare;
 use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
-use crate::results::align::AlignNote;
+use crate::results::align::{AlignNote, AlignNoteKind};
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
@@ -106,10 +106,10 @@ impl AlignmentRecord {
 /// What makes it unlikely that the data are of the part.
 fn doubt(warning: &Warning) -> AlignNote {
     let kind = match warning.kind {
-        WarningKind::SizeRatio => "size_ratio",
-        WarningKind::HardlyOverlapping => "hardly_overlapping",
+        WarningKind::SizeRatio => AlignNoteKind::SizeRatio,
+        WarningKind::HardlyOverlapping => AlignNoteKind::HardlyOverlapping,
     };
-    AlignNote { kind: kind.into(), text: warning.text.clone() }
+    AlignNote { kind: Word(kind), text: warning.text.clone() }
 }
 
 /// The deviations as a comparison tells them, with the scale of their colors.
