@@ -111,7 +111,7 @@ fn an_unsound_reference_is_compared_all_the_same_and_its_flaws_are_named() {
     let o = trueness(["compare".as_ref(), points.as_os_str(), open.as_os_str()]);
     let text = stdout(&o);
     for words in [
-        "not sound: 3 free edges",
+        "not sound: 3 boundary edges",
         "holes: 1, the largest at",
         "compared all the same; the signs are those of the method winding",
     ] {

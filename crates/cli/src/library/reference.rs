@@ -47,14 +47,14 @@ impl Reference {
     /// Those of [`Reference::new`]; cancelled.
     ///
     /// ```
-    /// use trueness::geom::{deviation::sign_choice::SignRequest, progress::Silent};
-    /// use trueness::{Exclusion, Mesh, Reference, SurfaceOptions};
+    /// use trueness::geom::progress::Silent;
+    /// use trueness::{Exclusion, Mesh, Reference, SignRequest, SurfaceOptions};
     /// let positions = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0]];
     /// let options = SurfaceOptions { sign: SignRequest::None, max_distance: 1.0, skip_boundary: true };
     /// let reference = Reference::with(Mesh { positions, faces: vec![[0, 1, 2]] }, &options, &Silent)?;
     /// let found = reference.deviations(&[[1.0, 1.0, -0.25], [1.0, 1.0, 2.0], [-0.5, 1.0, 0.0]])?;
     /// let all: Vec<_> = found.iter().collect();
-    /// assert_eq!(all, [Ok(0.25), Err(Exclusion::MaxDistance), Err(Exclusion::FreeEdge)]);
+    /// assert_eq!(all, [Ok(0.25), Err(Exclusion::MaxDistance), Err(Exclusion::BoundaryEdge)]);
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn with(mesh: Mesh, options: &SurfaceOptions, progress: &dyn Progress) -> Result<Reference, Error> {
@@ -138,7 +138,7 @@ impl Reference {
     /// facets is a cloud of points.
     ///
     /// # Errors
-    /// [`Error::Align`]: fewer than three points, all on one line.
+    /// [`Error::Align`]: fewer than three points, all on one line, a coordinate out of range, no point near the mesh.
     ///
     /// ```
     /// use trueness::{Reference, geom::rigid::Rigid, read};

@@ -1,6 +1,6 @@
 //! The form of a kind of defect and of what is found.
 
-use super::{Options, free_edges::FreeEdges, intersect::Crossings};
+use super::{Options, boundary::Boundary, intersect::Crossings};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
@@ -140,7 +140,7 @@ pub struct Inspected<'a> {
     /// Size and place.
     pub properties: &'a Properties,
     /// Its boundary, taken apart.
-    pub(crate) free_edges: &'a FreeEdges,
+    pub(crate) boundary: &'a Boundary,
     /// For each shell how often the other closed shells wind around it, made when first asked for.
     pub(crate) depths: &'a OnceLock<Vec<i32>>,
     /// The normals that a file stores with its facets.

@@ -12,7 +12,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     measure: Measure::Perimeter,
     shows: Shows::Ring,
     missing: None,
-    find: |m| m.each(&m.free_edges.rings, |ring| hole(m, ring)),
+    find: |m| m.each(&m.boundary.rings, |ring| hole(m, ring)),
 };
 
 fn hole(m: &Inspected, ring: &[u32]) -> Finding {

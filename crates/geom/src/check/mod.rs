@@ -6,13 +6,13 @@
 //! precision of the coordinates.
 
 pub(crate) mod around;
+pub(crate) mod boundary;
 mod boundary_edges;
 mod cracks;
 mod dangling_facets;
 mod degenerate_facets;
 mod duplicate_facets;
 pub(crate) mod finding;
-pub(crate) mod free_edges;
 mod holes;
 mod inconsistent_orientation;
 mod inside_out_shells;

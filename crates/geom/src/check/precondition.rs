@@ -1,6 +1,6 @@
 //! What keeps statistics of deviations from a mesh from being beyond doubt, with its places.
 
-use super::free_edges::FreeEdges;
+use super::boundary::Boundary;
 use super::kinds::*;
 use super::overlap::shells_overlap;
 use super::{DefectKind, Found, Inspected, Options, spacing};
@@ -49,7 +49,7 @@ impl Precondition {
             mesh,
             topology: &topology,
             properties: &properties,
-            free_edges: &FreeEdges::of(&topology),
+            boundary: &Boundary::of(&topology),
             depths: &OnceLock::new(),
             stored_normals: None,
             crossings: None,

@@ -19,7 +19,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     shows: Shows::PointAndLine,
     missing: None,
     find: |m| {
-        let near = m.free_edges.near(m.mesh);
+        let near = m.boundary.near(m.mesh);
         let at_edge = |e: &EdgeAt| {
             let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
             let mut found = vec![];

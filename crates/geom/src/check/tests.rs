@@ -124,7 +124,7 @@ pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usi
             }
             expected = if kind == "holes" { k } else { 3 * k };
         }
-        // A fin has two free edges, and is one dangling facet.
+        // A fin has two boundary edges, and is one dangling facet.
         "cracks" | "non_manifold_edges" | "dangling_facets" => {
             for f in chosen {
                 let [a, b, _] = mesh.faces[f];

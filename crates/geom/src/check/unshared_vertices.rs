@@ -16,8 +16,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     shows: Shows::Points,
     missing: None,
     find: |m| {
-        let near = m.free_edges.near(m.mesh);
-        let vertices = m.free_edges.vertices();
+        let near = m.boundary.near(m.mesh);
+        let vertices = m.boundary.vertices();
         let sets = Sets::new(vertices.len());
         let place = |v: u32| vertices.partition_point(|x| *x < v) as u32;
         let join = |v: u32, w: u32| {

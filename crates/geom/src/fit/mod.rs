@@ -80,7 +80,8 @@ macro_rules! with_family {
 /// or order of the points. Time grows with the number of points; beyond them nothing is stored.
 ///
 /// # Errors
-/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element.
+/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element, a method that there is
+/// not for this kind, cancelled.
 pub fn fit(
     points: &[Point],
     kind: Kind,

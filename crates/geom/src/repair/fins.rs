@@ -2,7 +2,7 @@
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
 //! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
+//! has a boundary edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
 //! with as many facets one way as the other at every edge each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
@@ -21,7 +21,7 @@ pub(super) const STEP: Step = Step {
     run,
 };
 
-/// Sheets with free edges are fins as long as all of them together have at most this share of the area of their shell.
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell.
 const FIN: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
@@ -33,7 +33,7 @@ struct Sheet {
     has_rim: bool,
     /// Indices of its edges with more than two facets.
     edges: Vec<usize>,
-    /// It has free edges that are not of a hole to be filled.
+    /// It has boundary edges that are not of a hole to be filled.
     has_border: bool,
 }
 

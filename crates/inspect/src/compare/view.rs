@@ -71,7 +71,7 @@ impl<'a> View<'a> {
             references,
             found,
             points,
-            measured: lists.iter().map(|values| Field::of(values, NoValue::FreeEdge)).collect(),
+            measured: lists.iter().map(|values| Field::of(values, NoValue::BoundaryEdge)).collect(),
             flagged,
             maps: found.references.iter().map(map).collect(),
         }
@@ -131,7 +131,7 @@ impl Field {
         let reason = |d: &f64| match Excluded::of(*d) {
             None => NoValue::Unknown,
             Some(Excluded::MaxDistance) => NoValue::MaxDistance,
-            Some(Excluded::FreeEdge) => nan,
+            Some(Excluded::BoundaryEdge) => nan,
             Some(Excluded::Facing) => NoValue::Facing,
             Some(Excluded::Outlier) => NoValue::Outlier,
             Some(Excluded::NoCrossing) => NoValue::NoCrossing,

@@ -107,7 +107,7 @@ pub struct BestFitRecord {
     pub median: f64,
     /// Points that count.
     pub used: u64,
-    /// Points that do not: outliers, beside a free edge, on the other side of a wall.
+    /// Points that do not: outliers, beside a boundary edge, on the other side of a wall.
     pub left_out: u64,
     /// Share of the measured surface that counts, 0 to 1.
     pub share: f64,

@@ -40,7 +40,7 @@ pub struct CompareDocument {
     pub sign: SignRecord,
     /// Points farther than this are excluded, millimetres.
     pub max_distance: Option<f64>,
-    /// Points whose closest place lies on a free edge are excluded.
+    /// Points whose closest place lies on a boundary edge are excluded.
     pub skip_boundary: bool,
     /// Only points count whose normals are within this angle of that of the reference, radians; absent where all count.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -251,7 +251,7 @@ pub struct SurfacesRecord {
 pub struct Soundness {
     /// Two facets at every edge, a closed fan at every vertex, no coincident facets, all facing outward.
     pub sound: bool,
-    /// No free edge.
+    /// No boundary edge.
     pub closed: bool,
     /// Neighbours agree on which side is outside.
     pub consistently_oriented: bool,

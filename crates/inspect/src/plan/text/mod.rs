@@ -139,7 +139,7 @@ pub struct DeviationText {
     pub inside: Option<At<f64>>,
     /// Points farther from the reference than this are left out and counted.
     pub max_distance: Option<At<f64>>,
-    /// Whether points whose nearest place is a free edge of the reference are left out and counted.
+    /// Whether points whose nearest place is a boundary edge of the reference are left out and counted.
     #[serde(default)]
     pub skip_boundary: bool,
     /// Measures along lines instead of to the nearest place: a direction, or the normals of the `reference` or of the `measured`.
