@@ -23,7 +23,7 @@ pub fn document(
     let (p, s) = (&report.properties, &report.soundness);
     let solid = s.closed && s.consistently_oriented;
     let why_not =
-        || if s.closed { "neighbours look in different directions" } else { "the mesh is open" }.to_string();
+        || if s.closed { "neighbors look in different directions" } else { "the mesh is open" }.to_string();
     let center = p.center_of_mass.filter(|_| solid);
     let defects = report.defects.iter().map(|(kind, found)| {
         let mut defects = self::defects(kind, found.as_ref());

@@ -107,7 +107,7 @@ fn state(report: &Report, facets: u64) -> State {
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(|| match s.closed {
-            true => "neighbours look in different directions".into(),
+            true => "neighbors look in different directions".into(),
             false => "the mesh is open".into(),
         }),
         defects: defects(report),

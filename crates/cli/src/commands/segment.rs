@@ -49,7 +49,7 @@ pub struct SegmentArgs {
     /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
-    /// Angle between neighbouring facets, or normals of points, from which on there is an edge between them, degrees
+    /// Angle between neighboring facets, or normals of points, from which on there is an edge between them, degrees
     #[arg(long, value_name = "DEGREES", default_value = "32")]
     crease: f64,
     /// Least share of the area, or of the points of a cloud, that a region must have, percent

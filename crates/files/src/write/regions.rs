@@ -1,6 +1,7 @@
 //! Facets or points with the number of the region they belong to.
 
 use super::Writable;
+use super::forms::{REGION_FORMS, RegionForm};
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
@@ -18,16 +19,6 @@ pub enum Pieces<'a> {
     Facets(&'a [[u32; 3]]),
 }
 
-/// The formats that hold regions.
-#[derive(Clone, Copy)]
-pub(super) enum Form {
-    Ply,
-    Csv,
-}
-
-/// Their endings.
-pub(super) const FORMS: &[(&str, Form)] = &[("ply", Form::Ply), ("csv", Form::Csv)];
-
 /// Writes `points` (millimeters) and `pieces`, each with its label, −1 for none, and in a PLY file with a color. In a
 /// PLY file labels are a property `region` of vertices or faces; a CSV file has a row for each point or for the middle
 /// of each facet.
@@ -43,15 +34,15 @@ pub fn regions(
     color: impl Fn(i32) -> [u8; 3],
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let form = Writable::Regions.form(path, FORMS)?;
+        let form = Writable::Regions.form(path, REGION_FORMS)?;
         let count = check(points, pieces)?;
         if labels.len() != count {
             return Err(WriteFault::Uneven { what: "labels", points: count, values: labels.len() });
         }
         let mut file = BufWriter::new(AtomicFile::create(path)?);
         match form {
-            Form::Ply => ply(&mut file, points, pieces, labels, &color)?,
-            Form::Csv => csv(&mut file, points, pieces, labels)?,
+            RegionForm::Ply => ply(&mut file, points, pieces, labels, &color)?,
+            RegionForm::Csv => csv(&mut file, points, pieces, labels)?,
         }
         file.into_inner().map_err(|e| e.into_error())?.commit()?;
         Ok(())

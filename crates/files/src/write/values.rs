@@ -1,6 +1,7 @@
 //! Points or vertices, each with named numbers.
 
 use super::Writable;
+use super::forms::{VALUE_FORMS, ValueForm};
 use super::named::Values;
 #[cfg(feature = "parquet")]
 use crate::formats::parquet;
@@ -16,27 +17,6 @@ use trueness_geom::space::Point;
 
 /// Rows made into bytes by one task.
 const CHUNK: usize = 1 << 12;
-
-/// The formats that hold numbers of points.
-#[derive(Clone, Copy)]
-pub(super) enum Form {
-    Ply,
-    Csv,
-    Npz,
-    Vtp,
-    #[cfg(feature = "parquet")]
-    Parquet,
-}
-
-/// Their endings.
-pub(super) const FORMS: &[(&str, Form)] = &[
-    ("ply", Form::Ply),
-    ("csv", Form::Csv),
-    ("npz", Form::Npz),
-    ("vtp", Form::Vtp),
-    #[cfg(feature = "parquet")]
-    ("parquet", Form::Parquet),
-];
 
 /// The file after `write` through a buffer.
 fn buffered(
@@ -64,19 +44,19 @@ pub fn values<const N: usize>(
     values: &Values<N>,
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let form = Writable::Values.form(path, FORMS)?;
+        let form = Writable::Values.form(path, VALUE_FORMS)?;
         let lost = |face: &[u32; 3]| face.iter().any(|v| *v as usize >= points.len());
         if let Some(face) = faces.iter().position(lost) {
             return Err(WriteFault::NoSuchVertex { face });
         }
         let file = AtomicFile::create(path)?;
         let file = match form {
-            Form::Npz => npz::values(file, points, faces, values)?,
-            Form::Vtp => vtp::values(file, points, faces, values)?,
+            ValueForm::Npz => npz::values(file, points, faces, values)?,
+            ValueForm::Vtp => vtp::values(file, points, faces, values)?,
             #[cfg(feature = "parquet")]
-            Form::Parquet => parquet::values(file, points, values)?,
-            Form::Ply => buffered(file, |file| ply(file, points, faces, values))?,
-            Form::Csv => buffered(file, |file| csv(file, points, values))?,
+            ValueForm::Parquet => parquet::values(file, points, values)?,
+            ValueForm::Ply => buffered(file, |file| ply(file, points, faces, values))?,
+            ValueForm::Csv => buffered(file, |file| csv(file, points, values))?,
         };
         file.commit()?;
         Ok(())

@@ -1,6 +1,6 @@
 //! What can be written, and under which endings.
 
-use super::{regions, values};
+use super::forms::{REGION_FORMS, VALUE_FORMS};
 use crate::{
     FORMATS, Format,
     error::{WriteError, WriteFault},
@@ -29,8 +29,8 @@ impl Writable {
         match self {
             Writable::Points => of(Format::writes_points),
             Writable::Mesh => of(Format::writes_meshes),
-            Writable::Regions => regions::FORMS.iter().map(|(ending, _)| *ending).collect(),
-            Writable::Values => values::FORMS.iter().map(|(ending, _)| *ending).collect(),
+            Writable::Regions => REGION_FORMS.iter().map(|(ending, _)| *ending).collect(),
+            Writable::Values => VALUE_FORMS.iter().map(|(ending, _)| *ending).collect(),
         }
     }
 

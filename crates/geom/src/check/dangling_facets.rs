@@ -5,8 +5,8 @@ use super::{DefectKind, Measure, Severity, Shows};
 pub(super) const KIND: DefectKind = DefectKind {
     name: "dangling_facets",
     severity: Severity::Error,
-    about: "Facets with fewer than three neighbours.",
-    size: "neighbours missing",
+    about: "Facets with fewer than three neighbors.",
+    size: "neighbors missing",
     measure: Measure::Missing,
     shows: Shows::Facets,
     missing: None,

@@ -10,7 +10,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     name: "unshared_vertices",
     severity: Severity::Error,
     about: "Groups of vertices on the boundary that lie within the gap of one another, directly or through others of the \
-            group, and are not joined by an edge: were they one, facets would be neighbours.",
+            group, and are not joined by an edge: were they one, facets would be neighbors.",
     size: "diagonal of their box, mm",
     measure: Measure::Diagonal,
     shows: Shows::Points,

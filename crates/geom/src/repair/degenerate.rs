@@ -11,13 +11,12 @@ use crate::topology::Topology;
 
 pub(super) const STEP: Step = Step {
     name: "degenerate",
-    about: "Removes facets without area. Where three vertices lie on a line, the neighbour at the long edge is cut at the \
+    about: "Removes facets without area. Where three vertices lie on a line, the neighbor at the long edge is cut at the \
             middle one.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let repeated = known.topology.repeated_vertex.clone();
     let flat = known.topology.collinear.clone();

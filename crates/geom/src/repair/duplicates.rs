@@ -12,12 +12,11 @@ use std::collections::BTreeMap;
 
 pub(super) const STEP: Step = Step {
     name: "duplicates",
-    about: "Of facets with the same three vertices keeps the one that the neighbours need; none where they need none.",
+    about: "Of facets with the same three vertices keeps the one that the neighbors need; none where they need none.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.duplicate_facets.is_empty() {
         return Ok(());

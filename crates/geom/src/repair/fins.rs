@@ -18,7 +18,6 @@ pub(super) const STEP: Step = Step {
     name: "fins",
     about: "Removes sheets that hang on edges where two other facets meet: fins, and walls inside.",
     removes: Removes::Fins,
-    run,
 };
 
 /// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell.
@@ -37,7 +36,7 @@ struct Sheet {
     has_border: bool,
 }
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.non_manifold_edges.is_empty() {
         return Ok(());

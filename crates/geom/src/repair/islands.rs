@@ -9,10 +9,9 @@ pub(super) const STEP: Step = Step {
     name: "islands",
     about: "Removes shells with a diagonal below the share of the whole that is given; without it, none.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let kind = check::KINDS.iter().find(|k| k.name == "islands");
     let (Some(kind), Some(_)) = (kind, work.options.islands) else { return Ok(()) };
     let dust = work.find(kind)?;

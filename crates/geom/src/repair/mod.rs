@@ -55,29 +55,45 @@ use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
-use rounds::{Kept, StepPosition, go_through};
+use rounds::{Entry, Kept, StepPosition, go_through};
 use same::Same;
 use std::sync::Arc;
 use work::Work;
 
-/// All steps, in the order in which they are done.
-pub const STEPS: [&Step; 15] = [
-    &not_finite::STEP,
-    &stitch::STEP,
-    &degenerate::STEP,
-    &union::STEP,
-    &duplicates::STEP,
-    &t_junctions::STEP,
-    &fins::STEP,
-    &orient::STEP,
-    &split::EDGES,
-    &self_intersections::STEP,
-    &holes::STEP,
-    &scraps::STEP,
-    &split::VERTICES,
-    &outward::STEP,
-    &islands::STEP,
+/// All steps with what does them, in their order.
+const ENTRIES: [Entry; 15] = [
+    Entry { step: &not_finite::STEP, run: not_finite::run },
+    Entry { step: &stitch::STEP, run: stitch::run },
+    Entry { step: &degenerate::STEP, run: degenerate::run },
+    Entry { step: &union::STEP, run: union::run },
+    Entry { step: &duplicates::STEP, run: duplicates::run },
+    Entry { step: &t_junctions::STEP, run: t_junctions::run },
+    Entry { step: &fins::STEP, run: fins::run },
+    Entry { step: &orient::STEP, run: orient::run },
+    Entry { step: &split::EDGES, run: split::edges },
+    Entry { step: &self_intersections::STEP, run: self_intersections::run },
+    Entry { step: &holes::STEP, run: holes::run },
+    Entry { step: &scraps::STEP, run: scraps::run },
+    Entry { step: &split::VERTICES, run: split::vertices },
+    Entry { step: &outward::STEP, run: outward::run },
+    Entry { step: &islands::STEP, run: islands::run },
 ];
+
+/// All steps, in the order in which they are done.
+pub const STEPS: [&Step; ENTRIES.len()] = {
+    let mut steps = [ENTRIES[0].step; ENTRIES.len()];
+    let mut i = 0;
+    while i < steps.len() {
+        steps[i] = ENTRIES[i].step;
+        i += 1;
+    }
+    steps
+};
+
+/// The step of this name.
+pub fn step(name: &str) -> Option<&'static Step> {
+    STEPS.into_iter().find(|step| step.name == name)
+}
 
 impl Default for Options {
     /// All steps; holes up to a quarter of their shell.
@@ -340,8 +356,8 @@ fn attempt(
     options: &Options,
     (before, check_options): (&Report, &check::Options),
 ) -> Result<Attempt, RepairError> {
-    let wanted = |(_, step): &(usize, &'static Step)| options.steps.contains(step);
-    let steps: Vec<(usize, &'static Step)> = STEPS.into_iter().enumerate().filter(wanted).collect();
+    let wanted = |(_, entry): &(usize, Entry)| options.steps.contains(&entry.step);
+    let steps: Vec<(usize, Entry)> = ENTRIES.into_iter().enumerate().filter(wanted).collect();
     let mut kept = vec![];
     let (mut work, mut rounds) = match from {
         Some(from) => go_through(start.resumed(&from.state, options), &steps, from.position, None)?,

@@ -8,10 +8,9 @@ pub(super) const STEP: Step = Step {
     name: "not_finite",
     about: "Removes facets with a coordinate that is NaN or infinite.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let facets = &known.topology.not_finite;
     if facets.is_empty() {

@@ -11,12 +11,11 @@ use crate::check::finding;
 
 pub(super) const STEP: Step = Step {
     name: "orient",
-    about: "Turns facets over until neighbours run the same way round; the smaller part of each sheet is turned.",
+    about: "Turns facets over until neighbors run the same way round; the smaller part of each sheet is turned.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.inconsistent_edges.is_empty() {
         return Ok(());

@@ -10,10 +10,9 @@ pub(super) const STEP: Step = Step {
     about: "Turns closed shells over that are inside out, with those inside them: what they enclose is no material. A shell that \
             looks inwards inside material bounds a cavity and stays. Decided exactly.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let Some(kind) = check::KINDS.iter().find(|k| k.name == "inside_out_shells") else { return Ok(()) };
     let mut wrong = work.find(kind)?;
     // In material that a shell lies in already, turning it would make a cavity of it.

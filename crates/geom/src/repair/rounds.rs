@@ -14,6 +14,13 @@ pub(super) const ROUNDS: usize = 8;
 /// Of larger meshes no states are kept: what they take of memory, some 100 bytes a facet each, is worth more than the time.
 const MOST_FACETS: usize = 1_000_000;
 
+/// A step and what does it.
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    pub step: &'static Step,
+    pub run: fn(&mut Work) -> Result<(), RepairError>,
+}
+
 /// A state on the way: before a step that then changed something for the first time.
 pub(super) struct Kept {
     pub state: State,
@@ -47,17 +54,17 @@ impl Kept {
 /// many rounds. In `kept`, if given, the state before each step that changed something comes to stand, once for each step.
 pub(super) fn go_through<'a>(
     mut work: Work<'a>,
-    steps: &[(usize, &'static Step)],
+    steps: &[(usize, Entry)],
     mut position: StepPosition,
     mut kept: Option<&mut Vec<Kept>>,
 ) -> Result<(Work<'a>, usize), RepairError> {
-    let may_cut = steps.iter().any(|(_, s)| s.removes == Removes::Crossings);
+    let may_cut = steps.iter().any(|(_, entry)| entry.step.removes == Removes::Crossings);
     while position.round <= ROUNDS {
-        for &(number, step) in steps.iter().filter(|(number, _)| *number >= position.step) {
+        for &(number, Entry { step, run }) in steps.iter().filter(|(number, _)| *number >= position.step) {
             let is_kept = work.mesh().faces.len() <= MOST_FACETS
                 && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.step != step));
             let before = is_kept.then(|| work.state.clone());
-            work = step.done(work)?;
+            run(&mut work)?;
             if let (Some(kept), Some(state)) = (&mut kept, before)
                 && work.state.is_beyond(&state)
             {

@@ -11,13 +11,12 @@ pub(super) const STEP: Step = Step {
     name: "scraps",
     about: "Removes open sheets that enclose nothing and have less than a tenth of the area of the largest closed shell.",
     removes: Removes::Sheets,
-    run,
 };
 
 /// Share of the area of the largest closed shell up to which a sheet is a scrap.
 const SCRAP: f64 = 0.1;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let (topology, areas) = (&known.topology, &known.properties.shell_areas);
     let open = open_shells(topology);

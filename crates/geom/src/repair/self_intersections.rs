@@ -15,7 +15,6 @@ pub(super) const STEP: Step = Step {
     about: "Tears out facets that still cross others when nothing else helps, and what they cut off; the holes are \
             filled afterwards. Sheets keep their crossings.",
     removes: Removes::Crossings,
-    run,
 };
 
 /// No more than this share of the area is cut out: what is left beyond that would be another model.
@@ -23,7 +22,7 @@ const MOST: f64 = 0.75;
 /// A piece cut off is removed if it has at most this share of the area of the largest piece of its shell.
 const SMALL_PIECE: f64 = 0.25;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if !work.state.handover.may_cut_out {
         return Ok(());
     }

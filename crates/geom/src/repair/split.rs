@@ -19,23 +19,24 @@ pub(super) const EDGES: Step = Step {
     name: "non_manifold_edges",
     about: "Parts the surface at edges of more than two facets, so that material stays between each pair.",
     removes: Removes::Nothing,
-    run: |work| {
-        let known = work.known()?;
-        let edges = known.topology.non_manifold_edges.iter();
-        let vertices = edges.flat_map(|e| e.vertices).collect();
-        split(work, vertices, &EDGES, true)
-    },
 };
+
+pub(super) fn edges(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let vertices = known.topology.non_manifold_edges.iter().flat_map(|e| e.vertices).collect();
+    split(work, vertices, &EDGES, true)
+}
 
 pub(super) const VERTICES: Step = Step {
     name: "non_manifold_vertices",
     about: "Parts the surface at vertices where several fans of facets touch.",
     removes: Removes::Nothing,
-    run: |work| {
-        let vertices = work.known()?.topology.non_manifold_vertices.clone();
-        split(work, vertices, &VERTICES, false)
-    },
 };
+
+pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
+    let vertices = work.known()?.topology.non_manifold_vertices.clone();
+    split(work, vertices, &VERTICES, false)
+}
 
 /// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Negative: out of the
 /// material; where the tips of two pits touch, the way into the material of one leads into the other.

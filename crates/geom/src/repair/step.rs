@@ -1,8 +1,5 @@
 //! What the entries of the list of steps are.
 
-use super::error::RepairError;
-use super::work::Work;
-
 /// Surface that a step takes away so that the rest is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Removes {
@@ -25,24 +22,10 @@ pub struct Step {
     pub about: &'static str,
     /// Surface that it takes away.
     pub removes: Removes,
-    pub(super) run: fn(&mut Work) -> Result<(), RepairError>,
 }
 
 impl PartialEq for Step {
     fn eq(&self, other: &Step) -> bool {
         self.name == other.name
-    }
-}
-
-impl Step {
-    /// The step of this name, as [`STEPS`](super::STEPS) has it.
-    pub fn of_name(name: &str) -> Option<&'static Step> {
-        super::STEPS.into_iter().find(|step| step.name == name)
-    }
-
-    /// The state after this step, made from the one before.
-    pub(super) fn done<'a>(&self, mut work: Work<'a>) -> Result<Work<'a>, RepairError> {
-        (self.run)(&mut work)?;
-        Ok(work)
     }
 }

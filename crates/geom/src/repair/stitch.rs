@@ -19,7 +19,6 @@ pub(super) const STEP: Step = Step {
     about: "Joins boundary vertices within the gap of one another, and boundary edges whose ends lie nearer to each other than \
             the stitching distance and than a quarter of their length.",
     removes: Removes::Nothing,
-    run,
 };
 
 /// Stitching distance by default, as a share of the diagonal of the mesh.
@@ -31,7 +30,7 @@ const GROWTH: f64 = 4.0;
 const NEAR: usize = 64;
 const PARTNERS: usize = 8;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if work.known()?.topology.boundary_edges.is_empty() {
         return Ok(());
     }

@@ -12,7 +12,6 @@ pub(super) const STEP: Step = Step {
     name: "t_junctions",
     about: "Cuts facets at boundary vertices that lie within the gap of their boundary edge.",
     removes: Removes::Nothing,
-    run,
 };
 
 /// A vertex lies on one edge as a rule, on two where three sheets meet. Where they lie on more than so many on average,
@@ -22,7 +21,7 @@ const EDGES: usize = 2;
 /// A vertex on an edge of a facet: facet, ends of the edge, place along it, vertex.
 type On = (u32, [u32; 2], f64, u32);
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let Some(kind) = check::KINDS.iter().find(|k| k.name == "t_junctions") else { return Ok(()) };
     let mut all: Vec<On> = vec![];
     for finding in work.find(kind)? {

@@ -22,10 +22,9 @@ pub(super) const STEP: Step = Step {
     about: "Unites closed shells that cross, coincide or lie in each other's material; what lies inside is cut away, cavities \
             stay. Decided exactly.",
     removes: Removes::Nothing,
-    run,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let solid = solid_shells(work.mesh(), &known.topology);
     let is_solid = |f: u32| solid.get(known.topology.shell_of[f as usize] as usize) == Some(&true);

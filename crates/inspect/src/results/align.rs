@@ -9,7 +9,7 @@ use trueness_geom::align::{AlignWarning, Alignment, Freedom, Minimax, RowFit};
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignDocument {
     /// `trueness/align/1`.

@@ -48,7 +48,7 @@ pub struct CheckDocument {
     /// in common count as often as there are bodies.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub volume_note: Option<String>,
-    /// Centre of mass of that volume.
+    /// Center of mass of that volume.
     #[serde(rename = "centre_of_mass")]
     pub center_of_mass: Option<[f64; 3]>,
     /// Why there is none.

@@ -17,7 +17,7 @@ use trueness_geom::fit::Method;
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/inspect/1";
 
-/// The whole document. Lengths in millimetres, angles of features in radians, of characteristics in degrees.
+/// The whole document. Lengths in millimeters, angles of features in radians, of characteristics in degrees.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct InspectDocument {
     /// `trueness/inspect/1`.
@@ -183,7 +183,7 @@ pub struct CharacteristicRecord {
     pub lower: Option<f64>,
     /// Greatest allowed value; with a material requirement, the tolerance and its bonus.
     pub upper: f64,
-    /// The value; millimetres, degrees for an angle.
+    /// The value; millimeters, degrees for an angle.
     pub value: Option<f64>,
     /// Unit of the value: `mm`, `deg`, or `1` for a ratio.
     pub unit: String,

@@ -95,7 +95,7 @@ pub struct State {
     pub sound: bool,
     /// Area of the surface, mm².
     pub area: f64,
-    /// Volume enclosed, mm³: before, that of the places with winding number 1 or more, after neighbours were turned to run
+    /// Volume enclosed, mm³: before, that of the places with winding number 1 or more, after neighbors were turned to run
     /// the same way round; after, the signed volume. `null` unless the mesh is closed and consistently oriented.
     pub volume: Option<f64>,
     /// Why there is no volume.

@@ -12,7 +12,7 @@ use trueness_geom::shape::Kind;
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/segment/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct SegmentDocument {
     /// `trueness/segment/1`.
@@ -35,7 +35,7 @@ pub struct SegmentDocument {
     pub tolerance: f64,
     /// Whether that distance was given, not found.
     pub tolerance_given: bool,
-    /// Angle between neighbouring pieces from which on there is an edge between them.
+    /// Angle between neighboring pieces from which on there is an edge between them.
     pub crease: f64,
     /// Least share of the area, or of the points, that a region must have.
     pub min_share: f64,

@@ -110,7 +110,7 @@ impl RepairArgs {
 /// The steps of these names.
 fn names(option: &str, given: &[String]) -> Result<Vec<&'static Step>, Usage> {
     let find = |name: &String| {
-        Step::of_name(&name.replace('-', "_")).ok_or_else(|| {
+        repair::step(&name.replace('-', "_")).ok_or_else(|| {
             let known: Vec<&str> = STEPS.iter().map(|s| s.name).collect();
             Usage(format!("--{option} {name}: there is no such step; there are {}", known.join(", ")))
         })

@@ -35,7 +35,6 @@ pub(super) const STEP: Step = Step {
     about: "Fills holes: with the triangles of least area, refined and faired to the surroundings where those are smooth. Holes \
             larger than the limit stay open; of a shell that has such a one, all but small holes do.",
     removes: Removes::Nothing,
-    run,
 };
 
 /// The ways to fill a hole, in the order in which they are tried.
@@ -63,7 +62,7 @@ impl Trial {
     }
 }
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let mut trials = trials(work, &known)?;
     let mut shell_of = known.topology.shell_of.clone();

@@ -20,7 +20,7 @@ pub(super) fn mend(mesh: &Mesh) -> Repaired {
 
 /// These steps alone.
 pub(super) fn only(steps: &[&str]) -> Options {
-    Options { steps: steps.iter().map(|name| Step::of_name(name).unwrap()).collect(), ..Options::default() }
+    Options { steps: steps.iter().map(|name| step(name).unwrap()).collect(), ..Options::default() }
 }
 
 pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {

@@ -43,15 +43,15 @@ pub struct PlanText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnitWord {
-    /// Millimetre.
+    /// Millimeter.
     Mm,
-    /// Centimetre.
+    /// Centimeter.
     Cm,
-    /// Metre.
+    /// Meter.
     M,
     /// Inch, 25.4 mm.
     In,
-    /// Micrometre.
+    /// Micrometer.
     Um,
 }
 
@@ -155,7 +155,7 @@ pub struct DeviationText {
     pub region: Vec<At<RegionText>>,
 }
 
-/// Regions in a file of their own, for a comparison. Lengths in millimetres.
+/// Regions in a file of their own, for a comparison. Lengths in millimeters.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionsText {
