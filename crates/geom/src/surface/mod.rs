@@ -6,7 +6,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `base`, `rectangle`, `fold` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it |
+//! | `base`, `rectangle`, `fold`, `upright` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it, and the plane without |
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
 //! | `hold` | what holds the control points where points are few |
@@ -39,6 +39,7 @@ mod stencil;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod upright;
 
 pub use base::Base;
 pub use error::SurfaceError;

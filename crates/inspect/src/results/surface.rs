@@ -93,6 +93,10 @@ pub struct BaseRecord {
     /// rectangle was turned for a tolerance, along the direction in which the surface bends most.
     #[serde(default)]
     pub turned: f64,
+    /// Angle from the normal of the least-squares plane to the third axis, radians: 0 but of a plane over whose least-squares plane
+    /// the points lie in layers, and over another one in fewer.
+    #[serde(default)]
+    pub tilted: f64,
     /// Of a cylinder or a sphere.
     pub radius: Option<f64>,
     /// Why there is none.
