@@ -5,6 +5,7 @@ mod view;
 pub use view::View;
 pub(crate) use view::groups;
 
+use crate::file_numbers::LeftOut;
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
 use crate::results::{InputRecord, UNITS, VERSION, Word};
@@ -12,12 +13,12 @@ use trueness_geom::check::{
     DefectKind, Finding, Found, INSIDE_OUT_SHELLS, NOT_FINITE_FACETS, Options, Report, SELF_INTERSECTIONS,
 };
 
-/// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
+/// Makes the document. The facets `left_out` of the file were not handed to the check, for a coordinate that is not finite.
 pub fn document(
     report: &Report,
     file: InputRecord,
     facets: u64,
-    left_out: u64,
+    left_out: LeftOut,
     options: &Options,
 ) -> CheckDocument {
     let (p, s) = (&report.properties, &report.soundness);
@@ -27,9 +28,11 @@ pub fn document(
     let center = p.center_of_mass.filter(|_| solid);
     let defects = report.defects.iter().map(|(kind, found)| {
         let mut defects = self::defects(kind, found.as_ref());
+        let numbers = defects.items.iter_mut().flat_map(|item| &mut item.facets);
+        numbers.for_each(|facet| *facet = left_out.in_file(*facet));
         if *kind == NOT_FINITE_FACETS {
-            defects.count = defects.count.map(|n| n + left_out);
-            defects.truncated |= left_out > 0;
+            defects.count = defects.count.map(|n| n + left_out.count());
+            defects.truncated |= left_out.count() > 0;
         }
         (kind.name.to_string(), defects)
     });
@@ -38,7 +41,7 @@ pub fn document(
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: vec![file],
-        facets: facets + left_out,
+        facets: facets + left_out.count(),
         vertices: report.vertices as u64,
         edges: report.edges as u64,
         shells: s.shells as u64,
@@ -58,8 +61,8 @@ pub fn document(
             true => "more than two facets meet at an edge, or parts touch at a vertex".into(),
             false => why_not(),
         }),
-        sound: report.sound && left_out == 0,
-        precondition: s.sound && left_out == 0,
+        sound: report.sound && left_out.count() == 0,
+        precondition: s.sound && left_out.count() == 0,
         tolerances: Tolerances {
             gap: report.gap,
             sliver_angle: options.sliver_angle,

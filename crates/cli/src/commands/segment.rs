@@ -18,6 +18,7 @@ use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
+use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
@@ -112,11 +113,13 @@ impl Run for SegmentArgs {
 fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common.seed);
     let Opened { mut record, body, .. } = read::open(&args.input, Role::Measured, &args.reading.reading())?;
-    let (mesh, kind) = match body {
-        Body::Mesh(source) => (source.mesh, PieceKind::Facets),
-        Body::Points(source) => {
-            (Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() }, PieceKind::Points)
-        }
+    let (mesh, kind, left_out) = match body {
+        Body::Mesh(source) => (source.mesh, PieceKind::Facets, source.nonfinite_facets),
+        Body::Points(source) => (
+            Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() },
+            PieceKind::Points,
+            vec![],
+        ),
     };
     read::describe(&mut record, &mesh.positions);
     let pieces = match kind {
@@ -146,7 +149,8 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
         regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
-    let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
+    let members = args.members.then_some(LeftOut(&left_out));
+    let document = SegmentDocument::new(&found, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
         args.report.write(Answer::Segment(&document), &view.objects(), &view.marks, common.progress)?;

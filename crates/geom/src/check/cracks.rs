@@ -10,6 +10,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    follows: false,
     missing: None,
     find: |m| {
         m.each(&m.boundary.chains, |chain| {

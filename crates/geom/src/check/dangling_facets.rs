@@ -9,6 +9,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "neighbors missing",
     measure: Measure::Missing,
     shows: Shows::Facets,
+    follows: true,
     missing: None,
     find: |m| {
         let mut facets: Vec<u32> = m.topology.boundary_edges.iter().map(|e| e.facet).collect();

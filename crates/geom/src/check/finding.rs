@@ -97,6 +97,8 @@ pub struct DefectKind {
     pub measure: Measure,
     /// What of a finding shows where it is.
     pub shows: Shows,
+    /// Whether it only follows from holes and cracks, which are told before it.
+    pub follows: bool,
     /// Why it may not be looked for; `None`: it always is.
     pub missing: Option<&'static str>,
     /// Looks for it; `None` where it cannot be looked for.

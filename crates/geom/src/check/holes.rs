@@ -11,6 +11,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "perimeter, mm",
     measure: Measure::Perimeter,
     shows: Shows::Ring,
+    follows: false,
     missing: None,
     find: |m| m.each(&m.boundary.rings, |ring| hole(m, ring)),
 };

@@ -19,6 +19,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "volume enclosed, mm³",
     measure: Measure::Volume,
     shows: Shows::Shell,
+    follows: false,
     missing: None,
     find: |m| {
         let closed = closed_shells(m);

@@ -9,6 +9,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    follows: false,
     missing: None,
     find: |m| {
         m.each(&m.topology.non_manifold_edges, |e| {

@@ -10,6 +10,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "always 0",
     measure: Measure::Length,
     shows: Shows::Facets,
+    follows: false,
     missing: None,
     find: |m| {
         m.each(&m.topology.not_finite, |&f| {

@@ -13,6 +13,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "area, mm²",
     measure: Measure::Area,
     shows: Shows::Facets,
+    follows: false,
     missing: Some("the file stores no normals"),
     find: |m| {
         let stored = m.stored_normals?;

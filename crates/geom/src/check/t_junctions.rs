@@ -17,6 +17,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "distance, mm",
     measure: Measure::Distance,
     shows: Shows::PointAndLine,
+    follows: false,
     missing: None,
     find: |m| {
         let near = m.boundary.near(m.mesh);

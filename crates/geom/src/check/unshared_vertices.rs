@@ -14,6 +14,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "diagonal of their box, mm",
     measure: Measure::Diagonal,
     shows: Shows::Points,
+    follows: false,
     missing: None,
     find: |m| {
         let near = m.boundary.near(m.mesh);

@@ -12,9 +12,10 @@ pub(super) const STEP: Step = Step {
 };
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
-    let kind = check::KINDS.iter().find(|k| k.name == "islands");
-    let (Some(kind), Some(_)) = (kind, work.options.islands) else { return Ok(()) };
-    let dust = work.find(kind)?;
+    if work.options.islands.is_none() {
+        return Ok(());
+    }
+    let dust = work.find(check::ISLANDS)?;
     if dust.is_empty() {
         return Ok(());
     }

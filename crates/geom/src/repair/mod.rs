@@ -311,7 +311,10 @@ fn worse(before: &Report, after: &Report) -> bool {
         return true;
     }
     let mut errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
-    errors.any(|kind| after.count(kind) > before.count(kind))
+    // What is too many to count is worse than any number that was counted.
+    let count =
+        |report: &Report, kind| report.found(kind).map_or((false, 0), |found| (found.at_least, found.count));
+    errors.any(|kind| count(after, kind) > count(before, kind))
 }
 
 /// What one attempt came to.

@@ -13,8 +13,7 @@ pub(super) const STEP: Step = Step {
 };
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
-    let Some(kind) = check::KINDS.iter().find(|k| k.name == "inside_out_shells") else { return Ok(()) };
-    let mut wrong = work.find(kind)?;
+    let mut wrong = work.find(check::INSIDE_OUT_SHELLS)?;
     // In material that a shell lies in already, turning it would make a cavity of it.
     wrong.retain(|finding| finding.measures.iter().all(|(name, x)| *name != "depth" || *x <= 0.0));
     if wrong.is_empty() {

@@ -34,16 +34,14 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if work.known()?.topology.boundary_edges.is_empty() {
         return Ok(());
     }
-    if let Some(kind) = check::KINDS.iter().find(|k| k.name == "unshared_vertices") {
-        let mut groups = work.find(kind)?;
-        let known = work.known()?;
-        let sets = Sets::new(work.mesh().positions.len());
-        let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
-        groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
-        groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
-        let members = groups.into_iter().flat_map(|g| g.vertices).collect();
-        merge(work, &known, &sets, members);
-    }
+    let mut groups = work.find(check::UNSHARED_VERTICES)?;
+    let known = work.known()?;
+    let sets = Sets::new(work.mesh().positions.len());
+    let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
+    groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
+    groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
+    let members = groups.into_iter().flat_map(|g| g.vertices).collect();
+    merge(work, &known, &sets, members);
     let diagonal = work.known()?.properties.bounds.diagonal();
     let limit = work.options.stitch.unwrap_or(REACH * diagonal);
     let mut reach = work.gap;

@@ -104,8 +104,7 @@ fn has_work(
     if any_at_edges(work.mesh(), topology, work.options.single) {
         return Ok(true);
     }
-    let kind = check::KINDS.iter().find(|k| k.name == "inside_out_shells");
-    let wrong = kind.map_or(Ok(vec![]), |kind| work.find(kind))?;
+    let wrong = work.find(check::INSIDE_OUT_SHELLS)?;
     if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x != 0.0)) {
         return Ok(true);
     }

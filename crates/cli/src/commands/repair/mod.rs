@@ -160,7 +160,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "checking the file", "facets", None);
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);
-    let left_out = source.nonfinite_facets;
+    let left_out = source.nonfinite_facets.len() as u64;
     let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
     let document = document(&repaired, &options, around);
     if args.report.html.is_some() {
