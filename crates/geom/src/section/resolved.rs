@@ -60,12 +60,15 @@ pub(super) fn resolved(start: &Start, options: &Options) -> Option<Resolved> {
         return None;
     }
     // Noise that is form is none of lines and arcs.
-    let most = if is_form { TOLERANCES[0] } else { NONE[0] };
+    let most = if is_form { TOLERANCES[0] } else { ON * NONE[2] };
     let off = (ON * noise).clamp(ROUNDING * size(&clean.points), most * clean.spacing);
     let on = |p: &&Part| lies_on(&clean.points[p.from..p.to], p.kind, off);
     let exact = || start.parts.iter().filter(on).map(|p| p.to - p.from);
-    let sure =
-        quiet && exact().sum::<usize>() as f64 <= SHARE * n as f64 && exact().all(|count| count < LONG);
+    let curved = exact().sum::<usize>() as f64 <= SHARE * n as f64 && exact().all(|count| count < LONG);
+    if !quiet && !curved {
+        return None;
+    }
+    let sure = quiet && curved;
     let own = if is_form { 0.0 } else { WITHIN * noise };
     let mut clean = clean.clone();
     // The row as it came.
