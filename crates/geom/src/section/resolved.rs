@@ -475,9 +475,10 @@ fn join(clean: &Clean, corner: &Corner, tolerance: f64, level: f64) -> Join {
     let width = length(a, b);
     let along = [0, 1].map(|k| (b[k] - a[k]) / width.max(f64::MIN_POSITIVE));
     let end = |sign: f64| [0, 1].map(|k| point[k] + sign * quantile * tolerance * along[k]);
-    let (interval, uncertainty) = match corner.on_point {
+    let (interval, uncertainty) = match corner.on_point || width <= tolerance {
         true => ([end(-1.0), end(1.0)], tolerance),
         false => ([a, b], width * (1.0_f64 / 12.0).sqrt()),
     };
-    Join { point, continuity: Continuity::G0, interval, uncertainty, open: [!corner.on_point; 2], turn: 0.0 }
+    let open = [!corner.on_point && width > tolerance; 2];
+    Join { point, continuity: Continuity::G0, interval, uncertainty, open, turn: 0.0 }
 }
