@@ -26,7 +26,7 @@ fn main() -> Result<()> {
             let curve = Curve::new(knots, points)?;
             Box::new(move || {
                 let of = |t: &f64| {
-                    let mut all = [[0.0; 2]; 3];
+                    let mut all = [[0.0; 3]; 3];
                     curve.derivatives_into(*t, &mut all);
                     [all[1], all[2]]
                 };

@@ -20,7 +20,7 @@ pub struct Curve<V> {
 }
 
 /// Degree up to which places and derivatives are found without allocating.
-const INLINE: usize = 7;
+const INLINE: usize = 5;
 
 impl<V: Value> Curve<V> {
     /// The curve of these control points.
@@ -79,7 +79,7 @@ impl<V: Value> Curve<V> {
         all
     }
 
-    /// The curve and as many derivatives at `t` as there is room for, into `out`; those above the degree are 0. Up to degree 7
+    /// The curve and as many derivatives at `t` as there is room for, into `out`; those above the degree are 0. Up to degree 5
     /// nothing is allocated.
     ///
     /// ```
@@ -104,6 +104,7 @@ impl<V: Value> Curve<V> {
         // The control points of the derivative, where they act on the span.
         let mut own = [V::ZERO; INLINE + 1];
         own[..=p].copy_from_slice(&self.points[k - p..=k]);
+        let (mut spare, last) = ([V::ZERO; INLINE + 1], out.len().saturating_sub(1));
         for (d, o) in out.iter_mut().enumerate() {
             if d > p {
                 *o = V::ZERO;
@@ -116,8 +117,11 @@ impl<V: Value> Curve<V> {
                     own[i] = own[i + 1].minus(own[i]).times((q + 1) as f64 / width);
                 }
             }
-            // De Boor's pyramid of degree q.
-            let mut level = own;
+            // De Boor's pyramid of degree q, over a copy where more is to come.
+            if d < last {
+                spare[..=q].copy_from_slice(&own[..=q]);
+            }
+            let level = if d == last { &mut own } else { &mut spare };
             for r in 1..=q {
                 for i in 0..=q - r {
                     let (low, high) = (u[k + i + r - q], u[k + 1 + i]);
