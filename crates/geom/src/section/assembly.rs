@@ -14,6 +14,11 @@ pub(super) struct Joined {
 }
 
 impl Joined {
+    /// One that is put together.
+    pub(super) fn of(contour: Contour) -> Joined {
+        Joined { contour, length: 0.0 }
+    }
+
     pub(super) fn add(&mut self, found: &Found, parts: Parts, total: usize) {
         let contour = &mut self.contour;
         contour.labels.resize(total, 0);

@@ -9,6 +9,7 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
+use super::resolved::resolved;
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
@@ -134,6 +135,13 @@ fn in_order(
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
     let mut start = Start::new(clean, options);
+    let free = options.noise.is_none() && options.continuity.is_none();
+    let resolved = if free { resolved(&start, options) } else { None };
+    if resolved.as_ref().is_some_and(|r| r.sure)
+        && let Some(found) = resolved
+    {
+        return Ok(found.whole(points.len()));
+    }
     let mut chains = Plan { hasty, ..start.plan(options) }.all(&start.parts, progress)?;
     if hasty.is_some_and(Cell::get) {
         // It is of no use.
@@ -170,6 +178,9 @@ fn in_order(
     if options.noise.is_none() && options.resolution.is_none() {
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
+    }
+    if let Some(other) = resolved.filter(|r| r.is_better_than(&found.contour)) {
+        return Ok(other.whole(points.len()));
     }
     found.finish(&start.clean, start.turned, points.len(), start.outliers);
     Ok(found.contour)

@@ -258,13 +258,13 @@ pub(super) fn missed(points: &[[f64; 2]], contour: &Contour) -> Vec<usize> {
 }
 
 /// Distance of a point from the line through two others.
-fn off_line([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
+pub(super) fn off_line([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
     let size = length(a, b).max(f64::MIN_POSITIVE);
     left(p, a, minus(b, a).map(|x| x / size)).abs()
 }
 
 /// Distance of a point from the circle, or line, through three others.
-fn off_circle([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> f64 {
+pub(super) fn off_circle([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> f64 {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(p, a));
     let det = 2.0 * (u[0] * v[1] - u[1] * v[0]);
     let size = length(a, c).max(f64::MIN_POSITIVE);

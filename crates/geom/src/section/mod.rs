@@ -10,6 +10,7 @@
 //! | `least` | their least-squares fit |
 //! | `search`, `smooth` | number and kinds of pieces |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
+//! | `resolved` | rows of curves without noise, as B-splines between corners |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
@@ -49,6 +50,7 @@ mod nominal;
 mod paper;
 mod polygon;
 mod profile;
+mod resolved;
 mod result;
 mod row;
 mod search;

@@ -28,26 +28,36 @@ pub(super) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
 
 /// The same of a row whose points follow each other.
 fn noise_of(points: &[[f64; 2]], closed: bool) -> f64 {
+    off_polynomials::<4>(points, closed)
+}
+
+/// The same from polynomials of the fifth degree: of a curve without noise far less than from cubics.
+pub(super) fn noise_beyond_form(points: &[[f64; 2]], closed: bool) -> f64 {
+    off_polynomials::<6>(points, closed)
+}
+
+/// Standard deviation of points about local polynomials of so many coefficients, by the median.
+fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool) -> f64 {
     let n = points.len();
     let width = 2 * HALF + 1;
     if n < width + usize::from(closed) {
         return 0.0;
     }
     let starts = if closed { n } else { n - width + 1 };
-    let mut all: Vec<f64> =
-        (0..starts).filter_map(|i| cubic_residual(&std::array::from_fn(|k| points[(i + k) % n]))).collect();
+    let window = |i: usize| std::array::from_fn(|k| points[(i + k) % n]);
+    let mut all: Vec<f64> = (0..starts).filter_map(|i| mean_square_off::<COEFFICIENTS>(&window(i))).collect();
     if all.is_empty() {
         return 0.0;
     }
     let middle = all.len() / 2;
     let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
-    // Median of a chi-squared variable of five degrees over their number: Wilson and Hilferty.
-    let share: f64 = 1.0 - 2.0 / 45.0;
+    // Median of a chi-squared variable of so many degrees over their number: Wilson and Hilferty.
+    let share: f64 = 1.0 - 2.0 / (9 * (width - COEFFICIENTS)) as f64;
     (median / (share * share * share)).sqrt()
 }
 
-/// Mean square of the residuals of a cubic through nine points, across the line through the first and last.
-fn cubic_residual(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
+/// Mean square of the residuals of a polynomial through nine points, across the line through the first and last.
+fn mean_square_off<const COEFFICIENTS: usize>(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
     let (first, last, middle) = (points[0], points[2 * HALF], points[HALF]);
     let (dx, dy) = (last[0] - first[0], last[1] - first[1]);
     let length = libm::hypot(dx, dy);
@@ -55,17 +65,17 @@ fn cubic_residual(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
         return None;
     }
     let (c, s) = (dx / length, dy / length);
-    let mut columns = [[0.0; 2 * HALF + 1]; 4];
+    let mut columns = [[0.0; 2 * HALF + 1]; COEFFICIENTS];
     let mut rest = [0.0; 2 * HALF + 1];
     for (i, p) in points.iter().enumerate() {
         let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
         let t = 2.0 * (c * x + s * y) / length;
         columns[0][i] = 1.0;
-        (1..4).for_each(|k| columns[k][i] = columns[k - 1][i] * t);
+        (1..COEFFICIENTS).for_each(|k| columns[k][i] = columns[k - 1][i] * t);
         rest[i] = c * y - s * x;
     }
     // Gram and Schmidt.
-    for k in 0..4 {
+    for k in 0..COEFFICIENTS {
         for j in 0..k {
             let dot: f64 = (0..rest.len()).map(|i| columns[k][i] * columns[j][i]).sum();
             (0..rest.len()).for_each(|i| columns[k][i] -= dot * columns[j][i]);
@@ -78,7 +88,7 @@ fn cubic_residual(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
         let dot: f64 = (0..rest.len()).map(|i| columns[k][i] * rest[i]).sum();
         (0..rest.len()).for_each(|i| rest[i] -= dot * columns[k][i]);
     }
-    Some(rest.iter().map(|r| r * r).sum::<f64>() / (rest.len() - 4) as f64)
+    Some(rest.iter().map(|r| r * r).sum::<f64>() / (rest.len() - COEFFICIENTS) as f64)
 }
 
 /// Part of a row that one line or arc fits.

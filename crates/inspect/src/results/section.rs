@@ -373,6 +373,8 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         })
         .collect();
     let reason = match &found.segments[..] {
+        // A closed curve with a corner joins itself.
+        _ if !joins.is_empty() => None,
         [one] if one.geometry.kind() != SegmentKind::Line => {
             Some("one segment fits all points; no line segment found")
         }

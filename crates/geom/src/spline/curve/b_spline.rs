@@ -19,6 +19,9 @@ pub struct Curve<V> {
     pub(super) points: Vec<V>,
 }
 
+/// Degree up to which places and derivatives are found without allocating.
+const INLINE: usize = 5;
+
 impl<V: Value> Curve<V> {
     /// The curve of these control points.
     ///
@@ -49,6 +52,11 @@ impl<V: Value> Curve<V> {
 
     /// The curve at `t`, by de Boor's pyramid; outside of its domain that of the nearer end.
     pub fn at(&self, t: f64) -> V {
+        if self.knots.degree() <= INLINE {
+            let mut place = [V::ZERO];
+            self.derivatives_into(t, &mut place);
+            return place[0];
+        }
         let (from, to) = self.domain();
         let arguments = vec![t.clamp(from, to); self.knots.degree()];
         blossom(self.knots.values(), &self.points, self.knots.span(t), &arguments)
@@ -56,16 +64,73 @@ impl<V: Value> Curve<V> {
 
     /// The derivative of this order at `t`; from the right, at the last knot from the left.
     pub fn derivative(&self, t: f64, order: usize) -> V {
-        self.derivatives(t, order)[order]
+        if order > INLINE {
+            return self.derivatives(t, order)[order];
+        }
+        let mut all = [V::ZERO; INLINE + 1];
+        self.derivatives_into(t, &mut all[..=order]);
+        all[order]
     }
 
     /// The curve and its derivatives up to `order` at `t`.
     pub fn derivatives(&self, t: f64, order: usize) -> Vec<V> {
-        let (first, rows) = self.knots.derivatives(t, order);
-        let sum = |row: &Vec<f64>| {
-            row.iter().zip(&self.points[first..]).fold(V::ZERO, |sum, (n, p)| sum.plus(*n, *p))
-        };
-        rows.iter().map(sum).collect()
+        let mut all = vec![V::ZERO; order + 1];
+        self.derivatives_into(t, &mut all);
+        all
+    }
+
+    /// The curve and as many derivatives at `t` as there is room for, into `out`; those above the degree are 0. Up to degree 5
+    /// nothing is allocated.
+    ///
+    /// ```
+    /// use trueness_geom::spline::{basis::Knots, curve::Curve};
+    /// let curve = Curve::new(Knots::uniform(2, 1, 0.0, 1.0), vec![[0.0], [0.5], [2.0]]).unwrap();
+    /// let mut out = [[0.0]; 3];
+    /// curve.derivatives_into(0.5, &mut out);
+    /// assert_eq!(out, [[0.75], [2.0], [2.0]]);
+    /// ```
+    pub fn derivatives_into(&self, t: f64, out: &mut [V]) {
+        let p = self.knots.degree();
+        if p > INLINE {
+            let (first, rows) = self.knots.derivatives(t, out.len().saturating_sub(1));
+            for (o, row) in out.iter_mut().zip(&rows) {
+                *o = row.iter().zip(&self.points[first..]).fold(V::ZERO, |sum, (n, p)| sum.plus(*n, *p));
+            }
+            return;
+        }
+        let (from, to) = self.domain();
+        let (t, k) = (t.clamp(from, to), self.knots.span(t));
+        let u = self.knots.values();
+        // The control points of the derivative, where they act on the span.
+        let mut own = [V::ZERO; INLINE + 1];
+        own[..=p].copy_from_slice(&self.points[k - p..=k]);
+        let (mut spare, last) = ([V::ZERO; INLINE + 1], out.len().saturating_sub(1));
+        for (d, o) in out.iter_mut().enumerate() {
+            if d > p {
+                *o = V::ZERO;
+                continue;
+            }
+            let q = p - d;
+            if d > 0 {
+                for i in 0..=q {
+                    let width = u[k + 1 + i] - u[k + i - q];
+                    own[i] = own[i + 1].minus(own[i]).times((q + 1) as f64 / width);
+                }
+            }
+            // De Boor's pyramid of degree q, over a copy where more is to come.
+            if d < last {
+                spare[..=q].copy_from_slice(&own[..=q]);
+            }
+            let level = if d == last { &mut own } else { &mut spare };
+            for r in 1..=q {
+                for i in 0..=q - r {
+                    let (low, high) = (u[k + i + r - q], u[k + 1 + i]);
+                    let share = (t - low) / (high - low);
+                    level[i] = level[i].times(1.0 - share).plus(share, level[i + 1]);
+                }
+            }
+            *o = level[0];
+        }
     }
 
     /// The curve of the first derivative: one degree lower. `None` for degree 0.

@@ -59,10 +59,11 @@ impl<const D: usize> Curve<[f64; D]> {
     }
 
     /// Newton's method on the condition that the difference is at right angles to the curve, kept within a range.
-    pub(super) fn closest_from(&self, point: [f64; D], start: f64, range: (f64, f64)) -> Foot<D> {
+    pub(crate) fn closest_from(&self, point: [f64; D], start: f64, range: (f64, f64)) -> Foot<D> {
         let (mut t, mut low, mut high) = (start, range.0, range.1);
         for _ in 0..40 {
-            let d = self.derivatives(t, 2);
+            let mut d = [[0.0; D]; 3];
+            self.derivatives_into(t, &mut d);
             let difference = d[0].minus(point);
             let slope = dot(difference, d[1]);
             if slope > 0.0 {

@@ -80,7 +80,8 @@ impl<const D: usize> Curve<[f64; D]> {
 impl Curve<[f64; 2]> {
     /// Curvature at `t`, positive where the curve turns to the left; `None` where the curve stands still.
     pub fn curvature(&self, t: f64) -> Option<f64> {
-        let d = self.derivatives(t, 2);
+        let mut d = [[0.0; 2]; 3];
+        self.derivatives_into(t, &mut d);
         let speed = libm::hypot(d[1][0], d[1][1]);
         let k = (d[1][0] * d[2][1] - d[1][1] * d[2][0]) / (speed * speed * speed);
         k.is_finite().then_some(k)
