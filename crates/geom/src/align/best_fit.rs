@@ -127,7 +127,7 @@ fn checked(measured: &Measured, reference: &Target) -> Result<Samples, AlignErro
 }
 
 /// What all steps share.
-struct Work<'a> {
+pub(super) struct Work<'a> {
     target: &'a Target<'a>,
     boundary_edges: Option<&'a BoundaryEdges>,
     options: &'a BestFit,
@@ -147,7 +147,7 @@ struct Found {
 }
 
 impl<'a> Work<'a> {
-    fn new(
+    pub(super) fn new(
         target: &'a Target<'a>,
         boundary_edges: &'a BoundaryEdges,
         options: &'a BestFit,
@@ -165,7 +165,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
+    pub(super) fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
         Problem {
             target: self.target,
             boundary_edges: self.boundary_edges,

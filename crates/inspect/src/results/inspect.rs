@@ -187,10 +187,19 @@ pub struct CharacteristicRecord {
     pub value: Option<f64>,
     /// Unit of the value: `mm`, `deg`, or `1` for a ratio.
     pub unit: String,
-    /// Expanded uncertainty of the value (k = 2); null where the plan states neither it nor the noise of the points.
+    /// Expanded uncertainty of the value (k = 2): value less and plus this hold the true one. Null where the plan states neither it nor the
+    /// noise of the points.
     pub uncertainty: Option<f64>,
     /// Where it comes from: `plan`, `noise`, or `plan and noise`.
     pub uncertainty_source: Option<String>,
+    /// What noise adds to the value on the average, at most, where it leads away from the true one to one side: part of the uncertainty,
+    /// and not taken off the value. Absent where it does not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub noise_bias: Option<f64>,
+    /// From and to where the true value lies: the uncertainty without `noise_bias` to either side, and with it to the one that noise
+    /// leads away from. What `iso14253-1` decides by. Absent where there is no uncertainty.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub interval: Option<[f64; 2]>,
     /// How the verdict was reached.
     pub decision_rule: String,
     /// The verdict.
