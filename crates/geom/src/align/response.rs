@@ -8,7 +8,7 @@ use super::best_fit::Work;
 use super::sample::{Measured, Samples};
 use super::system::{Six, Spectrum, slope};
 use super::{AlignError, AlignWarning, Alignment, BestFit, Target};
-use crate::closest::FreeEdges;
+use crate::closest::BoundaryEdges;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, dot, plus, times};
@@ -67,8 +67,8 @@ pub fn response(
     if fit.warnings.contains(&AlignWarning::NormalsTurned) {
         surface = surface.turned();
     }
-    let free_edges = FreeEdges::watched(reference.tree, progress)?;
-    let work = Work::new(reference, &free_edges, options, &surface);
+    let boundary_edges = BoundaryEdges::watched(reference.tree, progress)?;
+    let work = Work::new(reference, &boundary_edges, options, &surface);
     let problem = work.problem(&surface);
     let mut matches = problem.matches(&Rigid::IDENTITY, f64::INFINITY, progress)?;
     let sigma = problem.deviation(&matches);
