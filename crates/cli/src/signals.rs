@@ -43,7 +43,9 @@ fn end() -> ! {
 /// ignored.
 #[cfg(unix)]
 pub fn listen() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    // With a handler, a file that would grow beyond the limit of the shell is an error of the write, as a full disk is.
+    let _ = signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default());
     let wanted: Vec<i32> = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|s| !is_ignored(*s)).collect();
     // Without a handler signals end the program as they always do: nothing to report.
     let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) else { return };

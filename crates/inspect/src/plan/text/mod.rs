@@ -267,7 +267,7 @@ pub enum ShapeWord {
     Torus,
     /// An edge where two planes meet.
     Edge,
-    /// A surface of any form, as the reference has it.
+    /// A surface of any form, as the reference has it: known, but refused, as `inspect` cannot take it yet.
     Surface,
 }
 
