@@ -11,7 +11,7 @@ use trueness::{Reference, read};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (scan, nominal) = args().nth(1).zip(args().nth(2)).ok_or("usage: aligned SCAN NOMINAL")?;
     let (mut scan, reference) = (read(scan)?, Reference::read(nominal)?);
-    let pose = reference.align(&scan)?;
+    let pose = reference.align(&scan.mesh)?;
     scan.mesh.positions.iter_mut().for_each(|p| *p = pose.reference_from_measured.point(*p));
     println!("turned by {:.3}°", pose.reference_from_measured.angle().to_degrees());
     for warning in &pose.warnings {

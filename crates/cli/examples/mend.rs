@@ -11,7 +11,7 @@ use trueness::{check, read, repair, write_mesh};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (broken, sound) = args().nth(1).zip(args().nth(2)).ok_or("usage: mend BROKEN SOUND")?;
     let part = read(broken)?;
-    for (kind, found) in check(&part.mesh)?.defects {
+    for (kind, found) in check(&part)?.defects {
         let count = found.map_or(0, |found| found.count);
         if count > 0 {
             println!("{}: {count}", kind.name);

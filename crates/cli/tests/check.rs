@@ -111,7 +111,7 @@ fn an_unsound_reference_is_compared_all_the_same_and_its_flaws_are_named() {
     let o = trueness(["compare".as_ref(), points.as_os_str(), open.as_os_str()]);
     let text = stdout(&o);
     for words in [
-        "not sound: 3 free edges",
+        "not sound: 3 boundary edges",
         "holes: 1, the largest at",
         "compared all the same; the signs are those of the method winding",
     ] {
@@ -163,4 +163,26 @@ fn vertices_within_the_distance_of_weld_are_one() {
     let o = trueness(["check".as_ref(), torn.as_os_str(), "--weld".as_ref(), "-1".as_ref()]);
     assert_eq!(status(&o), 2, "{}", stderr(&o));
     assert!(stderr(&o).contains("--weld -1: give a number from 0 upwards"), "{}", stderr(&o));
+}
+
+/// What the reader leaves out moves no number: those of the document are those of the file.
+#[test]
+fn facets_have_the_numbers_of_the_file() {
+    let f = Folder::new();
+    let facet = |t: [[f64; 3]; 3]| {
+        let corner = |p: [f64; 3]| format!("vertex {} {} {}\n", p[0], p[1], p[2]);
+        format!("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", t.map(corner).concat())
+    };
+    let [o, x, y, z] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let nan = [[f64::NAN, 0.0, 0.0], x, y];
+    let facets = [nan, [o, y, x], [o, x, z], [x, y, z], nan, [o, y, x], [y, o, z]];
+    let stl = f.write("p.stl", format!("solid p\n{}endsolid p\n", facets.map(facet).concat()));
+    let document = document(["check".as_ref(), stl.as_os_str()]);
+    assert_eq!(document["facets"], 7);
+    assert_eq!(document["defects"]["duplicate_facets"]["items"][0]["facets"], serde_json::json!([1, 5]));
+    assert_eq!(document["defects"]["not_finite_facets"]["count"], 2);
+    let part = trueness::read(&stl).unwrap();
+    assert_eq!(part.nonfinite_facets, [0, 4]);
+    let report = trueness::check(&part).unwrap();
+    assert!(!report.sound && report.count(trueness::geom::check::NOT_FINITE_FACETS) == 2);
 }

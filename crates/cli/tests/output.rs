@@ -30,3 +30,32 @@ fn what_people_look_at_is_colored_without_a_scale_too() {
     let ply = String::from_utf8_lossy(&std::fs::read(f.file("plain.ply")).unwrap()).into_owned();
     assert!(ply.contains("property uchar red"), "{ply}");
 }
+
+#[test]
+fn every_format_is_listed_and_has_its_page() {
+    let list = stdout(&trueness(["formats"]));
+    for format in trueness::files::FORMATS {
+        assert!(list.lines().any(|l| l.split_whitespace().next() == Some(format.name)), "{}", format.name);
+        assert_eq!(stdout(&trueness(["formats", format.name])), format.manual);
+        for ending in format.extensions.iter().chain(format.written_as) {
+            assert!(list.contains(&format!(".{ending}")), "{ending}");
+            assert_eq!(stdout(&trueness(["formats", &format!(".{ending}")])), page(ending), "{ending}");
+        }
+    }
+    let unknown = trueness(["formats", "doc"]);
+    assert_eq!(status(&unknown), 2);
+    assert!(
+        stderr(&unknown).contains("doc: there is no such format; there are ply, "),
+        "{}",
+        stderr(&unknown)
+    );
+}
+
+/// The page of the only format that files of this ending have.
+fn page(ending: &str) -> &'static str {
+    let has =
+        |f: &&&trueness::files::Format| f.extensions.contains(&ending) || f.written_as.contains(&ending);
+    let all: Vec<_> = trueness::files::FORMATS.iter().filter(has).collect();
+    assert_eq!(all.len(), 1, "{ending}");
+    all[0].manual
+}

@@ -109,8 +109,8 @@ pub struct SourceMesh {
     /// The normal that an STL file stores with each facet, in the order of `mesh.faces`, not normalized and not
     /// trustworthy. `None` for other formats.
     pub stored_normals: Option<Vec<[f32; 3]>>,
-    /// How many facets were left out because of a NaN or infinite coordinate.
-    pub nonfinite_facets: u64,
+    /// Numbers in the file, from 0 and ascending, of the facets that were left out because of a NaN or infinite coordinate.
+    pub nonfinite_facets: Vec<u32>,
     /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colors, in the order of
     /// the header. It was not read. Empty for other formats.
     pub unread: Vec<String>,

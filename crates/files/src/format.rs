@@ -151,7 +151,7 @@ impl Parsed {
         Parsed { variant, content, planar: false, table: None, unit: None, warnings }
     }
     pub fn mesh(variant: &'static str, mesh: SourceMesh, mut warnings: Vec<Warning>) -> Parsed {
-        if mesh.mesh.faces.is_empty() && mesh.nonfinite_facets == 0 {
+        if mesh.mesh.faces.is_empty() && mesh.nonfinite_facets.is_empty() {
             warnings.push(Warning::Nothing);
         }
         Parsed::of(variant, Parts::Mesh(mesh), warnings)

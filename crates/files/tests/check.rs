@@ -7,7 +7,7 @@ use common::Folder;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueness_files::{Body, ReadOptions, SourceMesh, open, write};
-use trueness_geom::check::{Options, Report, check};
+use trueness_geom::check::{self, Options, Report, check};
 use trueness_geom::progress::Silent;
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpus");
@@ -26,18 +26,17 @@ fn report(m: &SourceMesh) -> Report {
 
 /// The columns of `check.tsv`.
 fn counted(m: &SourceMesh, r: &Report) -> BTreeMap<&'static str, usize> {
-    let count = |kind: &str| r.found(kind).unwrap().count;
-    let degenerate = r.found("degenerate_facets").unwrap();
+    let degenerate = r.found(check::DEGENERATE_FACETS).unwrap();
     let corners = |n: f64| degenerate.items.iter().filter(|f| f.measures[0].1 == n).count();
     let mut all: BTreeMap<&'static str, usize> = [
-        "boundary_edges",
-        "non_manifold_edges",
-        "non_manifold_vertices",
-        "inconsistent_orientation",
-        "duplicate_facets",
-        "self_intersections",
+        check::BOUNDARY_EDGES,
+        check::NON_MANIFOLD_EDGES,
+        check::NON_MANIFOLD_VERTICES,
+        check::INCONSISTENT_ORIENTATION,
+        check::DUPLICATE_FACETS,
+        check::SELF_INTERSECTIONS,
     ]
-    .map(|kind| (kind, count(kind)))
+    .map(|kind| (kind.name, r.found(kind).unwrap().count))
     .into();
     all.extend([("facets", m.mesh.faces.len()), ("vertices", r.vertices), ("edges", r.edges)]);
     let repeated = degenerate.count - corners(3.0);

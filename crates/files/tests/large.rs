@@ -4,7 +4,7 @@
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use trueness_files::{Body, ReadOptions, SourceMesh};
-use trueness_geom::check::{Options, check};
+use trueness_geom::check::{self, Options, check};
 use trueness_geom::progress::Silent;
 
 /// Zeros throughout, which the file system does not store, but for the count and the very last facet.
@@ -50,6 +50,6 @@ fn stl_of_more_than_four_gigabytes_is_read_and_checked() {
     let mesh = read_of_size(facets);
     let report = check(&mesh.mesh, mesh.stored_normals.as_deref(), &Options::default(), &Silent).unwrap();
     // The last facet has its corners on a line: without area, but with edges.
-    assert_eq!(report.found("degenerate_facets").unwrap().count as u64, facets);
-    assert_eq!((report.edges, report.found("boundary_edges").unwrap().count), (3, 3));
+    assert_eq!(report.found(check::DEGENERATE_FACETS).unwrap().count as u64, facets);
+    assert_eq!((report.edges, report.found(check::BOUNDARY_EDGES).unwrap().count), (3, 3));
 }

@@ -5,29 +5,34 @@ mod view;
 pub use view::View;
 pub(crate) use view::groups;
 
+use crate::file_numbers::LeftOut;
 use crate::results::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
 use crate::results::compare::Bounds;
 use crate::results::{InputRecord, UNITS, VERSION, Word};
-use trueness_geom::check::{DefectKind, Finding, Found, Options, Report};
+use trueness_geom::check::{
+    DefectKind, Finding, Found, INSIDE_OUT_SHELLS, NOT_FINITE_FACETS, Options, Report, SELF_INTERSECTIONS,
+};
 
-/// Makes the document. `left_out` facets of the file were not handed to the check, for a coordinate that is not finite.
+/// Makes the document. The facets `left_out` of the file were not handed to the check, for a coordinate that is not finite.
 pub fn document(
     report: &Report,
     file: InputRecord,
     facets: u64,
-    left_out: u64,
+    left_out: LeftOut,
     options: &Options,
 ) -> CheckDocument {
     let (p, s) = (&report.properties, &report.soundness);
     let solid = s.closed && s.consistently_oriented;
     let why_not =
-        || if s.closed { "neighbours look in different directions" } else { "the mesh is open" }.to_string();
+        || if s.closed { "neighbors look in different directions" } else { "the mesh is open" }.to_string();
     let center = p.center_of_mass.filter(|_| solid);
     let defects = report.defects.iter().map(|(kind, found)| {
         let mut defects = self::defects(kind, found.as_ref());
-        if kind.name == "not_finite_facets" {
-            defects.count = defects.count.map(|n| n + left_out);
-            defects.truncated |= left_out > 0;
+        let numbers = defects.items.iter_mut().flat_map(|item| &mut item.facets);
+        numbers.for_each(|facet| *facet = left_out.in_file(*facet));
+        if *kind == NOT_FINITE_FACETS {
+            defects.count = defects.count.map(|n| n + left_out.count());
+            defects.truncated |= left_out.count() > 0;
         }
         (kind.name.to_string(), defects)
     });
@@ -36,7 +41,7 @@ pub fn document(
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: vec![file],
-        facets: facets + left_out,
+        facets: facets + left_out.count(),
         vertices: report.vertices as u64,
         edges: report.edges as u64,
         shells: s.shells as u64,
@@ -56,8 +61,8 @@ pub fn document(
             true => "more than two facets meet at an edge, or parts touch at a vertex".into(),
             false => why_not(),
         }),
-        sound: report.sound && left_out == 0,
-        precondition: s.sound && left_out == 0,
+        sound: report.sound && left_out.count() == 0,
+        precondition: s.sound && left_out.count() == 0,
         tolerances: Tolerances {
             gap: report.gap,
             sliver_angle: options.sliver_angle,
@@ -72,23 +77,16 @@ const OVERLAPS: &str = "what crossing bodies have in common counts as often as t
 
 /// Whether bodies were found to cross or to lie in each other the same way round.
 fn overlaps(report: &Report) -> bool {
-    let count = |name| report.defects.iter().find(|(kind, _)| kind.name == name);
-    ["self_intersections", "inside_out_shells"]
-        .into_iter()
-        .any(|name| count(name).and_then(|(_, found)| found.as_ref()).is_some_and(|f| f.count > 0))
+    [SELF_INTERSECTIONS, INSIDE_OUT_SHELLS].into_iter().any(|kind| report.count(kind) > 0)
 }
 
 /// The findings of a kind as the documents have them; `None` where they were not looked for.
 pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>) -> Defects {
-    let reason = match kind.name {
-        "reversed_normals" => "the file stores no normals",
-        _ => "not asked for",
-    };
     Defects {
         severity: Word(kind.severity),
         count: found.map(|f| f.count as u64),
         at_least: found.is_some_and(|f| f.at_least),
-        count_reason: found.is_none().then(|| reason.into()),
+        count_reason: found.map_or(kind.missing, |_| None).map(str::to_string),
         size: kind.size.into(),
         items: found.map_or(vec![], |f| f.items.iter().map(item).collect()),
         truncated: found.is_some_and(|f| f.items.len() < f.count),

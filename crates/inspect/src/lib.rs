@@ -22,6 +22,7 @@ pub mod characteristic;
 pub mod check;
 pub mod compare;
 pub mod curvature;
+pub mod file_numbers;
 pub mod fit;
 pub mod inspection;
 pub mod plan;

@@ -8,7 +8,7 @@ pub use view::{GONE, NEW, View, by_step};
 use crate::results::repair::{
     Change, Deviation, Distances, FacetCounts, OutputRecord, RepairDocument, SCHEMA, State, VertexCounts,
 };
-use crate::results::{InputRecord, UNITS, VERSION};
+use crate::results::{InputRecord, UNITS, VERSION, Word};
 use std::collections::BTreeMap;
 use trueness_geom::check::Report;
 use trueness_geom::repair::{self, DeviationError, Holes, Options, Repaired, STEPS};
@@ -46,7 +46,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
     let after = state(&repaired.after, facets);
     let effect = effect::record(repaired, after.volume, around.deviation.as_ref().ok(), around.max_change);
     let way = |w: repair::Way| Distances { max: w.max, mean: w.mean };
-    let steps = STEPS.iter().filter(|s| options.steps.contains(&s.name)).map(|s| s.name.to_string());
+    let steps = STEPS.into_iter().filter(|s| options.steps.contains(s)).map(Word);
     RepairDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -73,7 +73,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
         deviation_reason: around.deviation.err().map(|e| e.to_string()),
         steps: steps.collect(),
         not_united: repaired.not_united.map(|e| e.to_string()),
-        taken_back: repaired.taken_back.iter().map(|s| s.to_string()).collect(),
+        taken_back: repaired.taken_back.iter().copied().map(Word).collect(),
         hole_limit: match options.holes {
             Holes::UpTo(share) => Some(share),
             Holes::All => None,
@@ -87,7 +87,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
 
 fn change(c: &repair::Change) -> Change {
     Change {
-        step: c.step.into(),
+        step: Word(c.step),
         what: c.what.into(),
         position: c.position,
         facets: c.facets as u64,
@@ -107,7 +107,7 @@ fn state(report: &Report, facets: u64) -> State {
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(|| match s.closed {
-            true => "neighbours look in different directions".into(),
+            true => "neighbors look in different directions".into(),
             false => "the mesh is open".into(),
         }),
         defects: defects(report),

@@ -14,17 +14,17 @@ pub const NO_VALUE: Rgb = [0x9a, 0xa0, 0xa6];
 pub struct Scale {
     /// For people.
     pub name: String,
-    /// How values become colours.
+    /// How values become colors.
     pub mode: Mode,
-    /// Low end; values below have the low cap's colour.
+    /// Low end; values below have the low cap's color.
     pub lower: f64,
-    /// High end; values above have the high cap's colour.
+    /// High end; values above have the high cap's color.
     pub upper: f64,
     /// The tolerance zone, which is then the middle band.
     pub tolerance: Option<[f64; 2]>,
     /// Number of bands between the ends.
     pub bands: u32,
-    /// `inspect`, `safe` (colour-blind) or `mono` (print).
+    /// `inspect`, `safe` (color-blind) or `mono` (print).
     pub palette: String,
     /// Digits after the point in the legend.
     pub decimals: u32,
@@ -32,7 +32,7 @@ pub struct Scale {
     pub unit: String,
 }
 
-/// How values become colours.
+/// How values become colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Mode {

@@ -82,6 +82,7 @@ fn base(found: &Base) -> BaseRecord {
         origin: found.origin,
         axes: found.axes,
         turned: found.turned,
+        tilted: found.tilted,
         radius: found.radius,
         radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
         around: found.around,

@@ -192,7 +192,7 @@ fn rows_lead_to_the_places_of_the_document() {
     let marks = manifest["objects"].as_array().unwrap().iter().find(|o| o["kind"] == "marks").unwrap();
     let total: u64 = marks["groups"].as_array().unwrap().iter().map(|g| g["count"].as_u64().unwrap()).sum();
     assert_eq!(total, document.defects.values().map(|d| d.items.len() as u64).sum::<u64>());
-    // The longest free edge comes first among its kind, wherever it stands in the document.
+    // The longest boundary edge comes first among its kind, wherever it stands in the document.
     let found = document.found();
     let before: Vec<usize> = found
         .iter()
@@ -210,7 +210,7 @@ fn rows_lead_to_the_places_of_the_document() {
 
 #[test]
 fn a_long_list_says_how_many_there_are() {
-    // A strip of separate triangles: three free edges each.
+    // A strip of separate triangles: three boundary edges each.
     let mut mesh = Mesh::default();
     for i in 0..60u32 {
         let x = f64::from(i);

@@ -91,15 +91,15 @@ fn in_range(mesh: &Mesh) -> bool {
 }
 
 /// Kinds whose count is decided exactly and hangs on the surface alone.
-const EXACT: [&str; 8] = [
-    "boundary_edges",
-    "non_manifold_edges",
-    "non_manifold_vertices",
-    "duplicate_facets",
-    "degenerate_facets",
-    "inconsistent_orientation",
-    "self_intersections",
-    "not_finite_facets",
+const EXACT: [&check::DefectKind; 8] = [
+    check::BOUNDARY_EDGES,
+    check::NON_MANIFOLD_EDGES,
+    check::NON_MANIFOLD_VERTICES,
+    check::DUPLICATE_FACETS,
+    check::DEGENERATE_FACETS,
+    check::INCONSISTENT_ORIENTATION,
+    check::SELF_INTERSECTIONS,
+    check::NOT_FINITE_FACETS,
 ];
 
 fn checked(mesh: &Mesh) {
@@ -117,9 +117,9 @@ fn checked(mesh: &Mesh) {
         return;
     }
     let other = of(&weld::mesh(&turned_over(mesh)).expect("as many facets as before").mesh);
-    for name in EXACT {
-        let count = |r: &Report| r.found(name).map(|f| f.count);
-        assert_eq!(count(&report), count(&other), "{name} in another order");
+    for kind in EXACT {
+        let count = |r: &Report| r.found(kind).map(|f| f.count);
+        assert_eq!(count(&report), count(&other), "{} in another order", kind.name);
     }
     assert_eq!(report.euler_characteristic, other.euler_characteristic, "characteristic in another order");
     assert_eq!(report.soundness.shells, other.soundness.shells, "shells in another order");

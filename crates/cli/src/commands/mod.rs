@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod curvature;
 mod fit;
+mod formats;
 mod inspect;
 mod plan;
 mod repair;
@@ -21,6 +22,7 @@ use clap::{Parser, Subcommand};
 use compare::CompareArgs;
 use curvature::CurvatureArgs;
 use fit::FitArgs;
+use formats::FormatsArgs;
 use inspect::InspectArgs;
 use plan::PlanArgs;
 use repair::RepairArgs;
@@ -51,6 +53,7 @@ pub enum Command {
     Compare(Box<CompareArgs>),
     Curvature(Box<CurvatureArgs>),
     Fit(FitArgs),
+    Formats(FormatsArgs),
     Inspect(Box<InspectArgs>),
     Plan(PlanArgs),
     Repair(RepairArgs),
@@ -69,6 +72,7 @@ impl Command {
             Command::Compare(args) => args.as_ref(),
             Command::Curvature(args) => args.as_ref(),
             Command::Fit(args) => args,
+            Command::Formats(args) => args,
             Command::Inspect(args) => args.as_ref(),
             Command::Plan(args) => args,
             Command::Repair(args) => args,
@@ -96,7 +100,7 @@ mod tests {
             let texts = std::iter::once(command).chain(command.get_subcommands());
             let help: String =
                 texts.filter_map(|c| c.get_after_help()).map(|help| format!("{help}\n")).collect();
-            let start = format!("trueness {name} ");
+            let start = format!("trueness {name}");
             let examples: Vec<&str> = help.lines().map(str::trim).filter(|l| l.starts_with(&start)).collect();
             assert!(!examples.is_empty(), "{name} has no example");
             for example in examples {

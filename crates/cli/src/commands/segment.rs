@@ -17,7 +17,8 @@ use std::sync::LazyLock;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
-use trueness_geom::shape::Kind;
+use trueness_geom::shape::{Kind, Quantity};
+use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
@@ -49,7 +50,7 @@ pub struct SegmentArgs {
     /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
-    /// Angle between neighbouring facets, or normals of points, from which on there is an edge between them, degrees
+    /// Angle between neighboring facets, or normals of points, from which on there is an edge between them, degrees
     #[arg(long, value_name = "DEGREES", default_value = "32")]
     crease: f64,
     /// Least share of the area, or of the points of a cloud, that a region must have, percent
@@ -112,11 +113,13 @@ impl Run for SegmentArgs {
 fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common.seed);
     let Opened { mut record, body, .. } = read::open(&args.input, Role::Measured, &args.reading.reading())?;
-    let (mesh, kind) = match body {
-        Body::Mesh(source) => (source.mesh, PieceKind::Facets),
-        Body::Points(source) => {
-            (Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() }, PieceKind::Points)
-        }
+    let (mesh, kind, left_out) = match body {
+        Body::Mesh(source) => (source.mesh, PieceKind::Facets, source.nonfinite_facets),
+        Body::Points(source) => (
+            Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() },
+            PieceKind::Points,
+            vec![],
+        ),
     };
     read::describe(&mut record, &mesh.positions);
     let pieces = match kind {
@@ -146,7 +149,8 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
         regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
-    let document = SegmentDocument::new(&found, kind, vec![record], &options, args.members);
+    let members = args.members.then_some(LeftOut(&left_out));
+    let document = SegmentDocument::new(&found, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
         args.report.write(Answer::Segment(&document), &view.objects(), &view.marks, common.progress)?;
@@ -203,7 +207,8 @@ fn size(region: &RegionRecord) -> String {
         // The radius of a cone is that at some place.
         let told = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
-        let scale = if name == "half_angle" { 180.0 / std::f64::consts::PI } else { 1.0 };
+        let is_angle = region.shape.quantity(name) == Some(Quantity::Angle);
+        let scale = if is_angle { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));
         if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {
             let _ = write!(word, " ± {}", scientific(u * scale, 1));

@@ -34,6 +34,12 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// The file holds lines, arcs and curves of a drawing, where a mesh or points are needed.
+    #[error("{path}: it holds a drawing; trueness::files::open reads it")]
+    Drawing {
+        /// The file.
+        path: String,
+    },
     /// A mesh cannot be searched.
     #[error(transparent)]
     Mesh(#[from] MeshError),

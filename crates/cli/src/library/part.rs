@@ -3,7 +3,7 @@
 use super::error::Error;
 use std::path::Path;
 use trueness_files::write::{self, Loss};
-use trueness_files::{Body, Provenance, ReadOptions, Warning, open};
+use trueness_files::{Body, Provenance, ReadOptions, SourceMesh, Warning, open};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 
@@ -12,6 +12,10 @@ use trueness_geom::space::Point;
 pub struct Part {
     /// The mesh, millimeters, vertices at the same place made one. Of points the places alone, without faces.
     pub mesh: Mesh,
+    /// The normals that an STL file stores with its facets, which [`check`](crate::check) compares with their corners.
+    pub stored_normals: Option<Vec<[f32; 3]>>,
+    /// Numbers in the file, from 0, of facets that were left out for a coordinate that is NaN or infinite: `mesh` has none of them.
+    pub nonfinite_facets: Vec<u32>,
     /// Where it came from, and the unit in which its numbers were taken.
     pub provenance: Provenance,
     /// What was odd about the file.
@@ -37,7 +41,8 @@ impl Part {
 /// Memory: the file and several times that; points are read as a whole.
 ///
 /// # Errors
-/// [`Error::Read`] names file, place and remedy; [`Error::Splines`] for CAD files with nothing but splines.
+/// [`Error::Read`] names file, place and remedy; [`Error::Splines`] for CAD files with nothing but splines, [`Error::Drawing`]
+/// for drawings.
 ///
 /// ```
 /// let part = trueness::read("../../corpus/bunny/zipper_res4.ply")?;
@@ -47,8 +52,8 @@ impl Part {
 /// ```
 pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
     let input = open(path.as_ref(), &ReadOptions::default())?;
-    let mesh = match input.body {
-        Body::Mesh(source) => source.mesh,
+    let source = match input.body {
+        Body::Mesh(source) => source,
         Body::Points(mut stream) => {
             let (mut positions, mut block) = (vec![], vec![]);
             loop {
@@ -58,11 +63,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
                 }
                 positions.append(&mut block);
             }
-            Mesh { positions, faces: vec![] }
+            SourceMesh { mesh: Mesh { positions, faces: vec![] }, ..SourceMesh::default() }
         }
-        Body::Splines(_) | Body::Drawing(_) => return Err(Error::Splines { path: input.provenance.path }),
+        Body::Splines(_) => return Err(Error::Splines { path: input.provenance.path }),
+        Body::Drawing(_) => return Err(Error::Drawing { path: input.provenance.path }),
     };
-    Ok(Part { mesh, provenance: input.provenance, warnings: input.warnings })
+    let SourceMesh { mesh, stored_normals, nonfinite_facets, .. } = source;
+    let (provenance, warnings) = (input.provenance, input.warnings);
+    Ok(Part { mesh, stored_normals, nonfinite_facets, provenance, warnings })
 }
 
 /// Writes a mesh in the format of the path's extension; the file appears whole or not at all, in place of one that is there. Gives

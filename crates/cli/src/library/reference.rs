@@ -2,7 +2,7 @@
 
 use super::deviations::Deviations;
 use super::error::Error;
-use super::part::{self, Part};
+use super::part;
 use std::path::Path;
 use trueness_geom::align::{Alignment, BestFit, Measured, Target, best_fit};
 use trueness_geom::closest::{Closest, Tree};
@@ -27,7 +27,8 @@ impl Reference {
     /// Cost: that of [`Tree::build`] and of the topology, `n log n`.
     ///
     /// # Errors
-    /// [`Error::Mesh`]: no facets, one that names no vertex, coordinates that are no numbers or too large.
+    /// [`Error::Mesh`]: no facets, one that names no vertex, a coordinate that is not finite or, but for 0, not from 1e-50 to
+    /// 1e60 mm. [`Error::Topology`]: more facets than can be connected.
     ///
     /// ```
     /// # use trueness::{Mesh, Reference};
@@ -46,14 +47,14 @@ impl Reference {
     /// Those of [`Reference::new`]; cancelled.
     ///
     /// ```
-    /// use trueness::geom::{deviation::sign_choice::SignRequest, progress::Silent};
-    /// use trueness::{Exclusion, Mesh, Reference, SurfaceOptions};
+    /// use trueness::geom::progress::Silent;
+    /// use trueness::{Exclusion, Mesh, Reference, SignRequest, SurfaceOptions};
     /// let positions = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0]];
     /// let options = SurfaceOptions { sign: SignRequest::None, max_distance: 1.0, skip_boundary: true };
     /// let reference = Reference::with(Mesh { positions, faces: vec![[0, 1, 2]] }, &options, &Silent)?;
     /// let found = reference.deviations(&[[1.0, 1.0, -0.25], [1.0, 1.0, 2.0], [-0.5, 1.0, 0.0]])?;
     /// let all: Vec<_> = found.iter().collect();
-    /// assert_eq!(all, [Ok(0.25), Err(Exclusion::MaxDistance), Err(Exclusion::FreeEdge)]);
+    /// assert_eq!(all, [Ok(0.25), Err(Exclusion::MaxDistance), Err(Exclusion::BoundaryEdge)]);
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn with(mesh: Mesh, options: &SurfaceOptions, progress: &dyn Progress) -> Result<Reference, Error> {
@@ -133,10 +134,11 @@ impl Reference {
         found.ok_or(Error::Mesh(trueness_geom::closest::MeshError::NoFaces))
     }
 
-    /// The motion that brings a scan onto this mesh, from any starting pose, with its uncertainty and warnings.
+    /// The motion that brings a scan onto this mesh, from any starting pose, with its uncertainty and warnings. A scan without
+    /// facets is a cloud of points.
     ///
     /// # Errors
-    /// [`Error::Align`]: fewer than three points, all on one line.
+    /// [`Error::Align`]: fewer than three points, all on one line, a coordinate out of range, no point near the mesh.
     ///
     /// ```
     /// use trueness::{Reference, geom::rigid::Rigid, read};
@@ -144,15 +146,15 @@ impl Reference {
     /// let mut scan = read("../../corpus/bunny/zipper_res3.ply")?;
     /// let turn = Rigid::rotation_about([0.0, 0.1, 0.0], [0.3, -2.0, 1.0]);
     /// scan.mesh.positions.iter_mut().for_each(|p| *p = turn.point(*p));
-    /// let found = reference.align(&scan)?;
+    /// let found = reference.align(&scan.mesh)?;
     /// assert!(found.reference_from_measured.after(&turn).angle() < 0.01);
     /// # Ok::<(), trueness::Error>(())
     /// ```
-    pub fn align(&self, scan: &Part) -> Result<Alignment, Error> {
+    pub fn align(&self, scan: &Mesh) -> Result<Alignment, Error> {
         let target = Target::new(&self.mesh, self.surface.tree());
-        let measured = match scan.is_cloud() {
-            true => Measured::Points { points: scan.points(), normals: None },
-            false => Measured::Mesh(&scan.mesh),
+        let measured = match scan.faces.is_empty() {
+            true => Measured::Points { points: &scan.positions, normals: None },
+            false => Measured::Mesh(scan),
         };
         Ok(best_fit(&measured, &target, &BestFit::default(), &Silent)?)
     }

@@ -1,6 +1,7 @@
 //! The tasks, with their defaults.
 
 use super::error::Error;
+use super::part::Part;
 use trueness_geom::check::{self, Report};
 use trueness_geom::curvature::{self, Curvatures};
 use trueness_geom::fit::{self, Fit};
@@ -13,23 +14,34 @@ use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
 use trueness_geom::surface::{self, SurfaceFit};
 
-/// Every defect of a mesh with its place. Any mesh will do. Options: [`geom::check::check`](check::check).
+/// The defects of a mesh with their places: all are counted, the first 1,000 of each kind listed. The facets that the reader left out
+/// count as defects too. It is exact for coordinates that are 0 or from 1e-50 to 1e45 mm. A mesh that was not read needs vertices shared by
+/// index ([`geom::topology::weld`](trueness_geom::topology::weld)). Other limits and options: [`geom::check::check`](check::check).
 ///
 /// # Errors
 /// [`Error::Check`]: a facet that names no vertex.
 ///
 /// ```
 /// let part = trueness::read("../../corpus/broken/hole_one_triangle.stl")?;
-/// let report = trueness::check(&part.mesh)?;
+/// let report = trueness::check(&part)?;
 /// assert!(!report.sound);
-/// assert_eq!(report.found("boundary_edges").map(|found| found.count), Some(3));
+/// assert_eq!(report.count(trueness::geom::check::BOUNDARY_EDGES), 3);
 /// # Ok::<(), trueness::Error>(())
 /// ```
-pub fn check(mesh: &Mesh) -> Result<Report, Error> {
-    Ok(check::check(mesh, None, &check::Options::default(), &Silent)?)
+pub fn check(part: &Part) -> Result<Report, Error> {
+    let normals = part.stored_normals.as_deref();
+    let mut report = check::check(&part.mesh, normals, &check::Options::default(), &Silent)?;
+    let left_out = part.nonfinite_facets.len();
+    report.sound &= left_out == 0;
+    for (kind, found) in &mut report.defects {
+        if let Some(found) = found.as_mut().filter(|_| *kind == check::NOT_FINITE_FACETS) {
+            found.count += left_out;
+        }
+    }
+    Ok(report)
 }
 
-/// The mesh mended, with all changes; no vertex that stays is moved. Any mesh will do. Options: [`geom::repair::repair`](repair::repair).
+/// The mesh mended, with all changes; no vertex that stays is moved. Coordinates are 0 or from 1e-50 to 1e45 mm. Options: [`geom::repair::repair`](repair::repair).
 ///
 /// # Errors
 /// [`Error::Repair`]: a facet that names no vertex, coordinates out of range.

@@ -2,6 +2,7 @@
 
 pub(crate) mod columns;
 pub(crate) mod corners;
+mod forms;
 mod held;
 mod loss;
 mod mesh_file;

@@ -1,6 +1,7 @@
 //! Facets or points with the number of the region they belong to.
 
 use super::Writable;
+use super::forms::{REGION_FORMS, RegionForm};
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
@@ -33,14 +34,16 @@ pub fn regions(
     color: impl Fn(i32) -> [u8; 3],
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let ending = Writable::Regions.ending_of(path)?;
+        let form = Writable::Regions.form(path, REGION_FORMS)?;
         let count = check(points, pieces)?;
         if labels.len() != count {
             return Err(WriteFault::Uneven { what: "labels", points: count, values: labels.len() });
         }
-        let writer = if ending == "ply" { ply } else { csv };
         let mut file = BufWriter::new(AtomicFile::create(path)?);
-        writer(&mut file, points, pieces, labels, &color)?;
+        match form {
+            RegionForm::Ply => ply(&mut file, points, pieces, labels, &color)?,
+            RegionForm::Csv => csv(&mut file, points, pieces, labels)?,
+        }
         file.into_inner().map_err(|e| e.into_error())?.commit()?;
         Ok(())
     };
@@ -105,13 +108,7 @@ fn ply(
     Ok(())
 }
 
-fn csv(
-    file: &mut impl Write,
-    points: &[Point],
-    pieces: Pieces,
-    labels: &[i32],
-    _: Color,
-) -> Result<(), WriteFault> {
+fn csv(file: &mut impl Write, points: &[Point], pieces: Pieces, labels: &[i32]) -> Result<(), WriteFault> {
     writeln!(file, "x,y,z,region")?;
     let mut row = |p: Point, label: i32| writeln!(file, "{},{},{},{label}", p[0], p[1], p[2]);
     match pieces {

@@ -1,6 +1,7 @@
 //! Points or vertices, each with named numbers.
 
 use super::Writable;
+use super::forms::{VALUE_FORMS, ValueForm};
 use super::named::Values;
 #[cfg(feature = "parquet")]
 use crate::formats::parquet;
@@ -16,6 +17,16 @@ use trueness_geom::space::Point;
 
 /// Rows made into bytes by one task.
 const CHUNK: usize = 1 << 12;
+
+/// The file after `write` through a buffer.
+fn buffered(
+    file: AtomicFile,
+    write: impl FnOnce(&mut BufWriter<AtomicFile>) -> Result<(), WriteFault>,
+) -> Result<AtomicFile, WriteFault> {
+    let mut file = BufWriter::new(file);
+    write(&mut file)?;
+    Ok(file.into_inner().map_err(|e| e.into_error())?)
+}
 
 /// Writes `points` (millimeters), the facets between them if there are any, and what is known of each point.
 ///
@@ -33,25 +44,19 @@ pub fn values<const N: usize>(
     values: &Values<N>,
 ) -> Result<(), WriteError> {
     let write = || -> Result<(), WriteFault> {
-        let ending = Writable::Values.ending_of(path)?;
+        let form = Writable::Values.form(path, VALUE_FORMS)?;
         let lost = |face: &[u32; 3]| face.iter().any(|v| *v as usize >= points.len());
         if let Some(face) = faces.iter().position(lost) {
             return Err(WriteFault::NoSuchVertex { face });
         }
         let file = AtomicFile::create(path)?;
-        let file = match ending {
-            "npz" => npz::values(file, points, faces, values)?,
-            "vtp" => vtp::values(file, points, faces, values)?,
+        let file = match form {
+            ValueForm::Npz => npz::values(file, points, faces, values)?,
+            ValueForm::Vtp => vtp::values(file, points, faces, values)?,
             #[cfg(feature = "parquet")]
-            "parquet" => parquet::values(file, points, values)?,
-            _ => {
-                let mut file = BufWriter::new(file);
-                match ending {
-                    "ply" => ply(&mut file, points, faces, values)?,
-                    _ => csv(&mut file, points, values)?,
-                }
-                file.into_inner().map_err(|e| e.into_error())?
-            }
+            ValueForm::Parquet => parquet::values(file, points, values)?,
+            ValueForm::Ply => buffered(file, |file| ply(file, points, faces, values))?,
+            ValueForm::Csv => buffered(file, |file| csv(file, points, values))?,
         };
         file.commit()?;
         Ok(())

@@ -1,5 +1,6 @@
 //! What can be written, and under which endings.
 
+use super::forms::{REGION_FORMS, VALUE_FORMS};
 use crate::{
     FORMATS, Format,
     error::{WriteError, WriteFault},
@@ -22,18 +23,14 @@ pub enum Writable {
 impl Writable {
     /// The endings, without dot, of the files that can hold it; the usual one of each format first.
     pub fn endings(self) -> Vec<&'static str> {
-        let writes = |f: &&&Format| match self {
-            Writable::Points => f.writes_points(),
-            Writable::Mesh => f.writes_meshes(),
-            Writable::Regions | Writable::Values => false,
+        let of = |writes: fn(&Format) -> bool| {
+            FORMATS.iter().filter(|f| writes(f)).flat_map(|f| f.written_as.iter().copied()).collect()
         };
         match self {
-            Writable::Regions => vec!["ply", "csv"],
-            #[cfg(feature = "parquet")]
-            Writable::Values => vec!["ply", "csv", "npz", "vtp", "parquet"],
-            #[cfg(not(feature = "parquet"))]
-            Writable::Values => vec!["ply", "csv", "npz", "vtp"],
-            _ => FORMATS.iter().filter(writes).flat_map(|f| f.written_as.iter().copied()).collect(),
+            Writable::Points => of(Format::writes_points),
+            Writable::Mesh => of(Format::writes_meshes),
+            Writable::Regions => REGION_FORMS.iter().map(|(ending, _)| *ending).collect(),
+            Writable::Values => VALUE_FORMS.iter().map(|(ending, _)| *ending).collect(),
         }
     }
 
@@ -48,6 +45,13 @@ impl Writable {
     /// An ending that is none of [`Writable::endings`].
     pub fn check(self, path: &Path) -> Result<(), WriteError> {
         self.ending_of(path).map(drop).map_err(|e| e.in_file(path))
+    }
+
+    /// What the list `forms` has for the ending of a path.
+    pub(super) fn form<T: Copy>(self, path: &Path, forms: &[(&str, T)]) -> Result<T, WriteFault> {
+        let ending = self.ending_of(path)?;
+        let found = forms.iter().find(|(of, _)| *of == ending);
+        found.map(|(_, form)| *form).ok_or_else(|| self.unknown())
     }
 
     /// The ending of a path, as it stands in the list.

@@ -91,7 +91,7 @@ pub struct Alignment {
     pub converged: bool,
     /// Points with a weight.
     pub used: u64,
-    /// Points without: outliers, those beside a free edge, those whose normal looks away.
+    /// Points without: outliers, those beside a boundary edge, those whose normal looks away.
     pub left_out: u64,
     /// Share of the measured surface that counts, 0 to 1.
     pub share: f64,

@@ -5,7 +5,7 @@ use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
 use super::{AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom};
-use crate::closest::{FreeEdges, check_mesh, check_points};
+use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -75,8 +75,8 @@ pub fn best_fit(
     progress: &dyn Progress,
 ) -> Result<Alignment, AlignError> {
     let samples = checked(measured, reference)?;
-    let free_edges = FreeEdges::watched(reference.tree, progress)?;
-    let work = Work::new(reference, &free_edges, options, &samples);
+    let boundary_edges = BoundaryEdges::watched(reference.tree, progress)?;
+    let work = Work::new(reference, &boundary_edges, options, &samples);
     let start = match options.start {
         Start::Anywhere => work.search(&samples, progress)?,
         Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
@@ -127,9 +127,9 @@ fn checked(measured: &Measured, reference: &Target) -> Result<Samples, AlignErro
 }
 
 /// What all steps share.
-struct Work<'a> {
+pub(super) struct Work<'a> {
     target: &'a Target<'a>,
-    free_edges: Option<&'a FreeEdges>,
+    boundary_edges: Option<&'a BoundaryEdges>,
     options: &'a BestFit,
     radius: f64,
     rounding: f64,
@@ -147,9 +147,9 @@ struct Found {
 }
 
 impl<'a> Work<'a> {
-    fn new(
+    pub(super) fn new(
         target: &'a Target<'a>,
-        free_edges: &'a FreeEdges,
+        boundary_edges: &'a BoundaryEdges,
         options: &'a BestFit,
         samples: &Samples,
     ) -> Work<'a> {
@@ -158,17 +158,17 @@ impl<'a> Work<'a> {
         let size = far(&target.bounds) + norm(moments.mean).min(far(&Aabb::of(&samples.points)));
         Work {
             target,
-            free_edges: (free_edges.count() > 0).then_some(free_edges),
+            boundary_edges: (boundary_edges.count() > 0).then_some(boundary_edges),
             options,
             radius: moments.radius(),
             rounding: 4.0 * f64::EPSILON * size.max(moments.radius()),
         }
     }
 
-    fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
+    pub(super) fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
         Problem {
             target: self.target,
-            free_edges: self.free_edges,
+            boundary_edges: self.boundary_edges,
             samples,
             mean: samples.moments().mean,
             robust: self.options.robust,

@@ -12,7 +12,7 @@ use super::field::facet_normal;
 use super::sample::{Samples, agree};
 use super::system::{Equation, Hold, Six, Spectrum, System};
 use super::{AlignError, Target};
-use crate::closest::{Feature, FreeEdges, Query};
+use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -31,7 +31,7 @@ const SMALL: f64 = 1e-3;
 /// What the iteration works on.
 pub(super) struct Problem<'a> {
     pub target: &'a Target<'a>,
-    pub free_edges: Option<&'a FreeEdges>,
+    pub boundary_edges: Option<&'a BoundaryEdges>,
     pub samples: &'a Samples,
     /// Whether points far off count less.
     pub robust: bool,
@@ -86,7 +86,7 @@ impl Problem<'_> {
                 return none();
             }
             let place = tree.place(&q, &hit);
-            if self.free_edges.is_some_and(|edges| edges.holds(&place)) {
+            if self.boundary_edges.is_some_and(|edges| edges.holds(&place)) {
                 return none();
             }
             let hold = match place.feature {

@@ -6,7 +6,7 @@
 use super::icp::Problem;
 use super::sample::{Measured, Samples};
 use super::{AlignError, AlignWarning, Alignment, BestFit, Target};
-use crate::closest::FreeEdges;
+use crate::closest::BoundaryEdges;
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -77,11 +77,11 @@ pub fn minimax(
     }
     let all = Samples::all(measured);
     let samples = if from.warnings.contains(&AlignWarning::NormalsTurned) { all.turned() } else { all };
-    let edges = FreeEdges::watched(reference.tree, progress)?;
+    let edges = BoundaryEdges::watched(reference.tree, progress)?;
     let moments = samples.moments();
     let problem = Problem {
         target: reference,
-        free_edges: (edges.count() > 0).then_some(&edges),
+        boundary_edges: (edges.count() > 0).then_some(&edges),
         samples: &samples,
         mean: moments.mean,
         robust: options.robust,

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
 //! | the pose with the least greatest distance | [`minimax`] |
+//! | how a best fit answers to small shifts of what was measured | [`response`] |
 //! | pairs of places that belong together | [`pairs`] |
 //! | 3-2-1 and reference point systems (RPS) | [`constrained`] |
 //!
@@ -26,6 +27,7 @@ mod field;
 mod freedom;
 mod icp;
 mod minimax;
+mod response;
 mod rows;
 mod sample;
 mod start;
@@ -39,6 +41,7 @@ pub use best_fit::best_fit;
 pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};
+pub use response::{Response, response};
 pub use rows::{Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use target::Target;

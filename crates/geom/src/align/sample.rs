@@ -78,11 +78,25 @@ impl Samples {
         let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
         for face in &mesh.faces {
             let double = double_area(mesh, face);
-            let parts = (norm(double) / (FINE * total)).sqrt();
+            let parts = parts(double, total);
             samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
         }
         samples.weights.iter_mut().for_each(|w| *w /= total);
         samples
+    }
+
+    /// The facet of each sample of [`Samples::of_surface`].
+    pub fn facets(mesh: &Mesh) -> Vec<u32> {
+        let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
+        let mut facets = vec![];
+        for (number, face) in mesh.faces.iter().enumerate() {
+            let double = double_area(mesh, face);
+            if unit(double).is_some() {
+                let rows = parts(double, total).ceil() as usize;
+                facets.extend(std::iter::repeat_n(number as u32, rows * rows));
+            }
+        }
+        facets
     }
 
     fn push(&mut self, point: Point, normal: Vector, weight: f64) {
@@ -222,6 +236,11 @@ const LARGE: f64 = 1.0 / 1000.0;
 const PART: f64 = 1.0 / 4000.0;
 /// No place of the surface stands for more than this share of the area.
 const FINE: f64 = 1.0 / 50_000.0;
+
+/// Parts into which the sides of a facet are cut where the whole surface is represented.
+fn parts(double: Vector, total: f64) -> f64 {
+    (norm(double) / (FINE * total)).sqrt()
+}
 
 fn of_mesh(mesh: &Mesh) -> Samples {
     let mut normals = vec![[0.0; 3]; mesh.positions.len()];

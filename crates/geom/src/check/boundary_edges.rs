@@ -9,6 +9,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    follows: true,
+    missing: None,
     find: |m| {
         m.each(&m.topology.boundary_edges, |e| {
             m.finding(vec![e.facet], e.vertices.to_vec(), m.distance(e.vertices))

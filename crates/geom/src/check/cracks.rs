@@ -10,8 +10,10 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    follows: false,
+    missing: None,
     find: |m| {
-        m.each(&m.free_edges.chains, |chain| {
+        m.each(&m.boundary.chains, |chain| {
             let length = chain.windows(2).map(|p| m.distance([p[0], p[1]])).sum();
             let mut finding = m.finding(vec![], chain.clone(), length);
             finding.measures = vec![("edges", (chain.len() - 1) as f64)];

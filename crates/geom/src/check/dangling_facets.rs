@@ -5,10 +5,12 @@ use super::{DefectKind, Measure, Severity, Shows};
 pub(super) const KIND: DefectKind = DefectKind {
     name: "dangling_facets",
     severity: Severity::Error,
-    about: "Facets with fewer than three neighbours.",
-    size: "neighbours missing",
+    about: "Facets with fewer than three neighbors.",
+    size: "neighbors missing",
     measure: Measure::Missing,
     shows: Shows::Facets,
+    follows: true,
+    missing: None,
     find: |m| {
         let mut facets: Vec<u32> = m.topology.boundary_edges.iter().map(|e| e.facet).collect();
         facets.sort_unstable();

@@ -9,6 +9,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "longest edge, mm",
     measure: Measure::Length,
     shows: Shows::Facets,
+    follows: false,
+    missing: None,
     find: |m| {
         let mut facets = [&m.topology.repeated_vertex[..], &m.topology.collinear].concat();
         facets.sort_unstable();

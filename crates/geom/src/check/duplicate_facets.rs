@@ -10,5 +10,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "area, mm²",
     measure: Measure::Area,
     shows: Shows::Facets,
+    follows: false,
+    missing: None,
     find: |m| m.each(&m.topology.duplicate_facets, |d| m.finding(d.to_vec(), vec![], area(m.corners(d[1])))),
 };

@@ -1,6 +1,6 @@
 //! The form of a kind of defect and of what is found.
 
-use super::{Options, free_edges::FreeEdges, intersect::Crossings};
+use super::{Options, boundary::Boundary, intersect::Crossings};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Aabb, Point};
@@ -97,6 +97,10 @@ pub struct DefectKind {
     pub measure: Measure,
     /// What of a finding shows where it is.
     pub shows: Shows,
+    /// Whether it only follows from holes and cracks, which are told before it.
+    pub follows: bool,
+    /// Why it may not be looked for; `None`: it always is.
+    pub missing: Option<&'static str>,
     /// Looks for it; `None` where it cannot be looked for.
     pub(crate) find: fn(&Inspected) -> Option<Found>,
 }
@@ -138,7 +142,7 @@ pub struct Inspected<'a> {
     /// Size and place.
     pub properties: &'a Properties,
     /// Its boundary, taken apart.
-    pub(crate) free_edges: &'a FreeEdges,
+    pub(crate) boundary: &'a Boundary,
     /// For each shell how often the other closed shells wind around it, made when first asked for.
     pub(crate) depths: &'a OnceLock<Vec<i32>>,
     /// The normals that a file stores with its facets.

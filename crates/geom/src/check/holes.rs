@@ -11,7 +11,9 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "perimeter, mm",
     measure: Measure::Perimeter,
     shows: Shows::Ring,
-    find: |m| m.each(&m.free_edges.rings, |ring| hole(m, ring)),
+    follows: false,
+    missing: None,
+    find: |m| m.each(&m.boundary.rings, |ring| hole(m, ring)),
 };
 
 fn hole(m: &Inspected, ring: &[u32]) -> Finding {

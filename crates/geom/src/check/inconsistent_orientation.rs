@@ -9,6 +9,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "length, mm",
     measure: Measure::Length,
     shows: Shows::Line,
+    follows: false,
+    missing: None,
     find: |m| {
         m.each(&m.topology.inconsistent_edges, |e| {
             let facets = m.topology.facets_at_edge(m.mesh, e.vertices);

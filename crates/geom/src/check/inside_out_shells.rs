@@ -19,6 +19,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "volume enclosed, mm³",
     measure: Measure::Volume,
     shows: Shows::Shell,
+    follows: false,
+    missing: None,
     find: |m| {
         let closed = closed_shells(m);
         let bounds = shell_bounds(m);
@@ -158,6 +160,7 @@ fn by_shell(shell_of: &[u32], shells: usize) -> Vec<Vec<u32>> {
 
 #[cfg(test)]
 mod tests {
+    use super::KIND;
     use crate::check::tests::{add, inverted};
     use crate::check::{Options, check};
     use crate::mesh::Mesh;
@@ -167,7 +170,7 @@ mod tests {
 
     fn wrong(mesh: &Mesh) -> Vec<u32> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();
-        report.found("inside_out_shells").unwrap().items.iter().map(|finding| finding.facets[0]).collect()
+        report.found(&KIND).unwrap().items.iter().map(|finding| finding.facets[0]).collect()
     }
 
     /// Their volumes are less than what rounding does to sums over the whole.

@@ -12,6 +12,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "diagonal, mm",
     measure: Measure::Diagonal,
     shows: Shows::Shell,
+    follows: false,
+    missing: None,
     find: |m| {
         let bounds = shell_bounds(m);
         let limit = m.options.island_share * m.properties.bounds.diagonal();

@@ -7,23 +7,35 @@ use super::{
     not_finite_facets, reversed_normals, self_intersections, sliver_facets, t_junctions, unshared_vertices,
 };
 
-/// All kinds of defect, in the order in which they are told.
-pub const KINDS: [&DefectKind; 17] = [
-    &boundary_edges::KIND,
-    &holes::KIND,
-    &cracks::KIND,
-    &dangling_facets::KIND,
-    &non_manifold_edges::KIND,
-    &non_manifold_vertices::KIND,
-    &duplicate_facets::KIND,
-    &degenerate_facets::KIND,
-    &sliver_facets::KIND,
-    &reversed_normals::KIND,
-    &inconsistent_orientation::KIND,
-    &inside_out_shells::KIND,
-    &self_intersections::KIND,
-    &t_junctions::KIND,
-    &unshared_vertices::KIND,
-    &islands::KIND,
-    &not_finite_facets::KIND,
-];
+/// Names each kind, and lists all of them.
+macro_rules! kinds {
+    ($($name:ident: $file:ident,)*) => {
+        $(
+            #[doc = concat!("The kind `", stringify!($file), "`.")]
+            pub const $name: &DefectKind = &$file::KIND;
+        )*
+
+        /// All kinds of defect, in the order in which they are told.
+        pub const KINDS: [&DefectKind; [$($name.name),*].len()] = [$($name),*];
+    };
+}
+
+kinds! {
+    BOUNDARY_EDGES: boundary_edges,
+    HOLES: holes,
+    CRACKS: cracks,
+    DANGLING_FACETS: dangling_facets,
+    NON_MANIFOLD_EDGES: non_manifold_edges,
+    NON_MANIFOLD_VERTICES: non_manifold_vertices,
+    DUPLICATE_FACETS: duplicate_facets,
+    DEGENERATE_FACETS: degenerate_facets,
+    SLIVER_FACETS: sliver_facets,
+    REVERSED_NORMALS: reversed_normals,
+    INCONSISTENT_ORIENTATION: inconsistent_orientation,
+    INSIDE_OUT_SHELLS: inside_out_shells,
+    SELF_INTERSECTIONS: self_intersections,
+    T_JUNCTIONS: t_junctions,
+    UNSHARED_VERTICES: unshared_vertices,
+    ISLANDS: islands,
+    NOT_FINITE_FACETS: not_finite_facets,
+}

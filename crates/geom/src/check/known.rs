@@ -1,6 +1,6 @@
 //! What follows from the corners of a mesh: asked for by the check, and by a repair again and again.
 
-use super::free_edges::FreeEdges;
+use super::boundary::Boundary;
 use super::intersect::Crossings;
 use super::{Inspected, Options};
 use crate::mesh::Mesh;
@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 pub(crate) struct Known {
     pub topology: Topology,
     pub properties: Properties,
-    pub free_edges: FreeEdges,
+    pub boundary: Boundary,
     /// As in [`Inspected`].
     pub depths: OnceLock<Vec<i32>>,
 }
@@ -22,8 +22,8 @@ impl Known {
     /// Of `mesh`, the one that `topology` was made of.
     pub fn of(mesh: &Mesh, topology: Topology) -> Known {
         let properties = Properties::of(mesh, &topology);
-        let free_edges = FreeEdges::of(&topology);
-        Known { topology, properties, free_edges, depths: OnceLock::new() }
+        let boundary = Boundary::of(&topology);
+        Known { topology, properties, boundary, depths: OnceLock::new() }
     }
 
     /// Of `mesh`, which has the same facets, without the vertices that no facet uses; `None` where facets do not count, which might use
@@ -45,7 +45,7 @@ impl Known {
             mesh,
             topology: &self.topology,
             properties: &self.properties,
-            free_edges: &self.free_edges,
+            boundary: &self.boundary,
             depths: &self.depths,
             stored_normals: None,
             crossings,

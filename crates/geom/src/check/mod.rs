@@ -6,13 +6,13 @@
 //! precision of the coordinates.
 
 pub(crate) mod around;
+pub(crate) mod boundary;
 mod boundary_edges;
 mod cracks;
 mod dangling_facets;
 mod degenerate_facets;
 mod duplicate_facets;
 pub(crate) mod finding;
-pub(crate) mod free_edges;
 mod holes;
 mod inconsistent_orientation;
 mod inside_out_shells;
@@ -38,7 +38,7 @@ pub(crate) mod tests;
 mod unshared_vertices;
 
 pub use finding::{DefectKind, Finding, Found, Inspected, Measure, Severity, Shows};
-pub use kinds::KINDS;
+pub use kinds::*;
 pub(crate) use known::Known;
 pub use options::Options;
 pub use precision::spacing;
@@ -73,9 +73,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// Findings of the kind with this name.
-    pub fn found(&self, name: &str) -> Option<&Found> {
-        self.defects.iter().find(|(kind, _)| kind.name == name).and_then(|(_, found)| found.as_ref())
+    /// Findings of this kind; `None` where it was not looked for ([`DefectKind::missing`]).
+    pub fn found(&self, kind: &DefectKind) -> Option<&Found> {
+        self.defects.iter().find(|(of, _)| *of == kind).and_then(|(_, found)| found.as_ref())
+    }
+
+    /// How many findings of this kind there are; 0 where it was not looked for.
+    pub fn count(&self, kind: &DefectKind) -> usize {
+        self.found(kind).map_or(0, |found| found.count)
     }
 }
 
@@ -114,7 +119,8 @@ const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 ///
 /// `mesh` must be welded, as the readers of files and [`weld`](crate::topology::weld) leave it: vertices at the same
 /// place are otherwise different vertices. `stored_normals` are those a file holds with its facets, in the order of the
-/// faces, of any length; a zero or NaN one says nothing. Any mesh will do, however broken. The report is the same for any
+/// faces, of any length; a zero or NaN one says nothing. Any mesh will do, however broken; what geometry decides is decided exactly
+/// where coordinates are 0 or from 1e-50 to 1e45 mm. The report is the same for any
 /// number of threads. A scan of 1.6 million facets takes about 0.4 s on two cores, half of it for
 /// self-intersections; `progress` is told facets as they pass that search. Closed shells within each other are compared two
 /// and two: that grows with the square of how deep they lie (3,000 boxes, each in the next: 0.7 s; 10,000: 8 s).

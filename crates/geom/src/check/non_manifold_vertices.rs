@@ -9,6 +9,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "number of facets",
     measure: Measure::Facets,
     shows: Shows::Points,
+    follows: false,
+    missing: None,
     find: |m| {
         m.each(&m.topology.non_manifold_vertices, |&v| {
             let facets = m.topology.facets_at_vertex(v);

@@ -10,6 +10,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "always 0",
     measure: Measure::Length,
     shows: Shows::Facets,
+    follows: false,
+    missing: None,
     find: |m| {
         m.each(&m.topology.not_finite, |&f| {
             // There is no place to show: the middle of the whole stands in.

@@ -13,6 +13,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "area, mm²",
     measure: Measure::Area,
     shows: Shows::Facets,
+    follows: false,
+    missing: Some("the file stores no normals"),
     find: |m| {
         let stored = m.stored_normals?;
         let contradicts = |(face, normal): (&[u32; 3], &[f32; 3])| {

@@ -11,6 +11,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "diagonal of the box that the two have in common, mm",
     measure: Measure::Diagonal,
     shows: Shows::Facets,
+    follows: false,
+    missing: Some("not asked for"),
     find: |m| {
         let Crossings { count, at_least, first } = m.crossings?;
         let items = first.iter().map(|pair| crossing(m, *pair)).collect();

@@ -11,6 +11,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "height over the longest edge, mm",
     measure: Measure::Height,
     shows: Shows::Facets,
+    follows: false,
+    missing: None,
     find: |m| {
         let (sine, lowest) = (libm::sin(m.options.sliver_angle), spacing(&m.properties.bounds));
         let is_sliver = |f: usize| {

@@ -17,8 +17,10 @@ pub(super) const KIND: DefectKind = DefectKind {
     size: "distance, mm",
     measure: Measure::Distance,
     shows: Shows::PointAndLine,
+    follows: false,
+    missing: None,
     find: |m| {
-        let near = m.free_edges.near(m.mesh);
+        let near = m.boundary.near(m.mesh);
         let at_edge = |e: &EdgeAt| {
             let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
             let mut found = vec![];

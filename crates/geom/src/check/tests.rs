@@ -124,7 +124,7 @@ pub(crate) fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usi
             }
             expected = if kind == "holes" { k } else { 3 * k };
         }
-        // A fin has two free edges, and is one dangling facet.
+        // A fin has two boundary edges, and is one dangling facet.
         "cracks" | "non_manifold_edges" | "dangling_facets" => {
             for f in chosen {
                 let [a, b, _] = mesh.faces[f];
@@ -201,7 +201,7 @@ fn every_kind_keeps_the_contract() {
             let (mesh, normals, expected) = planted(kind.name, k);
             let limited = Options { limit: 3, ..Options::default() };
             let report = check(&mesh, normals.as_deref(), &limited, &Silent).unwrap();
-            let found = report.found(kind.name).unwrap();
+            let found = report.found(kind).unwrap();
             assert_eq!(found.count, expected, "{} {k}: {:?}", kind.name, counts(&report));
             assert_eq!(found.items.len(), expected.min(3), "{}", kind.name);
             for item in &found.items {
@@ -253,7 +253,7 @@ fn motion_order_precision_and_threads_change_nothing() {
         let connected = |r: &Report| (r.edges, r.euler_characteristic, r.soundness.shells);
         assert_eq!(connected(&got), connected(&want), "{}", kind.name);
         if kind.name != "degenerate_facets" {
-            let count = |r: &Report| r.found(kind.name).map(|f| f.count);
+            let count = |r: &Report| r.found(kind).map(|f| f.count);
             assert_eq!(count(&got), count(&want), "{} turned", kind.name);
         }
     }

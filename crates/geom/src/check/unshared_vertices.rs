@@ -10,13 +10,15 @@ pub(super) const KIND: DefectKind = DefectKind {
     name: "unshared_vertices",
     severity: Severity::Error,
     about: "Groups of vertices on the boundary that lie within the gap of one another, directly or through others of the \
-            group, and are not joined by an edge: were they one, facets would be neighbours.",
+            group, and are not joined by an edge: were they one, facets would be neighbors.",
     size: "diagonal of their box, mm",
     measure: Measure::Diagonal,
     shows: Shows::Points,
+    follows: false,
+    missing: None,
     find: |m| {
-        let near = m.free_edges.near(m.mesh);
-        let vertices = m.free_edges.vertices();
+        let near = m.boundary.near(m.mesh);
+        let vertices = m.boundary.vertices();
         let sets = Sets::new(vertices.len());
         let place = |v: u32| vertices.partition_point(|x| *x < v) as u32;
         let join = |v: u32, w: u32| {
@@ -56,6 +58,7 @@ pub(super) const KIND: DefectKind = DefectKind {
 
 #[cfg(test)]
 mod tests {
+    use super::KIND;
     use crate::check::{Options, check};
     use crate::mesh::Mesh;
     use crate::num::random::Random;
@@ -97,7 +100,7 @@ mod tests {
             let options = Options { gap: Some(gap), ..Options::default() };
             let report = check(&mesh, None, &options, &Silent).unwrap();
             let mut found: Vec<Vec<u32>> =
-                report.found("unshared_vertices").unwrap().items.iter().map(|f| f.vertices.clone()).collect();
+                report.found(&KIND).unwrap().items.iter().map(|f| f.vertices.clone()).collect();
             found.sort();
             let mut expected = plain(&mesh, gap);
             expected.sort();

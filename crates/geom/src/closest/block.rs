@@ -9,6 +9,12 @@ pub const BLOCK: usize = 16;
 /// Unit of the error bounds: a distance computed from lengths up to `l` is right to `ROUNDING * l`. The kernels make
 /// about ten roundings of 2^-24; this allows sixteen.
 pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+/// Factor that makes a length in single precision an upper bound. Making it from exact numbers takes at most eight roundings
+/// of 2^-24, this one included: 4.8e-7.
+pub const LENGTH_UP: f32 = 1.000_001;
+/// The same for a square of lengths, of which each has eight: at most twenty roundings, 1.2e-6. The rest is to spare; a bound that
+/// is too wide only looks at a triangle more.
+pub const SQUARE_UP: f32 = 1.000_01;
 
 /// A block of up to sixteen points.
 pub struct PointBlock {
@@ -48,7 +54,7 @@ impl PointBlock {
         }
         for k in 0..3 {
             b.center[k] = 0.5 * (lo[k] + hi[k]);
-            b.half[k] = ((hi[k] - b.center[k]).max(b.center[k] - lo[k]) * tree.scale) as f32 * 1.000001;
+            b.half[k] = ((hi[k] - b.center[k]).max(b.center[k] - lo[k]) * tree.scale) as f32 * LENGTH_UP;
             b.at[k] = ((b.center[k] - tree.center[k]) * tree.scale) as f32;
             for i in 0..BLOCK {
                 b.offset[k][i] = ((b.points[i][k] - b.center[k]) * tree.scale) as f32;
@@ -60,7 +66,7 @@ impl PointBlock {
             let d = x * x + y * y + z * z;
             r = if d > r { d } else { r };
         }
-        b.reach = r.sqrt() * 1.000001;
+        b.reach = r.sqrt() * LENGTH_UP;
         b
     }
 
@@ -82,7 +88,7 @@ impl PointBlock {
     pub fn bound(&self, i: usize, best: f32, error: f32) -> f32 {
         let size = self.place(i).iter().fold(1.0, |m, x| if x.abs() > m { x.abs() } else { m });
         let d = best + 2.0 * error + ROUNDING * (size + best);
-        d * d * 1.00001
+        d * d * SQUARE_UP
     }
 
     /// The block's center relative to `origin`, scaled.
@@ -112,7 +118,7 @@ impl SurfacePoint {
         let rounding = 16.0 * f64::EPSILON;
         let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;
         // A NaN is not below either.
-        SurfacePoint { point, off: if off < MOST { off as f32 * 1.000001 } else { MOST as f32 } }
+        SurfacePoint { point, off: if off < MOST { off as f32 * LENGTH_UP } else { MOST as f32 } }
     }
 }
 

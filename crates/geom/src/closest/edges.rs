@@ -1,4 +1,4 @@
-//! Which triangles meet at each edge, in slot order: what signs and free edges are found from.
+//! Which triangles meet at each edge, in slot order: what signs and boundary edges are found from.
 
 use crate::closest::tree::{Closest, Tree};
 use crate::closest::triangle::Feature;
@@ -13,7 +13,7 @@ pub(super) const ASK: u32 = 1 << 12;
 /// What lies across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Across {
-    /// Nothing: a free edge.
+    /// Nothing: a boundary edge.
     Free,
     /// The triangle in this slot.
     One(u32),
@@ -115,29 +115,29 @@ fn only(mut others: impl Iterator<Item = u32>) -> Across {
     }
 }
 
-/// The free edges of a mesh, those of one face only: the rim of a scan or of a hole.
+/// The boundary edges of a mesh, those of one face only: the rim of a scan or of a hole.
 ///
 /// A point whose closest place lies on such an edge is beside the mesh rather than above it, and its distance says more
 /// about where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal
 /// coordinates at their corners, every edge is free. One byte a face.
-pub struct FreeEdges {
-    /// For each face: bit `i` if edge `i` is free, bit `3 + i` if corner `i` lies on a free edge.
+pub struct BoundaryEdges {
+    /// For each face: bit `i` if edge `i` is free, bit `3 + i` if corner `i` lies on a boundary edge.
     flags: Vec<u8>,
     count: usize,
 }
 
-impl FreeEdges {
+impl BoundaryEdges {
     /// Linear time, as [`Signs::new`](super::Signs::new).
     pub fn new(tree: &Tree) -> Self {
-        FreeEdges::found(tree, &Silent)
+        BoundaryEdges::found(tree, &Silent)
     }
 
-    /// As [`FreeEdges::new`], asking `progress` whether to go on.
+    /// As [`BoundaryEdges::new`], asking `progress` whether to go on.
     ///
     /// # Errors
     /// [`Cancelled`].
     pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let edges = FreeEdges::found(tree, progress);
+        let edges = BoundaryEdges::found(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(edges) }
     }
 
@@ -159,15 +159,15 @@ impl FreeEdges {
                 flags[face as usize] |= (on_rim[t[k] as usize] as u8) << (3 + k);
             }
         }
-        FreeEdges { flags, count }
+        BoundaryEdges { flags, count }
     }
 
-    /// Number of free edges.
+    /// Number of boundary edges.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// True if the place lies on a free edge or at its end. False for a place on another mesh's faces.
+    /// True if the place lies on a boundary edge or at its end. False for a place on another mesh's faces.
     pub fn holds(&self, place: &Closest) -> bool {
         let flags = self.flags.get(place.face as usize).copied().unwrap_or(0);
         match place.feature {

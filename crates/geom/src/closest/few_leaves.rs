@@ -1,7 +1,7 @@
 //! Second stage where few leaves are left: their triangles against all sixteen points of the block at once.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, PointBlock, ROUNDING, norm};
+use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SQUARE_UP, norm};
 use crate::closest::decide::Undecided;
 use crate::closest::kernel;
 use crate::closest::prune::{ChildRef, FEW_LEAVES};
@@ -57,7 +57,7 @@ pub unsafe fn test_all<V: Lanes<8>, W: Lanes<16>>(
         }
         // Up to `(sqrt least + 2 error)²` a triangle may be nearer than the nearest found.
         let limit = least.sqrt() + W::splat(2.0 * error);
-        let limit = limit * limit * W::splat(1.00001);
+        let limit = limit * limit * W::splat(SQUARE_UP);
         let live = (1u32 << b.len) - 1;
         for (c, row) in s.candidates.iter().zip(&s.table) {
             let mut mask = W::load(row).le(limit) & live;
@@ -95,7 +95,7 @@ unsafe fn select<V: Lanes<8>>(
             d.store(distance2);
         }
         let limit = least.least().sqrt() + reach;
-        let limit = V::splat(limit * limit * 1.00001);
+        let limit = V::splat(limit * limit * SQUARE_UP);
         candidates.clear();
         for (found, ([x, y, z], distance2)) in leaves.iter().zip(&tested) {
             let mut mask = V::load(distance2).le(limit);

@@ -1,5 +1,6 @@
 //! Filling the leaves: each triangle in a frame of its own (see the module `tree`), and the corners in leaf order.
 
+use crate::closest::block::LENGTH_UP;
 use crate::closest::layout::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
@@ -48,7 +49,7 @@ pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
         radius2 = t.iter().map(|&c| dot(c, c)).fold(radius2, |m, d| if d > m { d } else { m });
         frame(t, |field, x| out.field[field][j] = x as f32);
     }
-    out.radius = radius2.sqrt() as f32 * 1.000001;
+    out.radius = radius2.sqrt() as f32 * LENGTH_UP;
     for j in faces.len()..8 {
         for axis in 0..3 {
             out.field[AXES + 4 * axis][j] = 1.0;

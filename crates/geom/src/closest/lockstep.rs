@@ -13,7 +13,7 @@
     reason = "loads of vector types need their instructions; growing lists without a branch"
 )]
 
-use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SurfacePoint};
+use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SQUARE_UP, SurfacePoint};
 use crate::closest::decide::Undecided;
 use crate::closest::kernel;
 use crate::closest::layout::Node;
@@ -79,7 +79,7 @@ pub unsafe fn search<V: Lanes<8>>(
         let (mut best, mut bound) = ([Best::default(); BLOCK], [0f32; BLOCK]);
         for i in 0..b.len {
             let to_x: [f32; 3] = std::array::from_fn(|k| b.offset[k][i] - x[k]);
-            best[i].distance2 = to_x.iter().map(|e| e * e).sum::<f32>() * 1.00001;
+            best[i].distance2 = to_x.iter().map(|e| e * e).sum::<f32>() * SQUARE_UP;
             best[i].error = near.off;
             test_leaf::<V>(tree, b, i, !here[i] as u32, &mut s.tested, &mut best[i]);
             bound[i] = b.bound(i, best[i].distance2.sqrt().min(limit), best[i].error);
@@ -250,7 +250,7 @@ unsafe fn list_undecided<V: Lanes<8>>(
 ) {
     let limit = best.map(|k| {
         let l = k.distance2.sqrt() + 2.0 * k.error;
-        l * l * 1.00001
+        l * l * SQUARE_UP
     });
     for leaf in tested {
         // SAFETY: the caller's promise.

@@ -7,7 +7,7 @@
 //! | distance of many points | [`Tree::distances`]; signed: [`Signs::distances`] |
 //! | anything else of many points | [`Tree::for_each_closest`], [`Tree::map_closest`], then [`Tree::place`], [`Signs::sign`] |
 //! | inside or outside of a mesh with holes | [`Winding`] |
-//! | is the closest place on the rim? | [`FreeEdges`] |
+//! | is the closest place on the rim? | [`BoundaryEdges`] |
 //! | where a line through a point meets it | [`Tree::crossing`]; of many points [`Tree::map_crossings`] |
 //! | the definition of the answers | [`brute::closest`], [`brute::crossing`] |
 //!
@@ -49,7 +49,7 @@ mod triangle;
 mod winding;
 
 pub use crossing::Crossing;
-pub use edges::FreeEdges;
+pub use edges::BoundaryEdges;
 pub use hit::Hit;
 pub use limits::{
     MAX_COORDINATE, MAX_FACES, MAX_VERTEX, MIN_COORDINATE, MIN_EXTENT, MeshError, QueryError, sane,

@@ -3,7 +3,7 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, PointBlock, SurfacePoint};
+use crate::closest::block::{BLOCK, LENGTH_UP, PointBlock, SurfacePoint};
 use crate::closest::decide::{Undecided, decide};
 use crate::closest::hit::Hit;
 use crate::closest::prune::{Survivors, prune};
@@ -76,7 +76,7 @@ unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
         return;
     }
     // Rounded up; in single precision it may become infinite.
-    let limit = (max_distance * tree.scale * 1.000001) as f32;
+    let limit = (max_distance * tree.scale * f64::from(LENGTH_UP)) as f32;
     let Scratch { survivors, undecided, .. } = s;
     unsafe {
         // Any point of the surface will do; one near the block leaves little to look at.

@@ -2,7 +2,7 @@
 
 use super::sign_choice::{SignChoice, SignMethod, SignRequest};
 use crate::check::Precondition;
-use crate::closest::{FreeEdges, Hit, Query, QueryError, Signs, Tree, Winding};
+use crate::closest::{BoundaryEdges, Hit, Query, QueryError, Signs, Tree, Winding};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::Point;
@@ -15,7 +15,7 @@ pub struct SurfaceOptions {
     pub sign: SignRequest,
     /// Points farther than this are excluded, millimeters.
     pub max_distance: f64,
-    /// Points whose nearest place lies on a free edge are excluded: the part may go on where the mesh ends.
+    /// Points whose nearest place lies on a boundary edge are excluded: the part may go on where the mesh ends.
     pub skip_boundary: bool,
 }
 
@@ -32,8 +32,8 @@ impl Default for SurfaceOptions {
 pub enum Exclusion {
     /// Farther than the greatest distance asked for; infinite among deviations.
     MaxDistance,
-    /// The nearest place lies on a free edge; NaN among deviations.
-    FreeEdge,
+    /// The nearest place lies on a boundary edge; NaN among deviations.
+    BoundaryEdge,
     /// The line along which it is measured meets nothing within that distance; a NaN of its own among deviations.
     NoCrossing,
     /// It has no direction to measure along; a NaN of its own among deviations.
@@ -47,7 +47,7 @@ const NO_DIRECTION: u64 = 0x7ff8_0000_0000_0006;
 impl Exclusion {
     /// All, in the order of reports.
     pub const ALL: [Exclusion; 4] =
-        [Exclusion::MaxDistance, Exclusion::FreeEdge, Exclusion::NoCrossing, Exclusion::NoDirection];
+        [Exclusion::MaxDistance, Exclusion::BoundaryEdge, Exclusion::NoCrossing, Exclusion::NoDirection];
 
     /// What a value among deviations stands for; `None` for a deviation.
     pub fn of(value: f64) -> Option<Exclusion> {
@@ -56,7 +56,7 @@ impl Exclusion {
             _ if value.is_infinite() => Some(Exclusion::MaxDistance),
             NO_CROSSING => Some(Exclusion::NoCrossing),
             NO_DIRECTION => Some(Exclusion::NoDirection),
-            _ => Some(Exclusion::FreeEdge),
+            _ => Some(Exclusion::BoundaryEdge),
         }
     }
 
@@ -64,7 +64,7 @@ impl Exclusion {
     pub fn value(self) -> f64 {
         match self {
             Exclusion::MaxDistance => f64::INFINITY,
-            Exclusion::FreeEdge => f64::NAN,
+            Exclusion::BoundaryEdge => f64::NAN,
             Exclusion::NoCrossing => f64::from_bits(NO_CROSSING),
             Exclusion::NoDirection => f64::from_bits(NO_DIRECTION),
         }
@@ -74,7 +74,7 @@ impl Exclusion {
     pub fn name(self) -> &'static str {
         match self {
             Exclusion::MaxDistance => "max_distance",
-            Exclusion::FreeEdge => "free_edge",
+            Exclusion::BoundaryEdge => "free_edge",
             Exclusion::NoCrossing => "no_crossing",
             Exclusion::NoDirection => "no_direction",
         }
@@ -87,7 +87,7 @@ pub struct ReferenceSurface {
     choice: SignChoice,
     precondition: Precondition,
     side: Side,
-    free_edges: Option<FreeEdges>,
+    boundary_edges: Option<BoundaryEdges>,
     max_distance: f64,
 }
 
@@ -119,15 +119,15 @@ impl ReferenceSurface {
             SignMethod::Winding => Side::Winding(Winding::new(tree)),
             SignMethod::None | SignMethod::Normal => Side::None,
         };
-        let free_edges = (options.skip_boundary && !soundness.closed)
-            .then(|| FreeEdges::watched(tree, progress))
+        let boundary_edges = (options.skip_boundary && !soundness.closed)
+            .then(|| BoundaryEdges::watched(tree, progress))
             .transpose()?;
         Ok(ReferenceSurface {
             tree: tree.clone(),
             choice,
             precondition,
             side,
-            free_edges,
+            boundary_edges,
             max_distance: options.max_distance,
         })
     }
@@ -180,10 +180,10 @@ impl ReferenceSurface {
         let query = Query { max_distance: self.max_distance, ..Query::default() };
         self.tree.map_closest(points, &query, progress, |i, hit| {
             let Some(hit) = hit else { return f(i, Exclusion::MaxDistance.value(), None) };
-            if let Some(edges) = &self.free_edges
+            if let Some(edges) = &self.boundary_edges
                 && edges.holds(&self.tree.place(&points[i], &hit))
             {
-                return f(i, Exclusion::FreeEdge.value(), Some(&hit));
+                return f(i, Exclusion::BoundaryEdge.value(), Some(&hit));
             }
             let sign = match &self.side {
                 Side::Pseudonormal(signs) => outward * signs.sign(&points[i], &hit),

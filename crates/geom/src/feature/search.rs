@@ -144,7 +144,7 @@ impl<'a> FeatureSearch<'a> {
                 }
                 next += 1;
                 for side in 0..3 {
-                    // Nothing encloses what ends at a free edge.
+                    // Nothing encloses what ends at a boundary edge.
                     enclosed &= self.across(facet, side).count() > 1;
                     for other in self.across(facet, side) {
                         if found.has(other) {

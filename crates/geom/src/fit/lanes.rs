@@ -63,24 +63,3 @@ pub(super) fn group<'a>(
     }
     (filled, rest.len())
 }
-
-/// Compiles `$body` twice, for wide registers with fused multiply-add and for any processor, and takes what this processor
-/// has.
-macro_rules! widest {
-    (fn $name:ident [$($generics:tt)*] [$($use:tt)*] ($($arg:ident : $type:ty),*) -> $out:ty = $body:expr) => {
-        #[allow(unsafe_code)] // one call into code compiled for processor features that were asked for
-        fn $name<$($generics)*>($($arg: $type),*) -> $out {
-            #[cfg(target_arch = "x86_64")]
-            {
-                #[target_feature(enable = "avx2,fma")]
-                fn wide<$($generics)*>($($arg: $type),*) -> $out { $body }
-                if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
-                    // SAFETY: the processor was just asked for both features.
-                    return unsafe { wide::<$($use)*>($($arg),*) };
-                }
-            }
-            $body
-        }
-    };
-}
-pub(super) use widest;

@@ -80,7 +80,8 @@ macro_rules! with_family {
 /// or order of the points. Time grows with the number of points; beyond them nothing is stored.
 ///
 /// # Errors
-/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element.
+/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element, a method that there is
+/// not for this kind, cancelled.
 pub fn fit(
     points: &[Point],
     kind: Kind,
@@ -106,7 +107,9 @@ pub fn fit(
         match options.method {
             Method::Gaussian => with_family!(kind, gaussian(&sample, kind, options, progress)),
             Method::Robust => with_family!(kind, robust(&sample, kind, options, progress)),
-            _ => with_family!(kind, zone(&sample, kind, options, progress)),
+            Method::MinimumZone | Method::MinimumCircumscribed | Method::MaximumInscribed => {
+                with_family!(kind, zone(&sample, kind, options, progress))
+            }
         }
     };
     // Among the threads once and for all: from outside, each pass over the points would wake one and wait for it.

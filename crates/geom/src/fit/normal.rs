@@ -5,9 +5,10 @@
 
 use super::dense;
 use super::family::{Element, Family, Rows};
-use super::lanes::{GROUP, Lanes, Sum, group, groups, widest};
+use super::lanes::{GROUP, Lanes, Sum, group, groups};
 use super::sample::Sample;
 use crate::parallel::prelude::*;
+use crate::simd::widest::widest;
 use crate::space::{Point, Vector, dot, times};
 
 /// Points of one block: large enough to make sharing out cheap, small enough for the nearest caches.

@@ -1,8 +1,8 @@
 //! The points of a fit, checked once, with the center and scale that take size and position out of it.
 
 use super::FitError;
-use super::lanes::widest;
 use crate::num::random::GOLDEN;
+use crate::simd::widest::widest;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
 

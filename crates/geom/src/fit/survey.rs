@@ -1,10 +1,11 @@
 //! The distances of all points from a finished element: how large, how far apart, and whose are the extremes.
 
 use super::family::{Element, Family};
-use super::lanes::{GROUP, Lanes, PARTS, Sum, group, groups, widest};
+use super::lanes::{GROUP, Lanes, PARTS, Sum, group, groups};
 use super::normal::Placing;
 use super::sample::Sample;
 use crate::parallel::prelude::*;
+use crate::simd::widest::widest;
 use crate::space::Point;
 
 /// Points of one block.

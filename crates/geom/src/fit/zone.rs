@@ -78,7 +78,9 @@ fn aim<const P: usize, F: Family<P>>(kind: Kind, method: Method) -> Result<Aim, 
         Method::MinimumCircumscribed if round => Ok(Aim { outer: true, inner: false, pinned: true }),
         Method::MaximumInscribed if round => Ok(Aim { outer: false, inner: true, pinned: true }),
         Method::MinimumZone => Ok(Aim { outer: true, inner: F::SIGNED, pinned: false }),
-        _ => Err(FitError::NoSuchMethod { kind, method }),
+        Method::MinimumCircumscribed | Method::MaximumInscribed | Method::Gaussian | Method::Robust => {
+            Err(FitError::NoSuchMethod { kind, method })
+        }
     }
 }
 

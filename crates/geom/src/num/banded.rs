@@ -6,6 +6,7 @@
 
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
+use crate::simd::widest::widest;
 
 /// Rows of a block.
 const BLOCK: usize = 32;
@@ -81,8 +82,16 @@ impl Banded {
     }
 }
 
-/// Up to four rows of the block that starts at `first`: their entries in the columns `from … first`.
-fn eliminate(four: &mut [f64], stride: usize, done: &[f64], width: usize, first: usize, from: usize) {
+widest! {
+    /// Up to four rows of the block that starts at `first`: their entries in the columns `from … first`.
+    fn eliminate [] [] (
+        four: &mut [f64],
+        stride: usize,
+        done: &[f64],
+        width: usize,
+        first: usize,
+        from: usize,
+    ) = {
     let at = |column: usize| column + width - first;
     for j in from..first {
         let base = j / BLOCK * BLOCK;
@@ -115,6 +124,7 @@ fn eliminate(four: &mut [f64], stride: usize, done: &[f64], width: usize, first:
             }
         }
     }
+    }
 }
 
 /// The entries of a block right of its first row's column; `from` is where the columns before it start.
@@ -145,6 +155,7 @@ fn triangle(
 }
 
 /// Four products of slices of one length with `x`, in lanes that the compiler keeps side by side.
+#[inline(always)]
 fn dots(rows: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
     let mut sums = [[0.0f64; 4]; 4];
     let whole = x.len() / 4 * 4;
@@ -173,7 +184,7 @@ fn dots(rows: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
 }
 
 /// Sum of products, in lanes that the compiler keeps side by side.
-#[inline]
+#[inline(always)]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0f64; 8];
     let (a, a_rest) = a.as_chunks::<8>();

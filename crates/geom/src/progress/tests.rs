@@ -3,7 +3,7 @@
 use super::*;
 use crate::check::{self, Precondition, check, intersect};
 use crate::closest::tests::{cube, sphere};
-use crate::closest::{FreeEdges, Query, Signs, Tree, Winding};
+use crate::closest::{BoundaryEdges, Query, Signs, Tree, Winding};
 use crate::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use crate::mesh::Mesh;
 use crate::repair::{self, repair};
@@ -54,7 +54,7 @@ fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a ReferenceSurface) -> Vec<
         ),
         ("tree", Box::new(|p| Tree::build_watched(mesh, p).is_err())),
         ("signs", Box::new(|p| Signs::watched(tree, p).is_err())),
-        ("free edges", Box::new(|p| FreeEdges::watched(tree, p).is_err())),
+        ("boundary edges", Box::new(|p| BoundaryEdges::watched(tree, p).is_err())),
         ("distances", Box::new(|p| tree.distances(&mesh.positions, &Query::default(), p).is_err())),
         ("winding", Box::new(|p| Winding::new(tree).numbers(&mesh.positions, p).is_err())),
         ("surface", Box::new(move |p| ReferenceSurface::new(tree, mesh, &surface, p).is_err())),

@@ -1,12 +1,13 @@
 //! What a step says of something that it changed.
 
+use super::step::Step;
 use crate::space::Point;
 
 /// Something that was changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// The step that did it.
-    pub step: &'static str,
+    pub step: &'static Step,
     /// What was done.
     pub what: &'static str,
     /// Where.

@@ -4,25 +4,25 @@
 //! middle vertex sits on the long edge of its neighbor. The neighbor is cut in two there, then the facet can go.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::space::{Point, dot, minus};
 use crate::topology::Topology;
 
 pub(super) const STEP: Step = Step {
     name: "degenerate",
-    about: "Removes facets without area. Where three vertices lie on a line, the neighbour at the long edge is cut at the \
+    about: "Removes facets without area. Where three vertices lie on a line, the neighbor at the long edge is cut at the \
             middle one.",
-    run,
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let repeated = known.topology.repeated_vertex.clone();
     let flat = known.topology.collinear.clone();
     for &f in &repeated {
         let place = work.at(work.mesh().faces[f as usize][0]);
-        work.log(STEP.name, "facet with a repeated vertex removed", place, 1, 0.0);
+        work.log(&STEP, "facet with a repeated vertex removed", place, 1, 0.0);
     }
     let (mut removed, mut added) = (repeated, vec![]);
     let mut touched = vec![false; work.mesh().faces.len()];
@@ -35,7 +35,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         }
         touched[f as usize] = true;
         removed.push(f);
-        work.log(STEP.name, "facet on a line removed", work.at(middle), 1, 0.0);
+        work.log(&STEP, "facet on a line removed", work.at(middle), 1, 0.0);
         if let Some(n) = neighbor {
             touched[n as usize] = true;
             removed.push(n);

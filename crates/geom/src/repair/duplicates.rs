@@ -5,18 +5,18 @@
 
 use super::edges::Edges;
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::finding;
 use std::collections::BTreeMap;
 
 pub(super) const STEP: Step = Step {
     name: "duplicates",
-    about: "Of facets with the same three vertices keeps the one that the neighbours need; none where they need none.",
-    run,
+    about: "Of facets with the same three vertices keeps the one that the neighbors need; none where they need none.",
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.duplicate_facets.is_empty() {
         return Ok(());
@@ -33,7 +33,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         let before = removed.len();
         removed.extend(gone);
         let (place, area) = (work.middle(facets[0]), finding::area(work.corners(facets[0])));
-        work.log(STEP.name, "facets at the same place removed", place, removed.len() - before, area);
+        work.log(&STEP, "facets at the same place removed", place, removed.len() - before, area);
     }
     work.replace(&removed, &[]);
     Ok(())

@@ -88,9 +88,9 @@ impl Effect {
 fn turned<'a>(before: &Work<'a>, turn: bool, options: &'a Options) -> Result<Work<'a>, RepairError> {
     let mut work = before.again(options);
     if turn {
-        (orient::STEP.run)(&mut work)?;
+        orient::run(&mut work)?;
     }
-    (islands::STEP.run)(&mut work)?;
+    islands::run(&mut work)?;
     Ok(work)
 }
 

@@ -2,13 +2,13 @@
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
 //! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a free edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
+//! has a boundary edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
 //! with as many facets one way as the other at every edge each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
 use super::error::RepairError;
 use super::holes;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::union::solid_shells;
 use super::work::Work;
 use crate::deviation::sign_choice::SHEET;
@@ -17,10 +17,10 @@ use crate::space::{Vector, cross, minus, norm, plus};
 pub(super) const STEP: Step = Step {
     name: "fins",
     about: "Removes sheets that hang on edges where two other facets meet: fins, and walls inside.",
-    run,
+    removes: Removes::Fins,
 };
 
-/// Sheets with free edges are fins as long as all of them together have at most this share of the area of their shell.
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell.
 const FIN: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
@@ -32,11 +32,11 @@ struct Sheet {
     has_rim: bool,
     /// Indices of its edges with more than two facets.
     edges: Vec<usize>,
-    /// It has free edges that are not of a hole to be filled.
+    /// It has boundary edges that are not of a hole to be filled.
     has_border: bool,
 }
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.non_manifold_edges.is_empty() {
         return Ok(());
@@ -94,7 +94,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
             may_go[shell(sheet)] -= if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
             sheet.edges.iter().for_each(|e| meetings[*e].retain(|other| *other != s));
             let place = work.middle(sheet.facets[0]);
-            work.log(STEP.name, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
+            work.log(&STEP, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
             removed.extend(&sheet.facets);
         }
     }

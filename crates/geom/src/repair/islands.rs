@@ -1,20 +1,21 @@
 //! Shells so small that they are likely dust: removed on request.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 
 pub(super) const STEP: Step = Step {
     name: "islands",
     about: "Removes shells with a diagonal below the share of the whole that is given; without it, none.",
-    run,
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
-    let kind = check::KINDS.iter().find(|k| k.name == "islands");
-    let (Some(kind), Some(_)) = (kind, work.options.islands) else { return Ok(()) };
-    let dust = work.find(kind)?;
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
+    if work.options.islands.is_none() {
+        return Ok(());
+    }
+    let dust = work.find(check::ISLANDS)?;
     if dust.is_empty() {
         return Ok(());
     }
@@ -32,7 +33,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         }
     }
     for (diagonal, place, count) in size.into_iter().flatten() {
-        work.log(STEP.name, "small shell removed", place, count, diagonal);
+        work.log(&STEP, "small shell removed", place, count, diagonal);
     }
     work.replace(&removed, &[]);
     Ok(())

@@ -44,7 +44,7 @@ pub use enclosed::{Enclosed, NotEnclosed};
 pub use error::RepairError;
 pub use measure::{Counts, Deviation, DeviationError, Way};
 pub use options::{Holes, Options};
-pub use step::Step;
+pub use step::{Removes, Step};
 
 use crate::arrange::ArrangeError;
 use crate::check::{self, Known, Report};
@@ -55,35 +55,51 @@ use crate::progress::Progress;
 use crate::space::Point;
 use crate::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use measure::way;
-use rounds::{Kept, StepPosition, go_through};
+use rounds::{Entry, Kept, StepPosition, go_through};
 use same::Same;
 use std::sync::Arc;
 use work::Work;
 
-/// All steps, in the order in which they are done.
-pub const STEPS: [&Step; 15] = [
-    &not_finite::STEP,
-    &stitch::STEP,
-    &degenerate::STEP,
-    &union::STEP,
-    &duplicates::STEP,
-    &t_junctions::STEP,
-    &fins::STEP,
-    &orient::STEP,
-    &split::EDGES,
-    &self_intersections::STEP,
-    &holes::STEP,
-    &scraps::STEP,
-    &split::VERTICES,
-    &outward::STEP,
-    &islands::STEP,
+/// All steps with what does them, in their order.
+const ENTRIES: [Entry; 15] = [
+    Entry { step: &not_finite::STEP, run: not_finite::run },
+    Entry { step: &stitch::STEP, run: stitch::run },
+    Entry { step: &degenerate::STEP, run: degenerate::run },
+    Entry { step: &union::STEP, run: union::run },
+    Entry { step: &duplicates::STEP, run: duplicates::run },
+    Entry { step: &t_junctions::STEP, run: t_junctions::run },
+    Entry { step: &fins::STEP, run: fins::run },
+    Entry { step: &orient::STEP, run: orient::run },
+    Entry { step: &split::EDGES, run: split::edges },
+    Entry { step: &self_intersections::STEP, run: self_intersections::run },
+    Entry { step: &holes::STEP, run: holes::run },
+    Entry { step: &scraps::STEP, run: scraps::run },
+    Entry { step: &split::VERTICES, run: split::vertices },
+    Entry { step: &outward::STEP, run: outward::run },
+    Entry { step: &islands::STEP, run: islands::run },
 ];
+
+/// All steps, in the order in which they are done.
+pub const STEPS: [&Step; ENTRIES.len()] = {
+    let mut steps = [ENTRIES[0].step; ENTRIES.len()];
+    let mut i = 0;
+    while i < steps.len() {
+        steps[i] = ENTRIES[i].step;
+        i += 1;
+    }
+    steps
+};
+
+/// The step of this name.
+pub fn step(name: &str) -> Option<&'static Step> {
+    STEPS.into_iter().find(|step| step.name == name)
+}
 
 impl Default for Options {
     /// All steps; holes up to a quarter of their shell.
     fn default() -> Options {
         Options {
-            steps: STEPS.iter().map(|s| s.name).collect(),
+            steps: STEPS.to_vec(),
             gap: None,
             stitch: None,
             holes: Holes::UpTo(0.25),
@@ -112,7 +128,7 @@ pub struct Repaired {
     pub effect: Effect,
     /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
     /// and the mesh still not been sound.
-    pub taken_back: Vec<&'static str>,
+    pub taken_back: Vec<&'static Step>,
     /// Vertices that were rounded to single precision before anything was decided: on request, or because shells could not be
     /// united otherwise.
     pub rounded: Rounded,
@@ -151,9 +167,6 @@ pub struct Rounded {
 /// Holes that a step has cut are widened by no more than this share of the whole area, all together.
 const WIDEN: f64 = 0.25;
 
-/// Steps that remove surface so that what is left can be closed. Where it is not sound even so, they are not done.
-const LOSING: [&str; 2] = [self_intersections::STEP.name, scraps::STEP.name];
-
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50
@@ -171,7 +184,7 @@ const LOSING: [&str; 2] = [self_intersections::STEP.name, scraps::STEP.name];
 /// [`RepairError`].
 pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Repaired, RepairError> {
     let exact = repaired(mesh, options, progress)?;
-    let left_out = exact.taken_back.contains(&union::STEP.name)
+    let left_out = exact.taken_back.contains(&&union::STEP)
         || matches!(exact.not_united, Some(ArrangeError::Unresolved { .. } | ArrangeError::Open { .. }));
     if exact.after.sound || !left_out || options.single || !is_fine_in_single(mesh) {
         return Ok(exact);
@@ -204,17 +217,17 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         None => base.again(options),
     };
     let soup = start.soup()?;
-    let attempt = |without: &[&'static str], from: Option<&Kept>| {
+    let attempt = |without: &[&'static Step], from: Option<&Kept>| {
         // Bodies that are not united stay whole: what crosses is not cut out in place of uniting them.
-        let also = without.contains(&union::STEP.name).then_some(self_intersections::STEP.name);
-        let is_wanted = |s: &&str| !without.contains(s) && also != Some(*s);
+        let also = without.contains(&&union::STEP).then_some(&self_intersections::STEP);
+        let is_wanted = |s: &&'static Step| !without.contains(s) && also != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt((&start, from), &Options { steps, ..options.clone() }, (&before, &check_options))
     };
     // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
-    let mut finite = match before.found("not_finite_facets").map_or(0, |found| found.count) {
+    let mut finite = match before.count(check::NOT_FINITE_FACETS) {
         0 => None,
-        _ => Some(attempt(&names_but(not_finite::STEP.name), None)?),
+        _ => Some(attempt(&all_but(&not_finite::STEP), None)?),
     };
     let least = finite.as_ref().map_or(&before, |finite| &finite.after).clone();
     let mut done = match (soup, finite.take_if(|_| soup.is_some())) {
@@ -224,7 +237,9 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     };
     done.not_united = soup.or(done.not_united);
     let mut taken_back = vec![];
-    let mut lost = done.did(&LOSING);
+    // Steps that remove surface so that the rest can be closed: where it is not sound even so, they are not done.
+    let loses = |s: &&'static Step| matches!(s.removes, Removes::Crossings | Removes::Sheets);
+    let mut lost = done.did(STEPS.into_iter().filter(loses));
     if !done.after.sound && !lost.is_empty() {
         // Surface was removed, and the rest is not sound all the same: once more without removing any.
         done = attempt(&lost, None)?;
@@ -234,14 +249,14 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         (done, taken_back) = match without_some(&attempt, &done, &taken_back, &least)? {
             Some(found) => found,
             None => match finite {
-                Some(finite) => (finite, names_but(not_finite::STEP.name)),
+                Some(finite) => (finite, all_but(&not_finite::STEP)),
                 None => {
                     rounded = Rounded::default();
-                    (Attempt::none(&mut base, &before)?, names_but(""))
+                    (Attempt::none(&mut base, &before)?, STEPS.to_vec())
                 }
             },
         };
-        taken_back.retain(|name| options.steps.contains(name));
+        taken_back.retain(|step| options.steps.contains(step));
     }
     let Attempt { mesh, known, changes, rounds, after, counts, not_united, lost, kept } = done;
     drop(kept);
@@ -259,28 +274,28 @@ fn in_range(mesh: &Mesh) -> Result<(), RepairError> {
     }
 }
 
-/// The names of all steps but this one.
-fn names_but(name: &str) -> Vec<&'static str> {
-    STEPS.iter().map(|s| s.name).filter(|n| *n != name).collect()
+/// All steps but this one.
+fn all_but(step: &Step) -> Vec<&'static Step> {
+    STEPS.into_iter().filter(|s| *s != step).collect()
 }
 
 /// The first attempt after which no defect is more frequent than in `least`, and the steps that it leaves out: each step that changed
 /// something in `done` is left out by itself; then the last two of them, the last three, and so on. Always without `left_out` too.
 fn without_some(
-    attempt: &impl Fn(&[&'static str], Option<&Kept>) -> Result<Attempt, RepairError>,
+    attempt: &impl Fn(&[&'static Step], Option<&Kept>) -> Result<Attempt, RepairError>,
     done: &Attempt,
-    left_out: &[&'static str],
+    left_out: &[&'static Step],
     least: &Report,
-) -> Result<Option<(Attempt, Vec<&'static str>)>, RepairError> {
+) -> Result<Option<(Attempt, Vec<&'static Step>)>, RepairError> {
     // Cutting out opens what is closed: it is the first step to be left out.
-    let cutting_out = self_intersections::STEP.name;
-    let singly = done.did(&[&[cutting_out][..], &names_but(cutting_out)].concat());
-    let in_turn = done.did(&names_but(""));
+    let cutting_out = &self_intersections::STEP;
+    let singly = done.did([cutting_out].into_iter().chain(all_but(cutting_out)));
+    let in_turn = done.did(STEPS);
     let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
-    for tried in singly.into_iter().map(|name| vec![name]).chain(last) {
+    for tried in singly.into_iter().map(|step| vec![step]).chain(last) {
         let without = [left_out, &tried].concat();
         // The presence of these two changes what other steps do.
-        let alone = !tried.iter().any(|name| [union::STEP.name, cutting_out].contains(name));
+        let alone = !tried.iter().any(|step| [&union::STEP, cutting_out].contains(step));
         let from = if alone { Kept::before(&done.kept, &tried) } else { None };
         let next = attempt(&without, from)?;
         if !worse(least, &next.after) {
@@ -295,9 +310,11 @@ fn worse(before: &Report, after: &Report) -> bool {
     if before.properties.area > 0.0 && after.properties.area == 0.0 {
         return true;
     }
-    let count = |report: &Report, name: &str| report.found(name).map_or(0, |found| found.count);
-    let errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
-    errors.map(|kind| kind.name).any(|name| count(after, name) > count(before, name))
+    let mut errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
+    // What is too many to count is worse than any number that was counted.
+    let count =
+        |report: &Report, kind| report.found(kind).map_or((false, 0), |found| (found.at_least, found.count));
+    errors.any(|kind| count(after, kind) > count(before, kind))
 }
 
 /// What one attempt came to.
@@ -316,8 +333,8 @@ struct Attempt {
 
 impl Attempt {
     /// Which of these steps changed something, in the order given.
-    fn did(&self, steps: &[&'static str]) -> Vec<&'static str> {
-        steps.iter().copied().filter(|name| self.changes.iter().any(|c| c.step == *name)).collect()
+    fn did(&self, steps: impl IntoIterator<Item = &'static Step>) -> Vec<&'static Step> {
+        steps.into_iter().filter(|step| self.changes.iter().any(|c| c.step == *step)).collect()
     }
 
     /// Nothing done.
@@ -342,8 +359,8 @@ fn attempt(
     options: &Options,
     (before, check_options): (&Report, &check::Options),
 ) -> Result<Attempt, RepairError> {
-    let wanted = |(_, step): &(usize, &'static Step)| options.steps.contains(&step.name);
-    let steps: Vec<(usize, &'static Step)> = STEPS.into_iter().enumerate().filter(wanted).collect();
+    let wanted = |(_, entry): &(usize, Entry)| options.steps.contains(&entry.step);
+    let steps: Vec<(usize, Entry)> = ENTRIES.into_iter().enumerate().filter(wanted).collect();
     let mut kept = vec![];
     let (mut work, mut rounds) = match from {
         Some(from) => go_through(start.resumed(&from.state, options), &steps, from.position, None)?,

@@ -1,5 +1,7 @@
 //! What a repair shall do. The default, with all steps, stands beside their list.
 
+use super::step::Step;
+
 /// Which holes are filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Holes {
@@ -12,8 +14,8 @@ pub enum Holes {
 /// What shall be done.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Names of the steps to do, in any order.
-    pub steps: Vec<&'static str>,
+    /// The steps to do, in any order.
+    pub steps: Vec<&'static Step>,
     /// Distance, mm, up to which two places may have been meant as one; `None`: as in [`check::Options::gap`](crate::check::Options::gap).
     pub gap: Option<f64>,
     /// Distance, mm, up to which edges are stitched; `None`: a ten-thousandth of the diagonal.

@@ -5,17 +5,17 @@
 
 use super::edges::{Edges, Side};
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::finding;
 
 pub(super) const STEP: Step = Step {
     name: "orient",
-    about: "Turns facets over until neighbours run the same way round; the smaller part of each sheet is turned.",
-    run,
+    about: "Turns facets over until neighbors run the same way round; the smaller part of each sheet is turned.",
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     if known.topology.inconsistent_edges.is_empty() {
         return Ok(());
@@ -40,7 +40,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     for part in turns.into_iter().filter(|part| !part.is_empty()) {
         let area = part.iter().map(|&f| finding::area(work.corners(f))).sum();
-        work.log(STEP.name, "facets turned over", work.middle(part[0]), part.len(), area);
+        work.log(&STEP, "facets turned over", work.middle(part[0]), part.len(), area);
         work.turn(part);
     }
     Ok(())

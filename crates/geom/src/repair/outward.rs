@@ -1,7 +1,7 @@
 //! Closed shells that look the wrong way.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 
@@ -9,12 +9,11 @@ pub(super) const STEP: Step = Step {
     name: "outward",
     about: "Turns closed shells over that are inside out, with those inside them: what they enclose is no material. A shell that \
             looks inwards inside material bounds a cavity and stays. Decided exactly.",
-    run,
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
-    let Some(kind) = check::KINDS.iter().find(|k| k.name == "inside_out_shells") else { return Ok(()) };
-    let mut wrong = work.find(kind)?;
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
+    let mut wrong = work.find(check::INSIDE_OUT_SHELLS)?;
     // In material that a shell lies in already, turning it would make a cavity of it.
     wrong.retain(|finding| finding.measures.iter().all(|(name, x)| *name != "depth" || *x <= 0.0));
     if wrong.is_empty() {
@@ -30,7 +29,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     for finding in wrong {
         let shell = shell_of[finding.facets[0] as usize] as usize;
         turn[shell] = true;
-        work.log(STEP.name, "shell turned over", finding.position, count[shell], finding.size);
+        work.log(&STEP, "shell turned over", finding.position, count[shell], finding.size);
     }
     let facets = (0..).zip(shell_of).filter(|(_, s)| turn.get(**s as usize) == Some(&true)).map(|(f, _)| f);
     work.turn(facets);

@@ -4,9 +4,8 @@
 //! something, everything is as it was: so the state before it is kept, and what follows is done again from there.
 
 use super::error::RepairError;
-use super::self_intersections;
 use super::state::State;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::arrange::ArrangeError;
 
@@ -15,11 +14,17 @@ pub(super) const ROUNDS: usize = 8;
 /// Of larger meshes no states are kept: what they take of memory, some 100 bytes a facet each, is worth more than the time.
 const MOST_FACETS: usize = 1_000_000;
 
+/// A step and what does it.
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    pub step: &'static Step,
+    pub run: fn(&mut Work) -> Result<(), RepairError>,
+}
+
 /// A state on the way: before a step that then changed something for the first time.
 pub(super) struct Kept {
     pub state: State,
-    /// The step.
-    name: &'static str,
+    step: &'static Step,
     pub position: StepPosition,
 }
 
@@ -39,9 +44,9 @@ impl StepPosition {
 
 impl Kept {
     /// Of states in the order of the way the last one that none of these steps has changed; `None` where that cannot be told.
-    pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static str]) -> Option<&'k Kept> {
-        let all = steps.iter().all(|name| kept.iter().any(|k| k.name == *name));
-        kept.iter().find(|k| all && steps.contains(&k.name))
+    pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static Step]) -> Option<&'k Kept> {
+        let all = steps.iter().all(|step| kept.iter().any(|k| k.step == *step));
+        kept.iter().find(|k| all && steps.contains(&k.step))
     }
 }
 
@@ -49,22 +54,22 @@ impl Kept {
 /// many rounds. In `kept`, if given, the state before each step that changed something comes to stand, once for each step.
 pub(super) fn go_through<'a>(
     mut work: Work<'a>,
-    steps: &[(usize, &'static Step)],
+    steps: &[(usize, Entry)],
     mut position: StepPosition,
     mut kept: Option<&mut Vec<Kept>>,
 ) -> Result<(Work<'a>, usize), RepairError> {
-    let may_cut = steps.iter().any(|(_, s)| s.name == self_intersections::STEP.name);
+    let may_cut = steps.iter().any(|(_, entry)| entry.step.removes == Removes::Crossings);
     while position.round <= ROUNDS {
-        for &(number, step) in steps.iter().filter(|(number, _)| *number >= position.step) {
+        for &(number, Entry { step, run }) in steps.iter().filter(|(number, _)| *number >= position.step) {
             let is_kept = work.mesh().faces.len() <= MOST_FACETS
-                && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.name != step.name));
+                && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.step != step));
             let before = is_kept.then(|| work.state.clone());
-            work = step.done(work)?;
+            run(&mut work)?;
             if let (Some(kept), Some(state)) = (&mut kept, before)
                 && work.state.is_beyond(&state)
             {
                 let position = StepPosition { step: number, ..position };
-                kept.push(Kept { state, name: step.name, position });
+                kept.push(Kept { state, step, position });
             }
         }
         // A tangle that two rounds have not undone gets no better.

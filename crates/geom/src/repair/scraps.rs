@@ -1,7 +1,7 @@
 //! Open sheets that lie about beside a closed shell.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::deviation::sign_choice::SHEET;
 use crate::space::{Vector, cross, minus, norm, plus};
@@ -10,13 +10,13 @@ use crate::topology::Topology;
 pub(super) const STEP: Step = Step {
     name: "scraps",
     about: "Removes open sheets that enclose nothing and have less than a tenth of the area of the largest closed shell.",
-    run,
+    removes: Removes::Sheets,
 };
 
 /// Share of the area of the largest closed shell up to which a sheet is a scrap.
 const SCRAP: f64 = 0.1;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let (topology, areas) = (&known.topology, &known.properties.shell_areas);
     let open = open_shells(topology);
@@ -34,7 +34,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     let mut removed = vec![];
     for (s, facets) in shells.into_iter().enumerate().filter(|(_, shell)| !shell.is_empty()) {
-        work.log(STEP.name, "loose sheet removed", work.middle(facets[0]), facets.len(), areas[s]);
+        work.log(&STEP, "loose sheet removed", work.middle(facets[0]), facets.len(), areas[s]);
         removed.extend(facets);
     }
     if !removed.is_empty() {

@@ -6,7 +6,7 @@
 
 use super::error::RepairError;
 use super::scraps::sheets;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::finding::area;
 
@@ -14,7 +14,7 @@ pub(super) const STEP: Step = Step {
     name: "self_intersections",
     about: "Tears out facets that still cross others when nothing else helps, and what they cut off; the holes are \
             filled afterwards. Sheets keep their crossings.",
-    run,
+    removes: Removes::Crossings,
 };
 
 /// No more than this share of the area is cut out: what is left beyond that would be another model.
@@ -22,7 +22,7 @@ const MOST: f64 = 0.75;
 /// A piece cut off is removed if it has at most this share of the area of the largest piece of its shell.
 const SMALL_PIECE: f64 = 0.25;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if !work.state.handover.may_cut_out {
         return Ok(());
     }
@@ -48,7 +48,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     let removed: Vec<u32> = (0..).zip(&is_removed).filter(|(_, t)| **t).map(|(f, _)| f).collect();
     let place = work.middle(crossings[0][0]);
-    work.log(STEP.name, "crossing facets torn out", place, removed.len(), 0.0);
+    work.log(&STEP, "crossing facets torn out", place, removed.len(), 0.0);
     work.cut_out(&removed);
     let left = shell_of.into_iter().zip(is_removed).filter(|(_, removed)| !removed).map(|(shell, _)| shell);
     remove_small_pieces(work, &left.collect::<Vec<u32>>())
@@ -73,7 +73,7 @@ fn remove_small_pieces(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairEr
     let mut removed = vec![];
     for (piece, (shell, facets)) in of_piece.into_iter().enumerate() {
         if areas[piece] <= SMALL_PIECE * largest.get(&shell).copied().unwrap_or(0.0) {
-            work.log(STEP.name, "piece cut off removed", work.middle(facets[0]), facets.len(), areas[piece]);
+            work.log(&STEP, "piece cut off removed", work.middle(facets[0]), facets.len(), areas[piece]);
             removed.extend(facets);
         }
     }

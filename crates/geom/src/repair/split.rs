@@ -8,7 +8,7 @@
 use super::degenerate::cut;
 use super::edges::{Edges, Side};
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::finding::area;
 use crate::space::{Point, Vector, cross, dot, minus, norm, normal, plus, times, unit};
@@ -18,22 +18,25 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) const EDGES: Step = Step {
     name: "non_manifold_edges",
     about: "Parts the surface at edges of more than two facets, so that material stays between each pair.",
-    run: |work| {
-        let known = work.known()?;
-        let edges = known.topology.non_manifold_edges.iter();
-        let vertices = edges.flat_map(|e| e.vertices).collect();
-        split(work, vertices, EDGES.name, true)
-    },
+    removes: Removes::Nothing,
 };
+
+pub(super) fn edges(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let vertices = known.topology.non_manifold_edges.iter().flat_map(|e| e.vertices).collect();
+    split(work, vertices, &EDGES, true)
+}
 
 pub(super) const VERTICES: Step = Step {
     name: "non_manifold_vertices",
     about: "Parts the surface at vertices where several fans of facets touch.",
-    run: |work| {
-        let vertices = work.known()?.topology.non_manifold_vertices.clone();
-        split(work, vertices, VERTICES.name, false)
-    },
+    removes: Removes::Nothing,
 };
+
+pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
+    let vertices = work.known()?.topology.non_manifold_vertices.clone();
+    split(work, vertices, &VERTICES, false)
+}
 
 /// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Negative: out of the
 /// material; where the tips of two pits touch, the way into the material of one leads into the other.
@@ -47,7 +50,7 @@ type Pairs = BTreeMap<([u32; 2], u32), u32>;
 fn split(
     work: &mut Work,
     mut vertices: Vec<u32>,
-    step: &'static str,
+    step: &'static Step,
     open_together: bool,
 ) -> Result<(), RepairError> {
     vertices.sort_unstable();
@@ -92,7 +95,7 @@ fn apart(
     work: &mut Work,
     mut lost: Vec<(u32, Vec<u32>)>,
     again: &[([u32; 2], [u32; 2])],
-    step: &'static str,
+    step: &'static Step,
 ) -> Result<Vec<(u32, Vec<u32>)>, RepairError> {
     let before = work.shared();
     let changing: BTreeSet<u32> = lost
@@ -133,11 +136,8 @@ fn apart(
         bad.dedup();
         let (more, last): (Vec<usize>, Vec<usize>) =
             bad.into_iter().partition(|&i| nth[i] + 1 < OFFSETS.len());
-        let kept: Vec<usize> = if step == VERTICES.name {
-            last.into_iter().filter(|&i| i < lost.len()).collect()
-        } else {
-            vec![]
-        };
+        let kept: Vec<usize> =
+            if *step == VERTICES { last.into_iter().filter(|&i| i < lost.len()).collect() } else { vec![] };
         if more.is_empty() && kept.is_empty() {
             return Ok(lost);
         }

@@ -1,22 +1,31 @@
 //! What the entries of the list of steps are.
 
-use super::error::RepairError;
-use super::work::Work;
+/// Surface that a step takes away so that the rest is closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Removes {
+    /// None: at most what lies twice, lies inside, is not finite, or was asked to go.
+    Nothing,
+    /// Facets that cross others, and what they cut off.
+    Crossings,
+    /// Open sheets that hang on nothing.
+    Sheets,
+    /// Sheets that hang on an edge where two other facets meet.
+    Fins,
+}
 
-/// A step of the repair: an entry of [`STEPS`](super::STEPS).
+/// A step of the repair: an entry of [`STEPS`](super::STEPS). Two are equal when their names are.
 #[derive(Debug)]
 pub struct Step {
     /// Its name on the command line and in result documents.
     pub name: &'static str,
     /// What it does, for the manual.
     pub about: &'static str,
-    pub(super) run: fn(&mut Work) -> Result<(), RepairError>,
+    /// Surface that it takes away.
+    pub removes: Removes,
 }
 
-impl Step {
-    /// The state after this step, made from the one before.
-    pub(super) fn done<'a>(&self, mut work: Work<'a>) -> Result<Work<'a>, RepairError> {
-        (self.run)(&mut work)?;
-        Ok(work)
+impl PartialEq for Step {
+    fn eq(&self, other: &Step) -> bool {
+        self.name == other.name
     }
 }

@@ -6,7 +6,7 @@
 //!    edge, so that the ends of an edge cannot become one.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::Known;
 use crate::check::{self, near::Near};
@@ -18,7 +18,7 @@ pub(super) const STEP: Step = Step {
     name: "stitch",
     about: "Joins boundary vertices within the gap of one another, and boundary edges whose ends lie nearer to each other than \
             the stitching distance and than a quarter of their length.",
-    run,
+    removes: Removes::Nothing,
 };
 
 /// Stitching distance by default, as a share of the diagonal of the mesh.
@@ -30,20 +30,18 @@ const GROWTH: f64 = 4.0;
 const NEAR: usize = 64;
 const PARTNERS: usize = 8;
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if work.known()?.topology.boundary_edges.is_empty() {
         return Ok(());
     }
-    if let Some(kind) = check::KINDS.iter().find(|k| k.name == "unshared_vertices") {
-        let mut groups = work.find(kind)?;
-        let known = work.known()?;
-        let sets = Sets::new(work.mesh().positions.len());
-        let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
-        groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
-        groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
-        let members = groups.into_iter().flat_map(|g| g.vertices).collect();
-        merge(work, &known, &sets, members);
-    }
+    let mut groups = work.find(check::UNSHARED_VERTICES)?;
+    let known = work.known()?;
+    let sets = Sets::new(work.mesh().positions.len());
+    let is_kept_apart = |v: &u32| work.state.handover.kept_apart.contains(v);
+    groups.retain(|g| !g.vertices.iter().any(is_kept_apart));
+    groups.iter().for_each(|g| g.vertices.iter().for_each(|&v| sets.join(v, g.vertices[0])));
+    let members = groups.into_iter().flat_map(|g| g.vertices).collect();
+    merge(work, &known, &sets, members);
     let diagonal = work.known()?.properties.bounds.diagonal();
     let limit = work.options.stitch.unwrap_or(REACH * diagonal);
     let mut reach = work.gap;
@@ -86,7 +84,7 @@ fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
         let Some(&(_, kept)) = group.iter().max_by_key(|(_, v)| weight(*v)) else { continue };
         let far = |v: u32| norm(minus(work.at(v), work.at(kept)));
         let farthest = group.iter().map(|(_, v)| far(*v)).fold(0.0, f64::max);
-        work.log(STEP.name, "vertices joined", work.at(kept), group.len(), farthest);
+        work.log(&STEP, "vertices joined", work.at(kept), group.len(), farthest);
         renamed.extend(group.iter().filter(|(_, v)| *v != kept).map(|&(_, v)| (v, kept)));
     }
     if renamed.is_empty() {

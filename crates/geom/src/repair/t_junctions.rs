@@ -2,7 +2,7 @@
 
 use super::degenerate::cut;
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check;
 use crate::space::{dot, minus, norm};
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 pub(super) const STEP: Step = Step {
     name: "t_junctions",
     about: "Cuts facets at boundary vertices that lie within the gap of their boundary edge.",
-    run,
+    removes: Removes::Nothing,
 };
 
 /// A vertex lies on one edge as a rule, on two where three sheets meet. Where they lie on more than so many on average,
@@ -21,7 +21,7 @@ const EDGES: usize = 2;
 /// A vertex on an edge of a facet: facet, ends of the edge, place along it, vertex.
 type On = (u32, [u32; 2], f64, u32);
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let Some(kind) = check::KINDS.iter().find(|k| k.name == "t_junctions") else { return Ok(()) };
     let mut all: Vec<On> = vec![];
     for finding in work.find(kind)? {
@@ -43,7 +43,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
         if parts.len() > 1 {
             let [_, [a, b], ..] = [[0; 2], on[0].1];
             let length = norm(minus(work.at(b), work.at(a)));
-            work.log(STEP.name, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
+            work.log(&STEP, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
             removed.push(facet);
             added.extend(parts);
         }

@@ -5,7 +5,7 @@
 //! part; once their holes are filled they do.
 
 use super::error::RepairError;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, boundary_of};
 use crate::check;
@@ -21,10 +21,10 @@ pub(super) const STEP: Step = Step {
     name: "union",
     about: "Unites closed shells that cross, coincide or lie in each other's material; what lies inside is cut away, cavities \
             stay. Decided exactly.",
-    run,
+    removes: Removes::Nothing,
 };
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let solid = solid_shells(work.mesh(), &known.topology);
     let is_solid = |f: u32| solid.get(known.topology.shell_of[f as usize] as usize) == Some(&true);
@@ -104,8 +104,7 @@ fn has_work(
     if any_at_edges(work.mesh(), topology, work.options.single) {
         return Ok(true);
     }
-    let kind = check::KINDS.iter().find(|k| k.name == "inside_out_shells");
-    let wrong = kind.map_or(Ok(vec![]), |kind| work.find(kind))?;
+    let wrong = work.find(check::INSIDE_OUT_SHELLS)?;
     if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x != 0.0)) {
         return Ok(true);
     }
@@ -141,7 +140,7 @@ fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boun
     if !turned.is_empty() {
         let place = work.middle(turned[0]);
         let size = turned.iter().map(|f| area(work.corners(*f))).sum();
-        work.log(STEP.name, "facets of shells that were inside out turned over", place, turned.len(), size);
+        work.log(&STEP, "facets of shells that were inside out turned over", place, turned.len(), size);
         work.turn(turned);
     }
     if gone.is_empty() {
@@ -180,6 +179,6 @@ fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], is_cut: &[bool]) {
         changes.push((what, middle, place.len(), size));
     }
     for (what, place, facets, size) in changes {
-        work.log(STEP.name, what, place, facets, size);
+        work.log(&STEP, what, place, facets, size);
     }
 }

@@ -8,6 +8,7 @@ use super::error::RepairError;
 use super::options::Options;
 use super::pairs::Pairs;
 use super::state::State;
+use super::step::Step;
 use crate::arrange::ArrangeError;
 use crate::check::around::Around;
 use crate::check::intersect::{self, Crossings};
@@ -190,7 +191,7 @@ impl<'a> Work<'a> {
     /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them. No step
     /// makes a surface of that. A small soup is repaired all the same, for the sake of what lies beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
-        /// With so many free edges the steps take about a second.
+        /// With so many boundary edges the steps take about a second.
         const SMALL: usize = 5_000;
         let topology = &self.known()?.topology;
         let free = topology.boundary_edges.len();
@@ -325,12 +326,12 @@ impl<'a> Work<'a> {
 
     /// Whether a hole that a step has cut is still open.
     pub(super) fn has_open_cut(&mut self) -> Result<bool, RepairError> {
-        Ok(self.known()?.free_edges.rings.iter().any(|ring| self.is_own_hole(ring)))
+        Ok(self.known()?.boundary.rings.iter().any(|ring| self.is_own_hole(ring)))
     }
 
     pub(super) fn log(
         &mut self,
-        step: &'static str,
+        step: &'static Step,
         what: &'static str,
         position: Point,
         facets: usize,

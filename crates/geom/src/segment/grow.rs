@@ -222,7 +222,13 @@ impl Context<'_> {
             Shape::Torus { major_radius, minor_radius, .. } => {
                 major_radius < most && minor_radius < 0.95 * major_radius
             }
-            _ => true,
+            Shape::Plane { .. } => true,
+            // Curves are no faces.
+            Shape::Line2 { .. }
+            | Shape::Line { .. }
+            | Shape::Circle2 { .. }
+            | Shape::Circle { .. }
+            | Shape::Ellipse2 { .. } => false,
         }
     }
 }

@@ -70,8 +70,7 @@ fn joint(context: &Context, large: &GrownRegion, small: &GrownRegion) -> Option<
 /// Whether the piece looks the way the element does.
 fn turned(context: &Context, piece: u32, element: &Probe) -> bool {
     let i = piece as usize;
-    crate::space::dot(context.surface.normals[i], element.normal(context.surface.places[i])).abs()
-        >= context.band.cosine
+    element.cosine(context.surface.places[i], context.surface.normals[i]) >= context.band.cosine
 }
 
 /// Pairs of regions that touch, or that one piece of no region lies between.
@@ -104,6 +103,7 @@ fn neighbors(context: &Context, labels: &[u32]) -> Vec<[u32; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pieces::Band;
     use super::super::tests::{context, parts::bored};
     use super::*;
     use crate::mesh::Mesh;
@@ -123,38 +123,48 @@ mod tests {
         labels
     }
 
+    /// Small and large: a bore of 0.24 mm as one of 240 mm.
     #[test]
     fn halves_of_a_face_become_one_and_two_faces_stay_two() {
-        let part = bored(64).noisy(0.01, 6);
-        context(&part.mesh, |context| {
-            let of = |face: usize, right: bool| -> Vec<u32> {
-                let all = 0..part.labels.len();
-                let here =
-                    |&p: &usize| part.labels[p] == face && (context.surface.places[p][0] > 0.0) == right;
-                all.filter(here).map(|p| p as u32).collect()
-            };
-            let faces = [(0, true), (0, false), (1, true), (1, false)];
-            let mut regions: Vec<GrownRegion> = faces
-                .iter()
-                .map(|&(face, right)| region(context, part.faces[face], of(face, right)))
-                .collect();
-            let mut labels = labels(&regions, part.labels.len());
-            merge(context, &mut regions, &mut labels);
-            let left: Vec<&GrownRegion> = regions.iter().filter(|r| !r.pieces.is_empty()).collect();
-            assert_eq!(left.len(), 2, "{left:?}");
-            for face in [0, 1] {
-                let mut expected = of(face, true);
-                expected.extend(of(face, false));
-                let label = labels[expected[0] as usize];
-                assert!(expected.iter().all(|&p| labels[p as usize] == label));
-                let whole = &regions[label as usize];
-                assert_eq!(
-                    (whole.pieces.len(), whole.shape.kind()),
-                    (expected.len(), part.faces[face].kind())
-                );
-                assert!((whole.weight - context.surface.weight(&expected)).abs() < 1e-9 * whole.weight);
-            }
-        });
+        for scale in [0.03, 1.0, 30.0] {
+            let mut part = bored(64).noisy(0.01, 6);
+            part.mesh.positions.iter_mut().flatten().for_each(|x| *x *= scale);
+            let [point, top, direction] = [[0.0; 3], [0.0, 0.0, 12.0 * scale], [0.0, 0.0, 1.0]];
+            let faces = [
+                Shape::Cylinder { point, direction, radius: 8.0 * scale },
+                Shape::Plane { point: top, normal: direction },
+            ];
+            context(&part.mesh, |context| {
+                let Band { distance, cosine } = context.band;
+                let band = Band { distance: scale * distance, cosine };
+                let context = Context { band, noise: scale * context.noise, ..*context };
+                check_halves(&part.labels, &faces, &context);
+            });
+        }
+    }
+
+    fn check_halves(faces_of: &[usize], faces: &[Shape; 2], context: &Context) {
+        let of = |face: usize, right: bool| -> Vec<u32> {
+            let all = 0..faces_of.len();
+            let here = |&p: &usize| faces_of[p] == face && (context.surface.places[p][0] > 0.0) == right;
+            all.filter(here).map(|p| p as u32).collect()
+        };
+        let halves = [(0, true), (0, false), (1, true), (1, false)];
+        let mut regions: Vec<GrownRegion> =
+            halves.iter().map(|&(face, right)| region(context, faces[face], of(face, right))).collect();
+        let mut labels = labels(&regions, faces_of.len());
+        merge(context, &mut regions, &mut labels);
+        let left: Vec<&GrownRegion> = regions.iter().filter(|r| !r.pieces.is_empty()).collect();
+        assert_eq!(left.len(), 2, "{left:?}");
+        for face in [0, 1] {
+            let mut expected = of(face, true);
+            expected.extend(of(face, false));
+            let label = labels[expected[0] as usize];
+            assert!(expected.iter().all(|&p| labels[p as usize] == label));
+            let whole = &regions[label as usize];
+            assert_eq!((whole.pieces.len(), whole.shape.kind()), (expected.len(), faces[face].kind()));
+            assert!((whole.weight - context.surface.weight(&expected)).abs() < 1e-9 * whole.weight);
+        }
     }
 
     /// A step of three standard deviations: its wall lies near enough to the plane, but does not look its way.

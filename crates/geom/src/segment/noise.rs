@@ -1,6 +1,6 @@
 //! How noisy is it? Residuals of small patches about the best simple surface through each.
 
-use super::estimate::estimate;
+use super::estimate::{KINDS, estimate};
 use super::flood::{Marks, patch};
 use super::pieces::PieceGraph;
 use super::probe::Probe;
@@ -75,8 +75,7 @@ fn best(surface: &PieceGraph, pieces: &[u32]) -> Option<(f64, f64)> {
     let points = surface.some_places(pieces, usize::MAX);
     let oriented: Vec<_> =
         pieces.iter().map(|&p| (surface.places[p as usize], surface.normals[p as usize])).collect();
-    let kinds = [Kind::Plane, Kind::Cylinder, Kind::Sphere, Kind::Cone, Kind::Torus];
-    let fits = kinds.into_iter().filter_map(|kind| {
+    let fits = KINDS.into_iter().filter_map(|kind| {
         let left = points.len().checked_sub(kind.unknowns()).filter(|&left| left > 0)?;
         if kind != Kind::Plane && left < kind.unknowns() {
             return None;

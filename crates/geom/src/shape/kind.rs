@@ -24,6 +24,19 @@ pub enum Coordinate {
     Latitude,
 }
 
+/// What a parameter of an element is, and so its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A number in millimeters.
+    Length,
+    /// A number in radians.
+    Angle,
+    /// Three numbers in millimeters.
+    Place,
+    /// Three numbers without unit: a direction of length 1.
+    Direction,
+}
+
 /// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
@@ -75,6 +88,34 @@ impl Kind {
             Kind::Cone => "cone",
             Kind::Torus => "torus",
         }
+    }
+    /// Names of its parameters, in the order of [`Shape::parameters`](super::Shape::parameters), and what they are.
+    pub fn parameters(self) -> &'static [(&'static str, Quantity)] {
+        use Quantity::{Angle, Direction, Length, Place};
+        match self {
+            Kind::Line2 | Kind::Line => &[("point", Place), ("direction", Direction)],
+            Kind::Plane => &[("point", Place), ("normal", Direction)],
+            Kind::Circle2 | Kind::Sphere => &[("center", Place), ("radius", Length)],
+            Kind::Circle => &[("center", Place), ("normal", Direction), ("radius", Length)],
+            Kind::Cylinder => &[("point", Place), ("direction", Direction), ("radius", Length)],
+            Kind::Cone => &[
+                ("apex", Place),
+                ("direction", Direction),
+                ("half_angle", Angle),
+                ("point", Place),
+                ("radius", Length),
+            ],
+            Kind::Ellipse2 | Kind::Torus => &[
+                ("center", Place),
+                ("direction", Direction),
+                ("major_radius", Length),
+                ("minor_radius", Length),
+            ],
+        }
+    }
+    /// What its parameter of this name is; `None` where it has none.
+    pub fn quantity(self, parameter: &str) -> Option<Quantity> {
+        self.parameters().iter().find(|(name, _)| *name == parameter).map(|(_, quantity)| *quantity)
     }
     /// Number of unknowns: fewer points do not determine it.
     pub fn unknowns(self) -> usize {

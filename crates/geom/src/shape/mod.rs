@@ -12,6 +12,6 @@ pub(crate) mod ellipse;
 mod kind;
 mod shapes;
 
-pub use kind::{Coordinate, Kind, Sides};
+pub use kind::{Coordinate, Kind, Quantity, Sides};
 pub(crate) use shapes::MOST_NUMBERS;
 pub use shapes::{Parameter, Shape, upon};

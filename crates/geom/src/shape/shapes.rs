@@ -68,43 +68,49 @@ impl Shape {
     }
     /// Hands name and value of each parameter to `take`, in their order.
     fn each(&self, mut take: impl FnMut(&'static str, Parameter)) {
+        let mut parameters = self.kind().parameters().iter();
+        let mut next = |value| {
+            if let Some((name, _)) = parameters.next() {
+                take(name, value);
+            }
+        };
         use Parameter::{Number, Vector};
         match *self {
             Shape::Line2 { point, direction } | Shape::Line { point, direction } => {
-                take("point", Vector(point));
-                take("direction", Vector(direction));
+                next(Vector(point));
+                next(Vector(direction));
             }
             Shape::Plane { point, normal } => {
-                take("point", Vector(point));
-                take("normal", Vector(normal));
+                next(Vector(point));
+                next(Vector(normal));
             }
             Shape::Circle2 { center, radius } | Shape::Sphere { center, radius } => {
-                take("center", Vector(center));
-                take("radius", Number(radius));
+                next(Vector(center));
+                next(Number(radius));
             }
             Shape::Circle { center, normal, radius } => {
-                take("center", Vector(center));
-                take("normal", Vector(normal));
-                take("radius", Number(radius));
+                next(Vector(center));
+                next(Vector(normal));
+                next(Number(radius));
             }
             Shape::Cylinder { point, direction, radius } => {
-                take("point", Vector(point));
-                take("direction", Vector(direction));
-                take("radius", Number(radius));
+                next(Vector(point));
+                next(Vector(direction));
+                next(Number(radius));
             }
             Shape::Cone { apex, direction, half_angle, point, radius } => {
-                take("apex", Vector(apex));
-                take("direction", Vector(direction));
-                take("half_angle", Number(half_angle));
-                take("point", Vector(point));
-                take("radius", Number(radius));
+                next(Vector(apex));
+                next(Vector(direction));
+                next(Number(half_angle));
+                next(Vector(point));
+                next(Number(radius));
             }
             Shape::Ellipse2 { center, direction, major_radius, minor_radius }
             | Shape::Torus { center, direction, major_radius, minor_radius } => {
-                take("center", Vector(center));
-                take("direction", Vector(direction));
-                take("major_radius", Number(major_radius));
-                take("minor_radius", Number(minor_radius));
+                next(Vector(center));
+                next(Vector(direction));
+                next(Number(major_radius));
+                next(Number(minor_radius));
             }
         }
     }
@@ -264,7 +270,7 @@ fn off_axis(p: Point, point: Point, direction: Vector) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Coordinate;
+    use super::super::{Coordinate, Quantity};
     use super::*;
 
     fn one_of_each() -> [Shape; 10] {
@@ -296,6 +302,22 @@ mod tests {
     }
 
     /// The list has every kind, each once.
+    #[test]
+    fn each_parameter_is_what_its_kind_says() {
+        for shape in one_of_each() {
+            let (parameters, quantities) = (shape.parameters(), shape.kind().parameters());
+            assert_eq!(parameters.len(), quantities.len(), "{shape:?}");
+            for ((name, value), (_, quantity)) in parameters.into_iter().zip(quantities) {
+                let fits = match value {
+                    Parameter::Number(_) => matches!(quantity, Quantity::Length | Quantity::Angle),
+                    Parameter::Vector(v) if (norm(v) - 1.0).abs() < 1e-12 => *quantity == Quantity::Direction,
+                    Parameter::Vector(_) => *quantity == Quantity::Place,
+                };
+                assert!(fits, "{shape:?}: {name}");
+            }
+        }
+    }
+
     #[test]
     fn each_kind_once() {
         assert_eq!(one_of_each().map(|shape| shape.kind()), Kind::ALL);

@@ -1,8 +1,8 @@
 //! Parameters of points from a simple surface near them.
 
-use super::fold;
 use super::rectangle::minimum_rectangle;
 use super::{BaseKind, SurfaceError};
+use super::{fold, upright};
 use crate::fit::{self, FitError};
 use crate::progress::{Cancelled, Progress};
 use crate::shape::{Kind, Shape};
@@ -22,6 +22,9 @@ pub struct Base {
     /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
     /// rectangle was turned along what bends.
     pub turned: f64,
+    /// Angle from the normal of the least-squares plane to the third axis, radians: 0 but of a plane over whose least-squares plane
+    /// the points lie in layers, and over another one in fewer.
+    pub tilted: f64,
     /// Of a cylinder or a sphere.
     pub radius: Option<f64>,
     /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
@@ -92,7 +95,7 @@ pub(super) fn parameters(
     let (mut base, seen) = match kind {
         BaseKind::Xy => (xy(), points.iter().map(|p| ([p[0], p[1]], p[2])).collect()),
         BaseKind::Plane => match shape(Kind::Plane)? {
-            Shape::Plane { point, normal } => plane(points, point, normal)?,
+            Shape::Plane { point, normal } => upright(points, point, normal, progress)?,
             _ => return Err(SurfaceError::Line),
         },
         BaseKind::Cylinder => match shape(Kind::Cylinder)? {
@@ -111,8 +114,39 @@ pub(super) fn parameters(
     if short <= LINE * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
         return Err(SurfaceError::Line);
     }
-    base.folded_share = fold::share(&seen, [u, v]);
+    base.folded_share = folded_share(&seen);
     Ok((base, found))
+}
+
+/// Share of the points that lie in layers.
+fn folded_share(seen: &[Seen]) -> f64 {
+    let parameters: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
+    fold::share(seen, [range(&parameters, 0), range(&parameters, 1)])
+}
+
+/// The least-squares plane; where the points lie in layers over it, the plane over which the surface is least steep, if it has at
+/// most half as many in layers.
+fn upright(
+    points: &[Point],
+    point: Point,
+    normal: Vector,
+    progress: &dyn Progress,
+) -> Result<(Base, Vec<Seen>), SurfaceError> {
+    let flat = plane(points, point, normal)?;
+    let folded = folded_share(&flat.1);
+    if folded == 0.0 {
+        return Ok(flat);
+    }
+    let Some(direction) = upright::direction(points, normal, progress)? else { return Ok(flat) };
+    // As that of the least-squares plane: to the side of its largest coordinate.
+    let largest = direction.into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
+    let direction = times(largest.signum(), direction);
+    let (base, seen) = plane(points, point, direction)?;
+    if 2.0 * folded_share(&seen) > folded {
+        return Ok(flat);
+    }
+    let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
+    Ok((Base { tilted, ..base }, seen))
 }
 
 fn xy() -> Base {
@@ -121,6 +155,7 @@ fn xy() -> Base {
         origin: [0.0; 3],
         axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         turned: 0.0,
+        tilted: 0.0,
         radius: None,
         around: false,
         course: Course::default(),

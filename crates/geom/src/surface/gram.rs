@@ -9,6 +9,7 @@ use super::stencil::Stencil;
 use crate::num::banded::dot;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
+use crate::simd::widest::widest;
 use crate::space::Point;
 use crate::spline::basis::Knots;
 use crate::spline::spans::Spans;
@@ -29,11 +30,11 @@ pub(super) struct Binned {
     /// Where each cell starts, and the end.
     starts: Vec<u32>,
     /// Numbers of the points.
-    order: Vec<u32>,
+    pub order: Vec<u32>,
     /// Coordinates in the cell, from −1 to 1.
-    local: Vec<[f64; 2]>,
+    pub local: Vec<[f64; 2]>,
     /// The points less the center.
-    points: Vec<Point>,
+    pub points: Vec<Point>,
     weights: Option<Vec<f64>>,
 }
 
@@ -106,7 +107,7 @@ impl Binned {
     }
 
     /// The pieces of work: cell, first point, end.
-    fn items(&self) -> Vec<(u32, u32, u32)> {
+    pub(super) fn items(&self) -> Vec<(u32, u32, u32)> {
         let mut items = vec![];
         for (cell, w) in self.starts.windows(2).enumerate() {
             for from in (w[0]..w[1]).step_by(ITEM) {
@@ -114,29 +115,6 @@ impl Binned {
             }
         }
         items
-    }
-
-    /// Distance of each point, in the order of the file, from its place on the surface; unweighted.
-    pub(super) fn residuals(&self, surface: &Patches) -> Vec<f64> {
-        let mut out = vec![0.0; self.len()];
-        let items = self.items();
-        let found: Vec<Vec<f64>> = items
-            .par_iter()
-            .map(|(cell, from, to)| {
-                let one = |k: usize| {
-                    let place = surface.value(*cell as usize, self.local[k][0], self.local[k][1]);
-                    (0..3)
-                        .map(|d| (self.points[k][d] - place[d]) * (self.points[k][d] - place[d]))
-                        .sum::<f64>()
-                        .sqrt()
-                };
-                (*from as usize..*to as usize).map(one).collect()
-            })
-            .collect();
-        for ((_, from, _), own) in items.iter().zip(found) {
-            own.into_iter().enumerate().for_each(|(n, d)| out[self.order[*from as usize + n] as usize] = d);
-        }
-        out
     }
 
     /// The normal equations: `Σ w N Nᵀ`, and the sums of the points less the center.
@@ -222,28 +200,8 @@ impl Binned {
             powers[0][0][count..padded].fill(0.0);
             values.iter_mut().for_each(|v| v[count..padded].fill(0.0));
             powers[1][0][..padded].fill(1.0);
-            raise(&mut powers[0], &s);
-            raise(&mut powers[1], &t);
-            let mut at = 0;
-            if normal {
-                for a in &powers[0] {
-                    for b in &powers[1] {
-                        out[at] += dot(&a[..padded], &b[..padded]);
-                        at += 1;
-                    }
-                }
-            }
-            for v in &values {
-                for a in &powers[0][..=p] {
-                    let weighted: [f64; LANE] = std::array::from_fn(|n| a[n] * v[n]);
-                    for b in &powers[1][..=q] {
-                        out[at] += dot(&weighted[..padded], &b[..padded]);
-                        at += 1;
-                    }
-                }
-                let weighted: [f64; LANE] = std::array::from_fn(|n| powers[0][0][n] * v[n]);
-                out[size - 1] += dot(&weighted[..padded], &v[..padded]);
-            }
+            let [a, b] = &mut powers;
+            add_moments([(a, &s), (b, &t)], &values, padded, normal, &mut out);
         }
         out
     }
@@ -296,11 +254,56 @@ impl Binned {
     }
 }
 
+widest! {
+    /// Adds to `out` the moments of the first `count` lanes, if `normal` asks for them, those of the values, and their square. Of both
+    /// coordinates the lowest powers are given and the others filled in.
+    fn add_moments [] [] (
+        coordinates: [(&mut [[f64; LANE]], &[f64; LANE]); 2],
+        values: &[[f64; LANE]; 3],
+        count: usize,
+        normal: bool,
+        out: &mut [f64],
+    ) = {
+        let [(a, s), (b, t)] = coordinates;
+        raise(a, s);
+        raise(b, t);
+        let mut at = 0;
+        if normal {
+            for a in a.iter() {
+                for b in b.iter() {
+                    out[at] += dot(&a[..count], &b[..count]);
+                    at += 1;
+                }
+            }
+        }
+        let last = out.len() - 1;
+        for v in values {
+            let mut weighted = [0.0; LANE];
+            for a in &a[..a.len().div_ceil(2)] {
+                for n in 0..LANE {
+                    weighted[n] = a[n] * v[n];
+                }
+                for b in &b[..b.len().div_ceil(2)] {
+                    out[at] += dot(&weighted[..count], &b[..count]);
+                    at += 1;
+                }
+            }
+            for n in 0..LANE {
+                weighted[n] = a[0][n] * v[n];
+            }
+            out[last] += dot(&weighted[..count], &v[..count]);
+        }
+    }
+}
+
 /// Fills in the powers above the lowest one.
+#[inline(always)]
 fn raise(powers: &mut [[f64; LANE]], x: &[f64; LANE]) {
     for k in 1..powers.len() {
         let (low, high) = powers.split_at_mut(k);
-        (0..LANE).for_each(|n| high[0][n] = low[k - 1][n] * x[n]);
+        for n in 0..LANE {
+            high[0][n] = low[k - 1][n] * x[n];
+        }
     }
 }
 

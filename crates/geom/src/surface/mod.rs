@@ -6,7 +6,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `base`, `rectangle`, `fold` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it |
+//! | `base`, `rectangle`, `fold`, `upright` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it, and the plane without |
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
 //! | `hold` | what holds the control points where points are few |
@@ -14,7 +14,7 @@
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
 //! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
-//! | `nearest` | nearest places of the points, beyond doubt |
+//! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
 //! spline Gaussian regression: more scalable computation via efficient approximation, Journal of the Royal Statistical
@@ -24,6 +24,7 @@ mod base;
 mod coarser;
 mod energy;
 mod error;
+mod feet;
 mod fold;
 mod found;
 mod grain;
@@ -39,6 +40,7 @@ mod stencil;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod upright;
 
 pub use base::Base;
 pub use error::SurfaceError;

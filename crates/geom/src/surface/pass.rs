@@ -1,11 +1,11 @@
 //! One fit after the other: parameters of the nearest places, weights against outliers.
 
+use super::feet::{Feet, Found, feet};
 use super::gram::Binned;
 use super::hold::Ground;
 use super::solve::Known;
 use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
-use crate::parallel::prelude::*;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::Progress;
 use crate::space::{Aabb, Point, dot, plus, times};
 use crate::spline::basis::Knots;
 use crate::spline::surface::{Patches, Surface};
@@ -16,8 +16,6 @@ const GAIN: f64 = 0.01;
 const REWEIGHTED: usize = 8;
 /// Standard deviations beyond which a point has no weight: 95 % efficient for normal deviations.
 const TUKEY: f64 = 4.685;
-/// Points between two questions whether to stop.
-const CHUNK: usize = 4096;
 
 /// The fit over these knots, with parameters corrected and outliers weighed as the options say.
 pub(super) fn corrected(
@@ -114,7 +112,7 @@ fn once(
     let ground = Ground { knots, base: &base, points, parameters, center };
     let solved = solve::solve(&data, &ground, known, options, progress)?;
     let counts = data.counts;
-    let residuals = data.residuals(&Patches::of(data.spans.clone(), &solved.points, counts[1]));
+    let centered = Patches::of(data.spans.clone(), &solved.points, counts[1]);
     let control: Vec<Point> = solved.points.iter().map(|p| plus(*p, center)).collect();
     let surface = Surface::new(knots.clone(), control).map_err(|_| SurfaceError::Undetermined {
         total: counts[0] * counts[1],
@@ -122,7 +120,9 @@ fn once(
         unsupported: solved.support.unsupported,
     })?;
     let patches = Patches::new(&surface);
-    let Feet { deviations, feet, doubtful, unsettled } = feet(&patches, points, parameters, progress)?;
+    let both = Found { surface: &patches, centered: &centered };
+    let Feet { deviations, feet, doubtful, unsettled, sum_of_squares, max_residual } =
+        feet(&data, &both, points, parameters, progress)?;
     let far = far(&base, points, 0.5 * hull.diagonal());
     Ok(SurfaceFit {
         far_control_points: surface.points().iter().filter(|p| far(p)).count(),
@@ -130,8 +130,8 @@ fn once(
         feet,
         doubtful,
         unsettled,
-        sum_of_squares: residuals.iter().map(|d| d * d).sum(),
-        max_residual: residuals.iter().fold(0.0, |m, d| m.max(*d)),
+        sum_of_squares,
+        max_residual,
         fairness: solved.fairness,
         degrees_of_freedom: solved.degrees_of_freedom.filter(|_| options.fairness == Fairness::Auto),
         support: solved.support,
@@ -155,60 +155,4 @@ fn far(base: &Base, points: &[Point], least: f64) -> impl Fn(&Point) -> bool {
         (0.5 * (low + high), (high - low).max(least))
     });
     move |p| axes.iter().zip(limits).any(|(axis, (middle, most))| (dot(*p, *axis) - middle).abs() > most)
-}
-
-/// The nearest places of points.
-#[derive(Default)]
-struct Feet {
-    /// Signed distances.
-    deviations: Vec<f64>,
-    /// Parameters.
-    feet: Vec<[f64; 2]>,
-    /// Points for which there may be a nearer place.
-    doubtful: Vec<u32>,
-    /// Points whose place was not found to the last digit.
-    unsettled: usize,
-}
-
-/// The nearest places of all points, from those of their parameters on.
-fn feet(
-    surface: &Patches,
-    points: &[Point],
-    parameters: &[[f64; 2]],
-    progress: &dyn Progress,
-) -> Result<Feet, Cancelled> {
-    let reach = surface.reach();
-    let chunks = points.par_chunks(CHUNK).zip(parameters.par_chunks(CHUNK));
-    let found: Result<Vec<Feet>, Cancelled> = chunks
-        .map(|(points, parameters)| {
-            if progress.cancelled() {
-                return Err(Cancelled);
-            }
-            let mut own = Feet::default();
-            own.deviations.reserve_exact(points.len());
-            own.feet.reserve_exact(points.len());
-            for (point, at) in points.iter().zip(parameters) {
-                let foot = surface.foot_from(*point, *at);
-                if !foot.settled || foot.distance >= reach {
-                    own.doubtful.push(own.feet.len() as u32);
-                }
-                own.unsettled += usize::from(!foot.settled);
-                own.deviations.push(foot.signed(*point));
-                own.feet.push(foot.parameters);
-            }
-            progress.advance(points.len() as u64);
-            Ok(own)
-        })
-        .collect();
-    let mut all = Feet::default();
-    all.deviations.reserve_exact(points.len());
-    all.feet.reserve_exact(points.len());
-    for part in found? {
-        let first = all.feet.len() as u32;
-        all.doubtful.extend(part.doubtful.iter().map(|k| first + k));
-        all.unsettled += part.unsettled;
-        all.deviations.extend(part.deviations);
-        all.feet.extend(part.feet);
-    }
-    Ok(all)
 }

@@ -8,7 +8,8 @@ mod references;
 use super::*;
 use crate::num::random::Random;
 use crate::progress::{Cancelled, Silent};
-use crate::space::norm;
+use crate::shape::{Kind, Shape};
+use crate::space::{dot, norm};
 use crate::spline::surface::Surface;
 use std::f64::consts::PI;
 
@@ -290,6 +291,42 @@ fn layers_are_told() {
         .collect();
     let share = fit(&step, &spans(6), &Silent).unwrap().base.folded_share;
     assert!(share < 0.01, "{share}");
+}
+
+/// Ground that rises to one corner, with a steep hill: it folds over its least-squares plane, but not over the ground plan.
+#[test]
+fn steep_ground_has_a_plane_without_layers() {
+    let random = &mut Random::new(31);
+    let ground: Vec<Point> = (0..20_000)
+        .map(|_| {
+            let [x, y] = [100.0 * random.unit(), 100.0 * random.unit()];
+            let square = (x - 60.0) * (x - 60.0) + (y - 45.0) * (y - 45.0);
+            [x, y, 1.2 * (x + y) + 60.0 * libm::exp(-square / 300.0) + 0.01 * (random.unit() - 0.5)]
+        })
+        .collect();
+    let flat = crate::fit::fit(&ground, Kind::Plane, &crate::fit::Options::default(), &Silent).unwrap();
+    let Shape::Plane { normal, .. } = flat.shape else { panic!("{:?}", flat.shape) };
+    let over_plane = |n: usize| Options { base: BaseKind::Plane, ..spans(n) };
+    let found = fit(&ground, &over_plane(40), &Silent).unwrap();
+    let axis = found.base.axes[2];
+    assert_eq!(found.base.folded_share, 0.0);
+    assert!(
+        (libm::cos(found.base.tilted) - dot(axis, normal).abs()).abs() < 1e-12 && found.base.tilted > 0.2,
+        "{:?} {normal:?}",
+        found.base
+    );
+    // No facet of the ground is at right angles to the axis: its steepest slopes are 57 degrees up and 70 down.
+    assert!(axis[2] > 0.8, "{axis:?}");
+    // The noise is 0.0029 in height.
+    let rms = pass::rms(&found.deviations);
+    assert!(rms < 0.004, "{rms}");
+    // What has no such direction keeps its plane: a pipe with a slit.
+    let pipe: Vec<Point> = (0..5000)
+        .map(|_| (5.5 * random.unit(), 60.0 * random.unit()))
+        .map(|(a, z)| [15.0 * a.cos(), z, 15.0 * a.sin()])
+        .collect();
+    let kept = fit(&pipe, &over_plane(8), &Silent).unwrap();
+    assert!(kept.base.tilted == 0.0 && kept.base.folded_share > 0.1, "{:?}", kept.base);
 }
 
 #[test]

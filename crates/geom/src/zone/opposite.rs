@@ -53,9 +53,6 @@ pub fn opposite_planes(
     let Some((normal, distance)) = parallel_planes(first, second) else {
         return Err(ZoneError::NoPlanes);
     };
-    if matches!(method, Method::Gaussian | Method::Robust) {
-        return Ok(Opposite { normal, distance });
-    }
     let points: Vec<Point> = first.iter().chain(second).copied().collect();
     let start = Rigid::into_frame(points[0], normal, least_axis(normal)).ok_or(ZoneError::NoPlanes)?;
     // Out of the space between the planes is above 0, for the inscribed pair into it.
@@ -65,20 +62,17 @@ pub fn opposite_planes(
         Some((s * p[2], [0.0, 0.0, s]))
     };
     let free = Freedom { shift: [false, false, true], turn: [true, true, false] };
-    let search = match method {
-        Method::MinimumCircumscribed | Method::MaximumInscribed => {
-            Search { start, free, middle: 0.0, floating: false, outer: true }
-        }
-        _ => Search { start, free, middle: 0.5 * distance, floating: true, outer: false },
-    };
-    let found = placed(&points, &height, &search, progress)?;
-    let distance = match method {
-        Method::MinimumCircumscribed => 2.0 * found.half,
-        Method::MaximumInscribed => -2.0 * found.half,
+    let touching = Search { start, free, middle: 0.0, floating: false, outer: true };
+    let zone = Search { middle: 0.5 * distance, floating: true, outer: false, ..touching };
+    let found = |search| placed(&points, &height, search, progress);
+    let (motion, distance) = match method {
+        Method::Gaussian | Method::Robust => return Ok(Opposite { normal, distance }),
+        Method::MinimumCircumscribed => found(&touching).map(|found| (found.motion, 2.0 * found.half))?,
+        Method::MaximumInscribed => found(&touching).map(|found| (found.motion, -2.0 * found.half))?,
         // The least and the greatest height are as far from the middle, which is half the distance.
-        _ => found.min.0 + found.max.0,
+        Method::MinimumZone => found(&zone).map(|found| (found.motion, found.min.0 + found.max.0))?,
     };
-    Ok(Opposite { normal: found.motion.inverse().vector([0.0, 0.0, 1.0]), distance })
+    Ok(Opposite { normal: motion.inverse().vector([0.0, 0.0, 1.0]), distance })
 }
 
 #[cfg(test)]

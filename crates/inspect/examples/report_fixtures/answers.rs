@@ -104,7 +104,7 @@ fn pushed() -> Mesh {
 /// The report of a check.
 pub fn check_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
     let document = check_document(mesh);
-    let view = trueness_inspect::check::View::new(&document, "part.stl", mesh);
+    let view = trueness_inspect::check::View::new(&document, "part.stl", mesh, Default::default());
     let (objects, marks) = (view.objects(), &view.marks[..]);
     super::bytes(&ReportInput { result: Answer::Check(&document), objects: &objects, marks, options })
 }
@@ -117,7 +117,7 @@ pub fn check_document(mesh: &Mesh) -> CheckDocument {
         &report,
         file(Role::Reference, "part.stl", mesh),
         mesh.faces.len() as u64,
-        0,
+        Default::default(),
         &options,
     )
 }
@@ -207,7 +207,7 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let document = SegmentDocument::new(&found, PieceKind::Facets, files, &wish, false);
+    let document = SegmentDocument::new(&found, PieceKind::Facets, files, &wish, None);
     let view = trueness_inspect::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);
     let result = Answer::Segment(&document);

@@ -173,6 +173,8 @@ fn characteristic(f: &Found) -> CharacteristicRecord {
         unit: if f.kind == "angle" { "deg" } else { "mm" }.into(),
         uncertainty: f.uncertainty,
         uncertainty_source: f.uncertainty.map(|_| "plan".into()),
+        noise_bias: None,
+        interval: None,
         decision_rule: "iso14253-1".into(),
         verdict,
         reason: f.value.is_none().then(|| "there are no points".into()),

@@ -1,5 +1,6 @@
 //! What a report draws of a check: the mesh, and every listed defect on it.
 
+use crate::file_numbers::LeftOut;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::check::{CheckDocument, Defects, Item};
 use crate::scale::palette::category;
@@ -17,10 +18,10 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Of the mesh that the document is of; `name` is shown to the reader.
-    pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh) -> View<'a> {
-        let marks =
-            Marks { role: ViewRole::Defects, comparison: None, groups: groups(&document.found(), mesh) };
+    /// Of the mesh that the document is of, without the facets `left_out` of the file; `name` is shown to the reader.
+    pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh, left_out: LeftOut) -> View<'a> {
+        let groups = groups(&document.found(), mesh, left_out);
+        let marks = Marks { role: ViewRole::Defects, comparison: None, groups };
         View { name, mesh, marks: vec![marks] }
     }
 
@@ -41,23 +42,24 @@ impl<'a> View<'a> {
 }
 
 /// The listed defects of each kind found in a mesh.
-pub(crate) fn groups(found: &[(&DefectKind, &Defects)], mesh: &Mesh) -> Vec<MarkGroup> {
+pub(crate) fn groups(found: &[(&DefectKind, &Defects)], mesh: &Mesh, left_out: LeftOut) -> Vec<MarkGroup> {
     let mut shells = Shells::default();
     let group = |(n, (kind, defects)): (usize, &(&DefectKind, &Defects))| MarkGroup {
         key: format!("defect.{}", kind.name),
         color: category(n),
-        items: defects.items.iter().map(|item| mark(mesh, kind.shows, item, &mut shells)).collect(),
+        items: defects.items.iter().map(|item| mark(mesh, kind.shows, item, left_out, &mut shells)).collect(),
     };
     found.iter().enumerate().map(group).collect()
 }
 
-fn mark(mesh: &Mesh, shows: Shows, item: &Item, shells: &mut Shells) -> Mark {
+fn mark(mesh: &Mesh, shows: Shows, item: &Item, left_out: LeftOut, shells: &mut Shells) -> Mark {
+    let own: Vec<u32> = item.facets.iter().map(|f| left_out.in_mesh(*f)).collect();
     let place = |v: &u32| mesh.positions.get(*v as usize).copied();
     let vertices: Vec<Point> = item.vertices.iter().filter_map(place).collect();
-    let normal = if shows == Shows::Ring { opening(&vertices) } else { normal(mesh, &item.facets) };
+    let normal = if shows == Shows::Ring { opening(&vertices) } else { normal(mesh, &own) };
     let mut mark = Mark { normal, ..Mark::default() };
     let facets = |mark: &mut Mark| {
-        item.facets.iter().filter_map(|f| corners(mesh, *f)).for_each(|t| mark.add_facet(t));
+        own.iter().filter_map(|f| corners(mesh, *f)).for_each(|t| mark.add_facet(t));
     };
     match shows {
         Shows::Points => mark.points.extend(&vertices),
@@ -71,7 +73,7 @@ fn mark(mesh: &Mesh, shows: Shows, item: &Item, shells: &mut Shells) -> Mark {
             [] => facets(&mut mark),
         },
         Shows::Shell => {
-            let facets = shells.of(mesh, item.facets.first().copied());
+            let facets = shells.of(mesh, own.first().copied());
             mark.triangles.extend(facets.into_iter().filter_map(|f| corners(mesh, f)));
         }
         Shows::Facets => facets(&mut mark),
@@ -122,8 +124,9 @@ mod tests {
     fn drawn(mesh: &Mesh) -> Vec<(String, Vec<[usize; 3]>)> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();
         let file = InputRecord::of_no_file(Role::Mesh);
-        let document = document(&report, file, mesh.faces.len() as u64, 0, &Options::default());
-        let view = View::new(&document, "x", mesh);
+        let document =
+            document(&report, file, mesh.faces.len() as u64, LeftOut::default(), &Options::default());
+        let view = View::new(&document, "x", mesh, LeftOut::default());
         let sizes = |m: &Mark| [m.triangles.len(), m.segments.len(), m.points.len()];
         let groups = view.marks[0].groups.iter();
         groups.map(|g| (g.key.clone(), g.items.iter().map(sizes).collect())).collect()

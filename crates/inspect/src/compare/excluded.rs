@@ -10,8 +10,8 @@ use trueness_geom::deviation::surface::Exclusion;
 pub enum Excluded {
     /// Farther than the greatest distance asked for.
     MaxDistance = 1,
-    /// The nearest place lies on a free edge.
-    FreeEdge = 2,
+    /// The nearest place lies on a boundary edge.
+    BoundaryEdge = 2,
     /// Its normal does not agree with that of the reference.
     Facing = 3,
     /// Beyond the limits that the rule for outliers gives.
@@ -29,7 +29,7 @@ impl From<Exclusion> for Excluded {
     fn from(e: Exclusion) -> Excluded {
         match e {
             Exclusion::MaxDistance => Excluded::MaxDistance,
-            Exclusion::FreeEdge => Excluded::FreeEdge,
+            Exclusion::BoundaryEdge => Excluded::BoundaryEdge,
             Exclusion::NoCrossing => Excluded::NoCrossing,
             Exclusion::NoDirection => Excluded::NoDirection,
         }
@@ -40,7 +40,7 @@ impl Excluded {
     /// All, in the order of their numbers.
     pub const ALL: [Excluded; 6] = [
         Excluded::MaxDistance,
-        Excluded::FreeEdge,
+        Excluded::BoundaryEdge,
         Excluded::Facing,
         Excluded::Outlier,
         Excluded::NoCrossing,
@@ -67,7 +67,7 @@ impl Excluded {
     pub fn value(self) -> f64 {
         match self {
             Excluded::MaxDistance => Exclusion::MaxDistance.value(),
-            Excluded::FreeEdge => Exclusion::FreeEdge.value(),
+            Excluded::BoundaryEdge => Exclusion::BoundaryEdge.value(),
             Excluded::Facing => f64::NEG_INFINITY,
             Excluded::Outlier => f64::from_bits(OUTLIER),
             Excluded::NoCrossing => Exclusion::NoCrossing.value(),
@@ -79,7 +79,7 @@ impl Excluded {
     pub fn name(self) -> &'static str {
         match self {
             Excluded::MaxDistance => Exclusion::MaxDistance.name(),
-            Excluded::FreeEdge => Exclusion::FreeEdge.name(),
+            Excluded::BoundaryEdge => Exclusion::BoundaryEdge.name(),
             Excluded::Facing => "facing",
             Excluded::Outlier => "outlier",
             Excluded::NoCrossing => Exclusion::NoCrossing.name(),

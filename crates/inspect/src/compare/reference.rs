@@ -338,7 +338,7 @@ impl<'a> Running<'a> {
             excluded: Excluded::ALL
                 .into_iter()
                 .filter(|e| match e {
-                    Excluded::MaxDistance | Excluded::FreeEdge => true,
+                    Excluded::MaxDistance | Excluded::BoundaryEdge => true,
                     Excluded::Facing => self.facing.is_some(),
                     Excluded::Outlier => self.outliers.is_some(),
                     Excluded::NoCrossing => self.along.is_some(),

@@ -245,7 +245,7 @@ impl Splines<'_> {
             return Excluded::MaxDistance.value();
         }
         if self.options.skip_boundary && found.border {
-            return Excluded::FreeEdge.value();
+            return Excluded::BoundaryEdge.value();
         }
         if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
     }

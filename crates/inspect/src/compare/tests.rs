@@ -77,7 +77,7 @@ fn what_is_not_covered_is_what_the_map_shows_gray() {
         let options = Options { shown, coverage: Some(Coverage::Auto), ..Options::default() };
         let (_, document, gray) = compared(&points, &mesh, &options);
         let c = document.comparisons[0].coverage.as_ref().unwrap();
-        assert!((c.uncovered - gray).abs() < 1e-9 * c.area, "{} drawn grey, {} told", gray, c.uncovered);
+        assert!((c.uncovered - gray).abs() < 1e-9 * c.area, "{} drawn gray, {} told", gray, c.uncovered);
         // Creases part the sides: one of six, whole and alone.
         assert!((c.area - 9600.0).abs() < 1e-9 && (c.uncovered - 1600.0).abs() < 1e-9, "{c:?}");
         assert!((c.uncovered_share.unwrap() - 1.0 / 6.0).abs() < 1e-12);
@@ -90,7 +90,7 @@ fn what_is_not_covered_is_what_the_map_shows_gray() {
     let half: Vec<Point> = points.iter().filter(|p| p[0] < 17.0).copied().collect();
     let (_, document, gray) = compared(&half, &mesh, &options);
     let c = document.comparisons[0].coverage.as_ref().unwrap();
-    assert!((c.uncovered - gray).abs() < 1e-6 && c.uncovered > 1600.0, "{gray} drawn grey, {c:?}");
+    assert!((c.uncovered - gray).abs() < 1e-6 && c.uncovered > 1600.0, "{gray} drawn gray, {c:?}");
     // Points that are left out cover nothing: of those that look downward only the lower side is left.
     let down = Facing::new(0.5, vec![[0.0, 0.0, -1.0]; points.len()]);
     let options = Options { shown: 2000, facing: Some(down), ..Options::default() };

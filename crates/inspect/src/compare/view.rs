@@ -2,6 +2,7 @@
 
 use super::{Comparisons, Excluded, Reference, Values};
 use crate::check::groups;
+use crate::file_numbers::LeftOut;
 use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole, first_view};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison};
@@ -71,7 +72,7 @@ impl<'a> View<'a> {
             references,
             found,
             points,
-            measured: lists.iter().map(|values| Field::of(values, NoValue::FreeEdge)).collect(),
+            measured: lists.iter().map(|values| Field::of(values, NoValue::BoundaryEdge)).collect(),
             flagged,
             maps: found.references.iter().map(map).collect(),
         }
@@ -81,7 +82,7 @@ impl<'a> View<'a> {
     pub fn marks(&self, document: &CompareDocument) -> Vec<Marks> {
         let of = |(n, (c, r)): (usize, (&Comparison, &Reference))| {
             let found = found(&c.soundness.findings);
-            let groups = groups(&found, r.mesh);
+            let groups = groups(&found, r.mesh, LeftOut::default());
             (!found.is_empty()).then_some(Marks { role: ViewRole::Defects, comparison: Some(n), groups })
         };
         document.comparisons.iter().zip(self.references).enumerate().filter_map(of).collect()
@@ -131,7 +132,7 @@ impl Field {
         let reason = |d: &f64| match Excluded::of(*d) {
             None => NoValue::Unknown,
             Some(Excluded::MaxDistance) => NoValue::MaxDistance,
-            Some(Excluded::FreeEdge) => nan,
+            Some(Excluded::BoundaryEdge) => nan,
             Some(Excluded::Facing) => NoValue::Facing,
             Some(Excluded::Outlier) => NoValue::Outlier,
             Some(Excluded::NoCrossing) => NoValue::NoCrossing,

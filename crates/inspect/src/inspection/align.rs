@@ -86,7 +86,7 @@ fn moved(data: &mut Data, motion: &Rigid) {
     data.normals.iter_mut().for_each(|n| *n = motion.vector(*n));
 }
 
-fn failed(e: AlignError) -> Stop {
+pub(super) fn failed(e: AlignError) -> Stop {
     match e {
         AlignError::Cancelled(e) => e.into(),
         e => Stop::Align(e.to_string()),
@@ -116,7 +116,7 @@ fn best_fitted(data: &Data, chebyshev: bool, progress: &dyn Progress) -> Result<
 }
 
 /// The motion that lays the frame of the measured datums on that of the nominal ones.
-fn by_datums(
+pub(super) fn by_datums(
     taken: &[Taken],
     datums: &[usize],
     rule: Rule,

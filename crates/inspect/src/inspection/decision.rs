@@ -3,22 +3,21 @@
 use crate::plan::{Limits, Rule};
 use crate::results::Verdict;
 
-/// The verdict on `value` with the expanded uncertainty `u`.
+/// The verdict on `value`, where the true one lies no more than `u` below and above it.
 ///
 /// `simple`: the limits belong to what is allowed, the uncertainty is not looked at. `iso14253-1` (ISO 14253-1:2017, 5):
-/// conformity is proven where the value lies within the limits by at least `u`, non-conformity where it lies beyond one by
-/// more than `u`; between them nothing is decided, nor is anything where `u` is not known.
-pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<f64>) -> Verdict {
+/// conformity is proven where all of that interval lies within the limits, non-conformity where all of it lies beyond
+/// one; between them nothing is decided, nor is anything where `u` is not known.
+pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<[f64; 2]>) -> Verdict {
     let (lower, upper) = limits.range();
-    // How far the value is inside the nearest limit.
-    let inside = lower.map_or(f64::INFINITY, |l| value - l).min(upper - value);
-    let u = match rule {
-        Rule::Simple => 0.0,
-        Rule::Iso14253 => u.unwrap_or(f64::INFINITY),
+    let [from_lower, to_upper] = [lower.map_or(f64::INFINITY, |l| value - l), upper - value];
+    let [below, above] = match rule {
+        Rule::Simple => [0.0; 2],
+        Rule::Iso14253 => u.unwrap_or([f64::INFINITY; 2]),
     };
-    if inside >= u {
+    if from_lower >= below && to_upper >= above {
         Verdict::Pass
-    } else if inside < -u {
+    } else if from_lower < -above || to_upper < -below {
         Verdict::Fail
     } else {
         Verdict::Undecided
@@ -48,15 +47,15 @@ mod tests {
         let limits = Limits::Greatest(0.05);
         for value in [0.0, 0.05, 1e9] {
             assert_eq!(verdict(value, &limits, Rule::Iso14253, None), Verdict::Undecided);
-            assert_eq!(verdict(value, &limits, Rule::Iso14253, Some(f64::INFINITY)), Verdict::Undecided);
+            assert_eq!(verdict(value, &limits, Rule::Iso14253, Some([f64::INFINITY; 2])), Verdict::Undecided);
         }
-        assert_eq!(verdict(0.04, &limits, Rule::Iso14253, Some(0.01)), Verdict::Pass);
+        assert_eq!(verdict(0.04, &limits, Rule::Iso14253, Some([0.01; 2])), Verdict::Pass);
     }
 
     #[test]
     fn a_limit_belongs_to_what_is_allowed() {
         let limits = Limits::Greatest(0.05);
-        let simple = |v| verdict(v, &limits, Rule::Simple, Some(1.0));
+        let simple = |v| verdict(v, &limits, Rule::Simple, Some([1.0; 2]));
         assert_eq!(
             [simple(0.0), simple(0.05), simple(0.0501)],
             [Verdict::Pass, Verdict::Pass, Verdict::Fail]
@@ -74,9 +73,20 @@ mod tests {
     #[test]
     fn near_a_limit_nothing_is_decided() {
         let limits = Limits::Between { nominal: 10.0, lower: -0.5, upper: 0.5 };
-        let at = |v| verdict(v, &limits, Rule::Iso14253, Some(0.125));
+        let at = |v| verdict(v, &limits, Rule::Iso14253, Some([0.125; 2]));
         use Verdict::{Fail, Pass, Undecided};
         assert_eq!([at(10.375), at(10.4), at(10.625), at(10.626)], [Pass, Undecided, Undecided, Fail]);
         assert_eq!([at(9.625), at(9.6), at(9.375), at(9.374)], [Pass, Undecided, Undecided, Fail]);
+    }
+
+    #[test]
+    fn each_side_has_its_own_uncertainty() {
+        use Verdict::{Fail, Pass, Undecided};
+        let form = |v| verdict(v, &Limits::Greatest(1.0), Rule::Iso14253, Some([0.5, 0.125]));
+        assert_eq!([form(0.875), form(0.9), form(1.5), form(1.51)], [Pass, Undecided, Undecided, Fail]);
+        let limits = Limits::Between { nominal: 10.0, lower: -1.0, upper: 1.0 };
+        let bore = |v| verdict(v, &limits, Rule::Iso14253, Some([0.125, 0.5]));
+        assert_eq!([bore(10.5), bore(10.6), bore(11.125), bore(11.2)], [Pass, Undecided, Undecided, Fail]);
+        assert_eq!([bore(9.125), bore(9.1), bore(8.5), bore(8.4)], [Pass, Undecided, Undecided, Fail]);
     }
 }

@@ -2,11 +2,11 @@
 
 use super::decision::{utilization, verdict};
 use super::left_out;
-use super::{Element, Found, Inspection, Taken};
+use super::{Element, Found, Inspection, Taken, Uncertainty};
 use crate::characteristic::Value;
 use crate::compare;
 use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
-use crate::results::align::AlignNote;
+use crate::results::align::{AlignNote, AlignNoteKind};
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
@@ -106,10 +106,10 @@ impl AlignmentRecord {
 /// What makes it unlikely that the data are of the part.
 fn doubt(warning: &Warning) -> AlignNote {
     let kind = match warning.kind {
-        WarningKind::SizeRatio => "size_ratio",
-        WarningKind::HardlyOverlapping => "hardly_overlapping",
+        WarningKind::SizeRatio => AlignNoteKind::SizeRatio,
+        WarningKind::HardlyOverlapping => AlignNoteKind::HardlyOverlapping,
     };
-    AlignNote { kind: kind.into(), text: warning.text.clone() }
+    AlignNote { kind: Word(kind), text: warning.text.clone() }
 }
 
 /// The deviations as a comparison tells them, with the scale of their colors.
@@ -214,7 +214,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let uncertainty = found.uncertainties[n];
     let judged = |value: &Result<Value, String>| {
         value.as_ref().map_or(Verdict::NotMeasured, |v| {
-            verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.expanded))
+            verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides()))
         })
     };
     let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
@@ -238,6 +238,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         unit: spec.unit().into(),
         uncertainty: uncertainty.map(|u| u.expanded),
         uncertainty_source: uncertainty.map(|u| u.source.into()),
+        noise_bias: uncertainty.map(|u| u.bias).filter(|bias| *bias != 0.0),
+        interval: measured.zip(uncertainty).map(|(v, u)| interval(v.value, u, zone)),
         decision_rule: rule.word().into(),
         verdict: judged_with.verdict,
         reason: value.as_ref().err().cloned(),
@@ -255,6 +257,13 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
             .collect(),
         standard: spec.kind.standard().into(),
     }
+}
+
+/// Where the true value lies; no zone is narrower than none.
+fn interval(value: f64, u: Uncertainty, zone: ZoneForm) -> [f64; 2] {
+    let [below, above] = u.sides();
+    let least = if zone == ZoneForm::Value { f64::NEG_INFINITY } else { 0.0 };
+    [(value - below).max(least), value + above]
 }
 
 /// What modifies a characteristic, as words.

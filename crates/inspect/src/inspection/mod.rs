@@ -9,6 +9,8 @@ mod document;
 mod found;
 mod left_out;
 mod measure;
+mod noise_field;
+mod pose_noise;
 mod seed;
 mod take;
 mod uncertainty;
@@ -78,7 +80,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
             _ => Ok(None),
         })
         .collect::<Result<Vec<_>, Stop>>()?;
-    let uncertainties = uncertainty::found(plan, &features, data.seed, progress)?;
+    let uncertainties = uncertainty::found(plan, (&data, &alignment), &features, progress)?;
     if progress.cancelled() {
         return Err(Stop::Cancelled);
     }

@@ -19,7 +19,7 @@ pub struct Deviation {
     pub required_share: f64,
     /// Points farther away are left out; infinite without a limit.
     pub max_distance: f64,
-    /// Whether points nearest to a free edge of the reference are left out.
+    /// Whether points nearest to a boundary edge of the reference are left out.
     pub skip_boundary: bool,
     /// Along what lines they are measured; to the nearest place without.
     pub along: Option<AlongRule>,

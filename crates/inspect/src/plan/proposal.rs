@@ -37,7 +37,12 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
             Shape::Cylinder { .. } => (1, "cylinder"),
             Shape::Cone { .. } => (2, "cone"),
             Shape::Sphere { .. } => (3, "sphere"),
-            _ => {
+            Shape::Torus { .. }
+            | Shape::Line2 { .. }
+            | Shape::Line { .. }
+            | Shape::Circle2 { .. }
+            | Shape::Circle { .. }
+            | Shape::Ellipse2 { .. } => {
                 let kind = region.fit.shape.kind().name();
                 let _ = writeln!(
                     out,
@@ -77,7 +82,14 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
         let form = match shape {
             Shape::Plane { .. } => Some("flatness"),
             Shape::Cylinder { .. } => Some("cylindricity"),
-            _ => None,
+            Shape::Sphere { .. }
+            | Shape::Cone { .. }
+            | Shape::Torus { .. }
+            | Shape::Line2 { .. }
+            | Shape::Line { .. }
+            | Shape::Circle2 { .. }
+            | Shape::Circle { .. }
+            | Shape::Ellipse2 { .. } => None,
         };
         if let Some(form) = form {
             add(format!("kind = \"{form}\"\nfeature = {id_text}\ntolerance = {TOLERANCE}"));

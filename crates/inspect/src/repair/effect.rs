@@ -1,7 +1,7 @@
 //! Whether what a repair left is still the same part.
 
 use crate::results::repair::Effect;
-use trueness_geom::repair::{Deviation, NotEnclosed, Repaired};
+use trueness_geom::repair::{Deviation, NotEnclosed, Removes, Repaired};
 
 /// Compares volume and surface with their limits; `volume` is that after the repair.
 pub(super) fn record(
@@ -51,13 +51,13 @@ fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
     match &repaired.effect.enclosed {
         Ok(_) => repaired.effect.surface.map(|x| x.max(deviation.back.max)),
         Err(reason @ (NotEnclosed::Open | NotEnclosed::Inconsistent)) => {
-            let removed = |step: &str| -> f64 {
+            let removed = |what: Removes| -> f64 {
                 let share = |size: f64| size / repaired.before.properties.area;
-                repaired.changes.iter().filter(|c| c.step == step).map(|c| share(c.size)).sum()
+                repaired.changes.iter().filter(|c| c.step.removes == what).map(|c| share(c.size)).sum()
             };
-            let torn = repaired.changes.iter().any(|c| c.step == "self_intersections");
-            let lost = repaired.effect.surface.filter(|_| torn || removed("scraps") > SHEETS);
-            let fins = (removed("fins") > FINS).then_some(deviation.there.max);
+            let torn = repaired.changes.iter().any(|c| c.step.removes == Removes::Crossings);
+            let lost = repaired.effect.surface.filter(|_| torn || removed(Removes::Sheets) > SHEETS);
+            let fins = (removed(Removes::Fins) > FINS).then_some(deviation.there.max);
             // Without a hole nothing is filled: what is new lies on the old surface, or counts.
             let new = (*reason == NotEnclosed::Inconsistent).then_some(deviation.back.max);
             [lost, fins, new].into_iter().flatten().reduce(f64::max)

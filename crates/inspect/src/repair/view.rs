@@ -6,6 +6,7 @@ use crate::scale::palette::{Rgb, category};
 use std::collections::HashSet;
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::repair::Step;
 use trueness_geom::space::{Point, Vector, normal};
 
 /// Facets drawn as new or gone, at most.
@@ -25,12 +26,12 @@ pub struct View<'a> {
 }
 
 /// The listed changes step by step, steps in the order of their first change.
-pub fn by_step(document: &RepairDocument) -> Vec<(&str, Vec<&Change>)> {
-    let mut steps: Vec<(&str, Vec<&Change>)> = vec![];
+pub fn by_step(document: &RepairDocument) -> Vec<(&'static Step, Vec<&Change>)> {
+    let mut steps: Vec<(&'static Step, Vec<&Change>)> = vec![];
     for change in &document.changes {
-        match steps.iter_mut().find(|(step, _)| *step == change.step) {
+        match steps.iter_mut().find(|(step, _)| *step == *change.step) {
             Some((_, changes)) => changes.push(change),
-            None => steps.push((&change.step, vec![change])),
+            None => steps.push((*change.step, vec![change])),
         }
     }
     steps
@@ -42,7 +43,7 @@ impl<'a> View<'a> {
         let surface = MendedMesh { mesh: after, tree: Tree::build(after).ok() };
         let steps = by_step(document).into_iter().enumerate();
         let groups = steps.map(|(n, (step, changes))| MarkGroup {
-            key: format!("step.{step}"),
+            key: format!("step.{}", step.name),
             color: category(n),
             items: changes.into_iter().map(|c| surface.dot(c)).collect(),
         });

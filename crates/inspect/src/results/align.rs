@@ -1,6 +1,7 @@
 //! `trueness/align/1`: the motion that brings a measured part onto its reference.
 
-use super::{InputRecord, UNITS, VERSION};
+use super::word::named;
+use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::align::{AlignWarning, Alignment, Freedom, Minimax, RowFit};
@@ -8,7 +9,7 @@ use trueness_geom::align::{AlignWarning, Alignment, Freedom, Minimax, RowFit};
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignDocument {
     /// `trueness/align/1`.
@@ -96,9 +97,7 @@ impl AlignedTo {
 
 /// Whether an alignment with these warnings may be relied on.
 fn sound(warnings: &[AlignNote]) -> bool {
-    !warnings
-        .iter()
-        .any(|w| matches!(w.kind.as_str(), "poor" | "ambiguous" | "scale" | "few" | "not_converged"))
+    !warnings.iter().any(|w| w.kind.is_doubt())
 }
 
 /// What a best fit tells.
@@ -108,7 +107,7 @@ pub struct BestFitRecord {
     pub median: f64,
     /// Points that count.
     pub used: u64,
-    /// Points that do not: outliers, beside a free edge, on the other side of a wall.
+    /// Points that do not: outliers, beside a boundary edge, on the other side of a wall.
     pub left_out: u64,
     /// Share of the measured surface that counts, 0 to 1.
     pub share: f64,
@@ -177,10 +176,80 @@ pub struct PairRecord {
 pub struct AlignNote {
     /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
-    pub kind: String,
+    pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
     pub text: String,
 }
+
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlignNoteKind {
+    /// Half of the points are far off.
+    Poor,
+    /// Other poses fit about as well.
+    Ambiguous,
+    /// A motion is free.
+    Free,
+    /// The normals were turned round.
+    NormalsTurned,
+    /// The measured fits when it is larger or smaller.
+    Scale,
+    /// Few points were given.
+    Few,
+    /// The iteration did not settle.
+    NotConverged,
+    /// The measured and the nominal part have different sizes.
+    SizeRatio,
+    /// The measured and the nominal part hardly overlap.
+    HardlyOverlapping,
+}
+
+impl AlignNoteKind {
+    /// All, in the order above.
+    pub const ALL: [AlignNoteKind; 9] = [
+        AlignNoteKind::Poor,
+        AlignNoteKind::Ambiguous,
+        AlignNoteKind::Free,
+        AlignNoteKind::NormalsTurned,
+        AlignNoteKind::Scale,
+        AlignNoteKind::Few,
+        AlignNoteKind::NotConverged,
+        AlignNoteKind::SizeRatio,
+        AlignNoteKind::HardlyOverlapping,
+    ];
+
+    /// Its name in documents.
+    pub fn name(self) -> &'static str {
+        match self {
+            AlignNoteKind::Poor => "poor",
+            AlignNoteKind::Ambiguous => "ambiguous",
+            AlignNoteKind::Free => "free",
+            AlignNoteKind::NormalsTurned => "normals_turned",
+            AlignNoteKind::Scale => "scale",
+            AlignNoteKind::Few => "few",
+            AlignNoteKind::NotConverged => "not_converged",
+            AlignNoteKind::SizeRatio => "size_ratio",
+            AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
+        }
+    }
+
+    /// Whether the alignment may be relied on no longer. What the shape leaves free, and normals that were turned round,
+    /// are only told.
+    pub fn is_doubt(self) -> bool {
+        match self {
+            AlignNoteKind::Free | AlignNoteKind::NormalsTurned => false,
+            AlignNoteKind::Poor
+            | AlignNoteKind::Ambiguous
+            | AlignNoteKind::Scale
+            | AlignNoteKind::Few
+            | AlignNoteKind::NotConverged
+            | AlignNoteKind::SizeRatio
+            | AlignNoteKind::HardlyOverlapping => true,
+        }
+    }
+}
+
+named!(AlignNoteKind, "kind of note", Self::ALL, |kind| kind.name());
 
 impl From<&Freedom> for FreeMotion {
     fn from(freedom: &Freedom) -> FreeMotion {
@@ -199,7 +268,7 @@ impl AlignNote {
         let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
         let (kind, text) = match warning {
             AlignWarning::Poor { share } => (
-                "poor",
+                AlignNoteKind::Poor,
                 format!(
                     "half of the points are farther than {:.2} % of the size from the reference: it is hardly the same part, or its \
                      place was not found",
@@ -207,42 +276,46 @@ impl AlignNote {
                 ),
             ),
             AlignWarning::Ambiguous { count } => (
-                "ambiguous",
+                AlignNoteKind::Ambiguous,
                 format!(
                     "{count} other {} as well: the part looks the same in several ways",
                     if *count == 1 { "pose fits about" } else { "poses fit about" }
                 ),
             ),
-            AlignWarning::Free(Freedom::Slides { direction }) => {
-                ("free", format!("the shape leaves it free to slide along {}", three(*direction)))
-            }
+            AlignWarning::Free(Freedom::Slides { direction }) => (
+                AlignNoteKind::Free,
+                format!("the shape leaves it free to slide along {}", three(*direction)),
+            ),
             AlignWarning::Free(Freedom::Turns { point, direction }) => (
-                "free",
+                AlignNoteKind::Free,
                 format!(
                     "the shape leaves it free to turn about the axis along {} through {}",
                     three(*direction),
                     three(*point)
                 ),
             ),
-            AlignWarning::NormalsTurned => {
-                ("normals_turned", "the measured normals point inward; they were turned round".into())
-            }
+            AlignWarning::NormalsTurned => (
+                AlignNoteKind::NormalsTurned,
+                "the measured normals point inward; they were turned round".into(),
+            ),
             AlignWarning::Scale { factor } => (
-                "scale",
+                AlignNoteKind::Scale,
                 format!(
                     "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units)"
                 ),
             ),
             AlignWarning::Few { count } => (
-                "few",
+                AlignNoteKind::Few,
                 format!(
                     "{count} points are few for a search from any pose: look at the result, or align roughly and start \
                      --from-here, or give --method pairs"
                 ),
             ),
-            AlignWarning::NotConverged => ("not_converged", "the iteration did not settle".into()),
+            AlignWarning::NotConverged => {
+                (AlignNoteKind::NotConverged, "the iteration did not settle".into())
+            }
         };
-        AlignNote { kind: kind.into(), text }
+        AlignNote { kind: Word(kind), text }
     }
 }
 

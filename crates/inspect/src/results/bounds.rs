@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::space::Aabb;
 
-/// An axis-parallel box, millimetres.
+/// An axis-parallel box, millimeters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bounds {
     /// Least coordinates.

@@ -48,7 +48,7 @@ pub struct CheckDocument {
     /// in common count as often as there are bodies.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub volume_note: Option<String>,
-    /// Centre of mass of that volume.
+    /// Center of mass of that volume.
     #[serde(rename = "centre_of_mass")]
     pub center_of_mass: Option<[f64; 3]>,
     /// Why there is none.
@@ -110,7 +110,7 @@ pub struct Defects {
 pub struct Item {
     /// Facets concerned, numbered from 0 in the order of the file.
     pub facets: Vec<u32>,
-    /// Vertices concerned, numbered from 0 by their first use in the file.
+    /// Vertices concerned, numbered from 0 by their first use in a facet of the file that is finite.
     pub vertices: Vec<u32>,
     /// A place to look at.
     pub position: [f64; 3],
@@ -135,7 +135,6 @@ impl CheckDocument {
 pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static DefectKind, &Defects)> {
     let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
     let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
-    let follows = |kind: &str| ["boundary_edges", "dangling_facets"].contains(&kind);
-    found.sort_by_key(|(kind, d)| (d.severity.0, follows(kind.name)));
+    found.sort_by_key(|(kind, d)| (d.severity.0, kind.follows));
     found
 }

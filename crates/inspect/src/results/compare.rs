@@ -38,9 +38,9 @@ pub struct CompareDocument {
     pub method: Word<Method>,
     /// The sign method; with several references, what holds for all of them (see each comparison for its own).
     pub sign: SignRecord,
-    /// Points farther than this are excluded, millimetres.
+    /// Points farther than this are excluded, millimeters.
     pub max_distance: Option<f64>,
-    /// Points whose closest place lies on a free edge are excluded.
+    /// Points whose closest place lies on a boundary edge are excluded.
     pub skip_boundary: bool,
     /// Only points count whose normals are within this angle of that of the reference, radians; absent where all count.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -49,7 +49,7 @@ pub struct CompareDocument {
     pub comparisons: Vec<Comparison>,
     /// Every pair of references on the same points, the better one first; empty with one reference.
     pub paired: Vec<Paired>,
-    /// The colour scale that all comparisons share.
+    /// The color scale that all comparisons share.
     pub scale: Scale,
     /// The worst of the comparisons' verdicts; absent without a tolerance.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -177,13 +177,13 @@ pub struct OutliersRecord {
     /// The rule: `mad:K`, farther than K times 1.4826 MAD from the median, or `Ksigma`, farther than K standard deviations from
     /// the mean; of the deviations that nothing else excludes.
     pub rule: String,
-    /// Median or mean, millimetres.
+    /// Median or mean, millimeters.
     pub center: Option<f64>,
-    /// 1.4826 MAD or standard deviation, millimetres.
+    /// 1.4826 MAD or standard deviation, millimeters.
     pub spread: Option<f64>,
-    /// Least deviation that counts, millimetres.
+    /// Least deviation that counts, millimeters.
     pub lower: Option<f64>,
-    /// Greatest deviation that counts, millimetres.
+    /// Greatest deviation that counts, millimeters.
     pub upper: Option<f64>,
     /// Why the rule gives no limits, and left out nothing.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -196,18 +196,18 @@ pub struct OutliersRecord {
 /// a point that counts within the reach.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CoverageRecord {
-    /// Area of the reference, square millimetres.
+    /// Area of the reference, square millimeters.
     pub area: f64,
-    /// Area that is not covered, grey in the map, square millimetres.
+    /// Area that is not covered, gray in the map, square millimeters.
     pub uncovered: f64,
     /// Its share of the area (0 to 1).
     pub uncovered_share: Option<f64>,
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub uncovered_share_reason: Option<String>,
-    /// Within what distance a point covers, millimetres.
+    /// Within what distance a point covers, millimeters.
     pub reach: f64,
-    /// How far the points' nearest places lie apart, millimetres.
+    /// How far the points' nearest places lie apart, millimeters.
     pub spacing: f64,
 }
 
@@ -241,7 +241,7 @@ pub struct SurfacesRecord {
     /// Points for which a nearer place by more than a billionth of the surfaces' size is not excluded, as around the center of a
     /// sphere.
     pub uncertain: u64,
-    /// How far the facets that draw them may be from the surfaces, millimetres. No number rests on them but those of `--both` and
+    /// How far the facets that draw them may be from the surfaces, millimeters. No number rests on them but those of `--both` and
     /// of the alignment.
     pub drawn_within: f64,
 }
@@ -251,9 +251,9 @@ pub struct SurfacesRecord {
 pub struct Soundness {
     /// Two facets at every edge, a closed fan at every vertex, no coincident facets, all facing outward.
     pub sound: bool,
-    /// No free edge.
+    /// No boundary edge.
     pub closed: bool,
-    /// Neighbours agree on which side is outside.
+    /// Neighbors agree on which side is outside.
     pub consistently_oriented: bool,
     /// The enclosed volume is positive.
     pub outward: bool,
@@ -271,7 +271,7 @@ pub struct Soundness {
     pub degenerate_facets: u64,
     /// Facets with a coordinate that is not finite, left out.
     pub not_finite_facets: u64,
-    /// Edges that both neighbours pass in the same direction.
+    /// Edges that both neighbors pass in the same direction.
     pub inconsistent_edges: u64,
     /// What breaks the rule, by kind and with its places, as the document of the check has it; empty where the mesh is
     /// sound. Self-intersections are not looked for.
@@ -282,9 +282,9 @@ pub struct Soundness {
 /// Shares of the points against the tolerance (0 to 1); the limits belong to the zone.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ToleranceShares {
-    /// Lower limit, millimetres.
+    /// Lower limit, millimeters.
     pub lower: f64,
-    /// Upper limit, millimetres.
+    /// Upper limit, millimeters.
     pub upper: f64,
     /// Share within.
     pub inside: Option<f64>,
@@ -318,7 +318,7 @@ pub struct Worst {
     pub nearest: [f64; 3],
     /// Unit normal of the reference there; null on a facet without area.
     pub normal: Option<[f64; 3]>,
-    /// The deviation, millimetres.
+    /// The deviation, millimeters.
     pub deviation: f64,
     /// The region that it belongs to, if one does.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -345,9 +345,9 @@ pub struct PaperVsExact {
     pub differing: u64,
     /// Of those, points where the paper's value is too small.
     pub too_small: u64,
-    /// Largest difference, millimetres.
+    /// Largest difference, millimeters.
     pub max_difference: f64,
-    /// Median difference where they differ, millimetres.
+    /// Median difference where they differ, millimeters.
     pub median_difference: Option<f64>,
 }
 

@@ -13,7 +13,7 @@ use trueness_geom::spline::surface::Bend;
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/curvature/1";
 
-/// The whole document. Lengths in millimetres, curvatures in their reciprocal.
+/// The whole document. Lengths in millimeters, curvatures in their reciprocal.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct CurvatureDocument {
     /// `trueness/curvature/1`.
@@ -26,9 +26,9 @@ pub struct CurvatureDocument {
     pub inputs: Vec<InputRecord>,
     /// What has curvatures: `vertices` of a mesh or `points` of a cloud.
     pub places: Word<PlaceKind>,
-    /// Degree of the polynomials fitted to the neighbourhoods.
+    /// Degree of the polynomials fitted to the neighborhoods.
     pub degree: u64,
-    /// What was taken into a neighbourhood.
+    /// What was taken into a neighborhood.
     pub neighborhood: Neighborhood,
     /// Whether places on a boundary have values.
     pub boundary: bool,
@@ -55,13 +55,13 @@ pub struct CurvatureDocument {
     pub k2: Quantity,
     /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm.
     pub uncertainty: Range,
-    /// Standard deviation of the neighbours from the polynomial.
+    /// Standard deviation of the neighbors from the polynomial.
     pub residual: Range,
     /// Condition of the least-squares systems.
     pub condition: Range,
-    /// Neighbours of a place.
+    /// Neighbors of a place.
     pub neighbors: Range,
-    /// Distance of the farthest neighbour.
+    /// Distance of the farthest neighbor.
     pub reach: Range,
 }
 
@@ -95,18 +95,18 @@ named!(NormalSource, "source of normals", [NormalSource::Facets, NormalSource::N
     }
 });
 
-/// What was taken into a neighbourhood.
+/// What was taken into a neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Neighborhood {
-    /// At least so many neighbours.
+    /// At least so many neighbors.
     Count {
         /// How many.
         neighbors: u64,
     },
     /// All within a distance.
     Radius {
-        /// That distance, millimetres.
+        /// That distance, millimeters.
         radius: f64,
     },
 }
@@ -123,7 +123,7 @@ pub struct Quantity {
     pub maximum: Place,
     /// Where it is least.
     pub minimum: Place,
-    /// Its colours.
+    /// Its colors.
     pub scale: Scale,
 }
 
@@ -139,11 +139,11 @@ pub struct Place {
     pub bend: BendRecord,
     /// Standard uncertainty of the mean curvature.
     pub uncertainty: f64,
-    /// Standard deviation of the neighbours from the polynomial, millimetres.
+    /// Standard deviation of the neighbors from the polynomial, millimeters.
     pub residual: f64,
     /// Condition of the least-squares system.
     pub condition: f64,
-    /// Neighbours.
+    /// Neighbors.
     pub neighbors: u64,
 }
 

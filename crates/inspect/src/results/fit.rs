@@ -12,7 +12,7 @@ use trueness_geom::shape::{Kind, Parameter};
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/fit/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct FitDocument {
     /// `trueness/fit/1`.
@@ -62,7 +62,7 @@ pub struct FitDocument {
     /// Counts of the signed distances of all points.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub histogram: Option<Histogram>,
-    /// Colours of the signed distances.
+    /// Colors of the signed distances.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub scale: Option<Scale>,
     /// Steps of the solver on all points.
@@ -77,16 +77,16 @@ pub struct FitDocument {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Number {
-    /// Millimetres or radians.
+    /// Millimeters or radians.
     One(f64),
-    /// A place in millimetres or a unit direction.
+    /// A place in millimeters or a unit direction.
     Three([f64; 3]),
 }
 
 /// A point and its signed distance.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Extreme {
-    /// Distance from the element, millimetres.
+    /// Distance from the element, millimeters.
     pub distance: f64,
     /// Index of the point in the file, counted from 0.
     pub point: u64,

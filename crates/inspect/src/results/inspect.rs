@@ -17,7 +17,7 @@ use trueness_geom::fit::Method;
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/inspect/1";
 
-/// The whole document. Lengths in millimetres, angles of features in radians, of characteristics in degrees.
+/// The whole document. Lengths in millimeters, angles of features in radians, of characteristics in degrees.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct InspectDocument {
     /// `trueness/inspect/1`.
@@ -183,14 +183,23 @@ pub struct CharacteristicRecord {
     pub lower: Option<f64>,
     /// Greatest allowed value; with a material requirement, the tolerance and its bonus.
     pub upper: f64,
-    /// The value; millimetres, degrees for an angle.
+    /// The value; millimeters, degrees for an angle.
     pub value: Option<f64>,
     /// Unit of the value: `mm`, `deg`, or `1` for a ratio.
     pub unit: String,
-    /// Expanded uncertainty of the value (k = 2); null where the plan states neither it nor the noise of the points.
+    /// Expanded uncertainty of the value (k = 2): value less and plus this hold the true one. Null where the plan states neither it nor the
+    /// noise of the points.
     pub uncertainty: Option<f64>,
     /// Where it comes from: `plan`, `noise`, or `plan and noise`.
     pub uncertainty_source: Option<String>,
+    /// What noise adds to the value on the average, at most, where it leads away from the true one to one side: part of the uncertainty,
+    /// and not taken off the value. Absent where it does not.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub noise_bias: Option<f64>,
+    /// From and to where the true value lies: the uncertainty without `noise_bias` to either side, and with it to the one that noise
+    /// leads away from. What `iso14253-1` decides by. Absent where there is no uncertainty.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub interval: Option<[f64; 2]>,
     /// How the verdict was reached.
     pub decision_rule: String,
     /// The verdict.

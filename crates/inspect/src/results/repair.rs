@@ -1,9 +1,10 @@
 //! `trueness/repair/1`: what was mended in a mesh, and what that cost.
 
-use super::InputRecord;
+use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use trueness_geom::repair::Step;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/repair/1";
@@ -39,10 +40,10 @@ pub struct RepairDocument {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub deviation_reason: Option<String>,
     /// Names of the steps that were allowed, in their order.
-    pub steps: Vec<String>,
+    pub steps: Vec<Word<&'static Step>>,
     /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
     /// and the mesh still not been sound.
-    pub taken_back: Vec<String>,
+    pub taken_back: Vec<Word<&'static Step>>,
     /// Why closed shells that meet were not united, where they were not.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub not_united: Option<String>,
@@ -94,7 +95,7 @@ pub struct State {
     pub sound: bool,
     /// Area of the surface, mm².
     pub area: f64,
-    /// Volume enclosed, mm³: before, that of the places with winding number 1 or more, after neighbours were turned to run
+    /// Volume enclosed, mm³: before, that of the places with winding number 1 or more, after neighbors were turned to run
     /// the same way round; after, the signed volume. `null` unless the mesh is closed and consistently oriented.
     pub volume: Option<f64>,
     /// Why there is no volume.
@@ -182,7 +183,7 @@ pub struct Distances {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Change {
     /// The step that did it.
-    pub step: String,
+    pub step: Word<&'static Step>,
     /// What was done.
     pub what: String,
     /// Where, mm.

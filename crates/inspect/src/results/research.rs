@@ -49,7 +49,7 @@ pub struct Bootstrap {
 /// Mean with a cluster-robust interval (Liang & Zeger 1986).
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct BlockMean {
-    /// Side of the cubes, millimetres: a twentieth of the reference's diagonal.
+    /// Side of the cubes, millimeters: a twentieth of the reference's diagonal.
     pub block_size: f64,
     /// The mean of the sample.
     pub mean: f64,
@@ -102,10 +102,10 @@ pub struct Distribution {
     pub ks_distance: f64,
 }
 
-/// Moran's I on a graph of nearest neighbours.
+/// Moran's I on a graph of nearest neighbors.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Moran {
-    /// 1: neighbours deviate alike; about 0: independently.
+    /// 1: neighbors deviate alike; about 0: independently.
     pub i: f64,
     /// What chance gives on average.
     pub expected: f64,
@@ -113,7 +113,7 @@ pub struct Moran {
     pub p_value: f64,
     /// Points looked at.
     pub count: u64,
-    /// Mean distance of the neighbours, millimetres.
+    /// Mean distance of the neighbors, millimeters.
     #[serde(rename = "neighbour_distance")]
     pub neighbor_distance: f64,
 }

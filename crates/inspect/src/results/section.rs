@@ -20,7 +20,7 @@ use trueness_geom::section::{
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct SectionDocument {
     /// `trueness/section/1`.

@@ -3,6 +3,7 @@
 use super::Bounds;
 use super::fit::{Number, named, uncertainty};
 use super::{InputRecord, UNITS, VERSION, Word};
+use crate::file_numbers::LeftOut;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -12,7 +13,7 @@ use trueness_geom::shape::Kind;
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/segment/1";
 
-/// The whole document. Lengths in millimetres, angles in radians.
+/// The whole document. Lengths in millimeters, angles in radians.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct SegmentDocument {
     /// `trueness/segment/1`.
@@ -35,7 +36,7 @@ pub struct SegmentDocument {
     pub tolerance: f64,
     /// Whether that distance was given, not found.
     pub tolerance_given: bool,
-    /// Angle between neighbouring pieces from which on there is an edge between them.
+    /// Angle between neighboring pieces from which on there is an edge between them.
     pub crease: f64,
     /// Least share of the area, or of the points, that a region must have.
     pub min_share: f64,
@@ -94,18 +95,19 @@ pub struct RegionRecord {
 }
 
 impl SegmentDocument {
-    /// The document of what was found in the file of `inputs`; with `members`, the pieces of each region are listed.
+    /// The document of what was found in the file of `inputs`; with `members`, the pieces of each region are listed by their
+    /// numbers in the file.
     pub fn new(
         found: &Segmentation,
         pieces: PieceKind,
         inputs: Vec<InputRecord>,
         options: &Options,
-        members: bool,
+        members: Option<LeftOut>,
     ) -> SegmentDocument {
-        let mut listed = vec![members.then(Vec::new); found.regions.len()];
+        let mut listed = vec![members.map(|_| Vec::new()); found.regions.len()];
         for (piece, &label) in found.labels.iter().enumerate() {
             if let Some(Some(list)) = listed.get_mut(label as usize) {
-                list.push(piece as u32);
+                list.push(members.unwrap_or_default().in_file(piece as u32));
             }
         }
         let record = |((number, region), members)| record(number, region, pieces, members);

@@ -23,7 +23,7 @@ pub struct BySide {
 /// Declares the statistics document: each number beside the reason why it may be missing.
 macro_rules! statistics {
     ($($(#[$doc:meta])* $name:ident $reason:ident,)*) => {
-        /// Statistics of a set of deviations, millimetres (skewness and kurtosis have no unit, the variance is in mm²).
+        /// Statistics of a set of deviations, millimeters (skewness and kurtosis have no unit, the variance is in mm²).
         /// A number that does not exist is `null`, and `<name>_reason` says why.
         #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
         pub struct Statistics {

@@ -12,7 +12,7 @@ use trueness_geom::surface::{BaseKind, Reached};
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
 
-/// The whole document. Lengths in millimetres, curvatures in their reciprocal.
+/// The whole document. Lengths in millimeters, curvatures in their reciprocal.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct SurfaceDocument {
     /// `trueness/surface/1`.
@@ -43,7 +43,7 @@ pub struct SurfaceDocument {
     /// Signed distances of all points from the surface, at their nearest places; positive on the side of the normal, which is the
     /// derivative by `u` times the derivative by `v`.
     pub deviation: Statistics,
-    /// Counts and colours of the deviations.
+    /// Counts and colors of the deviations.
     pub map: MapRecord,
     /// Point farthest from the surface.
     pub worst: WorstPoint,
@@ -93,6 +93,10 @@ pub struct BaseRecord {
     /// rectangle was turned for a tolerance, along the direction in which the surface bends most.
     #[serde(default)]
     pub turned: f64,
+    /// Angle from the normal of the least-squares plane to the third axis, radians: 0 but of a plane over whose least-squares plane
+    /// the points lie in layers, and over another one in fewer.
+    #[serde(default)]
+    pub tilted: f64,
     /// Of a cylinder or a sphere.
     pub radius: Option<f64>,
     /// Why there is none.
@@ -159,7 +163,7 @@ pub struct CurvatureRecord {
     pub gaussian: Option<Range>,
     /// In the middle of the domain.
     pub middle: Option<PlaceCurvature>,
-    /// Counts and colours of each: `mean`, `gaussian`, `k1`, `k2`; those of which no place has a value are absent.
+    /// Counts and colors of each: `mean`, `gaussian`, `k1`, `k2`; those of which no place has a value are absent.
     pub maps: BTreeMap<String, MapRecord>,
 }
 
@@ -171,7 +175,7 @@ pub struct MapRecord {
     pub histogram: Option<Histogram>,
     /// Mean of the values.
     pub mean: Option<f64>,
-    /// Their colours.
+    /// Their colors.
     pub scale: Scale,
 }
 

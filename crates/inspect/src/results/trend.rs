@@ -12,7 +12,7 @@ pub const SCHEMA: &str = "trueness/trend/1";
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
-/// The whole document. Values in millimetres, of angles in degrees.
+/// The whole document. Values in millimeters, of angles in degrees.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct TrendDocument {
     /// `trueness/trend/1`.
@@ -50,7 +50,7 @@ pub struct ResultInput {
     pub bytes: u64,
     /// SHA-256 of its bytes, hexadecimal.
     pub sha256: Option<String>,
-    /// Always `mm`: documents are in millimetres.
+    /// Always `mm`: documents are in millimeters.
     pub unit_assumed: String,
 }
 

@@ -99,6 +99,8 @@ pub(crate) use named;
 named!(trueness_geom::shape::Kind, "shape", Self::ALL, |kind| kind.name());
 named!(trueness_geom::fit::Method, "method of a fit", Self::ALL, |method| method.name());
 named!(trueness_geom::curvature::NoCurvature, "reason", Self::ALL, |reason| reason.name());
+named!(&'static trueness_geom::repair::Step, "step of a repair", trueness_geom::repair::STEPS, |step| step
+    .name);
 named!(trueness_geom::check::Severity, "severity", Self::ALL, |severity| severity.name());
 
 named!(trueness_geom::surface::BaseKind, "base of a surface", Self::ALL, |kind| kind.name());

@@ -14,6 +14,7 @@ use std::path::PathBuf;
 use trueness_files::ReadOptions;
 use trueness_geom::check::{self, CheckError, Options};
 use trueness_inspect::check::View;
+use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 
@@ -94,10 +95,10 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
     })?;
     hash?;
-    let left_out = source.nonfinite_facets;
+    let left_out = LeftOut(&source.nonfinite_facets);
     let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
     if args.report.html.is_some() {
-        let view = View::new(&document, &document.inputs[0].path, &source.mesh);
+        let view = View::new(&document, &document.inputs[0].path, &source.mesh, left_out);
         args.report.write(Answer::Check(&document), &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;

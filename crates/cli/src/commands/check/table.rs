@@ -52,7 +52,7 @@ fn head(d: &CheckDocument) -> String {
         },
     ));
     if let Some(place) = d.center_of_mass {
-        rows.push(("centre", format!("{} (of mass)", place.map(|x| fixed(x, 6)).join(", "))));
+        rows.push(("center", format!("{} (of mass)", place.map(|x| fixed(x, 6)).join(", "))));
     }
     let genus = d.genus.map(|g| format!(", genus {g}")).unwrap_or_default();
     rows.push(("Euler", format!("{}{genus}", fixed(d.euler_characteristic as f64, 0))));

@@ -83,7 +83,7 @@ pub struct CompareArgs {
     /// Exclude (and count) points farther than this, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     max_distance: Option<f64>,
-    /// Exclude (and count) points whose nearest place is a free edge of the reference
+    /// Exclude (and count) points whose nearest place is a boundary edge of the reference
     #[arg(long)]
     skip_boundary: bool,
     /// Measure along lines instead of to the nearest place: a direction, or the normals of the reference or of the measured

@@ -24,7 +24,7 @@ pub struct OutputArgs {
     /// Write x, y, z, deviation of every point
     #[arg(long, value_name = "FILE", help = out_help())]
     pub out: Option<PathBuf>,
-    /// Colour scale of the report (an object trueness/scale/1)
+    /// Color scale of the report (an object trueness/scale/1)
     #[arg(long, value_name = "FILE")]
     pub scale: Option<PathBuf>,
     #[command(flatten)]
@@ -56,9 +56,9 @@ impl OutputArgs {
         let shown = path.display();
         let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
         let scale: Scale = serde_json::from_str(&text).with_context(|| {
-            format!("{shown}: not a colour scale (an object trueness/scale/1 as in a result's key `scale`)")
+            format!("{shown}: not a color scale (an object trueness/scale/1 as in a result's key `scale`)")
         })?;
-        scale.check().with_context(|| format!("{shown}: not a usable colour scale"))?;
+        scale.check().with_context(|| format!("{shown}: not a usable color scale"))?;
         Ok(Some(scale))
     }
 

@@ -154,7 +154,7 @@ fn surfaces(s: &SurfacesRecord) -> String {
 fn unsound(c: &Comparison) -> String {
     let s = &c.soundness;
     let faults = [
-        (s.boundary_edges, ["free edge", "free edges"]),
+        (s.boundary_edges, ["boundary edge", "boundary edges"]),
         (s.non_manifold_edges, ["edge with more than two facets", "edges with more than two facets"]),
         (s.non_manifold_vertices, ["vertex that is no closed fan", "vertices that are no closed fan"]),
         (

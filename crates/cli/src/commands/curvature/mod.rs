@@ -22,8 +22,8 @@ use trueness_inspect::results::curvature::CurvatureDocument;
 
 /// Principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
 ///
-/// By polynomials fitted to the neighbourhoods (jets). A curvature is positive where the surface bends towards its normal: on a convex
-/// body with outward normals both principal curvatures are negative. Places where the surface ends, or that their neighbours do not
+/// By polynomials fitted to the neighborhoods (jets). A curvature is positive where the surface bends towards its normal: on a convex
+/// body with outward normals both principal curvatures are negative. Places where the surface ends, or that their neighbors do not
 /// determine, have no value and are counted.
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -37,10 +37,10 @@ pub struct CurvatureArgs {
     /// Degree of the polynomials, from 2 to 6
     #[arg(long, value_name = "D", default_value = "3")]
     degree: usize,
-    /// Fewest neighbours: whole rings of a mesh, the nearest ones of a cloud [default: 3 for each unknown, 30 of degree 3]
+    /// Fewest neighbors: whole rings of a mesh, the nearest ones of a cloud [default: 3 for each unknown, 30 of degree 3]
     #[arg(long, value_name = "N", conflicts_with = "radius")]
     neighbors: Option<usize>,
-    /// All neighbours within this distance, mm: curvature at a scale of your own
+    /// All neighbors within this distance, mm: curvature at a scale of your own
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     radius: Option<f64>,
     /// Places on a boundary have values too, from the one side that there is
@@ -53,7 +53,7 @@ pub struct CurvatureArgs {
     /// Write the vertices or points with their curvatures
     #[arg(long, value_name = "FILE", help = out_help())]
     out: Option<PathBuf>,
-    /// The curvature that a .ply file of --out is coloured by
+    /// The curvature that a .ply file of --out is colored by
     #[arg(long, value_enum, value_name = "WHICH", default_value = "mean")]
     color: ColorArg,
     #[command(flatten)]

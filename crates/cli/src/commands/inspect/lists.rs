@@ -50,6 +50,8 @@ pub fn csv(documents: &[InspectDocument]) -> String {
         "verdict",
         "utilisation",
         "reason",
+        "interval_from",
+        "interval_to",
     ];
     let mut out = head.join(",") + "\r\n";
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
@@ -70,12 +72,14 @@ pub fn csv(documents: &[InspectDocument]) -> String {
                 c.verdict.word().into(),
                 number(c.utilization),
                 c.reason.clone().unwrap_or_default(),
+                number(c.interval.map(|i| i[0])),
+                number(c.interval.map(|i| i[1])),
             ];
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
         for (name, t, verdict) in judged(document) {
-            let mut cells: [String; 14] = Default::default();
+            let mut cells: [String; 16] = Default::default();
             cells[0] = part(document).into();
             [cells[1], cells[2]] = [name, DEVIATION.into()];
             cells[6] = (100.0 * t.required).to_string();

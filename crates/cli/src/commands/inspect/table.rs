@@ -118,7 +118,16 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
         },
     };
     let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
-    let value = c.uncertainty.map_or(value.clone(), |u| format!("{value} ± {}", six_digits(u)));
+    let value = match (c.value, c.uncertainty, c.noise_bias) {
+        // The other side is the narrower one by what noise adds.
+        (Some(_), Some(u), Some(bias)) => {
+            let narrow = u - bias.abs();
+            let [below, above] = if bias > 0.0 { [u, narrow] } else { [narrow, u] };
+            format!("{value} -{}/+{}", six_digits(below), six_digits(above))
+        }
+        (Some(_), Some(u), None) => format!("{value} ± {}", six_digits(u)),
+        _ => value,
+    };
     let used = c.utilization.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
     let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
     vec![

@@ -15,7 +15,7 @@ use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS};
+use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
 use trueness_inspect::repair::{Around, View, at_least, defects, document};
 use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
@@ -91,9 +91,9 @@ impl RepairArgs {
 
     fn options(&self) -> Result<Options, Usage> {
         let (only, skip) = (names("only", &self.only)?, names("skip", &self.skip)?);
-        let wanted = |name: &&str| (only.is_empty() || only.contains(name)) && !skip.contains(name);
+        let wanted = |s: &&'static Step| (only.is_empty() || only.contains(s)) && !skip.contains(s);
         Ok(Options {
-            steps: STEPS.iter().map(|s| s.name).filter(wanted).collect(),
+            steps: STEPS.into_iter().filter(wanted).collect(),
             gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
             stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
             islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
@@ -108,9 +108,9 @@ impl RepairArgs {
 }
 
 /// The steps of these names.
-fn names(option: &str, given: &[String]) -> Result<Vec<&'static str>, Usage> {
+fn names(option: &str, given: &[String]) -> Result<Vec<&'static Step>, Usage> {
     let find = |name: &String| {
-        STEPS.iter().map(|s| s.name).find(|s| s == &name.replace('-', "_")).ok_or_else(|| {
+        repair::step(&name.replace('-', "_")).ok_or_else(|| {
             let known: Vec<&str> = STEPS.iter().map(|s| s.name).collect();
             Usage(format!("--{option} {name}: there is no such step; there are {}", known.join(", ")))
         })
@@ -160,7 +160,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "checking the file", "facets", None);
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);
-    let left_out = source.nonfinite_facets;
+    let left_out = source.nonfinite_facets.len() as u64;
     let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
     let document = document(&repaired, &options, around);
     if args.report.html.is_some() {

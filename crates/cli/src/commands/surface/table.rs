@@ -19,7 +19,7 @@ pub fn table(document: &SurfaceDocument) -> String {
         out,
         "degree {p}x{q}   control points {m}x{n}   base {}{}   {}   mm",
         document.base.kind,
-        turned(&document.base),
+        moved(&document.base),
         counted(document.deviation.count, POINTS)
     );
     let freedom = document.degrees_of_freedom.map(|d| format!(", {} degrees of freedom", fixed(d, 1)));
@@ -65,12 +65,14 @@ pub fn table(document: &SurfaceDocument) -> String {
     out
 }
 
-/// How far the rectangle of the parameters is turned, where it is.
-fn turned(base: &BaseRecord) -> String {
-    match base.turned {
+/// How far the base is tilted, and the rectangle of the parameters turned, where they are.
+fn moved(base: &BaseRecord) -> String {
+    let by = |angle: f64, how: [&str; 2]| match angle {
         0.0 => String::new(),
-        angle => format!(", turned by {}° along what bends", fixed(angle.to_degrees(), 2)),
-    }
+        angle => format!(", {} by {}° {}", how[0], fixed(angle.to_degrees(), 2), how[1]),
+    };
+    let tilted = by(base.tilted, ["tilted", "from the least-squares plane, over which it folds"]);
+    tilted + &by(base.turned, ["turned", "along what bends"])
 }
 
 fn reached(value: f64, outside: u64, stopped_by: Reached) -> String {

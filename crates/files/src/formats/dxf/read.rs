@@ -78,7 +78,7 @@ fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
         13 => Unit::Micrometer,
         _ => {
             let what = "the unit of the drawing ($INSUNITS) is none of um, mm, cm, m and inch:".into();
-            return Err(Fault::Unsupported { what, remedy: "save it in millimetres" }.at_line(group.line));
+            return Err(Fault::Unsupported { what, remedy: "save it in millimeters" }.at_line(group.line));
         }
     }))
 }

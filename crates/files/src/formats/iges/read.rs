@@ -65,7 +65,7 @@ fn unit(global: &[Vec<u8>]) -> Result<Option<Unit>> {
         (Some(10), _) | (Some(3), b"CM") => Unit::Centimeter,
         _ => {
             let what = "the unit of the model is none of um, mm, cm, m and inch:".into();
-            return Err(Fault::Unsupported { what, remedy: "export it in millimetres" }.into());
+            return Err(Fault::Unsupported { what, remedy: "export it in millimeters" }.into());
         }
     };
     Ok(Some(found))

@@ -126,7 +126,7 @@ fn length(file: &Instances, number: u64) -> Result<Option<Unit>> {
         _ => None,
     };
     let what = || "the unit of lengths is none of um, mm, cm, m and inch:".to_string();
-    let remedy = "export it in millimetres";
+    let remedy = "export it in millimeters";
     unit.map(Some).ok_or_else(|| file.fault(number, Fault::Unsupported { what: what(), remedy }))
 }
 

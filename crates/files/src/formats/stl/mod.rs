@@ -93,7 +93,7 @@ fn mesh<F: Facet>(
     let mesh = crate::SourceMesh {
         mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld != Weld::None)?,
         stored_normals: Some(good.par_iter().map(F::normal).collect()),
-        nonfinite_facets: bad.len() as u64,
+        nonfinite_facets: bad.into_iter().map(|f| f as u32).collect(),
         unread: vec![],
     };
     Ok(Parsed::mesh(variant, mesh, warnings))

@@ -3,4 +3,5 @@
 mod minimax;
 mod parts;
 mod poses;
+mod response;
 mod rows;

@@ -127,7 +127,7 @@ fn size_and_place_equal_a_plain_calculation() {
     for kind in KINDS {
         let (mesh, normals, _) = planted(kind.name, 5);
         let report = check(&mesh, normals.as_deref(), &Options::default(), &Silent).unwrap();
-        for item in &report.found(kind.name).unwrap().items {
+        for item in &report.found(kind).unwrap().items {
             let (size, position, bounds, facets) = plain(kind.name, &mesh, item);
             assert!((item.size - size).abs() <= 1e-11, "{}: {size}: {item:?}", kind.name);
             assert!(distance(item.position, position) <= 1e-14, "{}: {position:?}: {item:?}", kind.name);

@@ -1,7 +1,7 @@
 //! The side of the surface, and its rim.
 
 use super::*;
-use crate::closest::{Feature, FreeEdges, Signs, Winding};
+use crate::closest::{BoundaryEdges, Feature, Signs, Winding};
 use crate::space::norm;
 
 #[test]
@@ -81,12 +81,12 @@ fn size_of_signed_distances_is_that_of_unsigned_ones() {
 }
 
 #[test]
-fn free_edges_hold_what_is_beside_the_mesh() {
+fn boundary_edges_hold_what_is_beside_the_mesh() {
     // The cube without its top: the rim is the square at z = 1.
     let mut mesh = cube(1.0);
     mesh.faces.drain(2..4);
     let tree = Tree::build(&mesh).unwrap();
-    let rim = FreeEdges::new(&tree);
+    let rim = BoundaryEdges::new(&tree);
     assert_eq!(rim.count(), 4);
     let holds = |p: Point| {
         let place = tree.closest(&p, f64::INFINITY).unwrap().unwrap();
@@ -100,10 +100,10 @@ fn free_edges_hold_what_is_beside_the_mesh() {
         "before an inner edge that ends in the rim"
     );
     assert!(matches!(holds([-1.0, -1.0, -1.0]), (false, Feature::Vertex(_))), "before an inner corner");
-    assert_eq!(FreeEdges::new(&Tree::build(&cube(1.0)).unwrap()).count(), 0);
+    assert_eq!(BoundaryEdges::new(&Tree::build(&cube(1.0)).unwrap()).count(), 0);
     // Without shared vertices every edge is free.
     let soup = soup(&mut TestRandom(1), 10, |d| std::array::from_fn(|_| d.point(1.0)));
-    assert_eq!(FreeEdges::new(&Tree::build(&soup).unwrap()).count(), 30);
+    assert_eq!(BoundaryEdges::new(&Tree::build(&soup).unwrap()).count(), 30);
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn an_edge_of_three_faces_is_loose_but_not_free() {
     let positions = vec![[0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0]];
     let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 1, 3], [0, 1, 4]] };
     let tree = Tree::build(&mesh).unwrap();
-    let rim = FreeEdges::new(&tree);
+    let rim = BoundaryEdges::new(&tree);
     assert_eq!((rim.count(), Signs::new(&tree).loose_edges()), (6, 9));
     let place = tree.closest(&[-1.0, 0.1, 0.5], f64::INFINITY).unwrap().unwrap();
     assert!(matches!(place.feature, Feature::Edge(_)) && !rim.holds(&place), "{place:?}");

@@ -71,7 +71,7 @@ fn far_points_and_points_beyond_the_rim_are_excluded() {
     let points = [[0.5, 0.5, -1.0], [0.5, 0.5, -1.5], [1.5, 0.5, 0.0]];
     let (_, deviations, _) = ask(&sheet, options, &points);
     let excluded: Vec<Option<Exclusion>> = deviations.iter().map(|&d| Exclusion::of(d)).collect();
-    assert_eq!(excluded, [None, Some(Exclusion::MaxDistance), Some(Exclusion::FreeEdge)]);
+    assert_eq!(excluded, [None, Some(Exclusion::MaxDistance), Some(Exclusion::BoundaryEdge)]);
     assert_eq!(deviations[0], 1.0);
 }
 

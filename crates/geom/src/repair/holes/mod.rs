@@ -15,7 +15,7 @@ mod site;
 
 use super::error::RepairError;
 use super::options::Holes;
-use super::step::Step;
+use super::step::{Removes, Step};
 use super::work::Work;
 use crate::check::Known;
 use crate::check::around::Around;
@@ -34,7 +34,7 @@ pub(super) const STEP: Step = Step {
     name: "holes",
     about: "Fills holes: with the triangles of least area, refined and faired to the surroundings where those are smooth. Holes \
             larger than the limit stay open; of a shell that has such a one, all but small holes do.",
-    run,
+    removes: Removes::Nothing,
 };
 
 /// The ways to fill a hole, in the order in which they are tried.
@@ -62,7 +62,7 @@ impl Trial {
     }
 }
 
-fn run(work: &mut Work) -> Result<(), RepairError> {
+pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let mut trials = trials(work, &known)?;
     let mut shell_of = known.topology.shell_of.clone();
@@ -92,7 +92,7 @@ fn run(work: &mut Work) -> Result<(), RepairError> {
     for Trial { ring, patch, facets, .. } in &trials {
         if let Some(patch) = patch {
             let area = facets.clone().map(|f| finding::area(work.corners(f))).sum();
-            work.log(STEP.name, "hole filled", ring.middle(work), patch.facets.len(), area);
+            work.log(&STEP, "hole filled", ring.middle(work), patch.facets.len(), area);
         }
     }
     widen(work, &known, trials.iter().filter(|trial| trial.patch.is_none()).map(|trial| &trial.ring));
@@ -170,7 +170,7 @@ fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Rin
     }
     work.state.handover.widening_left -= area;
     work.state.handover.has_widened = true;
-    work.log(STEP.name, "holes widened that nothing fits", work.middle(removed[0]), removed.len(), area);
+    work.log(&STEP, "holes widened that nothing fits", work.middle(removed[0]), removed.len(), area);
     work.cut_out(&removed);
 }
 
@@ -214,7 +214,7 @@ fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, Re
         }
     };
     let Some(crossings) = crossings else { return Ok((first..all).collect()) };
-    let unites = work.options.steps.contains(&super::union::STEP.name);
+    let unites = work.options.steps.contains(&&super::union::STEP);
     let apart = |pair: &[u32; 2]| {
         let [a, b] = pair.map(|f| shell_of[f as usize]);
         unites && a != u32::MAX && b != u32::MAX && a != b

@@ -41,7 +41,7 @@ impl Ring {
             let shell_area = known.properties.shell_areas.get(shell as usize).copied().unwrap_or(0.0);
             Ring { vertices, facets, shell, shell_area }
         };
-        known.free_edges.rings.iter().map(ring).collect()
+        known.boundary.rings.iter().map(ring).collect()
     }
 
     /// Mean of its vertices.

@@ -118,7 +118,7 @@ fn a_hole_across_an_edge_of_a_part_is_closed() {
 fn a_hole_that_something_stands_in_stays_open() {
     let mut mesh = block(4, 4.0);
     mesh.faces.retain(|f| f.iter().any(|v| mesh.positions[*v as usize][2] != 4.0));
-    let options = Options { steps: vec!["holes"], holes: Holes::All, ..Options::default() };
+    let options = Options { holes: Holes::All, ..only(&["holes"]) };
     assert!(mend_with(&mesh, &options).after.sound);
     add(&mut mesh, &block(1, 1.0), [1.5, 1.5, 3.5]);
     let repaired = mend_with(&mesh, &options);
@@ -134,7 +134,7 @@ fn a_hole_of_one_facet_that_something_stands_in_stays_open() {
         mesh.faces.iter().position(|f| f.iter().all(|v| mesh.positions[*v as usize][2] == 4.0)).unwrap();
     let corners = mesh.faces.remove(top).map(|v| mesh.positions[v as usize]);
     let middle: Point = std::array::from_fn(|k| corners.iter().map(|p| p[k]).sum::<f64>() / 3.0);
-    let options = Options { steps: vec!["holes"], ..Options::default() };
+    let options = only(&["holes"]);
     assert!(mend_with(&mesh, &options).after.sound);
     add(&mut mesh, &block(1, 0.5), middle.map(|x| x - 0.25));
     assert_eq!(mend_with(&mesh, &options).changes, []);

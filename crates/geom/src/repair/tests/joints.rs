@@ -4,10 +4,6 @@ use super::*;
 use crate::space::plus;
 use crate::topology::weld;
 
-fn only(steps: &[&'static str]) -> Options {
-    Options { steps: steps.to_vec(), ..Options::default() }
-}
-
 /// Two blocks, the second with its lowest corner at `offset`.
 fn two(offset: Point) -> Mesh {
     let mut mesh = block(4, 4.0);
@@ -207,7 +203,7 @@ fn a_step_in_a_rim_is_not_folded_up() {
     let mesh = Mesh { positions, faces };
     let repaired = mend_with(&mesh, &Options { stitch: Some(0.25), ..only(&["stitch"]) });
     assert_eq!((repaired.changes.len(), repaired.counts.vertices_removed), (2, 2), "{:?}", repaired.changes);
-    assert_eq!(repaired.after.found("degenerate_facets").map(|found| found.count), Some(0));
+    assert_eq!(repaired.after.found(check::DEGENERATE_FACETS).map(|found| found.count), Some(0));
 }
 
 /// The vertex lies within the gap of both long edges of a needle.
@@ -225,7 +221,7 @@ fn a_vertex_cuts_a_facet_once() {
     let options = Options { gap: Some(0.05), ..only(&["t_junctions"]) };
     let repaired = unguarded(&mesh, &options);
     assert_eq!(repaired.mesh.faces.len(), 3);
-    assert_eq!(repaired.after.found("degenerate_facets").map(|found| found.count), Some(0));
+    assert_eq!(repaired.after.found(check::DEGENERATE_FACETS).map(|found| found.count), Some(0));
 }
 
 /// Two holes that touch at a corner, where a fin stands as well: the fin is parted, but what lies between the holes stays one
@@ -242,7 +238,7 @@ fn fans_between_holes_wait_until_these_are_filled() {
     mesh.faces.push([v, w, mesh.positions.len() as u32]);
     mesh.positions.push([2.5, 2.5, 90.0]);
     let repaired = mend_with(&mesh, &only(&["non_manifold_edges", "holes"]));
-    let steps: Vec<&str> = repaired.changes.iter().map(|c| c.step).collect();
+    let steps: Vec<&str> = repaired.changes.iter().map(|c| c.step.name).collect();
     assert_eq!(steps, ["non_manifold_edges", "holes", "holes"]);
     assert_eq!(repaired.after.soundness.boundary_edges, 3);
 }

@@ -18,6 +18,11 @@ pub(super) fn mend(mesh: &Mesh) -> Repaired {
     mend_with(mesh, &Options::default())
 }
 
+/// These steps alone.
+pub(super) fn only(steps: &[&str]) -> Options {
+    Options { steps: steps.iter().map(|name| step(name).unwrap()).collect(), ..Options::default() }
+}
+
 pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
     let repaired = repair(mesh, options, &Silent).unwrap();
     no_vertex_moves(mesh, &repaired);
@@ -64,7 +69,7 @@ fn planted_defects_of_every_kind_are_mended() {
         for k in [1, 2, 5] {
             let (mesh, _, expected) = planted(kind.name, k);
             let repaired = mend(&mesh);
-            let count = |r: &Report| r.found(kind.name).map_or(0, |f| f.count);
+            let count = |r: &Report| r.found(kind).map_or(0, |f| f.count);
             if kind.severity == check::Severity::Error {
                 assert_eq!(count(&repaired.before), expected, "{} {k}", kind.name);
                 let facets: usize = repaired.changes.iter().map(|c| c.facets).sum();
@@ -88,19 +93,14 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn steps_keep_the_contract_and_can_be_chosen() {
-    for (i, step) in STEPS.iter().enumerate() {
+    for (i, step) in STEPS.into_iter().enumerate() {
         assert!(step.name.chars().all(|c| c.is_ascii_lowercase() || c == '_'), "{}", step.name);
         assert!(STEPS[..i].iter().all(|s| s.name != step.name), "{} is there twice", step.name);
         assert!(step.about.ends_with('.'), "{}", step.name);
-        let only = Options { steps: vec![step.name], ..Options::default() };
+        let only = Options { steps: vec![step], ..Options::default() };
         for kind in check::KINDS {
             let repaired = mend_with(&planted(kind.name, 2).0, &only);
-            assert!(
-                repaired.changes.iter().all(|c| c.step == step.name),
-                "{}: {:?}",
-                step.name,
-                repaired.changes
-            );
+            assert!(repaired.changes.iter().all(|c| c.step == step), "{}: {:?}", step.name, repaired.changes);
         }
     }
     let none = Options { steps: vec![], ..Options::default() };
@@ -160,7 +160,7 @@ fn facets_at_no_place_are_not_part_of_the_mean() {
     let holed = Mesh { faces: mesh.faces[1..].to_vec(), ..mesh.clone() };
     let mean = |to: &Repaired| to.deviation(&mesh, &Silent).unwrap().there.mean;
     assert_eq!(mean(&mend(&mesh)), 0.0);
-    assert!(mean(&mend_with(&holed, &Options { steps: vec!["not_finite"], ..Options::default() })) > 0.0);
+    assert!(mean(&mend_with(&holed, &only(&["not_finite"]))) > 0.0);
 }
 
 /// Sheets closer together than the gap: each vertex lies on most edges, and cutting there would never end.
@@ -189,8 +189,7 @@ fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
         faces: (0..1500).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(),
     };
     add(&mut mesh, &heap, [0.0; 3]);
-    let steps = vec!["holes", "non_manifold_vertices"];
-    let repaired = mend_with(&mesh, &Options { steps, ..Options::default() });
+    let repaired = mend_with(&mesh, &only(&["holes", "non_manifold_vertices"]));
     assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{:?}", repaired.changes);
 }
 
@@ -205,8 +204,8 @@ fn facets_that_lie_upon_each_other_are_not_cut() {
         std::array::from_fn(|k| (first + k as u32 * (1 + random.below(3) as u32)) % 73)
     };
     let repaired = mend(&Mesh { positions, faces: (0..111).map(face).collect() });
-    assert!(repaired.before.found("t_junctions").is_some_and(|found| found.count > 300));
-    let crossings = |r: &Report| r.found("self_intersections").map_or(0, |f| f.count);
+    assert!(repaired.before.found(check::T_JUNCTIONS).is_some_and(|found| found.count > 300));
+    let crossings = |r: &Report| r.found(check::SELF_INTERSECTIONS).map_or(0, |f| f.count);
     assert!(crossings(&repaired.after) <= crossings(&repaired.before));
 }
 
@@ -242,10 +241,9 @@ fn a_repair_makes_nothing_worse() {
             let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
             mesh.faces.truncate(few);
         }
-        let all = || STEPS.iter().map(|s| s.name);
         // Without the union more goes wrong, and is taken back.
         for (holes, skipped) in [(Holes::UpTo(0.25), ""), (Holes::All, ""), (Holes::UpTo(0.25), "union")] {
-            let steps = all().filter(|name| *name != skipped).collect();
+            let steps = STEPS.into_iter().filter(|step| step.name != skipped).collect();
             let repaired = mend_with(&mesh, &Options { holes, steps, ..Options::default() });
             let closed = |r: &Report| r.soundness.boundary_edges == 0;
             assert!(
@@ -254,7 +252,7 @@ fn a_repair_makes_nothing_worse() {
                 counts(&repaired.after)
             );
             for kind in check::KINDS.iter().filter(|k| k.severity == check::Severity::Error) {
-                let count = |r: &Report| r.found(kind.name).map_or(0, |f| f.count);
+                let count = |r: &Report| r.found(kind).map_or(0, |f| f.count);
                 let (was, is) = (count(&repaired.before), count(&repaired.after));
                 assert!(is <= was, "{round}: {was} {}, {is} afterwards", kind.name);
             }
@@ -287,12 +285,13 @@ fn going_on_from_a_kept_state_comes_to_the_same() {
             attempt((&start, from), options, (&before, &check_options)).unwrap()
         };
         let all = go(&options, None);
-        for name in all.did(&names_but("")) {
-            let from = Kept::before(&all.kept, &[name]);
+        for step in all.did(STEPS) {
+            let name = step.name;
+            let from = Kept::before(&all.kept, &[step]);
             if ["union", "self_intersections"].contains(&name) || from.is_none() {
                 continue;
             }
-            let without = Options { steps: names_but(name), ..options.clone() };
+            let without = Options { steps: all_but(step), ..options.clone() };
             let (kept, whole) = (go(&without, from), go(&without, None));
             // As text: of facets that are not finite, no coordinate equals itself.
             let text = |a: &Attempt| format!("{:?}", (&a.mesh, &a.changes, &a.lost, counts(&a.after)));

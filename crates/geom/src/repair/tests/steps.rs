@@ -15,7 +15,7 @@ fn two(offset: Point) -> Mesh {
 }
 
 fn did(repaired: &Repaired, step: &str) -> usize {
-    repaired.changes.iter().filter(|c| c.step == step).count()
+    repaired.changes.iter().filter(|c| c.step.name == step).count()
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn the_smaller_part_is_turned() {
     for some in [vec![20], vec![3, 40, 60]] {
         let mut mesh = block(4, 4.0);
         some.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
-        let repaired = mend_with(&mesh, &Options { steps: vec!["orient"], ..Options::default() });
+        let repaired = mend_with(&mesh, &only(&["orient"]));
         assert_eq!(repaired.after.properties.signed_volume, 64.0);
         assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), some.len());
     }
@@ -95,7 +95,7 @@ fn the_smaller_part_is_turned() {
 
 #[test]
 fn a_scrap_is_a_sheet_and_an_open_cup_is_none() {
-    let only = Options { steps: vec!["scraps"], ..Options::default() };
+    let only = only(&["scraps"]);
     for (facets, gone) in [(2, 1), (11, 0)] {
         let mut mesh = block(4, 4.0);
         let mut piece = block(1, 1.0);
@@ -133,7 +133,7 @@ fn no_sheet_is_removed_in_vain() {
     open.faces.retain(|f| (0..3).any(|k| f.iter().all(|v| open.positions[*v as usize][k] == 0.0)));
     add(&mut mesh, &open, [20.0; 3]);
     let repaired = mend(&mesh);
-    assert_eq!((did(&repaired, "scraps"), &repaired.taken_back[..]), (0, &["scraps"][..]));
+    assert_eq!((did(&repaired, "scraps"), &repaired.taken_back[..]), (0, &[&scraps::STEP][..]));
 }
 
 /// A facet that is not finite is no surface: it goes even where without it a hole is left that nothing fits.
@@ -212,7 +212,7 @@ fn a_small_fin_goes_and_a_large_one_may_be_meant() {
         let ([a, b, _], n) = (mesh.faces[20], mesh.positions.len() as u32);
         mesh.positions.push(mesh.positions[a as usize].map(|x| 2.0 + far * (x - 2.0)));
         mesh.faces.push([a, b, n]);
-        let repaired = mend_with(&mesh, &Options { steps: vec!["fins"], ..Options::default() });
+        let repaired = mend_with(&mesh, &only(&["fins"]));
         assert_eq!((did(&repaired, "fins"), repaired.after.sound), (gone, gone == 1), "{far}");
     }
 }
@@ -236,7 +236,7 @@ fn a_gap_is_stitched_and_the_vertex_with_more_facets_stays() {
     assert!(back.there.max > 1e-5 && back.there.max <= largest && back.there.mean < 1e-6, "{back:?}");
     // Beyond the distance given nothing is stitched.
     let narrow = Options { stitch: Some(1e-5), holes: Holes::UpTo(0.0), ..Options::default() };
-    assert!(mend_with(&mesh, &narrow).changes.iter().all(|c| c.step != "stitch"));
+    assert!(mend_with(&mesh, &narrow).changes.iter().all(|c| *c.step != stitch::STEP));
 }
 
 #[test]
@@ -264,7 +264,7 @@ fn several_vertices_on_one_edge_cut_one_facet() {
 
 /// All steps but the union.
 fn without_union() -> Options {
-    let steps = STEPS.iter().map(|s| s.name).filter(|name| *name != "union").collect();
+    let steps = STEPS.into_iter().filter(|step| step.name != "union").collect();
     Options { steps, ..Options::default() }
 }
 
@@ -373,7 +373,7 @@ fn doubled_walls_that_nobody_needs_go_both() {
     let shell = [[0, 1, 3], [1, 2, 3], [2, 0, 3], [1, 0, 4], [2, 1, 4], [0, 2, 4]];
     for second in [[0, 1, 2], [0, 2, 1]] {
         let faces = shell.into_iter().chain([[0, 1, 2], second]).collect();
-        let only = Options { steps: vec!["duplicates"], ..Options::default() };
+        let only = only(&["duplicates"]);
         let repaired = mend_with(&Mesh { positions: positions.clone(), faces }, &only);
         assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
         assert_eq!(repaired.mesh.faces, shell);
@@ -397,7 +397,7 @@ fn two_flat_facets_at_one_facet_are_cut_out_one_after_the_other() {
     let [a, b, c] = mesh.faces[20];
     cap(&mut mesh, b, a);
     cap(&mut mesh, c, b);
-    let repaired = mend_with(&mesh, &Options { steps: vec!["degenerate"], ..Options::default() });
+    let repaired = mend_with(&mesh, &only(&["degenerate"]));
     assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
     assert_eq!((repaired.after.properties.signed_volume, did(&repaired, "degenerate")), (64.0, 2));
 }
@@ -410,7 +410,7 @@ fn a_flat_facet_is_cut_out_of_its_neighbors() {
     let [a, b] = [at([0.0; 3]), at([4.0, 0.0, 0.0])];
     cap(&mut mesh, a, b);
     let repaired = mend(&mesh);
-    assert_eq!(repaired.before.found("degenerate_facets").map(|f| f.count), Some(1));
+    assert_eq!(repaired.before.found(check::DEGENERATE_FACETS).map(|f| f.count), Some(1));
     assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
     assert_eq!((repaired.after.properties.signed_volume, did(&repaired, "degenerate")), (64.0, 1));
     assert_eq!(repaired.changes.len(), 1, "nothing else had to be mended: {:?}", repaired.changes);
@@ -423,7 +423,7 @@ fn flat_facets_back_to_back_just_go() {
     let [a, m, b] = [at(0.0), at(1.0), at(2.0)];
     let mut mesh = sound.clone();
     mesh.faces.extend([[a, b, m], [b, a, m]]);
-    let repaired = mend_with(&mesh, &Options { steps: vec!["degenerate"], ..Options::default() });
+    let repaired = mend_with(&mesh, &only(&["degenerate"]));
     assert_eq!((repaired.mesh.faces, repaired.changes.len()), (sound.faces, 2));
 }
 

@@ -19,7 +19,7 @@ pub fn direction(shape: &Shape) -> Option<Vector> {
         | Shape::Cylinder { direction, .. }
         | Shape::Cone { direction, .. }
         | Shape::Torus { direction, .. } => Some(direction),
-        _ => None,
+        Shape::Circle2 { .. } | Shape::Ellipse2 { .. } | Shape::Sphere { .. } => None,
     }
 }
 
@@ -32,7 +32,7 @@ pub fn foot(shape: &Shape) -> Option<Point> {
         | Shape::Cylinder { point, .. }
         | Shape::Cone { point, .. } => Some(point),
         Shape::Circle { center, .. } | Shape::Torus { center, .. } => Some(center),
-        _ => None,
+        Shape::Circle2 { .. } | Shape::Ellipse2 { .. } | Shape::Sphere { .. } => None,
     }
 }
 
@@ -40,6 +40,14 @@ pub fn foot(shape: &Shape) -> Option<Point> {
 pub fn center(shape: &Shape) -> Option<Point> {
     match *shape {
         Shape::Sphere { center, .. } => Some(center),
-        _ => None,
+        Shape::Line2 { .. }
+        | Shape::Line { .. }
+        | Shape::Plane { .. }
+        | Shape::Circle2 { .. }
+        | Shape::Circle { .. }
+        | Shape::Ellipse2 { .. }
+        | Shape::Cylinder { .. }
+        | Shape::Cone { .. }
+        | Shape::Torus { .. } => None,
     }
 }

@@ -106,7 +106,7 @@ fn check(mesh: &Mesh, points: &[Point], tolerance: Option<Tolerance>) -> MapSurf
             // Gray: no point within what every place looks through at least.
             let least =
                 known.iter().filter(|k| same_face(v, k)).map(|k| away(v, k)).fold(f64::INFINITY, f64::min);
-            assert!(least > 0.2 * surface.reach, "grey at {:?}, a point {least} away", shown.positions[v]);
+            assert!(least > 0.2 * surface.reach, "gray at {:?}, a point {least} away", shown.positions[v]);
         } else {
             let real = near().any(|k| k.deviation.to_bits() == value.to_bits());
             assert!(real, "{value} at {:?} is no point's within {}", shown.positions[v], surface.reach);

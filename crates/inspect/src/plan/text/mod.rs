@@ -43,15 +43,15 @@ pub struct PlanText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnitWord {
-    /// Millimetre.
+    /// Millimeter.
     Mm,
-    /// Centimetre.
+    /// Centimeter.
     Cm,
-    /// Metre.
+    /// Meter.
     M,
     /// Inch, 25.4 mm.
     In,
-    /// Micrometre.
+    /// Micrometer.
     Um,
 }
 
@@ -139,7 +139,7 @@ pub struct DeviationText {
     pub inside: Option<At<f64>>,
     /// Points farther from the reference than this are left out and counted.
     pub max_distance: Option<At<f64>>,
-    /// Whether points whose nearest place is a free edge of the reference are left out and counted.
+    /// Whether points whose nearest place is a boundary edge of the reference are left out and counted.
     #[serde(default)]
     pub skip_boundary: bool,
     /// Measures along lines instead of to the nearest place: a direction, or the normals of the `reference` or of the `measured`.
@@ -155,7 +155,7 @@ pub struct DeviationText {
     pub region: Vec<At<RegionText>>,
 }
 
-/// Regions in a file of their own, for a comparison. Lengths in millimetres.
+/// Regions in a file of their own, for a comparison. Lengths in millimeters.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionsText {

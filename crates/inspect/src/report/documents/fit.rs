@@ -13,7 +13,7 @@ use maud::{Markup, html};
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::fit::Method;
-use trueness_geom::shape::{Coordinate, Sides};
+use trueness_geom::shape::{Coordinate, Quantity, Sides};
 use trueness_geom::space::{Vector, plus, times};
 
 impl Subject for FitDocument {
@@ -167,7 +167,7 @@ fn parameters(s: Style, d: &FitDocument) -> Markup {
             thead { tr { th {} th.r { (s.word("value")) } th.r { (s.word("uncertainty")) } } }
             tbody {
                 @for (name, value) in &d.parameters {
-                    (parameter(s, name, value, d.uncertainty.as_ref().and_then(|u| u.get(name))))
+                    (parameter(s, d, name, value))
                 }
             }
         }
@@ -178,18 +178,20 @@ fn parameters(s: Style, d: &FitDocument) -> Markup {
 }
 
 /// The rows of a parameter.
-fn parameter(s: Style, name: &str, value: &Number, uncertainty: Option<&Number>) -> Markup {
+fn parameter(s: Style, d: &FitDocument, name: &str, value: &Number) -> Markup {
+    let uncertainty = d.uncertainty.as_ref().and_then(|u| u.get(name));
+    let quantity = d.kind().quantity(name);
     match *value {
         Number::One(x) => {
             let u = uncertainty.and_then(|u| if let Number::One(u) = u { Some(*u) } else { None });
-            match name {
-                "half_angle" => row(s, name, "", x.to_degrees(), u.map(f64::to_degrees), "°"),
+            match quantity {
+                Some(Quantity::Angle) => row(s, name, "", x.to_degrees(), u.map(f64::to_degrees), "°"),
                 _ => row(s, name, "", x, u, "\u{a0}mm"),
             }
         }
         Number::Three(v) => {
             let u = uncertainty.and_then(|u| if let Number::Three(u) = u { Some(*u) } else { None });
-            let unit = if ["normal", "direction"].contains(&name) { "" } else { "\u{a0}mm" };
+            let unit = if quantity == Some(Quantity::Direction) { "" } else { "\u{a0}mm" };
             html! {
                 @for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                     (row(s, name, axis, v[k], u.map(|u| u[k]), unit))

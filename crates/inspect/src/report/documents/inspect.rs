@@ -183,7 +183,7 @@ fn characteristics(s: Style, d: &InspectDocument) -> Markup {
                         }
                         td.r {
                             (s.optional(c.value, digits(c)).because(c.reason.as_deref()))
-                            @if let Some(u) = c.uncertainty { " ±\u{a0}" (s.number(u, digits(c))) }
+                            (uncertain(s, c))
                             br; small { (allowed(s, c)) }
                         }
                         td { (badge(s, c.verdict.into())) }
@@ -191,6 +191,18 @@ fn characteristics(s: Style, d: &InspectDocument) -> Markup {
                     @for note in c.reason.iter().chain(&c.notes) { tr { td colspan="3" class="note" { (Text(note)) } } }
                 }
             }
+        }
+    }
+}
+
+/// Its uncertainty; where noise leads to one side, from and to where the true value lies.
+fn uncertain(s: Style, c: &CharacteristicRecord) -> Markup {
+    let number = |x| s.number(x, digits(c));
+    html! {
+        @match (c.uncertainty, c.interval, c.noise_bias) {
+            (_, Some([from, to]), Some(_)) => { " [" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" }
+            (Some(u), ..) => { " ±\u{a0}" (number(u)) }
+            _ => {}
         }
     }
 }

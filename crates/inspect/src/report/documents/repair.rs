@@ -144,10 +144,10 @@ fn changes(s: Style, d: &RepairDocument) -> Markup {
             }
             "\n"
         }
-        @for (n, ((name, changes), first)) in steps.iter().zip(starts).enumerate() {
+        @for (n, ((of, changes), first)) in steps.iter().zip(starts).enumerate() {
             details.kind open[steps.len() == 1] {
                 summary {
-                    (swatch(category(n))) span.kind-name { (s.word(format!("step.{name}"))) }
+                    (swatch(category(n))) span.kind-name { (s.word(format!("step.{}", of.name))) }
                     strong { (s.len(changes)) }
                 }
                 "\n" (step(s, changes, first))

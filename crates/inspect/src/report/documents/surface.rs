@@ -226,6 +226,9 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
             (fact(s, "degree", by(d.degree)))
             (fact(s, "control_points", by([m as u64, n as u64])))
             (fact(s, "surface.base", s.word(base)))
+            @if d.base.tilted != 0.0 {
+                (fact(s, "surface.tilted", html! { (s.number(d.base.tilted.to_degrees(), 2)) "°" }))
+            }
             @if d.base.turned != 0.0 {
                 (fact(s, "surface.turned", html! { (s.number(d.base.turned.to_degrees(), 2).signed()) "°" }))
             }

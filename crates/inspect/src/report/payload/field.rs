@@ -8,8 +8,8 @@ pub enum NoValue {
     Unknown = 0,
     /// Farther from the reference than the maximum distance.
     MaxDistance = 1,
-    /// The closest place is a free edge of the reference.
-    FreeEdge = 2,
+    /// The closest place is a boundary edge of the reference.
+    BoundaryEdge = 2,
     /// No measured point lies near this place of the reference.
     NotMeasured = 3,
     /// The surface ends there.
@@ -35,7 +35,7 @@ impl NoValue {
     pub const ALL: [NoValue; 12] = [
         NoValue::Unknown,
         NoValue::MaxDistance,
-        NoValue::FreeEdge,
+        NoValue::BoundaryEdge,
         NoValue::NotMeasured,
         NoValue::Boundary,
         NoValue::FewNeighbors,
@@ -52,7 +52,7 @@ impl NoValue {
         match self {
             NoValue::Unknown => "excluded",
             NoValue::MaxDistance => "max_distance",
-            NoValue::FreeEdge => "free_edge",
+            NoValue::BoundaryEdge => "free_edge",
             NoValue::NotMeasured => "not_measured",
             NoValue::Boundary => "boundary",
             NoValue::FewNeighbors => "few_neighbors",
@@ -124,7 +124,7 @@ mod tests {
     fn reasons_have_their_own_codes() {
         let c = Codes::for_values(&[1.0], 1.0);
         assert_eq!(c.code(f64::NAN, NoValue::Unknown), -32_768);
-        assert_eq!(c.code(f64::NAN, NoValue::FreeEdge), -32_766);
+        assert_eq!(c.code(f64::NAN, NoValue::BoundaryEdge), -32_766);
         assert_eq!(c.code(-1.0, NoValue::Unknown), -32_756);
     }
 

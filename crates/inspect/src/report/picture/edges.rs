@@ -93,7 +93,7 @@ impl Band<'_> {
     }
 }
 
-/// The edges at which facets meet at more than 30 degrees. Vertices at one place are one; free edges are none, nor is an edge
+/// The edges at which facets meet at more than 30 degrees. Vertices at one place are one; boundary edges are none, nor is an edge
 /// where a facet lies on another, nor a short row of edges that ends on the surface: such are of its roughness.
 fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
     let (place, folded) = places(mesh, normals);

@@ -18,7 +18,7 @@ pub struct AirfoilRecord {
     pub measures_reason: Option<String>,
 }
 
-/// Measures of a profile. Lengths in millimetres; `…_at` are shares of the chord, from the leading edge.
+/// Measures of a profile. Lengths in millimeters; `…_at` are shares of the chord, from the leading edge.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AirfoilMeasures {
     /// The place farthest from the trailing edge.

@@ -18,7 +18,7 @@ export interface SharpEdges {
 
 /**
  * Finds the edges between facets that meet at more than 30 degrees, by more than rounding to the grid can have turned them.
- * Vertices at one place of the grid are one, so that facets meet which have no vertex in common. Free edges are none, nor is
+ * Vertices at one place of the grid are one, so that facets meet which have no vertex in common. Boundary edges are none, nor is
  * an edge where a facet lies on another, nor a short row of edges that ends on the surface: such are of its roughness.
  * `packed` has its normals already: of a smooth surface no edge is looked at.
  */

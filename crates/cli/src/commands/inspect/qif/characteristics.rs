@@ -241,6 +241,9 @@ fn found(c: &CharacteristicRecord) -> Vec<(&'static str, Value)> {
         ("lower", c.lower),
         ("upper", Some(c.upper)),
         ("expanded_uncertainty", c.uncertainty),
+        ("noise_bias", c.noise_bias),
+        ("interval_from", c.interval.map(|i| i[0])),
+        ("interval_to", c.interval.map(|i| i[1])),
         ("utilisation", c.utilization),
         ("value_with_others", c.value_with_others),
     ];

@@ -11,7 +11,7 @@ use crate::topology::Topology;
 
 /// Rings and chains as the vertices they pass, in the order of their lowest edge.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct FreeEdges {
+pub(crate) struct Boundary {
     pub rings: Vec<Vec<u32>>,
     pub chains: Vec<Vec<u32>>,
 }
@@ -24,11 +24,11 @@ struct Graph {
     next: Vec<u32>,
 }
 
-impl FreeEdges {
+impl Boundary {
     /// Of the boundary edges of `topology`; n log n.
-    pub(crate) fn of(topology: &Topology) -> FreeEdges {
+    pub(crate) fn of(topology: &Topology) -> Boundary {
         let edges = topology.boundary_edges.iter().map(|e| e.vertices);
-        FreeEdges::of_edges(&edges.collect::<Vec<_>>())
+        Boundary::of_edges(&edges.collect::<Vec<_>>())
     }
 
     /// The vertices on the boundary, ascending.
@@ -44,13 +44,13 @@ impl FreeEdges {
         Near::new(self.vertices().into_iter().map(|v| (mesh.positions[v as usize], v)).collect())
     }
 
-    fn of_edges(edges: &[[u32; 2]]) -> FreeEdges {
+    fn of_edges(edges: &[[u32; 2]]) -> Boundary {
         let both = (0..).zip(edges).flat_map(|(i, &[a, b])| [(a, b, i), (b, a, i)]);
         let mut ends: Vec<_> = both.collect();
         ends.sort_unstable();
         let mut graph =
             Graph { used: vec![false; edges.len()], next: (0..ends.len() as u32).collect(), ends };
-        let mut found = FreeEdges::default();
+        let mut found = Boundary::default();
         let odd: Vec<u32> =
             graph.ends.chunk_by(|a, b| a.0 == b.0).filter(|e| e.len() % 2 == 1).map(|e| e[0].0).collect();
         for start in odd {
@@ -87,7 +87,7 @@ impl Graph {
     }
 
     /// Walks from `start` until it can go no farther.
-    fn walk(&mut self, start: u32, found: &mut FreeEdges) {
+    fn walk(&mut self, start: u32, found: &mut Boundary) {
         let mut path = vec![start];
         let mut on_path = std::collections::BTreeMap::from([(start, 0)]);
         let mut here = start;
@@ -121,7 +121,7 @@ mod tests {
     fn rings_that_touch_are_taken_apart() {
         // Two triangles with the common vertex 2, and a square apart from them.
         let edges = [[0, 1], [1, 2], [2, 0], [2, 3], [3, 4], [4, 2], [9, 6], [6, 7], [7, 8], [8, 9]];
-        let found = FreeEdges::of_edges(&edges);
+        let found = Boundary::of_edges(&edges);
         let mut sizes: Vec<usize> = found.rings.iter().map(Vec::len).collect();
         sizes.sort_unstable();
         assert_eq!((sizes, found.chains.len()), (vec![3, 3, 4], 0));
@@ -131,9 +131,9 @@ mod tests {
     fn chains_end_where_the_number_of_edges_is_odd() {
         // A chain with a ring on its way, then a star of three.
         let edges = [[0, 1], [1, 2], [2, 3], [3, 1], [1, 4], [10, 11], [10, 12], [10, 13]];
-        let found = FreeEdges::of_edges(&edges);
+        let found = Boundary::of_edges(&edges);
         assert_eq!(found.rings, [[1, 2, 3]]);
         assert_eq!(found.chains, [vec![0, 1, 4], vec![10, 11], vec![12, 10, 13]]);
-        assert_eq!(FreeEdges::of_edges(&[]), FreeEdges::default());
+        assert_eq!(Boundary::of_edges(&[]), Boundary::default());
     }
 }

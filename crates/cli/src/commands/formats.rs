@@ -1,0 +1,73 @@
+//! `trueness formats`: what can be read and written, and the manual page of each format.
+
+use crate::command::Run;
+use crate::console::document;
+use crate::exit::{Outcome, Usage};
+use crate::options::Common;
+use crate::run_files::RunFiles;
+use clap::Args;
+use trueness_files::write::Writable;
+use trueness_files::{FORMATS, Format};
+
+/// File formats: what is read and written; of one format its manual page
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  trueness formats
+  trueness formats stl")]
+pub struct FormatsArgs {
+    /// A format by its name or an ending: its manual page, as Markdown
+    format: Option<String>,
+}
+
+impl Run for FormatsArgs {
+    fn files(&self) -> anyhow::Result<RunFiles> {
+        Ok(RunFiles::of([]))
+    }
+    fn run(&self, _: &Common) -> anyhow::Result<Outcome> {
+        match &self.format {
+            None => document(&list())?,
+            Some(name) => {
+                let format = Format::named(name.trim_start_matches('.')).ok_or_else(|| {
+                    let known: Vec<&str> = FORMATS.iter().map(|f| f.name).collect();
+                    Usage(format!("{name}: there is no such format; there are {}", known.join(", ")))
+                })?;
+                document(format.manual)?;
+            }
+        }
+        Ok(Outcome::Conforming)
+    }
+}
+
+/// All formats, with what is read and written of each.
+fn list() -> String {
+    const KINDS: [(Writable, &str); 4] = [
+        (Writable::Points, "points"),
+        (Writable::Mesh, "meshes"),
+        (Writable::Regions, "regions"),
+        (Writable::Values, "values"),
+    ];
+    let mut out = String::new();
+    let mut row = |cells: [&str; 4]| {
+        let line = format!("{:<9}{:<6}{:<35}{}", cells[0], cells[1], cells[2], cells[3]);
+        out.push_str(line.trim_end());
+        out.push('\n');
+    };
+    row(["format", "read", "written", "endings"]);
+    for format in FORMATS {
+        let only_written = format.written_as.iter().filter(|e| !format.extensions.contains(e));
+        let endings: Vec<&str> = format.extensions.iter().chain(only_written).copied().collect();
+        let holds = |kind: &Writable| kind.endings().iter().any(|e| endings.contains(e));
+        let written: Vec<&str> =
+            KINDS.iter().filter(|(kind, _)| holds(kind)).map(|(_, name)| *name).collect();
+        let read = if format.reads() { "yes" } else { "" };
+        let shown: Vec<String> = endings.iter().map(|e| format!(".{e}")).collect();
+        row([format.name, read, &written.join(", "), &shown.join(" ")]);
+    }
+    out.push_str(
+        "\nFiles are told by their content, not by their ending; each may be packed with gzip (.gz).\n\
+         Curves and surfaces: `section` writes DXF, SVG, STEP, IGES, `surface` STEP, IGES and OBJ.\n\
+         `trueness formats NAME` prints the page of a format.\n",
+    );
+    out
+}

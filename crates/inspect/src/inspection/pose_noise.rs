@@ -1,0 +1,186 @@
+//! How the noise of what was measured moves the pose of its alignment, and with it what is given in the frame of the reference.
+//!
+//! A best fit answers to the noise of every point: to that of the points of the features in the very numbers that move these, as both are
+//! of one scan; to that of all others by its covariance, from which numbers are drawn. An alignment by datums is done anew. A pose that
+//! the plan gives, by itself or by pairs and reference points, has no noise: the plan says none of it.
+
+use super::align::{Found, by_datums};
+use super::data::{Data, Stop};
+use super::noise_field::{Field, Source, parts};
+use super::{Alignment, Taken};
+use crate::plan::{Align, Noise, Plan};
+use std::collections::{BTreeMap, HashSet};
+use trueness_geom::align::{BestFit, Measured, Response, Target, response};
+use trueness_geom::closest::Tree;
+use trueness_geom::progress::Progress;
+use trueness_geom::rigid::Rigid;
+use trueness_geom::space::{Point, Vector, dot, plus, times};
+
+type Six = [f64; 6];
+
+/// How the noise moves the pose.
+pub(super) enum PoseNoise {
+    /// Not at all, or it is not known.
+    None,
+    /// As the datums move it.
+    Datums,
+    /// As a best fit answers.
+    Response(Box<Answer>),
+}
+
+/// The answer of a best fit to noise.
+pub(super) struct Answer {
+    center: Point,
+    /// What the noise of the features is made of, and the answer to each.
+    own: Vec<(Source, [Vector; 6])>,
+    /// A root of the covariance of the answer to all other noise.
+    rest: [Six; 6],
+    sigma: f64,
+}
+
+impl PoseNoise {
+    /// Of the alignment of `data`, which lie where it took them.
+    pub fn new(
+        plan: &Plan,
+        noise: &Noise,
+        (data, alignment): (&Data, &Alignment),
+        features: &[Taken],
+        progress: &dyn Progress,
+    ) -> Result<PoseNoise, Stop> {
+        if matches!(plan.align, Align::Datum { .. }) {
+            return Ok(PoseNoise::Datums);
+        }
+        let (Found::BestFit(fit), Some(measured), Some(reference)) =
+            (&alignment.found, &data.measured, &data.reference)
+        else {
+            return Ok(PoseNoise::None);
+        };
+        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let points = &measured.positions;
+        let of = match measured.faces.is_empty() {
+            true => Measured::Points { points, normals: None },
+            false => Measured::Mesh(measured),
+        };
+        let options = BestFit { seed: data.seed, ..BestFit::default() };
+        let found = response(&of, &Target::new(reference, &tree), fit, &options, progress);
+        let found = found.map_err(super::align::failed)?;
+        Ok(PoseNoise::Response(Box::new(Answer::new(&found, points, noise, features))))
+    }
+
+    /// The motion of the pose in a draw of the noise; `moved` are the features with their noise.
+    pub fn motion(
+        &self,
+        plan: &Plan,
+        field: Option<&Field>,
+        moved: &[Taken],
+        progress: &dyn Progress,
+    ) -> Result<Rigid, Stop> {
+        match (self, &plan.align, field) {
+            (PoseNoise::Datums, Align::Datum { datums, rule, span, .. }, _) => {
+                by_datums(moved, datums, *rule, span, progress)
+            }
+            (PoseNoise::Response(answer), _, Some(field)) => Ok(answer.motion(field)),
+            _ => Ok(Rigid::IDENTITY),
+        }
+    }
+}
+
+impl Answer {
+    fn new(found: &Response, points: &[Point], noise: &Noise, features: &[Taken]) -> Answer {
+        let sources = |p: &Point| {
+            let (parts, count) = parts(p, noise.correlation);
+            let size = parts.iter().map(|p| p.1 * p.1).sum::<f64>().sqrt();
+            parts.into_iter().take(count).map(move |(source, weight)| (source, weight / size))
+        };
+        let touched: HashSet<Source> =
+            features.iter().flat_map(|f| &f.points).flat_map(|p| sources(p).map(|s| s.0)).collect();
+        let mut own: BTreeMap<Source, [Vector; 6]> = BTreeMap::new();
+        let mut others: BTreeMap<Source, [Vector; 6]> = BTreeMap::new();
+        let mut covariance = [[0.0; 6]; 6];
+        for (p, gain) in points.iter().zip(&found.gains) {
+            for (source, weight) in sources(p) {
+                let of = match (touched.contains(&source), noise.correlation > 0.0) {
+                    (true, _) => &mut own,
+                    (false, true) => &mut others,
+                    // No other point has this noise.
+                    (false, false) => {
+                        add(&mut covariance, gain);
+                        continue;
+                    }
+                };
+                let sum = of.entry(source).or_insert([[0.0; 3]; 6]);
+                for i in 0..6 {
+                    sum[i] = plus(sum[i], times(weight, gain[i]));
+                }
+            }
+        }
+        others.values().for_each(|gain| add(&mut covariance, gain));
+        Answer {
+            center: found.center,
+            own: own.into_iter().collect(),
+            rest: root(covariance),
+            sigma: noise.deviation,
+        }
+    }
+
+    fn motion(&self, field: &Field) -> Rigid {
+        let mut change = [0.0; 6];
+        for (source, gain) in &self.own {
+            let g = field.vector(*source);
+            change = std::array::from_fn(|i| change[i] + dot(gain[i], g));
+        }
+        // No place and no corner of a cell has this number.
+        let [a, b] = [0, 1].map(|k| field.vector([1 << 63, k, 0]));
+        let g = [a[0], a[1], a[2], b[0], b[1], b[2]];
+        let rest = |i: usize| (0..6).map(|k| self.rest[i][k] * g[k]).sum::<f64>();
+        Response::motion(self.center, std::array::from_fn(|i| self.sigma * (change[i] + rest(i))))
+    }
+}
+
+fn add(covariance: &mut [Six; 6], gain: &[Vector; 6]) {
+    for (row, a) in covariance.iter_mut().zip(gain) {
+        for (entry, b) in row.iter_mut().zip(gain) {
+            *entry += dot(*a, *b);
+        }
+    }
+}
+
+/// The lower triangular root of a symmetric positive semidefinite matrix (Cholesky); zero where it is singular.
+fn root(a: [Six; 6]) -> [Six; 6] {
+    let mut l = [[0.0; 6]; 6];
+    for j in 0..6 {
+        let left = a[j][j] - (0..j).map(|k| l[j][k] * l[j][k]).sum::<f64>();
+        if left <= 1e-14 * a[j][j] {
+            continue;
+        }
+        l[j][j] = left.sqrt();
+        for i in j + 1..6 {
+            l[i][j] = (a[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>()) / l[j][j];
+        }
+    }
+    l
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_makes_the_matrix() {
+        let b: [Six; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| ((7 * i + 3 * j * j + 1) % 11) as f64 - 4.0));
+        // The last direction is a sum of two others: the matrix is singular.
+        let b: [Six; 6] = std::array::from_fn(|i| match i {
+            5 => std::array::from_fn(|j| b[0][j] + b[3][j]),
+            _ => b[i],
+        });
+        let product = |a: &[Six; 6], i: usize, j: usize| (0..6).map(|k| a[i][k] * a[j][k]).sum::<f64>();
+        let a: [Six; 6] = std::array::from_fn(|i| std::array::from_fn(|j| product(&b, i, j)));
+        let l = root(a);
+        for i in 0..6 {
+            for j in 0..6 {
+                assert!((product(&l, i, j) - a[i][j]).abs() < 1e-9, "{i} {j}");
+            }
+        }
+    }
+}
