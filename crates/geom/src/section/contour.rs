@@ -9,7 +9,7 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
-use super::resolved::resolved;
+use super::resolved::{Among, resolved};
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
@@ -136,10 +136,7 @@ fn in_order(
     }
     let mut start = Start::new(clean, options);
     let free = options.noise.is_none() && options.continuity.is_none();
-    let resolved = if free { resolved(&start, options) } else { None };
-    if resolved.as_ref().is_some_and(|r| r.sure)
-        && let Some(found) = resolved
-    {
+    if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
     let mut chains = Plan { hasty, ..start.plan(options) }.all(&start.parts, progress)?;
@@ -179,11 +176,18 @@ fn in_order(
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
     }
-    if let Some(other) = resolved.filter(|r| r.is_better_than(&found.contour)) {
+    let is_doubtful = free && is_cornered(&found.contour);
+    let other = if is_doubtful { resolved(&start, options, Among::Contours) } else { None };
+    if let Some(other) = other.filter(|r| r.is_better_than(&found.contour)) {
         return Ok(other.whole(points.len()));
     }
     found.finish(&start.clean, start.turned, points.len(), start.outliers);
     Ok(found.contour)
+}
+
+/// Whether segments do not run along their points, or join in corners.
+fn is_cornered(contour: &Contour) -> bool {
+    !contour.astray.is_empty() || contour.joins.iter().any(|j| j.continuity == Continuity::G0)
 }
 
 /// What all spans of a row have in common.

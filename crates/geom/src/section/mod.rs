@@ -10,7 +10,7 @@
 //! | `least` | their least-squares fit |
 //! | `search`, `smooth` | number and kinds of pieces |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
-//! | `resolved` | rows of curves without noise, as B-splines between corners |
+//! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
@@ -43,6 +43,7 @@ mod follow;
 mod foot;
 mod free;
 mod joined;
+mod kept;
 mod least;
 mod levels;
 mod link;

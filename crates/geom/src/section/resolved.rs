@@ -9,17 +9,19 @@ use super::assembly::Joined;
 use super::chain::SegmentKind;
 use super::exact::{off_circle, off_line};
 use super::facets::{angle, length};
+use super::kept::{TOLERANCES, followed};
 use super::levels::Start;
 use super::polygon::CORNER;
 use super::result::{Continuity, Contour, Geometry, Join, Options, Segment};
 use super::row::{Clean, size};
 use super::start::{Part, noise_beyond_form};
 use crate::num::special::student_quantile;
-use crate::spline::basis::Knots;
-use crate::spline::curve::{self, Curve, End, Ends};
+use crate::spline::curve::{End, Ends};
 
 /// Fewest points of such a row, and of a stretch between corners.
 const FEWEST: (usize, usize) = (24, 4);
+/// Longer rows are left to the search, which thins them.
+const MOST: usize = 1_000_000;
 /// Noise below the first of these shares of the distance between points is that of rounded coordinates. What local fits call noise is
 /// form where polynomials of higher degree tell no more than the second of it; up to twice the first share it hides nothing then.
 /// Of noise up to the third share of the distance corners are told from bends as well.
@@ -40,17 +42,20 @@ const MORE: f64 = 2.0;
 const GROWTH: f64 = 4.0;
 /// More corners than one for so many points are none: the points do not tell the curve.
 const EACH: usize = 12;
-/// Points are kept within the first of these shares of the distance between them by curves of three points to a span; where these
-/// do not follow, within the second. Distances below this share of the size of all are none.
-const TOLERANCES: [f64; 2] = [1e-4, 1e-3];
+/// Distances below this share of the size of all are none.
 const LEAST: f64 = 1e-6;
 
 /// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
 /// where the points are too few for the curve.
-pub(super) fn resolved(start: &Start, options: &Options) -> Option<Resolved> {
+pub(super) fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> {
     let clean = &start.clean;
     let n = clean.points.len();
-    if n < FEWEST.0 || start.exact || start.parts.len() < 2 || start.step > 1 {
+    if !(FEWEST.0..=MOST).contains(&n)
+        || start.exact
+        || !start.outliers.is_empty()
+        || start.parts.len() < 2
+        || start.step > 1
+    {
         return None;
     }
     let noise = noise_beyond_form(&clean.points, clean.closed);
@@ -65,10 +70,13 @@ pub(super) fn resolved(start: &Start, options: &Options) -> Option<Resolved> {
     let on = |p: &&Part| lies_on(&clean.points[p.from..p.to], p.kind, off);
     let exact = || start.parts.iter().filter(on).map(|p| p.to - p.from);
     let curved = exact().sum::<usize>() as f64 <= SHARE * n as f64 && exact().all(|count| count < LONG);
-    if !quiet && !curved {
+    let taken = match among {
+        Among::Rows => quiet && curved,
+        Among::Contours => quiet || curved,
+    };
+    if !taken {
         return None;
     }
-    let sure = quiet && curved;
     let own = if is_form { 0.0 } else { WITHIN * noise };
     let mut clean = clean.clone();
     // The row as it came.
@@ -88,13 +96,20 @@ pub(super) fn resolved(start: &Start, options: &Options) -> Option<Resolved> {
     }
     let least = (LEAST * size(&clean.points)).max(options.resolution.unwrap_or(0.0)).max(own);
     let contour = drawn(&clean, &corners, least, options.level)?;
-    Some(Resolved { sure, contour, clean, turned })
+    Some(Resolved { contour, clean, turned })
+}
+
+/// What such a contour is looked for among.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Among {
+    /// Rows of which no lines and arcs are to be found: there is nothing to search.
+    Rows,
+    /// What a search found is there to compare it with.
+    Contours,
 }
 
 /// A contour, and the row that its numbers are those of.
 pub(super) struct Resolved {
-    /// No lines and arcs to be found: there is nothing to search.
-    pub sure: bool,
     contour: Contour,
     clean: Clean,
     turned: usize,
@@ -163,8 +178,9 @@ impl Turns<'_> {
     }
 
     /// The curvature that the points beside lead up to, `from` being the nearest of them.
-    fn led_up_to(&self, i: usize, from: isize) -> f64 {
-        let bend = |k: isize| self.curvature(i, from + k * from.signum()).map(f64::abs);
+    /// Turns to the other side lead to none of this `sign`.
+    fn led_up_to(&self, i: usize, from: isize, sign: f64) -> f64 {
+        let bend = |k: isize| self.curvature(i, from + k * from.signum()).map(|c| (sign * c).max(0.0));
         let Some(near) = bend(0) else { return 0.0 };
         let growth = bend(1).map_or(1.0, |far| (near / far.max(f64::MIN_POSITIVE)).clamp(1.0, GROWTH));
         near * growth
@@ -180,7 +196,7 @@ impl Turns<'_> {
         }) else {
             return false;
         };
-        let beside = self.led_up_to(i, -1).max(self.led_up_to(i, width));
+        let beside = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
         f64::abs(turn) > MORE * beside * way + CORNER
     }
 }
@@ -208,6 +224,15 @@ struct Stretch {
     first: usize,
     count: usize,
     before: usize,
+}
+
+impl Stretch {
+    /// The line that its points lie on to within rounding.
+    fn straight(&self, rounding: f64) -> Option<Segment> {
+        let (a, b) = (self.points.first()?, self.points.last()?);
+        let on = |p: &[f64; 2]| off_line([*a, *b], *p) <= rounding;
+        (length(*a, *b) > rounding && self.points.iter().all(on)).then(|| Segment::line(*a, *b))
+    }
 }
 
 /// Direction of the circle through three points at the last of them.
@@ -296,102 +321,6 @@ fn stretches(clean: &Clean, corners: &[Corner]) -> Option<Vec<Stretch>> {
     (0..starts.len()).map(stretch).collect()
 }
 
-/// Shares of the length at which points follow each other: chords and the bends beside them, as of arcs.
-fn shares(points: &[[f64; 2]]) -> Vec<f64> {
-    let n = points.len();
-    let chord = |i: usize| [points[i + 1][0] - points[i][0], points[i + 1][1] - points[i][1]];
-    let turn = |i: usize| if i == 0 || i + 1 >= n { 0.0 } else { angle(chord(i - 1), chord(i)) };
-    let mut all = vec![0.0];
-    let mut sum = 0.0;
-    for i in 0..n - 1 {
-        let ends = if i == 0 || i + 2 == n { 1.0 } else { 0.5 };
-        let half = 0.5 * ends * (turn(i) + turn(i + 1));
-        let longer = if half.abs() > 1e-4 { half / libm::sin(half.clamp(-1.5, 1.5)) } else { 1.0 };
-        sum += length(points[i], points[i + 1]) * longer;
-        all.push(sum);
-    }
-    all.iter_mut().for_each(|s| *s /= sum);
-    all
-}
-
-/// A curve, and the parameters of the places nearest to its points.
-type Followed = (Curve<[f64; 2]>, Vec<f64>);
-
-/// Places are found anew so many times.
-const PASSES: usize = 3;
-/// Points to a control point, at least, where spans are halved to keep the narrower tolerance.
-const FULL: usize = 4;
-/// Spans that are halved hold so many points at first, at most.
-const SPANS: usize = 16;
-
-/// The curve along a stretch: knots where the error asks for them, at the parameters of the nearest places; where points are few for
-/// its bends, up to a knot at each point. `None` where that swings between the points.
-fn followed(stretch: &Stretch, spacing: f64, least: f64) -> Option<Followed> {
-    let (points, ends) = (&stretch.points, stretch.ends);
-    let tolerances = TOLERANCES.map(|share| least.max(share * spacing));
-    let divided = |parameters: &[f64]| {
-        Some(curve::divided(points, parameters, 3, &[0.0, 1.0], ends, tolerances[0]).ok()?.curve)
-    };
-    let halves = |tolerance: f64| near(points, tolerance, |t| halved(points, t, ends, tolerance));
-    let (even, own) = (near(points, tolerances[0], divided), halves(tolerances[0]));
-    let count = |f: &Followed| f.0.points().len();
-    // A knot at every second point is a curve through noise.
-    let own = own.filter(|f| FULL * count(f) <= points.len());
-    even.into_iter().chain(own).min_by_key(count).or_else(|| halves(tolerances[1]))
-}
-
-/// A curve within `tolerance` of the points, fitted anew at the parameters of the nearest places.
-fn near(
-    points: &[[f64; 2]],
-    tolerance: f64,
-    fit: impl Fn(&[f64]) -> Option<Curve<[f64; 2]>>,
-) -> Option<Followed> {
-    let mut parameters = shares(points);
-    let last = parameters.len() - 1;
-    for _ in 0..PASSES {
-        let curve = fit(&parameters)?;
-        let domain = curve.domain();
-        let feet: Vec<_> =
-            points.iter().zip(&parameters).map(|(p, t)| curve.closest_from(*p, *t, domain)).collect();
-        let mut near: Vec<f64> = feet.iter().map(|f| f.parameter).collect();
-        if feet.iter().all(|f| f.distance <= tolerance) {
-            return Some((curve, near));
-        }
-        (near[0], near[last]) = (0.0, 1.0);
-        // Places that change their order are those of a curve that swings between the points.
-        if near.windows(2).any(|w| w[0] >= w[1]) {
-            return None;
-        }
-        parameters = near;
-    }
-    None
-}
-
-/// A curve with knots at points: spans whose points it misses are halved, down to one for each point.
-fn halved(points: &[[f64; 2]], parameters: &[f64], ends: Ends<2>, tolerance: f64) -> Option<Curve<[f64; 2]>> {
-    let last = points.len() - 1;
-    // Beside the ends there are no knots: a curve through all points has as many control points.
-    let count = (last / SPANS).max(1);
-    let mut limits: Vec<usize> = (0..=count).map(|k| k * last / count).collect();
-    loop {
-        let inner: Vec<f64> = limits[1..limits.len() - 1].iter().map(|i| parameters[*i]).collect();
-        let knots = Knots::clamped(3, 0.0, &inner, 1.0).ok()?;
-        let fitted = curve::fit(points, parameters, &knots, ends, 0.0).ok()?.curve;
-        let off = |i: usize| length(fitted.at(parameters[i]), points[i]) > 0.7 * tolerance;
-        let mut finer = vec![0];
-        for w in limits.windows(2) {
-            let middle = (w[0] + w[1]) / 2;
-            let divides = middle > w[0] && middle > 1 && middle + 1 < last && (w[0]..=w[1]).any(off);
-            finer.extend(divides.then_some(middle));
-            finer.push(w[1]);
-        }
-        if finer.len() == limits.len() {
-            return Some(fitted);
-        }
-        limits = finer;
-    }
-}
-
 /// The contour of the stretches. `None` where a curve does not keep the tolerance.
 fn drawn(clean: &Clean, corners: &[Corner], least: f64, level: f64) -> Option<Contour> {
     let n = clean.points.len();
@@ -405,16 +334,16 @@ fn drawn(clean: &Clean, corners: &[Corner], least: f64, level: f64) -> Option<Co
     };
     let mut way = 0.0;
     for (k, stretch) in stretches(clean, corners)?.iter().enumerate() {
-        if let [a, b] = stretch.points[..] {
-            // The side between two corners.
-            let side = Segment::line(a, b);
-            contour.labels[stretch.first] = k as u32;
-            contour.stations[stretch.first] = way;
+        if let Some(side) = stretch.straight(ROUNDING * size(&clean.points)) {
+            for (i, p) in stretch.points[stretch.before..].iter().take(stretch.count).enumerate() {
+                contour.labels[stretch.first + i] = k as u32;
+                contour.stations[stretch.first + i] = way + length(side.start, *p);
+            }
             way += side.length;
             contour.segments.push(Segment { count: stretch.count, ..side });
             continue;
         }
-        let (curve, parameters) = followed(stretch, clean.spacing, least)?;
+        let (curve, parameters) = followed(&stretch.points, stretch.ends, clean.spacing, least)?;
         let (from, to) = curve.domain();
         let whole = curve.length(from, to);
         let (mut square, mut max): (f64, f64) = (0.0, 0.0);

@@ -128,3 +128,14 @@ fn lines_and_arcs_stay_what_they_are() {
     assert_eq!(contour.segments[0].geometry.kind(), SegmentKind::Line);
     assert!(kinds(&contour)[1..].iter().all(|k| *k == SegmentKind::Spline), "{:?}", kinds(&contour));
 }
+
+/// A step has two corners, whose turns are opposite, and straight sides are lines.
+#[test]
+fn a_step_has_two_corners() {
+    let points: Vec<[f64; 2]> =
+        (0..400).map(|i| [0.1 * f64::from(i), if i < 200 { 0.0 } else { 5.0 }]).collect();
+    let contour = found(&points);
+    assert_eq!(kinds(&contour), [SegmentKind::Line; 3]);
+    assert!(far(contour.joins[0].point, points[199]) < 1e-9);
+    assert!(far(contour.joins[1].point, points[200]) < 1e-9);
+}
