@@ -189,9 +189,9 @@ impl Turns<'_> {
     /// Whether a turn over `width` points is more than those beside lead up to.
     fn is_corner(&self, i: usize, width: isize) -> bool {
         let n = self.all.len();
-        let own = (0..width as usize).map(|k| self.all[(i + k) % n]);
-        let Some((turn, way)) = own.fold(Some((0.0, 0.0)), |sum, own| {
-            let ((turn, way), (own, length)) = (sum?, own?);
+        let mut own = (0..width as usize).map(|k| self.all[(i + k) % n]);
+        let Some((turn, way)) = own.try_fold((0.0, 0.0), |(turn, way), own| {
+            let (own, length) = own?;
             Some((turn + own, way + length))
         }) else {
             return false;

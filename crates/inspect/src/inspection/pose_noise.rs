@@ -177,9 +177,9 @@ mod tests {
         let product = |a: &[Six; 6], i: usize, j: usize| (0..6).map(|k| a[i][k] * a[j][k]).sum::<f64>();
         let a: [Six; 6] = std::array::from_fn(|i| std::array::from_fn(|j| product(&b, i, j)));
         let l = root(a);
-        for i in 0..6 {
-            for j in 0..6 {
-                assert!((product(&l, i, j) - a[i][j]).abs() < 1e-9, "{i} {j}");
+        for (i, row) in a.iter().enumerate() {
+            for (j, wanted) in row.iter().enumerate() {
+                assert!((product(&l, i, j) - wanted).abs() < 1e-9, "{i} {j}");
             }
         }
     }
