@@ -189,11 +189,10 @@ impl Turns<'_> {
     /// Whether a turn over `width` points is more than those beside lead up to.
     fn is_corner(&self, i: usize, width: isize) -> bool {
         let n = self.all.len();
-        let own = (0..width as usize).map(|k| self.all[(i + k) % n]);
-        let Some((turn, way)) = own.fold(Some((0.0, 0.0)), |sum, own| {
-            let ((turn, way), (own, length)) = (sum?, own?);
-            Some((turn + own, way + length))
-        }) else {
+        let mut own = (0..width as usize).map(|k| self.all[(i + k) % n]);
+        let add =
+            |(turn, way): (f64, f64), own: Option<(f64, f64)>| own.map(|own| (turn + own.0, way + own.1));
+        let Some((turn, way)) = own.try_fold((0.0, 0.0), add) else {
             return false;
         };
         let beside = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
