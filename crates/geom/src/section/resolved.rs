@@ -190,10 +190,9 @@ impl Turns<'_> {
     fn is_corner(&self, i: usize, width: isize) -> bool {
         let n = self.all.len();
         let mut own = (0..width as usize).map(|k| self.all[(i + k) % n]);
-        let Some((turn, way)) = own.try_fold((0.0, 0.0), |(turn, way), own| {
-            let (own, length) = own?;
-            Some((turn + own, way + length))
-        }) else {
+        let add =
+            |(turn, way): (f64, f64), own: Option<(f64, f64)>| own.map(|own| (turn + own.0, way + own.1));
+        let Some((turn, way)) = own.try_fold((0.0, 0.0), add) else {
             return false;
         };
         let beside = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
