@@ -52,7 +52,8 @@ fn the_pose_answers_to_noise_as_a_fit_done_again() {
         for _ in 0..5 {
             let (noisy, shifts) = shaken(&still, 0.005);
             let again = fit(&noisy).reference_from_measured;
-            let change = std::array::from_fn(|i| found.gains.iter().zip(&shifts).map(|(g, s)| dot(g[i], *s)).sum());
+            let change =
+                std::array::from_fn(|i| found.gains.iter().zip(&shifts).map(|(g, s)| dot(g[i], *s)).sum());
             let told = Response::motion(found.center, change);
             for p in &reference.positions {
                 let (a, b) = (plus(again.point(*p), times(-1.0, *p)), plus(told.point(*p), times(-1.0, *p)));
