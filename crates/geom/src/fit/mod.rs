@@ -10,7 +10,7 @@
 //! | `solution` | what a fit tells |
 //! | `unknown` | what an unknown does to an element |
 //! | `family` | what an element is to the solvers; `line` … `torus` hold one each |
-//! | `revolution`, `round`, `scatter` | where to start |
+//! | `revolution`, `round`, `bent`, `scatter` | where to start |
 //! | `normal`, `gauss`, `gaussian` | least squares |
 //! | `linear`, `minimax`, `zone` | least greatest distance |
 //! | `robust` | scans with outliers |
@@ -18,6 +18,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
+mod bent;
 mod circle;
 mod cone;
 mod cylinder;

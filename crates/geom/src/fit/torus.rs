@@ -1,5 +1,6 @@
 //! Ring tori.
 
+use super::bent::Tube;
 use super::family::{Element, Family, Rows};
 use super::revolution::{Powers, Profile, directions};
 use super::round::{TINY, round_starts};
@@ -8,7 +9,7 @@ use super::scatter::Scatter;
 use super::unknown::Local;
 use crate::frame::Pose;
 use crate::shape::Shape;
-use crate::space::{Point, unit};
+use crate::space::{Point, Vector, unit};
 
 /// Torus about the third axis of its frame; sizes: major and minor radius.
 pub(super) struct Torus;
@@ -49,7 +50,9 @@ impl Family<7> for Torus {
         // A piece of a torus often looks more like a cylinder about a wrong axis: no direction is left out
         // before its torus is known.
         let axes = [Profile::Parabola, Profile::Constant].map(|profile| powers.grid(profile, &principal));
-        ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, STARTS)
+        let mut starts = ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, STARTS);
+        starts.extend(bent(&powers, &principal, points));
+        starts
     }
     fn more_starts(points: &[Point]) -> Vec<Element> {
         // A short thick piece hardly determines its axis: try directions all around, near and far.
@@ -83,16 +86,35 @@ impl Family<7> for Torus {
 
 /// Starts that are improved.
 const STARTS: usize = 16;
+/// Bent tubes that are improved, of those about so many cylinders, on at most so many points.
+const TUBES: usize = 3;
+const CYLINDERS: usize = 6;
+const TUBE_POINTS: usize = 64;
+
+/// Sum of the squared distances of the points from the torus, and the torus.
+fn judged(element: Element, points: &[Point]) -> (f64, Element) {
+    let square = points.iter().map(|&p| Torus::distance(element.size, element.pose.local(p)).powi(2)).sum();
+    (square, element)
+}
+
+/// The `count` best of the tori.
+fn best(mut all: Vec<(f64, Element)>, count: usize) -> Vec<Element> {
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.into_iter().take(count).map(|(_, element)| element).collect()
+}
+
+/// Cylinders that are bent: the starts of short pieces.
+fn bent(powers: &Powers, principal: &[Vector; 3], points: &[Point]) -> Vec<Element> {
+    let few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(TUBE_POINTS)).collect();
+    let cylinders = powers.axes(Profile::Constant, principal, CYLINDERS);
+    let tubes = cylinders.iter().map(|axis| Tube::near(axis.pose, axis.radius_squared.sqrt(), &few).torus());
+    let sound = tubes.filter(|torus| Torus::sound(torus.size));
+    best(sound.map(|torus| judged(torus, &few)).filter(|t| t.0.is_finite()).collect(), TUBES)
+}
 
 /// The `count` best tori about the axes of the frames.
 fn ranked(frames: impl Iterator<Item = Pose>, points: &[Point], count: usize) -> Vec<Element> {
-    let square = |element: &Element| -> f64 {
-        points.iter().map(|&p| Torus::distance(element.size, element.pose.local(p)).powi(2)).sum()
-    };
-    let mut all: Vec<(f64, Element)> =
-        frames.flat_map(|frame| about(&frame, points)).map(|e| (square(&e), e)).collect();
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    all.into_iter().take(count).map(|(_, element)| element).collect()
+    best(frames.flat_map(|frame| about(&frame, points)).map(|torus| judged(torus, points)).collect(), count)
 }
 
 /// Tori about the axis of `frame`: circles through height over distance from it.

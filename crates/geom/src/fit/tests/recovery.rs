@@ -1,8 +1,11 @@
 //! The element that made the points is found again, from parts of it as small as 20°.
 
 use super::{Kind, Made, Method, fitted};
-use crate::fit::{Options, fit};
+use crate::fit::{Fit, Options, fit};
+use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::shape::Shape;
+use crate::space::Point;
 
 const KINDS: [Kind; 7] =
     [Kind::Circle2, Kind::Circle, Kind::Ellipse2, Kind::Sphere, Kind::Cylinder, Kind::Cone, Kind::Torus];
@@ -52,6 +55,45 @@ fn no_start_near_the_truth_beats_the_starts_found() {
                     global.residuals.rms,
                     near.residuals.rms
                 );
+            }
+        }
+    }
+}
+
+/// Few points exactly on a short piece of half a tube: the ring's radius is 3, the tube's 1. The ends of the piece are among them.
+fn half_tube(count: usize, degrees: f64, seed: u64) -> Vec<Point> {
+    let mut random = Random::new(seed);
+    let mut share = |k: usize| match k {
+        0 => [0.0, 0.0],
+        1 => [1.0, 1.0],
+        _ => [random.unit(), random.unit()],
+    };
+    (0..count)
+        .map(|k| {
+            let [t, a] = share(k);
+            let (t, a) = (t * degrees.to_radians(), a * std::f64::consts::PI);
+            let rho = 3.0 + a.cos();
+            [rho * t.cos(), rho * t.sin(), a.sin()]
+        })
+        .collect()
+}
+
+fn assert_is_the_half_tube(answer: &Fit, what: &str) {
+    let Shape::Torus { major_radius, minor_radius, .. } = answer.shape else { panic!("{what}") };
+    let right = (major_radius - 3.0).abs() < 3e-6 && (minor_radius - 1.0).abs() < 1e-6;
+    assert!(answer.converged && right, "{what}: {major_radius} {minor_radius} {answer:?}");
+}
+
+#[test]
+fn a_torus_is_found_from_few_points_of_a_short_half_tube() {
+    for degrees in [20.0, 22.0, 25.0, 30.0] {
+        for seed in 0..20 {
+            let points = half_tube(20, degrees, seed);
+            // A robust fit tries hundreds of parts of the points.
+            let methods = [Method::Gaussian, Method::MinimumZone, Method::Robust];
+            for &method in &methods[..if seed < 5 { 3 } else { 2 }] {
+                let answer = fitted(&points, Kind::Torus, method).unwrap();
+                assert_is_the_half_tube(&answer, &format!("{degrees}° seed {seed} {}", method.name()));
             }
         }
     }
