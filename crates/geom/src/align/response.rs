@@ -34,7 +34,8 @@ impl Response {
 
 /// How the best fit `fit` answers to small shifts of its vertices or points. `measured` lies where it took them, and `options` are its own.
 ///
-/// To first order: for shifts that are small beside the facets. What the shape leaves free does not move. Cost: one closest-point
+/// To first order: for shifts that are small beside the facets, and places that stay on their facet of the reference; points on its
+/// edges do not. What the shape leaves free does not move. Cost: one closest-point
 /// search of the surface, and 144 bytes a vertex.
 ///
 /// # Errors
