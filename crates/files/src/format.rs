@@ -22,7 +22,7 @@ pub struct Format {
     pub extensions: &'static [&'static str],
     /// Those under which it is written.
     pub written_as: &'static [&'static str],
-    /// The page of the handbook: what is read, what is written, what is lost. Markdown.
+    /// Its page, as `trueness formats` prints it: what is read, what is written, what is lost. Markdown.
     pub manual: &'static str,
     /// Whether it is a table, whose columns can be chosen.
     pub(crate) columns: bool,

@@ -1,5 +1,5 @@
-//! The list of formats: a format is one file or folder here and one line in [`FORMATS`]. Its manual is its page in the
-//! handbook.
+//! The list of formats: a format is one file or folder here and one line in [`FORMATS`]. Its page, `NAME.md`, is
+//! what `trueness formats NAME` prints.
 
 pub(crate) mod dxf;
 pub(crate) mod iges;

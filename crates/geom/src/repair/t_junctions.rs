@@ -22,9 +22,8 @@ const EDGES: usize = 2;
 type On = (u32, [u32; 2], f64, u32);
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
-    let Some(kind) = check::KINDS.iter().find(|k| k.name == "t_junctions") else { return Ok(()) };
     let mut all: Vec<On> = vec![];
-    for finding in work.find(kind)? {
+    for finding in work.find(check::T_JUNCTIONS)? {
         let [vertex, a, b] = finding.vertices[..] else { continue };
         let along = minus(work.at(b), work.at(a));
         let place = dot(minus(work.at(vertex), work.at(a)), along);
@@ -41,7 +40,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         let facet = on[0].0;
         let parts = parts(work.mesh().faces[facet as usize], on);
         if parts.len() > 1 {
-            let [_, [a, b], ..] = [[0; 2], on[0].1];
+            let [a, b] = on[0].1;
             let length = norm(minus(work.at(b), work.at(a)));
             work.log(&STEP, "facet cut at vertices on its edge", work.at(on[0].3), parts.len(), length);
             removed.push(facet);

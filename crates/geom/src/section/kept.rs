@@ -8,10 +8,15 @@ use crate::spline::curve::{self, Curve, Ends};
 /// do not follow, within the second.
 pub(super) const TOLERANCES: [f64; 2] = [1e-4, 1e-3];
 
+/// From one place to another.
+pub(super) fn chord(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    [to[0] - from[0], to[1] - from[1]]
+}
+
 /// Shares of the length at which points follow each other: chords and the bends beside them, as of arcs.
 fn shares(points: &[[f64; 2]]) -> Vec<f64> {
     let n = points.len();
-    let chord = |i: usize| [points[i + 1][0] - points[i][0], points[i + 1][1] - points[i][1]];
+    let chord = |i: usize| chord(points[i], points[i + 1]);
     let turn = |i: usize| if i == 0 || i + 1 >= n { 0.0 } else { angle(chord(i - 1), chord(i)) };
     let mut all = vec![0.0];
     let mut sum = 0.0;

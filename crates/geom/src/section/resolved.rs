@@ -9,7 +9,7 @@ use super::assembly::Joined;
 use super::chain::SegmentKind;
 use super::exact::{off_circle, off_line};
 use super::facets::{angle, length};
-use super::kept::{TOLERANCES, followed};
+use super::kept::{TOLERANCES, chord, followed};
 use super::levels::Start;
 use super::polygon::CORNER;
 use super::result::{Continuity, Contour, Geometry, Join, Options, Segment};
@@ -163,7 +163,6 @@ impl Turns<'_> {
         let of = |i: usize| {
             let inside = clean.closed || i > 0 && i + 1 < n;
             let [a, b, c] = [(i + n - 1) % n, i, (i + 1) % n].map(|k| points[k]);
-            let chord = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
             inside.then(|| (angle(chord(a, b), chord(b, c)), 0.5 * (length(a, b) + length(b, c))))
         };
         Turns { clean, all: (0..n).map(of).collect() }
@@ -236,7 +235,6 @@ impl Stretch {
 
 /// Direction of the circle through three points at the last of them.
 fn heading(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
-    let chord = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
     let (u, v, w) = (chord(a, b), chord(b, c), chord(a, c));
     // The angle between chord and tangent is that of the triangle at the far end.
     let by = angle(u, v) - angle(u, w);
@@ -247,7 +245,6 @@ fn heading(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
 
 /// Curvature of the circle through three points, positive to the left.
 fn bend(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    let chord = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
     2.0 * libm::sin(angle(chord(a, b), chord(b, c))) / length(a, c).max(f64::MIN_POSITIVE)
 }
 
