@@ -30,15 +30,15 @@ impl<'a> Container<'a> {
         Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
-    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane and the
-    /// box of one of its facets.
+    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane of one of its facets
+    /// and as near to it as boxes and strips along its longest side tell.
     pub(crate) fn winding(&self, p: &Point) -> Option<i32> {
         let touches = |f: u32, own: &Aabb| {
             let [a, b, c] = self.corners(f);
             (0..3).all(|k| own.min[k] <= p[k] && p[k] <= own.max[k]) && side_of_plane(&a, &b, &c, p) == 0
         };
         let (mut on_it, mut sum) = (false, 0);
-        self.columns.visit(p, self.beyond(p[self.axis]), |f, own| {
+        self.columns.pass(p, self.beyond(p[self.axis]), |f, own| {
             on_it = on_it || touches(f, own);
             let ([a, b, c], around) = (self.corners(f), self.around(f, p));
             sum += if around != 0 && side_of_plane(&a, &b, &c, p) == around { around } else { 0 };

@@ -182,13 +182,20 @@ fn gone(
             return Err(Cancelled);
         }
         let Ok(distances) = distances else { return Ok(Gone::default()) };
-        for (Asked { facet, place, middle }, distance) in asked.into_iter().zip(distances) {
+        let in_gap = |(Asked { facet, place, middle }, distance): (&Asked, &f64)| {
             // Off the edges, where a side belongs to a neighbor, but not out of the gap: its rim is part of the new surface.
             let inside = || {
-                let way = minus(middle, place);
-                plus(place, times((0.5 * distance / norm(way)).min(0.001), way))
+                let way = minus(*middle, *place);
+                plus(*place, times((0.5 * distance / norm(way)).min(0.001), way))
             };
-            if distance > NOTHING * reach && gaps.hold(facet, inside()) {
+            *distance > NOTHING * reach && !progress.cancelled() && gaps.hold(*facet, inside())
+        };
+        let in_gap: Vec<bool> = asked.par_iter().zip(&distances).map(in_gap).collect();
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        for ((Asked { facet, .. }, distance), in_gap) in asked.into_iter().zip(distances).zip(in_gap) {
+            if in_gap {
                 found.gaps.push(facet);
             } else {
                 found.farthest = found.farthest.map(|most| most.max(distance));

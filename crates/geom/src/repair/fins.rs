@@ -13,6 +13,7 @@ use super::union::solid_shells;
 use super::work::Work;
 use crate::deviation::sign_choice::SHEET;
 use crate::space::{Vector, cross, minus, norm, plus};
+use std::collections::BTreeMap;
 
 pub(super) const STEP: Step = Step {
     name: "fins",
@@ -30,8 +31,8 @@ struct Sheet {
     vector: Vector,
     area: f64,
     has_rim: bool,
-    /// Indices of its edges with more than two facets.
-    edges: Vec<usize>,
+    /// Its edges with more than two facets, by index, and how many of them are its own.
+    edges: BTreeMap<usize, usize>,
     /// It has boundary edges that are not of a hole to be filled.
     has_border: bool,
 }
@@ -53,8 +54,8 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         sheet.area += norm(normal);
     }
     let fillable = holes::fillable(work, &known);
-    // The sheets at each edge of more than two facets, once for each facet.
-    let mut meetings: Vec<Vec<u32>> = vec![];
+    // How many facets there are at each edge of more than two.
+    let mut meetings: Vec<usize> = vec![];
     for edge in edges.iter() {
         let here: Vec<u32> = edge.iter().map(|s| of[s.facet as usize]).collect();
         match here.len() {
@@ -65,8 +66,9 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
             }
             2 => {}
             _ => {
-                here.iter().for_each(|s| sheets[*s as usize].edges.push(meetings.len()));
-                meetings.push(here);
+                let edge = meetings.len();
+                here.iter().for_each(|s| *sheets[*s as usize].edges.entry(edge).or_default() += 1);
+                meetings.push(here.len());
             }
         }
     }
@@ -89,10 +91,10 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let mut removed = vec![];
     for s in candidates {
         let sheet = &sheets[s as usize];
-        let not_needed = |e: &usize| meetings[*e].iter().filter(|other| **other != s).count() >= 2;
+        let not_needed = |(edge, own): (&usize, &usize)| meetings[*edge] >= own + 2;
         if small(sheet, &may_go) && sheet.edges.iter().all(not_needed) {
             may_go[shell(sheet)] -= if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
-            sheet.edges.iter().for_each(|e| meetings[*e].retain(|other| *other != s));
+            sheet.edges.iter().for_each(|(edge, own)| meetings[*edge] -= own);
             let place = work.middle(sheet.facets[0]);
             work.log(&STEP, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
             removed.extend(&sheet.facets);

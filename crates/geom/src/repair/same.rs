@@ -26,7 +26,8 @@ impl Same {
         let mut slots = vec![NONE; (2 * keys.len()).next_power_of_two()];
         let starts: Vec<usize> = keys.par_iter().map(|key| start(key, slots.len())).collect();
         for (i, mut at) in (0..).zip(starts) {
-            while slots[at] != NONE {
+            // A facet that is there several times takes one slot: copies would stand in the way of each other.
+            while slots[at] != NONE && keys[slots[at] as usize] != keys[i as usize] {
                 at = (at + 1) & (slots.len() - 1);
             }
             slots[at] = i;

@@ -5,13 +5,15 @@
 //! arc of a great circle, from the direction of one corner to that of the other; any other facet is a triangle of the sphere.
 //! Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the directions
 //! and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do
-//! two fans that do not lie upon each other.
+//! two fans that do not lie upon each other. Fans on both sides of a line in a plane are seen upon each other: of these, walls
+//! along a facet (`walls`) leave out those beside it.
 //!
 //! Facets at one edge of very many are a hub of their own, a [`Book`].
 
 use super::book::Book;
 use super::seen;
 use super::views::{Node, View, overlap};
+use super::walls::Walls;
 use crate::mesh::Mesh;
 use crate::space::Aabb;
 use crate::topology::Topology;
@@ -20,9 +22,11 @@ use std::ops::Range;
 /// Facets at a vertex with very many, but for flat ones, as arcs around it.
 pub(super) struct Hub {
     center: u32,
+    /// Box of the place of the center.
+    place: Aabb,
     /// Where all facets have an edge in common.
     book: Option<Book>,
-    /// Neighbors stand near each other.
+    /// Neighbors stand near each other. Their bounds are those of the other two corners.
     arcs: Vec<View>,
     root: Node,
 }
@@ -60,15 +64,16 @@ pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> b
 
 impl Hub {
     fn new(mesh: &Mesh, center: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
+        let others = |facet: u32| mesh.faces[facet as usize].into_iter().filter(|v| *v != center);
         let arc = |&facet: &u32| View {
             number: facet,
             seen: seen_from(mesh, center, facet),
-            bounds: Aabb::of(&mesh.corners(facet)),
+            bounds: Aabb::of(others(facet).map(|v| &mesh.positions[v as usize])),
         };
         let mut arcs: Vec<View> = facets.iter().map(arc).collect();
         let root = Node::of(&mut arcs);
         let book = spine.map(|spine| Book::new(mesh, [center, spine], facets));
-        Hub { center, book, arcs, root }
+        Hub { center, place: Aabb::of([&mesh.positions[center as usize]]), book, arcs, root }
     }
 
     /// Its facets.
@@ -77,8 +82,8 @@ impl Hub {
     }
 
     /// Box of its facets.
-    pub fn bounds(&self) -> &Aabb {
-        &self.root.bounds
+    pub fn bounds(&self) -> Aabb {
+        self.root.bounds.union(&self.place)
     }
 
     /// Calls `decide` with all pairs of its facets that may meet where they should not, until that says no.
@@ -92,35 +97,41 @@ impl Hub {
     /// Calls `decide` with those of its facets that may meet another one, until that says no.
     pub fn against(&self, mesh: &Mesh, facet: u32, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
         let bounds = Aabb::of(&mesh.corners(facet));
-        if !overlap(&bounds, &self.root.bounds) {
+        if !overlap(&bounds, &self.bounds()) {
             return true;
         }
         if let Some(mut pages) = self.book.as_ref().and_then(|book| book.near(mesh, facet)) {
             return pages
                 .all(|page| !overlap(&bounds, &Aabb::of(&mesh.corners(page))) || decide(facet, page));
         }
-        let other = View { number: facet, seen: seen_from(mesh, self.center, facet), bounds };
-        let sides = seen::Sides::of(mesh.positions[self.center as usize], mesh.corners(facet));
-        self.one_below((&other, &sides), &self.root, decide)
+        let center = mesh.positions[self.center as usize];
+        let one = View { number: facet, seen: seen_from(mesh, self.center, facet), bounds };
+        let sides = seen::Sides::of(center, mesh.corners(facet));
+        let walls = Walls::of(mesh.corners(facet), center);
+        let may_meet = |seen: &Aabb, others: &Aabb| {
+            overlap(&one.seen, seen)
+                && overlap(&one.bounds, &others.union(&self.place))
+                && !sides.miss(seen)
+                && !walls.part(others)
+        };
+        self.below(&self.root, &may_meet, &mut |other| decide(facet, other))
     }
 
-    fn one_below(
+    /// Calls `decide` with the facets below a node that `may_meet` leaves, by their directions and the box of their other corners.
+    fn below(
         &self,
-        (one, sides): (&View, &seen::Sides),
         node: &Node,
-        decide: &mut impl FnMut(u32, u32) -> bool,
+        may_meet: &impl Fn(&Aabb, &Aabb) -> bool,
+        decide: &mut impl FnMut(u32) -> bool,
     ) -> bool {
-        if !overlap(&one.seen, &node.seen) || !overlap(&one.bounds, &node.bounds) || sides.miss(&node.seen) {
+        if !may_meet(&node.seen, &node.bounds) {
             return true;
         }
         match &node.halves {
-            Some(halves) => halves.iter().all(|half| self.one_below((one, sides), half, decide)),
+            Some(halves) => halves.iter().all(|half| self.below(half, may_meet, decide)),
             None => {
-                let near = |o: &&View| {
-                    overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds) && !sides.miss(&o.seen)
-                };
-                let arcs = &self.arcs[node.range.clone()];
-                arcs.iter().filter(near).all(|other| decide(one.number, other.number))
+                let arcs = self.arcs[node.range.clone()].iter();
+                arcs.filter(|arc| may_meet(&arc.seen, &arc.bounds)).all(|arc| decide(arc.number))
             }
         }
     }
@@ -136,7 +147,7 @@ impl Hub {
     }
 
     fn between(&self, a: &Node, b: &Node, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        if !overlap(&a.seen, &b.seen) || !overlap(&a.bounds, &b.bounds) {
+        if !overlap(&a.seen, &b.seen) {
             return true;
         }
         let (whole, halves) = match (&a.halves, &b.halves) {
@@ -157,7 +168,7 @@ impl Hub {
     }
 
     fn one_with(&self, one: &View, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        let near = |o: &&View| overlap(&one.seen, &o.seen) && overlap(&one.bounds, &o.bounds);
+        let near = |o: &&View| overlap(&one.seen, &o.seen);
         self.arcs[others].iter().filter(near).all(|other| decide(one.number, other.number))
     }
 }

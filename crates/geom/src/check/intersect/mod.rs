@@ -23,6 +23,7 @@ pub(crate) mod seen;
 mod tests;
 mod tree;
 pub(crate) mod views;
+mod walls;
 
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
@@ -258,7 +259,7 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
         if !hub.pairs(&mut |a, b| decide(pairs, a, b)) || walk.is_over() {
             return;
         }
-        let mut others = walk.tree.reaching(hub.bounds());
+        let mut others = walk.tree.reaching(&hub.bounds());
         hubs[i + 1..].iter().for_each(|other| others.extend(other.facets()));
         let part = |others: &[u32]| {
             let mut part = Pairs::new(wanted);

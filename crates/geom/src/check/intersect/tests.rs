@@ -214,6 +214,17 @@ fn asked(mesh: &Mesh) -> (usize, usize) {
     (counter.0.into_inner(), found.count)
 }
 
+/// Two fans of `n / 2` facets in a plane, on both sides of a line whose places they share.
+fn seam(n: usize) -> Vec<Facet> {
+    let along = |i: usize| 2.0 * i as f64 / n as f64;
+    let place = |s: f64, t: f64| [0.8 * s - 0.36 * t, 0.6 * s + 0.48 * t, 0.8 * t + 0.1];
+    let of = |i: usize| {
+        let (a, b) = (place(along(i), 0.0), place(along(i + 1), 0.0));
+        [[a, b, place(0.6, 0.7)], [b, a, place(0.3, -0.5)]]
+    };
+    (0..n / 2).flat_map(of).collect()
+}
+
 /// Work grows little faster than the facets: around two vertices, around one edge, upon each other.
 #[test]
 fn crowds_take_n_log_n() {
@@ -243,8 +254,13 @@ fn crowds_take_n_log_n() {
         facets.cycle().take(12 * (n / 12)).collect()
     };
     type Shape<'a> = (&'a str, &'a dyn Fn(usize) -> Vec<Facet>);
-    let shapes: [Shape; 4] =
-        [("bicone", &bicone), ("book", &book), ("closed book", &closed_book), ("coincident", &coincident)];
+    let shapes: [Shape; 5] = [
+        ("bicone", &bicone),
+        ("book", &book),
+        ("closed book", &closed_book),
+        ("coincident", &coincident),
+        ("seam", &seam),
+    ];
     for (name, shape) in shapes {
         let work = [2000, 8000, 32_000].map(|n| {
             let facets = shape(n);
@@ -306,6 +322,11 @@ fn books_and_copies_that_cross() {
         }
     }
     assert!(check("book", &facets) > 500);
+    assert_eq!(check("seam", &seam(600)), 0);
+    // The apex of one fan is pulled across the seam.
+    let mut folded = seam(600);
+    folded.iter_mut().step_by(2).for_each(|f| f[2] = plus(f[2], [0.36, -0.48, -0.8]));
+    assert!(check("folded seam", &folded) > 500);
     for i in (0..facets.len()).step_by(5) {
         let [a, b, c] = facets[i];
         facets.extend([[b, c, a], [c, b, a]]);
