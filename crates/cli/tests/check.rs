@@ -177,10 +177,17 @@ fn facets_have_the_numbers_of_the_file() {
     let nan = [[f64::NAN, 0.0, 0.0], x, y];
     let facets = [nan, [o, y, x], [o, x, z], [x, y, z], nan, [o, y, x], [y, o, z]];
     let stl = f.write("p.stl", format!("solid p\n{}endsolid p\n", facets.map(facet).concat()));
-    let document = document(["check".as_ref(), stl.as_os_str()]);
-    assert_eq!(document["facets"], 7);
-    assert_eq!(document["defects"]["duplicate_facets"]["items"][0]["facets"], serde_json::json!([1, 5]));
-    assert_eq!(document["defects"]["not_finite_facets"]["count"], 2);
+    let checked = document(["check".as_ref(), stl.as_os_str()]);
+    assert_eq!(checked["facets"], 7);
+    assert_eq!(checked["defects"]["duplicate_facets"]["items"][0]["facets"], serde_json::json!([1, 5]));
+    assert_eq!(checked["defects"]["not_finite_facets"]["count"], 2);
+    let points = f.write("p.xyz", "0 0 0\n0.1 0.1 0.2\n");
+    let compared = document(["compare".as_ref(), points.as_os_str(), stl.as_os_str()]);
+    let soundness = &compared["comparisons"][0]["soundness"];
+    for kind in ["duplicate_facets", "not_finite_facets"] {
+        assert_eq!(checked["defects"][kind], soundness["findings"][kind], "{kind}");
+    }
+    assert_eq!((&soundness["sound"], &soundness["not_finite_facets"]), (&json!(false), &json!(2)));
     let part = trueness::read(&stl).unwrap();
     assert_eq!(part.nonfinite_facets, [0, 4]);
     let report = trueness::check(&part).unwrap();

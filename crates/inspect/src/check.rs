@@ -26,16 +26,10 @@ pub fn document(
     let why_not =
         || if s.closed { "neighbors look in different directions" } else { "the mesh is open" }.to_string();
     let center = p.center_of_mass.filter(|_| solid);
-    let defects = report.defects.iter().map(|(kind, found)| {
-        let mut defects = self::defects(kind, found.as_ref());
-        let numbers = defects.items.iter_mut().flat_map(|item| &mut item.facets);
-        numbers.for_each(|facet| *facet = left_out.in_file(*facet));
-        if *kind == NOT_FINITE_FACETS {
-            defects.count = defects.count.map(|n| n + left_out.count());
-            defects.truncated |= left_out.count() > 0;
-        }
-        (kind.name.to_string(), defects)
-    });
+    let defects = report
+        .defects
+        .iter()
+        .map(|(kind, found)| (kind.name.to_string(), self::defects(kind, found.as_ref(), left_out)));
     CheckDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -80,9 +74,9 @@ fn overlaps(report: &Report) -> bool {
     [SELF_INTERSECTIONS, INSIDE_OUT_SHELLS].into_iter().any(|kind| report.count(kind) > 0)
 }
 
-/// The findings of a kind as the documents have them; `None` where they were not looked for.
-pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>) -> Defects {
-    Defects {
+/// The findings of a kind as the documents have them, by the numbers of the file; `None` where they were not looked for.
+pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>, left_out: LeftOut) -> Defects {
+    let mut defects = Defects {
         severity: Word(kind.severity),
         count: found.map(|f| f.count as u64),
         at_least: found.is_some_and(|f| f.at_least),
@@ -90,7 +84,14 @@ pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>) -> Defects {
         size: kind.size.into(),
         items: found.map_or(vec![], |f| f.items.iter().map(item).collect()),
         truncated: found.is_some_and(|f| f.items.len() < f.count),
+    };
+    let numbers = defects.items.iter_mut().flat_map(|item| &mut item.facets);
+    numbers.for_each(|facet| *facet = left_out.in_file(*facet));
+    if kind == NOT_FINITE_FACETS {
+        defects.count = defects.count.map(|n| n + left_out.count());
+        defects.truncated |= left_out.count() > 0;
     }
+    defects
 }
 
 fn item(finding: &Finding) -> Item {

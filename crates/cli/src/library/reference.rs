@@ -5,7 +5,7 @@ use super::error::Error;
 use super::part;
 use std::path::Path;
 use trueness_geom::align::{Alignment, BestFit, Measured, Target, best_fit};
-use trueness_geom::closest::{Closest, Tree};
+use trueness_geom::closest::{Closest, Query, Tree};
 use trueness_geom::deviation::sign_choice::SignChoice;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
@@ -44,7 +44,7 @@ impl Reference {
     /// As [`Reference::new`], with a choice of sign and exclusions; `progress` may stop it.
     ///
     /// # Errors
-    /// Those of [`Reference::new`]; cancelled.
+    /// Those of [`Reference::new`]; a greatest distance that is negative or NaN; cancelled.
     ///
     /// ```
     /// use trueness::geom::progress::Silent;
@@ -58,6 +58,7 @@ impl Reference {
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn with(mesh: Mesh, options: &SurfaceOptions, progress: &dyn Progress) -> Result<Reference, Error> {
+        Query { max_distance: options.max_distance, ..Query::default() }.check()?;
         let tree = Tree::build_watched(&mesh, progress)?;
         let surface = ReferenceSurface::new(&tree, &mesh, options, progress)?;
         Ok(Reference { mesh, surface })

@@ -8,7 +8,7 @@ use crate::closest::layout::Node;
 use crate::closest::limits::{QueryError, sane};
 use crate::closest::line::Line;
 use crate::closest::order;
-use crate::closest::query::check_distance;
+use crate::closest::query::Query;
 use crate::closest::tree::Tree;
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
@@ -155,7 +155,7 @@ impl Tree {
         direction: Vector,
         max_distance: f64,
     ) -> Result<Option<Crossing>, QueryError> {
-        check_distance(max_distance)?;
+        Query { max_distance, ..Query::default() }.check()?;
         if !sane(p) {
             return Err(QueryError::BadPoint(0));
         }
@@ -178,7 +178,7 @@ impl Tree {
         progress: &dyn Progress,
         f: impl Fn(usize, Option<Crossing>) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
-        check_distance(max_distance)?;
+        Query { max_distance, ..Query::default() }.check()?;
         let mut out = large_pages(Vec::with_capacity(points.len()));
         let places = Shared::of(&mut out);
         order::for_each_bucket(points, progress, |open: &mut Vec<Open>, slice, base, items| {

@@ -49,11 +49,11 @@ impl Tree {
     /// # Errors
     /// [`QueryError::BadPoint`] and [`QueryError::BadMaxDistance`].
     pub fn closest(&self, p: &Point, max_distance: f64) -> Result<Option<Closest>, QueryError> {
-        check_distance(max_distance)?;
+        let query = Query { max_distance, ..Query::default() };
+        query.check()?;
         if !sane(p) {
             return Err(QueryError::BadPoint(0));
         }
-        let query = Query { max_distance, ..Query::default() };
         let answer = std::cell::Cell::new(Hit::NONE);
         answer_items(self, &query, std::slice::from_ref(p), &[0], &mut Scratch::default(), &|_, hits| {
             answer.set(hits[0])
@@ -79,7 +79,7 @@ impl Tree {
         progress: &dyn Progress,
         sink: impl Fn(usize, Option<Hit>) + Sync,
     ) -> Result<(), QueryError> {
-        check_distance(query.max_distance)?;
+        query.check()?;
         order::for_each_bucket(points, progress, |scratch: &mut Scratch, slice, base, items| {
             answer_items(self, query, slice, items, scratch, &|items, hits| {
                 for (&i, hit) in items.iter().zip(hits) {
@@ -126,8 +126,14 @@ impl Tree {
     }
 }
 
-pub(super) fn check_distance(max_distance: f64) -> Result<(), QueryError> {
-    if max_distance >= 0.0 { Ok(()) } else { Err(QueryError::BadMaxDistance(max_distance)) }
+impl Query {
+    /// Whether anything can be asked so.
+    ///
+    /// # Errors
+    /// [`QueryError::BadMaxDistance`] where the greatest distance is negative or NaN.
+    pub fn check(&self) -> Result<(), QueryError> {
+        if self.max_distance >= 0.0 { Ok(()) } else { Err(QueryError::BadMaxDistance(self.max_distance)) }
+    }
 }
 
 /// Answers the points named by `items` with the chosen instruction set.

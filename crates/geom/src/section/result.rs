@@ -205,6 +205,9 @@ pub enum Taken {
 }
 
 impl Taken {
+    /// All of them.
+    pub const ALL: [Taken; 3] = [Taken::Row, Taken::Facets, Taken::Scan];
+
     /// The word for it: `row`, `facets`, `scan`.
     pub fn name(self) -> &'static str {
         match self {

@@ -11,6 +11,7 @@ use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
 use trueness_inspect::compare::{self, Inputs, Options, Reference, View};
+use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::report::{self, Answer, ReportInput, ReportOptions};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::compare::MeasuredKind;
@@ -53,7 +54,12 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
         shown: 1_000_000,
         ..Options::default()
     };
-    let references = [Reference { name: "nominal.stl".into(), mesh: reference, splines: None }];
+    let references = [Reference {
+        name: "nominal.stl".into(),
+        mesh: reference,
+        splines: None,
+        left_out: LeftOut::default(),
+    }];
     let sink = |_: &compare::DeviationBlock| Ok::<(), Infallible>(());
     let found = compare::run(&mut Once(Some(points.to_vec())), &references, &options, &Silent, sink).unwrap();
     let files = vec![

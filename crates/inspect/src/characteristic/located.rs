@@ -61,7 +61,7 @@ pub fn datum_source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'
         Class::Cylinder => Kind::Cylinder,
         Class::Cone => Kind::Cone,
         Class::Sphere => Kind::Sphere,
-        _ => Kind::Line,
+        Class::Point | Class::Line | Class::Circle | Class::Torus => Kind::Line,
     };
     let away = || minus(mean(points), mean(&toleranced.points));
     Ok(Source { points, kind, outward: datum.outward.unwrap_or_else(away) })

@@ -31,7 +31,9 @@ mod value;
 
 pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 pub(crate) use located::datum_source;
+pub use size::Size;
 pub use taken::{Element, LeftOut, Others, Taken};
+pub use texture::Texture;
 pub use value::{Missing, Value};
 
 /// All of them, in the order of ISO 1101, then dimensions, then texture.

@@ -69,7 +69,10 @@ impl Characteristic for Size {
         let fit = match feature.class {
             Class::Sphere => feature.refitted(Kind::Sphere, method, m.progress)?,
             Class::Circle => feature.profile(method, m.progress)?,
-            _ => feature.refitted(Kind::Cylinder, method, m.progress)?,
+            Class::Cylinder => feature.refitted(Kind::Cylinder, method, m.progress)?,
+            Class::Point | Class::Line | Class::Plane | Class::Cone | Class::Torus => {
+                return Err(Missing::NotMeasured("the element has no diameter".into()));
+            }
         };
         let radius = match fit.shape {
             Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } | Shape::Circle2 { radius, .. } => {

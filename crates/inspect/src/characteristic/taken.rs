@@ -173,7 +173,7 @@ impl Taken {
         let element = self.element()?;
         match (self.class, element) {
             (_, Element::Point(p)) => Ok(vec![*p]),
-            (Class::Plane | Class::Surface | Class::Torus, _) => self.taken().map(<[Point]>::to_vec),
+            (Class::Plane | Class::Torus, _) => self.taken().map(<[Point]>::to_vec),
             (Class::Line, _) if !self.edge => self.taken().map(<[Point]>::to_vec),
             (Class::Line | Class::Cylinder | Class::Cone, Element::Fit(fit)) => self.ends(&fit.shape),
             (_, Element::Fit(fit)) => match fit.shape {

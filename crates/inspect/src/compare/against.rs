@@ -1,6 +1,7 @@
 //! What points are compared with, and why that may not be possible.
 
 use super::region::RegionError;
+use crate::file_numbers::LeftOut;
 use trueness_geom::closest::MeshError;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::mesh::Mesh;
@@ -16,6 +17,8 @@ pub struct Reference<'a> {
     pub mesh: &'a Mesh,
     /// The surfaces that are measured against instead of the mesh.
     pub splines: Option<&'a FootSearch>,
+    /// Facets of the file that are not in the mesh.
+    pub left_out: LeftOut<'a>,
 }
 
 impl std::fmt::Debug for Reference<'_> {

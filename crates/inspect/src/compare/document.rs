@@ -5,12 +5,13 @@ use super::research::research;
 use super::{
     AlongRule, Comparisons, Excluded, Facing, MapSurface, Options, Outliers, RegionFound, plausibility,
 };
+use crate::file_numbers::LeftOut;
 use crate::results::check::Defects;
 use crate::results::compare::*;
 use crate::results::{InputRecord, UNITS, VERSION, Verdict, Word};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
-use trueness_geom::check::{DefectKind, Found};
+use trueness_geom::check::{DefectKind, Found, NOT_FINITE_FACETS};
 use trueness_geom::deviation::paper::Differences;
 use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::stats::histogram::Limits;
@@ -196,9 +197,9 @@ fn overall_sign(comparisons: &[Comparison], options: &Options) -> SignRecord {
 }
 
 fn soundness(c: &Compared) -> Soundness {
-    let s = &c.precondition.soundness;
+    let (s, left_out) = (&c.precondition.soundness, LeftOut(&c.left_out));
     Soundness {
-        sound: s.sound,
+        sound: s.sound && left_out.count() == 0,
         closed: s.closed,
         consistently_oriented: s.consistently_oriented,
         outward: s.outward,
@@ -208,14 +209,23 @@ fn soundness(c: &Compared) -> Soundness {
         non_manifold_vertices: s.non_manifold_vertices as u64,
         duplicate_facets: s.duplicate_facets as u64,
         degenerate_facets: s.degenerate_facets as u64,
-        not_finite_facets: s.not_finite_facets as u64,
+        not_finite_facets: s.not_finite_facets as u64 + left_out.count(),
         inconsistent_edges: s.inconsistent_edges as u64,
-        findings: c.precondition.findings.iter().map(finding).collect(),
+        findings: findings(c, left_out),
     }
 }
 
-fn finding((kind, found): &(&'static DefectKind, Found)) -> (String, Defects) {
-    (kind.name.to_string(), crate::check::defects(kind, Some(found)))
+/// Where the mesh is not sound. Facets that the reader left out are counted among those that are not finite.
+fn findings(c: &Compared, left_out: LeftOut) -> BTreeMap<String, Defects> {
+    let (not_read, mut found) = (Found::default(), BTreeMap::new());
+    let mut add = |kind: &DefectKind, items| {
+        found.insert(kind.name.to_string(), crate::check::defects(kind, Some(items), left_out));
+    };
+    if left_out.count() > 0 {
+        add(NOT_FINITE_FACETS, &not_read);
+    }
+    c.precondition.findings.iter().for_each(|(kind, items)| add(kind, items));
+    found
 }
 
 /// Shares of the points against the tolerance; none where there is no point.

@@ -1,5 +1,6 @@
 //! Why a point does not count.
 
+use crate::report::NoValue;
 use trueness_geom::deviation::surface::Exclusion;
 
 /// Why a point does not count.
@@ -32,6 +33,19 @@ impl From<Exclusion> for Excluded {
             Exclusion::BoundaryEdge => Excluded::BoundaryEdge,
             Exclusion::NoCrossing => Excluded::NoCrossing,
             Exclusion::NoDirection => Excluded::NoDirection,
+        }
+    }
+}
+
+impl From<Excluded> for NoValue {
+    fn from(e: Excluded) -> NoValue {
+        match e {
+            Excluded::MaxDistance => NoValue::MaxDistance,
+            Excluded::BoundaryEdge => NoValue::BoundaryEdge,
+            Excluded::Facing => NoValue::Facing,
+            Excluded::Outlier => NoValue::Outlier,
+            Excluded::NoCrossing => NoValue::NoCrossing,
+            Excluded::NoDirection => NoValue::NoDirection,
         }
     }
 }
@@ -77,14 +91,7 @@ impl Excluded {
 
     /// The word of the result document.
     pub fn name(self) -> &'static str {
-        match self {
-            Excluded::MaxDistance => Exclusion::MaxDistance.name(),
-            Excluded::BoundaryEdge => Exclusion::BoundaryEdge.name(),
-            Excluded::Facing => "facing",
-            Excluded::Outlier => "outlier",
-            Excluded::NoCrossing => Exclusion::NoCrossing.name(),
-            Excluded::NoDirection => Exclusion::NoDirection.name(),
-        }
+        NoValue::from(self).name()
     }
 
     /// Its number in files of points; that of a point that counts is 0.

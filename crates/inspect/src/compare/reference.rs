@@ -34,6 +34,8 @@ pub struct Compared {
     pub disagreement: Option<Disagreement>,
     /// Whether the mesh is sound, and if not, where not.
     pub precondition: Precondition,
+    /// Facets of the file that are not in the mesh: their numbers, ascending.
+    pub left_out: Vec<u32>,
     /// Statistics of all deviations and of each side.
     pub summary: Summary,
     /// The deviations, or what is left of them when there were too many to keep.
@@ -132,6 +134,7 @@ const WORST: usize = 3;
 /// A comparison under way.
 pub struct Running<'a> {
     mesh: &'a Mesh,
+    left_out: Vec<u32>,
     target: Target<'a>,
     splines: Option<SplinesFound>,
     values: Values,
@@ -193,6 +196,7 @@ impl<'a> Running<'a> {
                 .then(|| PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()))),
             regions,
             mesh,
+            left_out: reference.left_out.0.to_vec(),
         })
     }
 
@@ -325,6 +329,7 @@ impl<'a> Running<'a> {
             sign: choice,
             disagreement: self.target.disagreement(sample, progress)?,
             precondition: self.target.precondition().clone(),
+            left_out: self.left_out,
             summary,
             worst,
             regions: (self.regions.iter().flat_map(Regions::rules).zip(self.tallies))

@@ -2,7 +2,6 @@
 
 use super::{Comparisons, Excluded, Reference, Values};
 use crate::check::groups;
-use crate::file_numbers::LeftOut;
 use crate::report::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole, first_view};
 use crate::results::check::found;
 use crate::results::compare::{CompareDocument, Comparison};
@@ -82,7 +81,7 @@ impl<'a> View<'a> {
     pub fn marks(&self, document: &CompareDocument) -> Vec<Marks> {
         let of = |(n, (c, r)): (usize, (&Comparison, &Reference))| {
             let found = found(&c.soundness.findings);
-            let groups = groups(&found, r.mesh, LeftOut::default());
+            let groups = groups(&found, r.mesh, r.left_out);
             (!found.is_empty()).then_some(Marks { role: ViewRole::Defects, comparison: Some(n), groups })
         };
         document.comparisons.iter().zip(self.references).enumerate().filter_map(of).collect()
@@ -131,12 +130,8 @@ impl Field {
     fn of(values: &[f64], nan: NoValue) -> Field {
         let reason = |d: &f64| match Excluded::of(*d) {
             None => NoValue::Unknown,
-            Some(Excluded::MaxDistance) => NoValue::MaxDistance,
             Some(Excluded::BoundaryEdge) => nan,
-            Some(Excluded::Facing) => NoValue::Facing,
-            Some(Excluded::Outlier) => NoValue::Outlier,
-            Some(Excluded::NoCrossing) => NoValue::NoCrossing,
-            Some(Excluded::NoDirection) => NoValue::NoDirection,
+            Some(excluded) => excluded.into(),
         };
         Field {
             values: values.iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect(),

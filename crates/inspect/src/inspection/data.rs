@@ -15,6 +15,8 @@ pub struct Data {
     pub normals: Vec<Vector>,
     /// The nominal mesh, where the plan names one and has a use for it: alignment, deviations, features sought by nominals or seeds.
     pub reference: Option<Mesh>,
+    /// Facets of its file that are not in the mesh, as a coordinate is not finite: their numbers, ascending.
+    pub reference_left_out: Vec<u32>,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
     /// The points of features that have files of their own, by the number of the feature.

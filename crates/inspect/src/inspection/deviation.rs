@@ -5,6 +5,7 @@ use super::seed::Seeded;
 use crate::compare::{
     self, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule, vertex_normals,
 };
+use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
 use crate::results::compare::MeasuredKind;
 use std::collections::BTreeMap;
@@ -24,6 +25,8 @@ pub struct Deviations {
     pub options: Options,
     /// The reference.
     pub reference: Mesh,
+    /// Facets of its file that are not in the mesh.
+    pub left_out: Vec<u32>,
     /// `points` of a cloud, `vertices` of a mesh.
     pub kind: MeasuredKind,
 }
@@ -31,8 +34,12 @@ pub struct Deviations {
 impl Deviations {
     /// The reference under the name that documents call it by.
     pub fn references(&self, name: &str) -> [Reference<'_>; 1] {
-        [Reference { name: name.into(), mesh: &self.reference, splines: None }]
+        [reference(name, &self.reference, &self.left_out)]
     }
+}
+
+fn reference<'a>(name: &str, mesh: &'a Mesh, left_out: &'a [u32]) -> Reference<'a> {
+    Reference { name: name.into(), mesh, splines: None, left_out: LeftOut(left_out) }
 }
 
 /// Of the data where the alignment took them. The reference is moved out of the data.
@@ -69,14 +76,15 @@ pub(super) fn deviations(
         ..Options::default()
     };
     let mut points = Whole::<Infallible>::new(measured.positions.clone());
-    let references = [Reference { name: "the reference".into(), mesh: &reference, splines: None }];
+    let left_out = std::mem::take(&mut data.reference_left_out);
+    let references = [self::reference("the reference", &reference, &left_out)];
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
         e => Stop::Deviation(e.to_string()),
     })?;
     let kind = if measured.faces.is_empty() { MeasuredKind::Points } else { MeasuredKind::Vertices };
-    Ok(Deviations { found, options, reference, kind })
+    Ok(Deviations { found, options, reference, left_out, kind })
 }
 
 /// The regions, those of features with their facets.

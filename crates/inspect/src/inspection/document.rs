@@ -3,7 +3,7 @@
 use super::decision::{utilization, verdict};
 use super::left_out;
 use super::{Element, Found, Inspection, Taken, Uncertainty};
-use crate::characteristic::Value;
+use crate::characteristic::{Characteristic, Texture, Value};
 use crate::compare;
 use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
 use crate::results::align::{AlignNote, AlignNoteKind};
@@ -205,7 +205,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let (lower, upper) = limits.range();
     let zone = match (nominal, measured) {
         (Some(_), _) => ZoneForm::Value,
-        _ if spec.kind.word() == "texture" => ZoneForm::Value,
+        _ if spec.kind.word() == Texture.word() => ZoneForm::Value,
         (None, Some(v)) if v.diametral => ZoneForm::Diameter,
         (None, _) => ZoneForm::Width,
     };
@@ -282,7 +282,7 @@ fn modifiers(spec: &Spec) -> Vec<String> {
         all.push(format!("planes across ({x}, {y}, {z})"));
     }
     all.extend(spec.material.map(|m| m.symbol().to_string()));
-    if spec.kind.word() == "texture" {
+    if spec.kind.word() == Texture.word() {
         all.push(spec.parameter.word().to_string());
     }
     if spec.kind.keys().contains(&"method") {

@@ -71,6 +71,6 @@ fn kind_of(class: Class) -> Option<Kind> {
         Class::Cylinder => Some(Kind::Cylinder),
         Class::Cone => Some(Kind::Cone),
         Class::Sphere => Some(Kind::Sphere),
-        Class::Point | Class::Line | Class::Circle | Class::Torus | Class::Surface => None,
+        Class::Point | Class::Line | Class::Circle | Class::Torus => None,
     }
 }

@@ -265,7 +265,6 @@ fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> R
         Class::Cylinder => Kind::Cylinder,
         Class::Cone => Kind::Cone,
         Class::Torus => Kind::Torus,
-        Class::Surface => return Ok(taken),
     };
     let options = Options { method: feature.method, ..Options::default() };
     taken.element = match fit(&taken.points, kind, &options, progress) {
@@ -292,7 +291,7 @@ fn ray(taken: &Taken) -> Result<Ray, String> {
             let (point, direction) = (datum::foot(&fit.shape), datum::direction(&fit.shape));
             Ok(Ray { point: point.ok_or_else(none)?, direction: direction.ok_or_else(none)? })
         }
-        _ => Err(none()),
+        Element::Point(_) | Element::Derived(Datum::Point(_)) => Err(none()),
     }
 }
 

@@ -99,7 +99,7 @@ fn datum(checker: &Checker, name: &At<String>, features: &[Feature]) -> Result<D
         }
     };
     let classes: Vec<Class> = found.iter().map(|n| features[*n].class).collect();
-    if let Some(class) = classes.iter().find(|c| matches!(c, Class::Circle | Class::Torus | Class::Surface)) {
+    if let Some(class) = classes.iter().find(|c| matches!(c, Class::Circle | Class::Torus)) {
         return checker.wrong(&name.span, format!("a {} cannot be a datum here", class.word()));
     }
     let only = |these: &[Class]| classes.iter().all(|c| these.contains(c));

@@ -28,13 +28,11 @@ pub enum Class {
     Cone,
     /// A torus.
     Torus,
-    /// A surface of any form.
-    Surface,
 }
 
 impl Class {
     /// All of them.
-    pub const ALL: [Class; 9] = [
+    pub const ALL: [Class; 8] = [
         Class::Point,
         Class::Line,
         Class::Plane,
@@ -43,7 +41,6 @@ impl Class {
         Class::Cylinder,
         Class::Cone,
         Class::Torus,
-        Class::Surface,
     ];
 
     /// The word for it.
@@ -57,7 +54,6 @@ impl Class {
             Class::Cylinder => "cylinder",
             Class::Cone => "cone",
             Class::Torus => "torus",
-            Class::Surface => "surface",
         }
     }
 }
@@ -356,7 +352,7 @@ fn nominal(checker: &Checker, shape: ShapeWord, at: &At<NominalText>) -> Result<
             length: size(length, "length")?,
             normals: normals.ok_or_else(|| missing("normals"))?,
         },
-        _ => {
+        ShapeWord::Point | ShapeWord::Line | ShapeWord::Circle | ShapeWord::Torus | ShapeWord::Surface => {
             return checker.wrong(
                 &at.span,
                 "a nominal is for planes, cylinders, cones, spheres and edges; give `points`",

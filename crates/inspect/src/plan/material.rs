@@ -7,6 +7,7 @@ use super::feature::{Class, Feature};
 use super::limits::Limits;
 use super::text::{MaterialWord, PlanText};
 use crate::characteristic::kind::Spec;
+use crate::characteristic::{Characteristic, Size};
 use std::ops::Range;
 
 /// The boundaries of all characteristics, once all are known: the limits of size stand in one characteristic, the
@@ -89,7 +90,7 @@ fn boundary(
         );
         return checker.wrong(span, what);
     };
-    let sizes = specs.iter().filter(|s| s.kind.word() == "size" && s.features == [feature]);
+    let sizes = specs.iter().filter(|s| s.kind.word() == Size.word() && s.features == [feature]);
     let mut limits: Option<(f64, f64)> = None;
     for size in sizes {
         let (lower, upper) = size.limits.range();

@@ -77,4 +77,45 @@ mod tests {
         assert_eq!(words, ["Fail", "Nicht in Ordnung", "Не годен", "不合格"]);
         assert_eq!(table()["de"]["verdict.pass"], "In Ordnung");
     }
+    /// Of every registry and list of words whose entries pages name, in every language: nothing new is shown by its bare name.
+    #[test]
+    fn every_entry_has_its_words() {
+        use crate::report::NoValue;
+        use crate::results::Named;
+        use crate::results::compare::SignBy;
+        use crate::results::section::{BEYOND_END, NO_OUTLINE, Positive};
+        use trueness_geom::curvature::NoCurvature;
+        use trueness_geom::section::{Continuity, DimensionKind, SegmentKind, Taken};
+        use trueness_geom::{check, repair, shape};
+        fn of<T: Named>(before: &str) -> Vec<String> {
+            T::all().iter().map(|entry| format!("{before}.{}", entry.name())).collect()
+        }
+        let parameters = shape::Kind::ALL.iter().flat_map(|kind| kind.parameters());
+        let keys = [
+            of::<Continuity>("join"),
+            of::<DimensionKind>("dimension"),
+            of::<NoCurvature>("reason"),
+            of::<Positive>("nominal"),
+            of::<SignBy>("sign.by"),
+            of::<Taken>("taken"),
+            of::<check::Severity>("severity"),
+            of::<crate::plan::Class>("shape"),
+            [BEYOND_END, NO_OUTLINE].map(|reason| format!("nominal.{reason}")).to_vec(),
+            [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Spline]
+                .map(|kind| format!("segment.{}", kind.name()))
+                .to_vec(),
+            NoValue::ALL.iter().map(|reason| format!("reason.{}", reason.name())).collect(),
+            check::KINDS
+                .iter()
+                .flat_map(|k| [format!("defect.{}", k.name), format!("about.{}", k.name)])
+                .collect(),
+            repair::STEPS.iter().map(|step| format!("step.{}", step.name)).collect(),
+            crate::characteristic::ALL.iter().map(|kind| format!("kind.{}", kind.word())).collect(),
+            parameters.map(|(name, _)| format!("parameter.{name}")).collect(),
+        ];
+        let is_missing =
+            |key: &String| Language::ALL.iter().any(|language| ["", key].contains(&word(key, *language)));
+        let missing: Vec<String> = keys.concat().into_iter().filter(is_missing).collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
 }

@@ -8,7 +8,7 @@ mod nominal;
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
-pub use nominal::{Against, NominalRecord, Positive, WorstRecord};
+pub use nominal::{Against, BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
 
 use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
@@ -128,7 +128,7 @@ pub struct ContourRecord {
     /// Number of its plane in `planes`, from 0; of points in order `null`.
     pub plane: Option<u64>,
     /// What its points were taken for: `row` (measured points), `facets` (exact ones, of a drawing), `scan` (facets of a scan).
-    pub taken: String,
+    pub taken: Word<Taken>,
     /// Whether its end is its start.
     pub closed: bool,
     /// Length of all segments.
@@ -383,7 +383,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
     };
     ContourRecord {
         plane,
-        taken: found.taken.name().into(),
+        taken: Word(found.taken),
         closed: found.closed,
         length: found.length(),
         noise: found.noise,

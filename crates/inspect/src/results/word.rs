@@ -106,6 +106,7 @@ named!(trueness_geom::check::Severity, "severity", Self::ALL, |severity| severit
 named!(trueness_geom::surface::BaseKind, "base of a surface", Self::ALL, |kind| kind.name());
 named!(trueness_geom::surface::Reached, "reason to stop", Self::ALL, |reached| reached.name());
 named!(trueness_geom::section::Continuity, "continuity", Self::ALL, |continuity| continuity.name());
+named!(trueness_geom::section::Taken, "kind of row", Self::ALL, |taken| taken.name());
 named!(trueness_geom::section::DimensionKind, "kind of dimension", Self::ALL, |kind| kind.name());
 
 named!(crate::plan::Class, "class of features", Self::ALL, |class| class.word());

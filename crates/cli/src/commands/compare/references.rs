@@ -12,13 +12,14 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{FootError, FootSearch, Nurbs};
 use trueness_inspect::compare::{Method, Options, Reference, RegionRule};
+use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::plan::regions_of_file;
 use trueness_inspect::results::{Bounds, InputRecord};
 
 /// A reference as it was read.
 pub enum Opened {
-    /// A mesh.
-    Mesh(Mesh),
+    /// A mesh, and the numbers of the facets of the file that are not in it.
+    Mesh(Mesh, Vec<u32>),
     /// Surfaces, and the mesh that draws them.
     Surfaces(Box<FootSearch>, Mesh),
 }
@@ -27,16 +28,16 @@ impl Opened {
     /// The mesh, or the one that draws the surfaces.
     pub fn mesh(&self) -> &Mesh {
         match self {
-            Opened::Mesh(mesh) | Opened::Surfaces(_, mesh) => mesh,
+            Opened::Mesh(mesh, _) | Opened::Surfaces(_, mesh) => mesh,
         }
     }
     /// The same for the comparison.
     pub fn reference(&self, name: String) -> Reference<'_> {
-        let splines = match self {
-            Opened::Mesh(_) => None,
-            Opened::Surfaces(search, _) => Some(&**search),
+        let (splines, left_out) = match self {
+            Opened::Mesh(_, left_out) => (None, LeftOut(left_out)),
+            Opened::Surfaces(search, _) => (Some(&**search), LeftOut::default()),
         };
-        Reference { name, mesh: self.mesh(), splines }
+        Reference { name, mesh: self.mesh(), splines, left_out }
     }
 }
 
@@ -51,7 +52,7 @@ pub fn open(
     for path in paths {
         let (body, mut record) = read::reference(path, reading)?;
         let opened = match body {
-            ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh),
+            ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh, mesh.nonfinite_facets),
             ReferenceBody::Surfaces(surfaces) => {
                 allowed(path, options)?;
                 prepared(path, &surfaces, common)?

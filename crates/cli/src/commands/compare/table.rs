@@ -3,6 +3,7 @@
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
 use trueness_geom::deviation::sign_choice::SignMethod;
+use trueness_inspect::compare::Excluded;
 use trueness_inspect::results::Named;
 use trueness_inspect::results::compare::{AlongKind, SignBy};
 use trueness_inspect::results::compare::{
@@ -97,13 +98,13 @@ fn head(d: &CompareDocument) -> String {
 
 /// The limit that a reason goes by, where it is not the reason's own.
 fn limit(d: &CompareDocument, reason: &str) -> String {
-    match d.facing.filter(|_| reason == "facing") {
+    match d.facing.filter(|_| reason == Excluded::Facing.name()) {
         // As it was asked for: what the way there and back through radians adds is far beyond these digits.
         Some(angle) => {
             let degrees = (1e9 * angle.to_degrees()).round() / 1e9;
             format!(": more than {degrees}° from the reference's normal")
         }
-        None if reason == "no_crossing" => ": the line meets nothing near enough".into(),
+        None if reason == Excluded::NoCrossing.name() => ": the line meets nothing near enough".into(),
         None => String::new(),
     }
 }

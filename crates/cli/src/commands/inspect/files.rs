@@ -115,7 +115,7 @@ impl PlanFile {
             let read = read::mesh(&path, Role::Reference, &options);
             let (source, mut record) = read.with_context(|| self.at(written, "the reference"))?;
             read::hash(&mut record, &path)?;
-            data.reference = Some(source.mesh);
+            (data.reference, data.reference_left_out) = (Some(source.mesh), source.nonfinite_facets);
             inputs.push(record);
         }
         let mut seen: BTreeMap<PathBuf, (Vec<Point>, bool)> = BTreeMap::new();

@@ -3,10 +3,10 @@
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
-use trueness_geom::section::DimensionKind;
+use trueness_geom::section::{DimensionKind, Taken};
 use trueness_inspect::results::section::{
-    AirfoilMeasures, AirfoilRecord, ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord,
-    NominalRecord, Positive, SectionDocument, SegmentRecord,
+    AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, GeometryRecord,
+    MethodsRecord, NominalRecord, Positive, SectionDocument, SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -29,7 +29,7 @@ pub fn table(document: &SectionDocument) -> String {
             out,
             "contour {}   {closed}   {}{} points   length {}   noise {}   mm and degrees",
             n + 1,
-            if contour.taken == "row" { String::new() } else { format!("{}   ", contour.taken) },
+            if *contour.taken == Taken::Row { String::new() } else { format!("{}   ", contour.taken.name()) },
             grouped(contour.points),
             fixed(contour.length, 6),
             scientific(contour.noise, 2)
@@ -95,15 +95,15 @@ fn astray(contour: &ContourRecord) -> String {
         (false, true) => (numbered(&contour.astray), "does not run along its points", "tells"),
         (false, false) => (numbered(&contour.astray), "do not run along their points", "tell"),
     };
-    let help = match (contour.plane, contour.taken.as_str()) {
+    let help = match (contour.plane, *contour.taken) {
         (None, _) => "more points around corners and bends, or --noise if it is known, may help",
-        (_, "row") if covers_area(contour) => {
+        (_, Taken::Row) if covers_area(contour) => {
             "points that cover an area follow no curve: a thinner slab, or a plane that cuts less obliquely, may help"
         }
-        (_, "row") => {
+        (_, Taken::Row) => {
             "the points are few for its corners and bends: a thicker slab, or --noise if it is known, may help"
         }
-        _ => "a plane a little beside, or a finer mesh, may help",
+        (_, Taken::Facets | Taken::Scan) => "a plane a little beside, or a finer mesh, may help",
     };
     format!("! {which} {run} and {tell} nothing of the part; {help}\n")
 }
@@ -308,11 +308,8 @@ fn nominal(found: &NominalRecord) -> String {
     }
     out.push_str(&console::columns(&rows));
     for (reason, count) in &found.excluded {
-        let words = if reason == "beyond_end" {
-            "beyond the end of the nominal"
-        } else {
-            "in planes without nominal"
-        };
+        let words =
+            if reason == BEYOND_END { "beyond the end of the nominal" } else { "in planes without nominal" };
         let _ = writeln!(out, "points {words}: {}", grouped(*count));
     }
     out

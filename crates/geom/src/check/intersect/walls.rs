@@ -32,7 +32,8 @@ impl Walls {
         let outward = sides.map(|side| unit(cross(side, normal)).map_or([0.0; 3], |(out, _)| out));
         let [x, y, z] = outward;
         let wall = |across: Vector| {
-            let highest = corners.iter().map(|p| dot(across, *p) + off(&across, p)).fold(f64::NEG_INFINITY, f64::max);
+            let highest =
+                corners.iter().map(|p| dot(across, *p) + off(&across, p)).fold(f64::NEG_INFINITY, f64::max);
             // True for what is no number.
             let parts = dot(across, center) - off(&across, &center) > highest;
             if parts { Wall { across, highest } } else { Wall { across: [0.0; 3], highest: 0.0 } }

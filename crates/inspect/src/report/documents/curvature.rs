@@ -8,7 +8,6 @@ use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, P
 use crate::scale::Scale;
 use maud::{Markup, Render, html};
 use serde_json::Value;
-use trueness_geom::curvature::NoCurvature;
 
 impl Subject for CurvatureDocument {
     fn head(&self) -> Head<'_> {
@@ -38,7 +37,7 @@ impl Subject for CurvatureDocument {
             (section(s, "known", known(s, self)))
             @if !self.without.is_empty() { (section(s, "without", html! {
                 dl.facts.pairs {
-                    @for (reason, count) in &self.without { (fact(s, reason_key(**reason), s.count(*count))) }
+                    @for (reason, count) in &self.without { (fact(s, &format!("reason.{}", reason.name()), s.count(*count))) }
                 }
             })) }
         }
@@ -120,18 +119,6 @@ pub fn words(kind: CurvatureKind) -> [&'static str; 3] {
         CurvatureKind::Gaussian => ["curvature.gaussian", "ends.gaussian.high", "ends.gaussian.low"],
         CurvatureKind::K1 => ["curvature.k1", "ends.curvature.high", "ends.curvature.low"],
         CurvatureKind::K2 => ["curvature.k2", "ends.curvature.high", "ends.curvature.low"],
-    }
-}
-
-fn reason_key(reason: NoCurvature) -> &'static str {
-    match reason {
-        NoCurvature::NotFinite => "reason.not_finite",
-        NoCurvature::Unused => "reason.unused",
-        NoCurvature::NotASurface => "reason.no_surface",
-        NoCurvature::Boundary => "reason.boundary",
-        NoCurvature::FewNeighbors => "reason.few_neighbors",
-        NoCurvature::Folded => "reason.folded",
-        NoCurvature::Undetermined => "reason.undetermined",
     }
 }
 

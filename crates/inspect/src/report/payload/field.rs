@@ -1,5 +1,8 @@
 //! Deviations as whole numbers, with apart codes for what has no value.
 
+use trueness_geom::curvature::NoCurvature;
+use trueness_geom::deviation::surface::Exclusion;
+
 /// Why a point or vertex has no deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -51,17 +54,17 @@ impl NoValue {
     pub fn name(self) -> &'static str {
         match self {
             NoValue::Unknown => "excluded",
-            NoValue::MaxDistance => "max_distance",
-            NoValue::BoundaryEdge => "free_edge",
+            NoValue::MaxDistance => Exclusion::MaxDistance.name(),
+            NoValue::BoundaryEdge => Exclusion::BoundaryEdge.name(),
             NoValue::NotMeasured => "not_measured",
-            NoValue::Boundary => "boundary",
-            NoValue::FewNeighbors => "few_neighbors",
-            NoValue::Undetermined => "undetermined",
-            NoValue::NoSurface => "no_surface",
+            NoValue::Boundary => NoCurvature::Boundary.name(),
+            NoValue::FewNeighbors => NoCurvature::FewNeighbors.name(),
+            NoValue::Undetermined => NoCurvature::Undetermined.name(),
+            NoValue::NoSurface => NoCurvature::NotASurface.name(),
             NoValue::Facing => "facing",
             NoValue::Outlier => "outlier",
-            NoValue::NoCrossing => "no_crossing",
-            NoValue::NoDirection => "no_direction",
+            NoValue::NoCrossing => Exclusion::NoCrossing.name(),
+            NoValue::NoDirection => Exclusion::NoDirection.name(),
         }
     }
 }

@@ -18,6 +18,11 @@ pub enum Positive {
     Left,
 }
 
+/// Reason why a point is left out: it lies beyond the end of an open outline.
+pub const BEYOND_END: &str = "beyond_end";
+/// Reason why a point is left out: there is no outline in its plane.
+pub const NO_OUTLINE: &str = "no_outline";
+
 named!(Positive, "side", [Positive::Outside, Positive::Left], |side| match side {
     Positive::Outside => "outside",
     Positive::Left => "left",
@@ -35,7 +40,7 @@ pub struct NominalRecord {
     pub positive: Word<Positive>,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
-    /// Points left out, by reason: `beyond_end` of an open outline, `no_outline` in their plane.
+    /// Points left out, by reason: [`BEYOND_END`], [`NO_OUTLINE`].
     pub excluded: BTreeMap<String, u64>,
     /// Counts of the deviations; absent when there are none.
     pub histogram: Option<Histogram>,
@@ -80,7 +85,7 @@ impl NominalRecord {
         for (contour, against) in contours.iter().enumerate() {
             for (index, (point, found)) in against.points.iter().zip(&against.found).enumerate() {
                 let Some(off) = found else {
-                    let reason = if against.outlined { "beyond_end" } else { "no_outline" };
+                    let reason = if against.outlined { BEYOND_END } else { NO_OUTLINE };
                     *excluded.entry(reason.into()).or_default() += 1;
                     continue;
                 };

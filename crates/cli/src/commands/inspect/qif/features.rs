@@ -17,7 +17,6 @@ pub fn measured(x: &mut Xml, f: &FeatureRecord, id: u32, component: u32) {
         Class::Circle => "CircleFeatureMeasurement",
         Class::Line => "LineFeatureMeasurement",
         Class::Point => "PointFeatureMeasurement",
-        Class::Surface => "OtherShapeFeatureMeasurement",
     };
     x.element(name, &[("id", id.to_string())], |x| {
         x.attributes(&attributes(f));
@@ -99,7 +98,6 @@ fn geometry(x: &mut Xml, f: &FeatureRecord) {
             leaf(x, "Form", form);
         }
         Class::Point => leaf(x, "Location", place(f, "point").or_else(|| place(f, "center"))),
-        Class::Surface => {}
     }
 }
 

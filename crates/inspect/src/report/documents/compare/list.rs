@@ -2,6 +2,7 @@
 
 use super::super::super::number::Style;
 use super::super::super::page::parts::{badge, fact, file_name, place_cells, place_heads, section, series};
+use super::super::super::payload::NoValue;
 use super::super::super::values::{Name, Text};
 use super::super::alignment::{Facts, alignment};
 use super::super::check;
@@ -315,12 +316,10 @@ fn uncovered(s: Style, c: &CoverageRecord) -> Markup {
     }
 }
 
-const REASONS: [&str; 7] =
-    ["max_distance", "free_edge", "not_measured", "facing", "outlier", "no_crossing", "no_direction"];
-
 /// The reasons that the table of words knows.
 fn known(reason: &str) -> &str {
-    if REASONS.contains(&reason) { reason } else { "excluded" }
+    let known = NoValue::ALL.iter().any(|known| known.name() == reason);
+    if known { reason } else { NoValue::Unknown.name() }
 }
 
 fn sign(s: Style, sign: &SignRecord) -> Markup {

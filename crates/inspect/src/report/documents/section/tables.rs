@@ -59,7 +59,7 @@ fn facts(s: Style, contour: &ContourRecord) -> Markup {
     let lists = [("outliers", &contour.outliers), ("repeated", &contour.repeated), ("gaps", &contour.gaps)];
     html! {
         dl.facts.pairs {
-            (fact(s, "taken", s.word(format!("taken.{}", contour.taken))))
+            (fact(s, "taken", s.word(format!("taken.{}", contour.taken.name()))))
             (fact(s, "points", s.count(contour.points)))
             (fact(s, "length.title", html! { (s.number(contour.length, 3)) "\u{a0}mm" }))
             (fact(s, "noise", html! { (s.small(contour.noise)) "\u{a0}mm" }))
