@@ -330,3 +330,49 @@ fn layers_and_holes_are_told() {
         answer["warnings"]
     );
 }
+
+/// An L with a hole is cut along its outline: the document has the polygons, the files the faces, and who reads them is told.
+#[test]
+fn a_surface_is_cut_along_the_outline() {
+    let f = Folder::new();
+    let inside = |x: f64, y: f64| (x < 50.0 || y < 30.0) && (x - 25.0).hypot(y - 20.0) > 9.0;
+    let grid = (0..101).flat_map(|i| (0..61).map(move |j| (f64::from(i), f64::from(j))));
+    let rows = grid
+        .filter(|(x, y)| inside(*x, *y))
+        .map(|(x, y)| format!("{x} {y} {}\n", (x / 20.0).sin() * (y / 15.0).cos()));
+    let points = f.write("l.asc", rows.collect::<String>());
+    let files = ["l.stp", "l.igs", "l.obj"].map(|name| f.file(name));
+    let [step, iges, obj] = files.each_ref().map(|p| p.to_str().unwrap());
+    let ask = |trim: &str| {
+        document(["surface", points.to_str().unwrap(), trim, "--step", step, "--iges", iges, "--obj", obj])
+    };
+    let d = ask("--trim");
+    let regions = d["trim"]["regions"].as_array().unwrap();
+    assert_eq!((regions.len(), regions[0]["holes"].as_array().unwrap().len()), (1, 1));
+    let (share, want) =
+        (d["trim"]["share"].as_f64().unwrap(), (4500.0 - 81.0 * std::f64::consts::PI) / 6000.0);
+    assert!(share > want && share < want + 0.08, "{share} {want}");
+    let text = std::fs::read_to_string(step).unwrap();
+    assert_eq!([text.matches("ADVANCED_FACE").count(), text.matches("FACE_BOUND").count()], [1, 1]);
+    let text = std::fs::read_to_string(iges).unwrap();
+    let entries =
+        |kind: &str| text.lines().filter(|l| l.as_bytes()[72] == b'D' && l.starts_with(kind)).count();
+    // Two lines an entry: the face, and a curve on the surface for each bound.
+    assert_eq!([entries("     144"), entries("     142")], [2, 4]);
+    for file in [step, iges] {
+        let d = document(["compare", points.to_str().unwrap(), file]);
+        let warned = d["inputs"][1]["warnings"].to_string();
+        assert!(warned.contains("each surface was taken whole"), "{warned}");
+    }
+    let facets = trueness::read(obj).unwrap().mesh.faces.len();
+    std::fs::remove_file(obj).unwrap();
+    assert!(ask("--spans=8x8").get("trim").is_none());
+    assert!(trueness::read(obj).unwrap().mesh.faces.len() != facets);
+    // The gap of the inner corner and the hole are narrower than twice this.
+    let bridged = ask("--trim=12");
+    assert_eq!(bridged["trim"]["regions"][0]["holes"].as_array().unwrap().len(), 0);
+    for wrong in ["--trim=0", "--trim=-1", "--trim=wide", "--trim=inf"] {
+        let o = trueness(["surface", points.to_str().unwrap(), wrong]);
+        assert!(status(&o) == 2 && stderr(&o).contains("it is auto, or a length above 0"), "{}", stderr(&o));
+    }
+}

@@ -7,4 +7,4 @@ pub(crate) mod spline_surface;
 pub use crate::formats::iges::surface as iges;
 pub use crate::formats::step::surface as step;
 pub use spline_model::SplineModel;
-pub use spline_surface::SplineSurface;
+pub use spline_surface::{Bound, SplineSurface, TrimmedFace};

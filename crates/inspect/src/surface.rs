@@ -7,8 +7,8 @@ pub use view::View;
 use crate::curvature::{CurvatureKind, map};
 use crate::results::curvature::Range;
 use crate::results::surface::{
-    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, Residual, SCHEMA, SupportRecord,
-    SurfaceDocument, ToleranceRecord, WorstPoint,
+    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, RegionRecord, Residual, SCHEMA,
+    SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint,
 };
 use crate::results::{self, InputRecord, UNITS, VERSION, Word};
 use crate::scale::Scale;
@@ -16,7 +16,9 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-use trueness_geom::surface::{Base, Fairness, Layout, Options, SurfaceFit, minimum_rectangle};
+use trueness_geom::surface::{
+    Base, Fairness, Layout, Options, Outline, Region, SurfaceFit, minimum_rectangle,
+};
 
 /// Share of points in layers beyond which the surface is doubtful.
 pub const FOLDED: f64 = 0.01;
@@ -31,6 +33,7 @@ pub fn document(
     fit: &SurfaceFit,
     points: &[Point],
     options: &Options,
+    outline: Option<&Outline>,
     inputs: Vec<InputRecord>,
 ) -> SurfaceDocument {
     let surface = &fit.surface;
@@ -60,6 +63,7 @@ pub fn document(
             max: fit.max_residual,
         },
         tolerance: tolerance(fit, options),
+        trim: outline.map(|outline| trim(fit, outline)),
         curvature: curvature(fit, points),
         unsupported_share: fit.support.unsupported as f64 / total as f64,
         support: SupportRecord {
@@ -105,6 +109,17 @@ fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
     let (Layout::Tolerance(value), Some(reached)) = (&options.layout, fit.reached) else { return None };
     let outside = fit.deviations.iter().filter(|d| d.abs() > *value).count() as u64;
     Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: Word(reached) })
+}
+
+fn trim(fit: &SurfaceFit, outline: &Outline) -> TrimRecord {
+    let sides = fit.surface.domain().map(|(from, to)| to - from);
+    let region = |r: &Region| RegionRecord { outer: r.outer.clone(), holes: r.holes.clone() };
+    TrimRecord {
+        reach: outline.reach,
+        share: outline.area() / (sides[0] * sides[1]),
+        regions: outline.regions.iter().map(region).collect(),
+        left_out: outline.left_out as u64,
+    }
 }
 
 /// The deviations' counts and colors: by the tolerance, where there is one.

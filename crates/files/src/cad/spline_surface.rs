@@ -1,5 +1,7 @@
 //! A surface as CAD programs know it.
 
+use trueness_geom::spline::curve::Curve;
+
 /// A B-spline surface with clamped knots, millimeters. Its control points lie row after row, those of the first knot of `u`
 /// first.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +12,26 @@ pub struct SplineSurface<'a> {
     pub knots: [&'a [f64]; 2],
     /// Control points.
     pub points: &'a [[f64; 3]],
+    /// The faces that it is cut into; without any the whole is one.
+    pub faces: &'a [TrimmedFace],
+}
+
+/// A part of a surface within closed lines.
+#[derive(Clone, Debug)]
+pub struct TrimmedFace {
+    /// Around it, against the clock as seen against the normal.
+    pub outer: Bound,
+    /// Around its holes, with the clock.
+    pub holes: Vec<Bound>,
+}
+
+/// A closed line on a surface, straight in its parameters from corner to corner.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Parameters of the corners.
+    pub corners: Vec<[f64; 2]>,
+    /// The curve from each corner to the next, the last one to the first.
+    pub sides: Vec<Curve<[f64; 3]>>,
 }
 
 impl SplineSurface<'_> {

@@ -1,6 +1,8 @@
 //! The surface found, and what it keeps to.
 
 use super::base::Base;
+use super::outline::Outline;
+use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::surface::Surface;
 
@@ -82,4 +84,14 @@ pub struct SurfaceFit {
     pub outliers: usize,
     /// Why no more knots were set; `None` without a tolerance.
     pub reached: Option<Reached>,
+}
+
+impl SurfaceFit {
+    /// The outline of the places nearest to the points; see [`Outline::new`].
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn outline(&self, reach: Option<f64>, progress: &dyn Progress) -> Result<Outline, Cancelled> {
+        Outline::new(&self.feet, self.surface.domain(), reach, progress)
+    }
 }

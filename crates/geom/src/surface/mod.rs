@@ -14,6 +14,7 @@
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
 //! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
+//! | `outline`, `raster`, `trimmed` | where the points end: the outline along which the surface is cut off, and facets within it |
 //! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
@@ -32,7 +33,9 @@ mod gram;
 mod hold;
 mod nearest;
 mod options;
+mod outline;
 mod pass;
+mod raster;
 mod rectangle;
 mod refine;
 mod solve;
@@ -40,13 +43,16 @@ mod stencil;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod trimmed;
 mod upright;
 
 pub use base::Base;
 pub use error::SurfaceError;
 pub use found::{Reached, Support, SurfaceFit};
 pub use options::{BaseKind, Fairness, HIGHEST_DEGREE, Layout, Options};
+pub use outline::{Outline, Region};
 pub use rectangle::{Rectangle, minimum_rectangle};
+pub use trimmed::trimmed;
 
 use crate::progress::Progress;
 use crate::space::Point;

@@ -3,6 +3,7 @@
 mod grain;
 mod holes;
 mod nearest;
+mod outline;
 mod references;
 
 use super::*;

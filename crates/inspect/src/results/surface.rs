@@ -52,6 +52,9 @@ pub struct SurfaceDocument {
     /// What came of the tolerance; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub tolerance: Option<ToleranceRecord>,
+    /// The outline that the surface is cut along in files for CAD and on the page; absent where it is not cut.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub trim: Option<TrimRecord>,
     /// Curvatures at the places nearest to the points.
     pub curvature: CurvatureRecord,
     /// Share of the control points that hardly any point holds: the thin-plate term made them (0 to 1).
@@ -143,6 +146,28 @@ pub struct ToleranceRecord {
     pub outside: u64,
     /// Why no more knots were set: `tolerance`, `noise`, `points` or `memory`.
     pub stopped_by: Word<Reached>,
+}
+
+/// The outline of the points.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct TrimRecord {
+    /// Half the width of the gaps that do not count.
+    pub reach: f64,
+    /// Share of the rectangle of the parameters that is within (0 to 1).
+    pub share: f64,
+    /// The parts that do not hang together, largest first.
+    pub regions: Vec<RegionRecord>,
+    /// Points of parts with less than 1 % of them, which are left out.
+    pub left_out: u64,
+}
+
+/// A part of the surface within closed polygons of the parameters.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct RegionRecord {
+    /// Around it, against the clock.
+    pub outer: Vec<[f64; 2]>,
+    /// Around its holes, with the clock.
+    pub holes: Vec<Vec<[f64; 2]>>,
 }
 
 /// Curvatures, positive where the surface bends towards its normal; `null` where no place has any.

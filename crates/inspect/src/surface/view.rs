@@ -9,7 +9,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
 use trueness_geom::spline::surface::{Bend, Patches, Surface};
-use trueness_geom::surface::SurfaceFit;
+use trueness_geom::surface::{Outline, SurfaceFit};
 
 /// Vertices of the drawn surface, about.
 const VERTICES: f64 = 160_000.0;
@@ -41,13 +41,19 @@ impl<'a> View<'a> {
     pub fn new(
         document: &SurfaceDocument,
         fit: &'a SurfaceFit,
+        outline: Option<&Outline>,
         name: &'a str,
         points: &'a [Point],
     ) -> View<'a> {
         let patches = Patches::new(&fit.surface);
         let lines = lines(&fit.surface);
-        let (mesh, bends) = drawn(&patches, &lines);
-        let held = held(fit, &lines);
+        let (mut mesh, bends) = drawn(&patches, &lines);
+        let mut held = held(fit, &lines);
+        if let Some(outline) = outline {
+            let inside = inside(outline, &lines);
+            held.iter_mut().zip(&inside).for_each(|(held, inside)| *held &= inside);
+            mesh.faces.retain(|face| face.iter().any(|v| inside[*v as usize]));
+        }
         let reasons: Vec<NoValue> = held
             .iter()
             .map(|held| if *held { NoValue::Undetermined } else { NoValue::NotMeasured })
@@ -60,6 +66,8 @@ impl<'a> View<'a> {
         let group = |key: &str, color, mark: Mark| {
             vec![MarkGroup { key: key.into(), color, items: vec![mark.finite()] }]
         };
+        let mut drawn_lines = group("iso_lines", LINE, iso_lines(&fit.surface, outline, &patches, &lines));
+        drawn_lines.extend(outline.iter().flat_map(|o| group("outline", LINE, trim_lines(o, &fit.surface))));
         let marks = |role, groups| Marks { role, comparison: None, groups };
         View {
             name,
@@ -68,10 +76,7 @@ impl<'a> View<'a> {
             keep: [document.worst.point as u32],
             reasons,
             marks: vec![
-                marks(
-                    ViewRole::IsoLines,
-                    group("iso_lines", LINE, iso_lines(&fit.surface, &patches, &lines)),
-                ),
+                marks(ViewRole::IsoLines, drawn_lines),
                 marks(ViewRole::Net, group("net", NET, net(&fit.surface))),
             ],
             mesh,
@@ -160,9 +165,21 @@ fn held(fit: &SurfaceFit, lines: &[Vec<f64>; 2]) -> Vec<bool> {
     us.par_iter().flat_map_iter(|u| vs.iter().map(move |v| near(u, v))).collect()
 }
 
-/// The lines of the surface at its knots, through the drawn vertices.
-fn iso_lines(surface: &Surface<Point>, patches: &Patches, [us, vs]: &[Vec<f64>; 2]) -> Mark {
+/// The lines of the surface at its knots, through the drawn vertices within the outline.
+fn iso_lines(
+    surface: &Surface<Point>,
+    outline: Option<&Outline>,
+    patches: &Patches,
+    [us, vs]: &[Vec<f64>; 2],
+) -> Mark {
     let mut mark = Mark::default();
+    let mut add = |places: Vec<[f64; 2]>| {
+        let is_inside = |p: &[f64; 2]| outline.is_none_or(|outline| outline.holds(*p));
+        let runs = places.chunk_by(|a, b| is_inside(a) == is_inside(b));
+        for run in runs.filter(|run| is_inside(&run[0])) {
+            mark.add_line(&run.iter().map(|[u, v]| patches.at(*u, *v)).collect::<Vec<_>>(), false);
+        }
+    };
     let held = surface.knots().each_ref().map(|k| {
         let all = k.distinct();
         let step = (all.len() - 1).div_ceil(LINES - 1);
@@ -174,10 +191,10 @@ fn iso_lines(surface: &Surface<Point>, patches: &Patches, [us, vs]: &[Vec<f64>; 
             .collect::<Vec<_>>()
     });
     for u in &held[0] {
-        mark.add_line(&vs.iter().map(|v| patches.at(*u, *v)).collect::<Vec<_>>(), false);
+        add(vs.iter().map(|v| [*u, *v]).collect());
     }
     for v in &held[1] {
-        mark.add_line(&us.iter().map(|u| patches.at(*u, *v)).collect::<Vec<_>>(), false);
+        add(us.iter().map(|u| [*u, *v]).collect());
     }
     mark
 }
@@ -193,6 +210,32 @@ fn net(surface: &Surface<Point>) -> Mark {
     for j in 0..n {
         let column: Vec<Point> = (0..m).map(|i| points[i * n + j]).collect();
         mark.add_line(&column, false);
+    }
+    mark
+}
+
+/// For each drawn vertex whether it lies within the outline.
+fn inside(outline: &Outline, [us, vs]: &[Vec<f64>; 2]) -> Vec<bool> {
+    us.par_iter().flat_map_iter(|u| vs.iter().map(|v| outline.holds([*u, *v]))).collect()
+}
+
+/// The outline on the surface.
+fn trim_lines(outline: &Outline, surface: &Surface<Point>) -> Mark {
+    /// Places along a curve between two knots.
+    const PLACES: usize = 4;
+    let mut mark = Mark::default();
+    for corners in outline.regions.iter().flat_map(|region| region.loops()) {
+        let next = corners.iter().cycle().skip(1);
+        let side = |(a, b): (&[f64; 2], &[f64; 2])| {
+            let curve = surface.over_line(*a, *b);
+            let knots = curve.knots().distinct();
+            let steps = move |w: &[f64]| -> Vec<f64> {
+                (0..PLACES).map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES as f64).collect()
+            };
+            let places: Vec<f64> = knots.windows(2).flat_map(steps).collect();
+            places.into_iter().map(move |t| curve.at(t))
+        };
+        mark.add_line(&corners.iter().zip(next).flat_map(side).collect::<Vec<_>>(), true);
     }
     mark
 }

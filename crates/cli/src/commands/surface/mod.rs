@@ -55,6 +55,10 @@ pub struct SurfaceArgs {
     /// Points far off do not count
     #[arg(long)]
     robust: bool,
+    /// Cut the surface along the outline of the points; gaps up to twice this length (mm) do not count [auto: three times the
+    /// distance of neighbors]
+    #[arg(long, value_name = "MM|auto", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = trim)]
+    trim: Option<Trim>,
     #[command(flatten)]
     input: PointInputArgs,
     #[command(flatten)]
@@ -78,6 +82,23 @@ enum BaseArg {
     /// Refused; the others are named.
     #[value(hide = true)]
     Mesh,
+}
+
+/// Half the width of the gaps that do not count.
+#[derive(Clone, Copy, Debug)]
+enum Trim {
+    /// By the distance of neighbors.
+    Auto,
+    /// Millimeters.
+    Reach(f64),
+}
+
+fn trim(text: &str) -> Result<Trim, String> {
+    match (text, text.parse::<f64>()) {
+        ("auto", _) => Ok(Trim::Auto),
+        (_, Ok(reach)) if reach > 0.0 && reach.is_finite() => Ok(Trim::Reach(reach)),
+        _ => Err("it is auto, or a length above 0".into()),
+    }
 }
 
 fn pair(text: &str) -> Result<[usize; 2], String> {
@@ -164,14 +185,20 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         | SurfaceError::Fairness(_)) => Usage(e.to_string()).into(),
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
-    let document = trueness_inspect::surface::document(&fit, &points, &options, vec![record]);
+    let outline = match args.trim {
+        None => None,
+        Some(Trim::Auto) => Some(fit.outline(None, &stage)?),
+        Some(Trim::Reach(reach)) => Some(fit.outline(Some(reach), &stage)?),
+    };
+    let document =
+        trueness_inspect::surface::document(&fit, &points, &options, outline.as_ref(), vec![record]);
     drop(stage);
     if args.report.html.is_some() {
-        let view = View::new(&document, &fit, &document.inputs[0].path, &points);
+        let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, &points);
         args.report.write(Answer::Surface(&document), &view.objects(), &view.marks, common.progress)?;
     }
     let stage = Stage::new(common.progress, "writing the surface", "points", None);
-    args.models.write(&fit.surface, &stage)?;
+    args.models.write(&fit.surface, outline.as_ref(), &stage)?;
     drop(stage);
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;

@@ -55,6 +55,21 @@ pub fn table(document: &SurfaceDocument) -> String {
         document.worst.point,
         fixed(document.worst.deviation, 6)
     );
+    if let Some(trim) = &document.trim {
+        let holes: usize = trim.regions.iter().map(|region| region.holes.len()).sum();
+        let _ = writeln!(
+            out,
+            "cut along the outline of the points: {} % of the rectangle, {}, {}; gaps up to {} mm do not count{}",
+            fixed(100.0 * trim.share, 1),
+            counted(trim.regions.len() as u64, ["part", "parts"]),
+            counted(holes as u64, ["hole", "holes"]),
+            fixed(2.0 * trim.reach, 4),
+            match trim.left_out {
+                0 => String::new(),
+                n => format!("; {} of small parts left out", counted(n, POINTS)),
+            }
+        );
+    }
     if document.outliers > 0 {
         let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
     }

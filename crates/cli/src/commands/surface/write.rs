@@ -6,10 +6,11 @@ use crate::run_files::RunFiles;
 use anyhow::bail;
 use clap::Args;
 use std::path::PathBuf;
-use trueness_files::cad::{self, SplineSurface};
+use trueness_files::cad::{self, Bound, SplineSurface, TrimmedFace};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::Surface;
+use trueness_geom::surface::{Outline, Region, trimmed};
 
 /// Facets that are written at most.
 const MOST_FACETS: usize = 20_000_000;
@@ -21,7 +22,7 @@ pub struct Models {
     /// Write the surface as STEP (AP214)
     #[arg(long, value_name = "FILE")]
     step: Option<PathBuf>,
-    /// Write the surface as IGES (entity 128)
+    /// Write the surface as IGES (entity 128; with --trim 144)
     #[arg(long, value_name = "FILE")]
     iges: Option<PathBuf>,
     /// Write facets of the surface (.obj)
@@ -68,12 +69,20 @@ impl Models {
     }
 
     /// Writes what was asked for.
-    pub fn write(&self, surface: &Surface<Point>, progress: &dyn Progress) -> anyhow::Result<()> {
+    pub fn write(
+        &self,
+        surface: &Surface<Point>,
+        outline: Option<&Outline>,
+        progress: &dyn Progress,
+    ) -> anyhow::Result<()> {
         let [u, v] = surface.knots();
+        let faces: Vec<TrimmedFace> =
+            outline.iter().flat_map(|o| &o.regions).map(|region| face(surface, region)).collect();
         let model = SplineSurface {
             degree: [u.degree(), v.degree()],
             knots: [u.values(), v.values()],
             points: surface.points(),
+            faces: &faces,
         };
         if let Some(path) = &self.step {
             whole_file(path, |file| cad::step(file, &model))?;
@@ -84,14 +93,28 @@ impl Models {
         if let Some(path) = &self.obj {
             let size = Aabb::of(surface.points()).diagonal();
             let chord = self.chord.unwrap_or(1e-4 * size).max(f64::MIN_POSITIVE);
-            let Some(facets) = surface.tessellate(chord, MOST_FACETS, progress)? else {
+            let mesh = match outline {
+                Some(outline) => trimmed(surface, outline, chord, MOST_FACETS, progress)?,
+                None => surface.tessellate(chord, MOST_FACETS, progress)?.map(|facets| facets.mesh),
+            };
+            let Some(mesh) = mesh else {
                 bail!(
                     "{}: facets within {chord} mm would be more than {MOST_FACETS}; give a greater --chord",
                     path.display()
                 );
             };
-            trueness_files::write::mesh(path, &facets.mesh)?;
+            trueness_files::write::mesh(path, &mesh)?;
         }
         Ok(())
     }
+}
+
+/// A region of the parameters as a face.
+fn face(surface: &Surface<Point>, region: &Region) -> TrimmedFace {
+    let bound = |corners: &Vec<[f64; 2]>| {
+        let next = corners.iter().cycle().skip(1);
+        let sides = corners.iter().zip(next).map(|(a, b)| surface.over_line(*a, *b)).collect();
+        Bound { corners: corners.clone(), sides }
+    };
+    TrimmedFace { outer: bound(&region.outer), holes: region.holes.iter().map(bound).collect() }
 }

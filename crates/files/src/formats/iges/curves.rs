@@ -19,11 +19,11 @@ pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
         most = corners.iter().flatten().fold(most, |m, x| m.max(x.abs()));
         let matrix = (layer.frame != PlaneFrame::default()).then_some(entries.len());
         if matrix.is_some() {
-            entries.push(Entry { kind: 124, level: 0, matrix: None, parameters: placing(&layer.frame) });
+            entries.push(Entry { kind: 124, parameters: placing(&layer.frame), ..Entry::default() });
         }
         entries.extend(layer.entities.iter().map(|e| {
             let (kind, parameters) = numbers(e);
-            Entry { kind, level: n + 1, matrix, parameters }
+            Entry { kind, level: n + 1, matrix, parameters, ..Entry::default() }
         }));
     }
     file(out, "curves of sections", "section", most, &entries)

@@ -9,6 +9,7 @@ const PARAMETERS: usize = 64;
 const GLOBAL: usize = 72;
 
 /// An entity.
+#[derive(Default)]
 pub(super) struct Entry {
     /// Its number in the standard.
     pub(super) kind: u32,
@@ -16,6 +17,8 @@ pub(super) struct Entry {
     pub(super) level: usize,
     /// The entry, counted from 0, that is the matrix which places it.
     pub(super) matrix: Option<usize>,
+    /// Its status: blank, part of others, use, hierarchy; two digits each.
+    pub(super) status: &'static str,
     /// Its parameters, after its number.
     pub(super) parameters: Vec<String>,
 }
@@ -48,7 +51,12 @@ pub(super) fn file(
         writeln!(
             out,
             "{kind:>8}{first:>8}{:>8}{:>8}{:>8}{:>8}{matrix:>8}{:>8}{:>8}D{line:>7}",
-            0, 0, entry.level, 0, 0, "00000000"
+            0,
+            0,
+            entry.level,
+            0,
+            0,
+            if entry.status.is_empty() { "00000000" } else { entry.status }
         )?;
         writeln!(
             out,

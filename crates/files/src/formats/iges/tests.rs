@@ -30,7 +30,8 @@ fn what_was_written_reads_back_bit_for_bit() {
     let u = [-1.0, -1.0, -1.0, -1.0, 1.0 / 3.0, 7.5, 7.5, 7.5, 7.5];
     let v = [0.0, 0.0, 0.0, 1e-3, 2.0, 2.0, 2.0];
     let mut bytes = vec![];
-    surface(&mut bytes, &SplineSurface { degree: [3, 2], knots: [&u, &v], points: &points }).unwrap();
+    surface(&mut bytes, &SplineSurface { degree: [3, 2], knots: [&u, &v], points: &points, faces: &[] })
+        .unwrap();
     let (model, unit, warnings) = model(&bytes);
     assert!(unit == Unit::Millimeter && warnings.is_empty());
     let [Nurbs::Plain(found)] = &model.surfaces[..] else { panic!("{}", model.surfaces.len()) };

@@ -1,17 +1,17 @@
-//! One B-spline surface as a face within its four edges.
+//! One B-spline surface as a face within its four edges, or as faces within others.
 //!
-//! The edges are the rows and columns of control points at the border, which are the boundary curves of a clamped surface.
+//! The four edges are the rows and columns of control points at the border, which are the boundary curves of a clamped surface.
 
 use super::instances::{Instances, file, grouped, list, product};
-use crate::cad::SplineSurface;
+use crate::cad::{Bound, SplineSurface, TrimmedFace};
 use std::io::{self, Write};
 
 /// Writes the surface.
 pub fn write(out: &mut dyn Write, surface: &SplineSurface) -> io::Result<()> {
     let mut model = Instances::default();
     let (context, shape_of_product) = product(&mut model, "surface");
-    let face = face(&mut model, surface);
-    let shell = model.add(&format!("OPEN_SHELL('',({face}))"));
+    let faces = faces(&mut model, surface);
+    let shell = model.add(&format!("OPEN_SHELL('',{})", list(faces.into_iter())));
     let shells = model.add(&format!("SHELL_BASED_SURFACE_MODEL('',({shell}))"));
     let frame = model.placement([0.0; 3], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]);
     let shape = model.add(&format!("MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',({frame},{shells}),{context})"));
@@ -19,8 +19,8 @@ pub fn write(out: &mut dyn Write, surface: &SplineSurface) -> io::Result<()> {
     file(out, "B-spline surface", "surface", &model)
 }
 
-/// The surface within its edges.
-fn face(file: &mut Instances, surface: &SplineSurface) -> String {
+/// The surface within its edges, or its parts within theirs.
+fn faces(file: &mut Instances, surface: &SplineSurface) -> Vec<String> {
     let [m, n] = surface.counts();
     let points: Vec<Vec<String>> =
         (0..m).map(|i| (0..n).map(|j| file.point(surface.point(i, j))).collect()).collect();
@@ -30,6 +30,15 @@ fn face(file: &mut Instances, surface: &SplineSurface) -> String {
     let whole = file.add(&format!(
         "B_SPLINE_SURFACE_WITH_KNOTS('',{p},{q},{rows},.UNSPECIFIED.,.F.,.F.,.F.,{times_u},{times_v},{of_u},{of_v},.UNSPECIFIED.)"
     ));
+    if !surface.faces.is_empty() {
+        let mut part = |face: &TrimmedFace| {
+            let outer = bound(file, "FACE_OUTER_BOUND", &face.outer);
+            let holes = face.holes.iter().map(|hole| bound(file, "FACE_BOUND", hole));
+            let bounds = list(std::iter::once(outer).chain(holes.collect::<Vec<_>>()));
+            file.add(&format!("ADVANCED_FACE('',{bounds},{whole},.T.)"))
+        };
+        return surface.faces.iter().map(&mut part).collect();
+    }
     let corner = |i: usize, j: usize| points[i][j].clone();
     let corners = [corner(0, 0), corner(m - 1, 0), corner(m - 1, n - 1), corner(0, n - 1)];
     let vertices = corners.map(|c| file.add(&format!("VERTEX_POINT('',{c})")));
@@ -53,5 +62,30 @@ fn face(file: &mut Instances, surface: &SplineSurface) -> String {
         .collect();
     let around = file.add(&format!("EDGE_LOOP('',{})", list(edges.into_iter())));
     let bound = file.add(&format!("FACE_OUTER_BOUND('',{around},.T.)"));
-    file.add(&format!("ADVANCED_FACE('',({bound}),{whole},.T.)"))
+    vec![file.add(&format!("ADVANCED_FACE('',({bound}),{whole},.T.)"))]
+}
+
+/// A closed line on the surface.
+fn bound(file: &mut Instances, kind: &str, bound: &Bound) -> String {
+    let starts: Vec<String> = bound.sides.iter().map(|side| file.point(side.points()[0])).collect();
+    let vertices: Vec<String> = starts.iter().map(|p| file.add(&format!("VERTEX_POINT('',{p})"))).collect();
+    let n = vertices.len();
+    let edges: Vec<String> = bound
+        .sides
+        .iter()
+        .enumerate()
+        .map(|(k, side)| {
+            let inner = &side.points()[1..side.points().len() - 1];
+            // Each side ends where the next one starts, to the last bit.
+            let mut points = vec![starts[k].clone()];
+            points.extend(inner.iter().map(|p| file.point(*p)));
+            points.push(starts[(k + 1) % n].clone());
+            let curve = file.curve(side.knots().degree(), side.knots().values(), &points);
+            let edge =
+                file.add(&format!("EDGE_CURVE('',{},{},{curve},.T.)", vertices[k], vertices[(k + 1) % n]));
+            file.add(&format!("ORIENTED_EDGE('',*,*,{edge},.T.)"))
+        })
+        .collect();
+    let around = file.add(&format!("EDGE_LOOP('',{})", list(edges.into_iter())));
+    file.add(&format!("{kind}('',{around},.T.)"))
 }

@@ -30,7 +30,7 @@ fn points(count: usize) -> Vec<[f64; 3]> {
 
 fn written(knots: [&[f64]; 2], degree: [usize; 2], points: &[[f64; 3]]) -> Vec<u8> {
     let mut bytes = vec![];
-    surface(&mut bytes, &SplineSurface { degree, knots, points }).unwrap();
+    surface(&mut bytes, &SplineSurface { degree, knots, points, faces: &[] }).unwrap();
     bytes
 }
 

@@ -3,6 +3,7 @@
 mod bend;
 mod cells;
 mod closest;
+mod line;
 mod nurbs;
 mod patches;
 mod rational;

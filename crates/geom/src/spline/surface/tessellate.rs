@@ -31,13 +31,7 @@ impl Surface<Point> {
         most: usize,
         progress: &dyn Progress,
     ) -> Result<Option<Tessellation>, Cancelled> {
-        let bounds = self.second_derivatives();
-        let lines = [self.lines(0, &bounds, tolerance), self.lines(1, &bounds, tolerance)];
-        let [Some(us), Some(vs)] = lines else { return Ok(None) };
-        let facets = (us.len() - 1).saturating_mul(vs.len() - 1).saturating_mul(2);
-        if facets > most || us.len().saturating_mul(vs.len()) > u32::MAX as usize {
-            return Ok(None);
-        }
+        let Some([us, vs]) = self.grid(tolerance, most) else { return Ok(None) };
         let patches = Patches::new(self);
         let row = |u: &f64| -> Result<Vec<Point>, Cancelled> {
             if progress.cancelled() {
@@ -49,7 +43,7 @@ impl Surface<Point> {
         let rows: Result<Vec<Vec<Point>>, Cancelled> = us.par_iter().map(row).collect();
         let positions = rows?.concat();
         let n = vs.len() as u32;
-        let mut faces = Vec::with_capacity(facets);
+        let mut faces = Vec::with_capacity(2 * (us.len() - 1) * (vs.len() - 1));
         for i in 0..us.len() as u32 - 1 {
             for j in 0..n - 1 {
                 let a = i * n + j;
@@ -58,6 +52,15 @@ impl Surface<Point> {
         }
         let parameters = us.iter().flat_map(|u| vs.iter().map(|v| [*u, *v])).collect();
         Ok(Some(Tessellation { mesh: Mesh { positions, faces }, parameters }))
+    }
+
+    /// Parameters of the rows and columns of facets within `tolerance`; `None` if they make more than `most`.
+    pub(crate) fn grid(&self, tolerance: f64, most: usize) -> Option<[Vec<f64>; 2]> {
+        let bounds = self.second_derivatives();
+        let [us, vs] = [self.lines(0, &bounds, tolerance)?, self.lines(1, &bounds, tolerance)?];
+        let facets = (us.len() - 1).saturating_mul(vs.len() - 1).saturating_mul(2);
+        let is_too_many = facets > most || us.len().saturating_mul(vs.len()) > u32::MAX as usize;
+        (!is_too_many).then_some([us, vs])
     }
 
     /// Bounds of the second derivatives `uu`, `uv`, `vv` over each span: by `u` spans and by `v` spans.

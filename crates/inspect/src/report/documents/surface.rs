@@ -236,6 +236,11 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
             @if let Some(freedom) = d.degrees_of_freedom { (fact(s, "degrees_of_freedom", s.number(freedom, 1))) }
             (fact(s, "corrections", s.count(d.corrections)))
             (fact(s, "unsupported", s.percent(d.unsupported_share, 1)))
+            @if let Some(trim) = &d.trim {
+                (fact(s, "surface.trim", s.percent(trim.share, 1)))
+                (fact(s, "surface.trim.gaps", html! { "≤\u{a0}" (s.number(2.0 * trim.reach, 2)) "\u{a0}mm" }))
+                @if trim.left_out > 0 { (fact(s, "surface.trim.left_out", s.count(trim.left_out))) }
+            }
         }
     }
 }

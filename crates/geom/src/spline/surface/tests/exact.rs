@@ -101,3 +101,33 @@ fn sphere_cylinder_and_torus() {
         check(&bend, [-outward / 2.5, -outward / 2.5]);
     }
 }
+
+/// The curve over a line is the surface there, to rounding: of all degrees, along knots, from corner to corner and across many cells.
+#[test]
+fn curves_over_lines_are_exact() {
+    let random = &mut Random::new(12);
+    for degrees in [[1, 2], [3, 3], [9, 5], [2, 9]] {
+        let knots = [Knots::uniform(degrees[0], 5, 0.0, 10.0), Knots::uniform(degrees[1], 4, -1.0, 3.0)];
+        let count = knots[0].count() * knots[1].count();
+        let points: Vec<Point> = (0..count).map(|_| std::array::from_fn(|_| random.unit())).collect();
+        let surface = Surface::new(knots, points).unwrap();
+        for case in 0..100 {
+            let mut end = || [10.0 * random.unit(), 4.0 * random.unit() - 1.0];
+            let (mut from, mut to) = (end(), end());
+            if case % 5 == 0 {
+                // Along a knot.
+                (from[0], to[0]) = (4.0, 4.0);
+            }
+            if case % 7 == 0 {
+                (from, to) = ([0.0, -1.0], [10.0, 3.0]);
+            }
+            let curve = surface.over_line(from, to);
+            assert_eq!(curve.knots().degree(), degrees[0] + degrees[1]);
+            for step in 0..=40 {
+                let t = f64::from(step) / 40.0;
+                let [u, v] = [0, 1].map(|k| from[k] + t * (to[k] - from[k]));
+                assert!(super::near(curve.at(t), surface.at(u, v), 1e-14), "{degrees:?} {case} {t}");
+            }
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! The outline of the points in the plane of the parameters: where a surface is cut off.
+//!
+//! A place is inside where no disk of the *reach* as its radius holds it without holding a point (the α-shape of Edelsbrunner,
+//! Kirkpatrick & Seidel 1983, with round notches): gaps narrower than twice the reach are bridged, wider ones are holes or lie
+//! outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance transforms (Felzenszwalb & Huttenlocher
+//! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by three cells
+//! and then made of as few sides as lie within one cell of it, so that all points are within.
+
+use super::raster::{Raster, distances};
+use crate::progress::{Cancelled, Progress};
+
+/// An outline as polygons of parameters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Half the width of the widest gap that is bridged, millimeters.
+    pub reach: f64,
+    /// Regions that do not hang together, the largest first.
+    pub regions: Vec<Region>,
+    /// Points of regions too small to count: not within any.
+    pub left_out: usize,
+}
+
+/// A region within a closed polygon, without its holes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Region {
+    /// Around it, against the clock.
+    pub outer: Vec<[f64; 2]>,
+    /// Around its holes, with the clock.
+    pub holes: Vec<Vec<[f64; 2]>>,
+}
+
+/// Cells for each reach.
+const CELLS: f64 = 6.0;
+/// How far the outline is set off, and how far its sides may be from it, in cells. A point is off the middle of its cell by 0.71 at most,
+/// a distance by as much, and a cut at the rim of the domain by one.
+const OFF: f64 = 3.5;
+const STRAIGHT: f64 = 1.0;
+/// Cells of the grid at most: 64 MB.
+const MOST: f64 = (1 << 22) as f64;
+/// Regions with a smaller share of the points are left out.
+const SHARE: f64 = 0.01;
+
+impl Outline {
+    /// Of points in a rectangle of parameters, with this reach or, without one, three times the mean distance of neighbors.
+    ///
+    /// Regions with less than 1 % of the points are left out. No region comes of no points. Cost: linear in points and cells, 4 million
+    /// cells at most; of finer ones the reach is greater than asked for, and told.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        points: &[[f64; 2]],
+        domain: [(f64, f64); 2],
+        reach: Option<f64>,
+        progress: &dyn Progress,
+    ) -> Result<Outline, Cancelled> {
+        let sides = domain.map(|(from, to)| to - from);
+        let least = |reach: f64| (1..40).map(|k| reach * f64::from(k)).find(|r| room(sides, *r) <= MOST);
+        let wanted = reach.unwrap_or_else(|| 3.0 * spacing(points, domain));
+        let (Some(reach), false) = (least(wanted.max(1e-3 * sides[0].max(sides[1]))), points.is_empty())
+        else {
+            return Ok(Outline::default());
+        };
+        let cell_size = reach / CELLS;
+        let margin = (CELLS + OFF).ceil() + 2.0;
+        let raster = Raster::new(domain, cell_size, margin as usize);
+        let mut near = raster.empty(f64::INFINITY);
+        points.iter().for_each(|p| near[raster.cell(*p)] = 0.0);
+        distances(&mut near, raster.counts);
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        // Squares, in cells.
+        let mut inside: Vec<f64> =
+            near.iter().map(|d| if *d > CELLS * CELLS { 0.0 } else { f64::INFINITY }).collect();
+        distances(&mut inside, raster.counts);
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        let depth: Vec<f64> = inside.into_iter().map(f64::sqrt).collect();
+        let clamp =
+            |p: [f64; 2]| -> [f64; 2] { std::array::from_fn(|k| p[k].clamp(domain[k].0, domain[k].1)) };
+        let (part, count) = raster.parts(&depth, CELLS - OFF);
+        let mut regions = vec![(0, Region::default()); count];
+        points.iter().for_each(|p| regions[part[raster.cell(*p)] as usize].0 += 1);
+        for (cell, line) in raster.contours(&depth, CELLS - OFF) {
+            let mut line: Vec<[f64; 2]> = line.into_iter().map(clamp).collect();
+            line.dedup();
+            while line.len() > 1 && line.first() == line.last() {
+                line.pop();
+            }
+            let line = straightened(&line, domain, STRAIGHT * cell_size);
+            let region = &mut regions[part[cell] as usize].1;
+            match area(&line) {
+                size if size > 0.0 => region.outer = line,
+                size if size < 0.0 => region.holes.push(line),
+                _ => {}
+            }
+        }
+        Ok(kept(regions, points.len(), reach))
+    }
+
+    /// Whether a place is within.
+    pub fn holds(&self, p: [f64; 2]) -> bool {
+        self.regions.iter().any(|region| region.holds(p))
+    }
+
+    /// Where the line of parameters with this `u` crosses the outline, ascending: between the first and the second it is inside, and
+    /// so on. Sides along the line do not count.
+    pub(super) fn crossings(&self, u: f64) -> Vec<f64> {
+        let mut all = vec![];
+        for line in self.regions.iter().flat_map(Region::loops) {
+            let next = line.iter().cycle().skip(1);
+            for (a, b) in line.iter().zip(next).filter(|(a, b)| (a[0] <= u) != (b[0] <= u)) {
+                all.push(a[1] + (u - a[0]) / (b[0] - a[0]) * (b[1] - a[1]));
+            }
+        }
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// Area of all regions.
+    pub fn area(&self) -> f64 {
+        self.regions.iter().flat_map(Region::loops).map(area).sum()
+    }
+}
+
+impl Region {
+    /// The polygon around it, then those around its holes.
+    pub fn loops(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        std::iter::once(&self.outer).chain(&self.holes).map(Vec::as_slice)
+    }
+
+    /// Whether a place is within.
+    pub fn holds(&self, p: [f64; 2]) -> bool {
+        self.loops().map(|line| winding(line, p)).sum::<i32>() != 0
+    }
+}
+
+/// Cells that a grid for this reach takes.
+fn room(sides: [f64; 2], reach: f64) -> f64 {
+    sides.iter().map(|side| side * CELLS / reach + 2.0 * (CELLS + OFF + 3.0)).product()
+}
+
+/// Mean distance of neighbors where there are any: of squares of which one holds eight points in the mean, the side over the root of
+/// their number in it.
+fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
+    const POINTS: f64 = 8.0;
+    let [long, short] = domain.map(|(from, to)| to - from);
+    let n = points.len().max(1) as f64;
+    let least = (long * short / MOST).sqrt().max(long.max(short) / MOST);
+    let mut side = (long * short * POINTS / n).sqrt().max(least);
+    // Where much of the domain is empty, the rest holds more: its squares are made smaller.
+    for _ in 0..4 {
+        let raster = Raster::new(domain, side, 0);
+        let mut filled = vec![false; raster.counts[0] * raster.counts[1]];
+        points.iter().for_each(|p| filled[raster.cell(*p)] = true);
+        let held = n / filled.iter().filter(|f| **f).count() as f64;
+        if held < 1.5 * POINTS {
+            return side / held.sqrt();
+        }
+        side = (side * (POINTS / held).sqrt()).max(least);
+    }
+    side / POINTS.sqrt()
+}
+
+/// Twice the area of a polygon that runs against the clock, halved; negative where it runs with the clock.
+fn area(line: &[[f64; 2]]) -> f64 {
+    let next = line.iter().cycle().skip(1);
+    0.5 * line.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+}
+
+/// How often a polygon winds around a place.
+fn winding(line: &[[f64; 2]], p: [f64; 2]) -> i32 {
+    let next = line.iter().cycle().skip(1);
+    let side = |a: &[f64; 2], b: &[f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    let passes = |(a, b): (&[f64; 2], &[f64; 2])| match (a[1] <= p[1], b[1] <= p[1]) {
+        (true, false) => i32::from(side(a, b) > 0.0),
+        (false, true) => -i32::from(side(a, b) < 0.0),
+        _ => 0,
+    };
+    line.iter().zip(next).map(passes).sum()
+}
+
+/// The regions with enough of the points, the largest first.
+fn kept(regions: Vec<(usize, Region)>, points: usize, reach: f64) -> Outline {
+    let enough =
+        |(count, region): &(usize, Region)| *count as f64 >= SHARE * points as f64 && region.outer.len() > 2;
+    let (kept, few): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
+    let mut regions: Vec<Region> = kept.into_iter().map(|(_, region)| region).collect();
+    regions.sort_by(|a, b| area(&b.outer).total_cmp(&area(&a.outer)));
+    Outline { reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
+}
+
+/// A closed line of as few sides as keep it within the distance of all its places (Douglas & Peucker 1973). Where it comes to the rim
+/// of the domain, goes around its corners and leaves it, its places stay: points may lie on the rim.
+fn straightened(line: &[[f64; 2]], domain: [(f64, f64); 2], distance: f64) -> Vec<[f64; 2]> {
+    let n = line.len();
+    let rims = |i: usize| -> u32 {
+        let on = |k: usize| [line[i % n][k] == domain[k].0, line[i % n][k] == domain[k].1];
+        [on(0), on(1)].concat().iter().fold(0, |mask, on| 2 * mask + u32::from(*on))
+    };
+    let stays = |i: &usize| {
+        let own = rims(*i);
+        own.count_ones() > 1 || own != 0 && (own & rims(i + n - 1) == 0 || own & rims(i + 1) == 0)
+    };
+    let away = |p: &[f64; 2]| (0..2).map(|k| (p[k] - line[0][k]).powi(2)).sum::<f64>();
+    let far = (0..n).fold(0, |far, i| if away(&line[i]) > away(&line[far]) { i } else { far });
+    let mut kept: Vec<usize> = [0, far].into_iter().chain((0..n).filter(stays)).collect();
+    kept.sort_unstable();
+    kept.dedup();
+    let mut open: Vec<[usize; 2]> =
+        kept.iter().zip(kept.iter().skip(1).chain([&n])).map(|(a, b)| [*a, *b]).collect();
+    while let Some([from, to]) = open.pop() {
+        let (a, b) = (line[from], line[to % n]);
+        let off = |i: usize| from_segment(line[i], a, b);
+        let worst =
+            (from + 1..to).fold((from, distance), |w, i| if off(i) > w.1 { (i, off(i)) } else { w }).0;
+        if worst > from {
+            kept.push(worst);
+            open.extend([[from, worst], [worst, to]]);
+        }
+    }
+    kept.sort_unstable();
+    kept.into_iter().map(|i| line[i]).collect()
+}
+
+/// Distance of a place from a segment.
+fn from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (along, way) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let t =
+        if square > 0.0 { ((along[0] * way[0] + along[1] * way[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    libm::hypot(way[0] - t * along[0], way[1] - t * along[1])
+}
