@@ -191,3 +191,25 @@ fn what_makes_no_trend_is_told() {
     let over = trueness(["trend", &files[0], &files[1], "--csv", &files[1]]);
     assert_eq!(status(&over), 2, "{}", stderr(&over));
 }
+
+/// Bars reach over the interval of a result; of a result without one, as far as its uncertainty.
+#[test]
+fn bars_show_where_the_true_value_lies() {
+    let folder = Folder::new();
+    let files = results(&folder, &[10.0, 10.1]);
+    let edit = |file: &str, change: &dyn Fn(&mut Value)| {
+        let mut document: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+        change(&mut document["characteristics"]);
+        std::fs::write(file, document.to_string()).unwrap();
+    };
+    edit(&files[0], &|all| {
+        all[0]["uncertainty"] = 0.25.into();
+        all[1]["uncertainty"] = 0.02.into();
+        all[1]["interval"] = serde_json::json!([-0.5, 0.125]);
+    });
+    let (_, _, document, _) = trend(&folder, &files);
+    let of = |n: usize| document["characteristics"][n]["intervals"].clone();
+    let value = document["characteristics"][0]["values"][0].as_f64().unwrap();
+    assert_eq!(of(0), serde_json::json!([[value - 0.25, value + 0.25], null]));
+    assert_eq!(of(1), serde_json::json!([[-0.5, 0.125], null]));
+}

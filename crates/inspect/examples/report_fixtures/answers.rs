@@ -264,7 +264,7 @@ pub fn surface_page(options: &ReportOptions) -> Vec<u8> {
     let found = surface::fit(&points, &wish, &Silent).unwrap();
     let inputs = vec![super::record(Role::Measured, "sheet.xyz", points.len(), None)];
     let document = trueness_inspect::surface::document(&found, &points, &wish, None, inputs);
-    let view = trueness_inspect::surface::View::new(&document, &found, "sheet.xyz", &points);
+    let view = trueness_inspect::surface::View::new(&document, &found, None, "sheet.xyz", &points);
     let (objects, marks) = (view.objects(), &view.marks[..]);
     super::bytes(&ReportInput { result: Answer::Surface(&document), objects: &objects, marks, options })
 }

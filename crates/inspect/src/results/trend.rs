@@ -94,6 +94,10 @@ pub struct TrendRecord {
     /// Expanded uncertainty (k = 2) of each value; absent where no value has one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub uncertainties: Option<Vec<Option<f64>>>,
+    /// From and to where the true value of each part lies: the `interval` of its result, or the value less and plus its uncertainty; absent
+    /// where no value has one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub intervals: Option<Vec<Option<[f64; 2]>>>,
     /// Greatest allowed value of each part, where a material requirement allows each its own; else absent.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub own_upper: Option<Vec<f64>>,
@@ -364,6 +368,8 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
     let number = |f: fn(&Course) -> f64| course.as_ref().map(f);
     let least = |pick: fn(f64, f64) -> f64| there.iter().copied().reduce(pick);
     let uncertainties: Vec<Option<f64>> = of.iter().map(|c| c.uncertainty).collect();
+    let even = |c: &CharacteristicRecord| c.value.zip(c.uncertainty).map(|(v, u)| [v - u, v + u]);
+    let intervals: Vec<Option<[f64; 2]>> = of.iter().map(|c| c.interval.or_else(|| even(c))).collect();
     TrendRecord {
         id: first.id.clone(),
         kind: first.kind.clone(),
@@ -376,6 +382,7 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
         upper,
         verdicts: of.iter().map(|c| c.verdict).collect(),
         uncertainties: Some(uncertainties).filter(|all| all.iter().any(Option::is_some)),
+        intervals: Some(intervals).filter(|all| all.iter().any(Option::is_some)),
         own_upper: own_limits.then(|| of.iter().map(|c| c.upper).collect()),
         counts: Counts {
             pass: count(Verdict::Pass),

@@ -31,10 +31,7 @@ impl Axes {
     /// All values with their uncertainties, the control limits, and of the limits and the nominal value what is not too far off.
     pub fn of(c: &TrendRecord) -> Axes {
         let mut core: Vec<f64> = c.values.iter().flatten().copied().collect();
-        if let Some(all) = &c.uncertainties {
-            let known = c.values.iter().zip(all).filter_map(|(v, u)| (*v).zip(*u));
-            core.extend(known.flat_map(|(v, u)| [v - u, v + u]));
-        }
+        core.extend(c.intervals.iter().flatten().flatten().flatten());
         core.extend(c.control.iter().flat_map(|k| [k.lower, k.upper]));
         let mut limits: Vec<f64> = [c.lower, c.upper, c.nominal].into_iter().flatten().collect();
         limits.extend(c.own_upper.iter().flatten());

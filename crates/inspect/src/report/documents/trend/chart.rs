@@ -167,9 +167,9 @@ pub fn course(c: &TrendRecord, axes: &Axes, [width, height]: [f64; 2]) -> Markup
 
 fn whiskers(c: &TrendRecord, axes: &Axes) -> String {
     let mut d = String::new();
-    for (n, (value, u)) in c.values.iter().zip(c.uncertainties.iter().flatten()).enumerate() {
-        if let (Some(v), Some(u)) = (value, u) {
-            let [low, high] = [v - u, v + u].map(|y| axes.y(y, HEIGHT));
+    for (n, interval) in c.intervals.iter().flatten().enumerate() {
+        if let Some(ends) = interval {
+            let [low, high] = ends.map(|y| axes.y(y, HEIGHT));
             let _ = write!(d, "M{:.3} {low:.3}V{high:.3}", axes.x(n, WIDTH));
         }
     }
