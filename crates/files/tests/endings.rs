@@ -129,8 +129,12 @@ fn bytes_behind_an_array_or_points_are_refused() {
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
     let text = format!("{text}end_header\n1 2 3\n");
     assert_eq!(read(&folder.file("q.ply", format!("{text}\n \n").as_bytes())).unwrap().points.len(), 1);
-    let said = read(&folder.file("q.ply", format!("{text}4 5 6\n").as_bytes())).unwrap_err().to_string();
-    assert!(said.contains("6 bytes follow the 1 vertices"), "{said}");
+    // Rows of numbers are vertices that the header does not count.
+    let said =
+        read(&folder.file("q.ply", format!("{text}4 5 6\n\n7 8 9").as_bytes())).unwrap_err().to_string();
+    assert!(said.contains("1 vertices announced, 3 there") && said.contains("correct the number"), "{said}");
+    let said = read(&folder.file("q.ply", format!("{text}4 5 six\n").as_bytes())).unwrap_err().to_string();
+    assert!(said.contains("8 bytes follow the 1 vertices"), "{said}");
 }
 
 #[test]

@@ -177,16 +177,28 @@ impl PointStream for Whole {
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
         self.points.next_block(block)?;
         if block.is_empty() {
+            let text = matches!(self.points, Points::Text(_));
             let feed = self.points.feed();
             let at = feed.position();
             let rest = feed.all()?;
             if !rest.trim_ascii().is_empty() {
-                let (count, declared) = (rest.len() as u64, self.count);
-                return Err(Fault::Trailing { count, what: "vertices", declared }.at_byte(at));
+                return Err(beyond(rest, text, self.count).at_byte(at));
             }
         }
         Ok(())
     }
+}
+
+/// What is wrong with what follows the vertices: in a text mostly a header that counts too few of them.
+fn beyond(rest: &[u8], text: bool, declared: u64) -> Fault {
+    let what = "vertices";
+    let lines = text.then(|| std::str::from_utf8(rest).ok()).flatten().unwrap_or_default().lines();
+    let rows: Vec<&str> = lines.filter(|line| !line.trim().is_empty()).collect();
+    let number = |word: &str| word.parse::<f64>().is_ok();
+    if !rows.is_empty() && rows.iter().all(|line| line.split_whitespace().all(number)) {
+        return Fault::Surplus { what, declared, present: declared + rows.len() as u64 };
+    }
+    Fault::Trailing { count: rest.len() as u64, what, declared }
 }
 
 /// The vertices as a stream.
