@@ -3,14 +3,17 @@
 mod airfoil;
 mod dimension;
 mod found;
+mod near_arc;
 mod nominal;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
+pub use near_arc::NearArc;
 pub use nominal::{Against, BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
 
 use super::{InputRecord, UNITS, VERSION, Word};
+use near_arc::near_arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::section::{
@@ -187,6 +190,9 @@ pub struct SegmentRecord {
     pub max: f64,
     /// Curvature at its start and end, positive where it turns to the left.
     pub curvature: [f64; 2],
+    /// Of a spline that is nearly an arc, that arc: within a thousandth of its length. Absent for others.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub near_arc: Option<NearArc>,
     /// Standard uncertainty of its angle, or of its center and radius, from the scatter of the points.
     pub uncertainty: Option<UncertaintyRecord>,
     /// Why there is none.
@@ -418,6 +424,10 @@ fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
             deviation: *deviation,
         },
     };
+    let near_arc = match (&found.geometry, taken) {
+        (Geometry::Spline { curve, .. }, Taken::Row | Taken::Scan) => near_arc(curve, found.length),
+        _ => None,
+    };
     let uncertainty = found.uncertainty.map(|u| match u {
         Uncertainty::Line { angle } => UncertaintyRecord::Line { angle },
         Uncertainty::Arc { center, radius } => UncertaintyRecord::Arc { center, radius },
@@ -442,6 +452,7 @@ fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
         rms: found.rms,
         max: found.max,
         curvature: found.curvature,
+        near_arc,
         uncertainty,
         uncertainty_reason: reason.map(Into::into),
         length_uncertainty: found.length_uncertainty,

@@ -188,7 +188,25 @@ fn segments(contour: &ContourRecord) -> String {
     if contour.segments.len() > ROWS {
         let _ = writeln!(out, "… and {} more", contour.segments.len() - ROWS);
     }
+    for (n, segment) in contour.segments.iter().take(ROWS).enumerate() {
+        let Some(arc) = &segment.near_arc else { continue };
+        let [x, y] = arc.center.map(|c| fixed(c, 6));
+        let _ = writeln!(
+            out,
+            "segment {} keeps within {} of an arc of r {} at {x} {y}; --noise {} may take it for one",
+            n + 1,
+            scientific(arc.max, 2),
+            fixed(arc.radius, 6),
+            two_digits(arc.noise())
+        );
+    }
     out
+}
+
+/// A length above 0 with two digits, as an option takes it.
+fn two_digits(x: f64) -> String {
+    let places = (1.0 - libm::log10(x).floor()).clamp(0.0, 12.0) as usize;
+    format!("{x:.places$}")
 }
 
 fn known_by(segment: &SegmentRecord) -> (&'static str, String) {

@@ -107,6 +107,15 @@ fn segments(s: Style, contour: &ContourRecord, first: usize) -> Markup {
                     @if let GeometryRecord::Arc { center, .. } = &segment.geometry {
                         (of_center(s, *center, segment.uncertainty.as_ref()))
                     }
+                    @if let Some(arc) = &segment.near_arc {
+                        tr.under {
+                            td {}
+                            td colspan="6" {
+                                (s.word("segment.near_arc")) " ≤\u{a0}" (s.small(arc.max)) " · r\u{a0}" (s.number(arc.radius, 4))
+                                " · x\u{a0}" (s.number(arc.center[0], 4)) " · y\u{a0}" (s.number(arc.center[1], 4))
+                            }
+                        }
+                    }
                 }
             }
         }
