@@ -1,5 +1,6 @@
 //! From a surface fitted to points to its result document.
 
+mod reflection;
 mod view;
 
 pub use view::View;

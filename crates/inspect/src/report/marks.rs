@@ -42,7 +42,7 @@ pub struct Mark {
 impl Marks {
     /// Whether the first view has them.
     pub fn shown(&self) -> bool {
-        self.comparison.is_none() && self.role != ViewRole::Net
+        self.comparison.is_none() && !matches!(self.role, ViewRole::Net | ViewRole::ReflectionLines)
     }
 
     /// All marks, in the order of their numbers.

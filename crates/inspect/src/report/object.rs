@@ -25,6 +25,8 @@ pub enum ViewRole {
     Surface,
     /// Marks: lines of a surface.
     IsoLines,
+    /// Marks: lines of a surface that show lamps far away; shown when asked for.
+    ReflectionLines,
     /// Marks: the control points of a surface and the lines between them; shown when asked for.
     Net,
     /// A fitted element, drawn translucent.
@@ -57,7 +59,7 @@ impl ViewRole {
     /// Marks that are seen through the part: what is wrong or was changed must never be missed. Edges of the part itself
     /// are hidden by it.
     pub fn shows_through(self) -> bool {
-        !matches!(self, ViewRole::Edges | ViewRole::IsoLines)
+        !matches!(self, ViewRole::Edges | ViewRole::IsoLines | ViewRole::ReflectionLines)
     }
 
     /// Color of what has no map: warm gray for what was measured, blue-gray for what it is compared with.

@@ -1,13 +1,14 @@
 //! What a report draws of a fitted surface: the surface in the colors of its curvatures, the points over it in those of their
 //! deviations, the control net, and the iso-lines at the knots.
 
+use super::reflection::reflection_lines;
 use crate::curvature::CurvatureKind;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::surface::SurfaceDocument;
 use crate::scale::palette::Rgb;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::space::Point;
+use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::{Bend, Patches, Surface};
 use trueness_geom::surface::{Outline, SurfaceFit};
 
@@ -68,6 +69,9 @@ impl<'a> View<'a> {
         };
         let mut drawn_lines = group("iso_lines", LINE, iso_lines(&fit.surface, outline, &patches, &lines));
         drawn_lines.extend(outline.iter().flat_map(|o| group("outline", LINE, trim_lines(o, &fit.surface))));
+        let normals: Vec<Option<Vector>> =
+            bends.iter().zip(&held).map(|(b, held)| b.filter(|_| *held).map(|b| b.normal)).collect();
+        let reflections = group("reflection_lines", LINE, reflection_lines(&mesh, &normals, fit.base.axes));
         let marks = |role, groups| Marks { role, comparison: None, groups };
         View {
             name,
@@ -77,6 +81,7 @@ impl<'a> View<'a> {
             reasons,
             marks: vec![
                 marks(ViewRole::IsoLines, drawn_lines),
+                marks(ViewRole::ReflectionLines, reflections),
                 marks(ViewRole::Net, group("net", NET, net(&fit.surface))),
             ],
             mesh,

@@ -48,7 +48,7 @@ export class Marks {
     ] as const
     for (const pass of passes) {
       // Edges of the part itself are hidden by it.
-      if (pass.depthFunc === GreaterDepth && (object.role === 'edges' || object.role === 'iso_lines')) continue
+      if (pass.depthFunc === GreaterDepth && ['edges', 'iso_lines', 'reflection_lines'].includes(object.role)) continue
       if (triangles > 0) this.add(areas, MARK_AREA_VERTEX, MARK_AREA, pass, 0.8)
       if (segments + points > 0) this.add(lines, MARK_LINE_VERTEX, MARK_LINE, pass, 1)
     }
