@@ -56,6 +56,9 @@ pub(super) struct Spread {
 
 /// Share of the least gain of a step below which a step is not taken.
 const NEGLIGIBLE: f64 = 0.01;
+/// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused: rounding is what refuses it, and
+/// the unknowns are within a hundredth of their uncertainty.
+const SETTLED: f64 = 1e-4;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -216,6 +219,7 @@ impl Work {
         let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
         let mut fresh = true;
         let mut next = state.clone();
+        let settled = SETTLED / row.points.len() as f64;
         for _ in 0..stop.steps {
             if fresh {
                 let chain = std::mem::replace(&mut state.chain, Chain::EMPTY);
@@ -240,7 +244,8 @@ impl Work {
             // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
             // nothing is measured any more.
             let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum();
-            if fresh && gain <= NEGLIGIBLE * stop.gain * cost {
+            let least = if fresh { NEGLIGIBLE * stop.gain } else { settled };
+            if gain <= least * cost {
                 break;
             }
             copy(&mut next, state);
