@@ -144,7 +144,9 @@ impl Envelope {
                 if start > from {
                     break;
                 }
-                (number.pop(), starts.pop(), values.pop());
+                number.pop();
+                starts.pop();
+                values.pop();
                 start = f64::NEG_INFINITY;
             }
             number.push(q);

@@ -92,7 +92,7 @@ mod tests {
         };
         let range = normals
             .iter()
-            .map(|p| angle(p))
+            .map(&angle)
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], a| [l.min(a), h.max(a)]);
         let step = (range[1] - range[0]) / LAMPS as f64;
         let mut seen = [false; LAMPS];
