@@ -49,6 +49,10 @@ const RUNS: &[(&str, &str)] = &[
     ("section", "section scan.stl --plane 0,0,1,3 --json ….json --dxf ….dxf --svg ….svg"),
     ("surface", "surface franke_400_noise.txt --spans 6x6 --json ….json --step ….step --iges ….igs"),
     ("surface_tolerance", "surface franke_400_noise.txt --tolerance 0.5 --json ….json"),
+    (
+        "surface_trim",
+        "surface franke_400_noise.txt --spans 6x6 --trim --json ….json --step ….step --iges ….igs --obj ….obj",
+    ),
     ("curvature", "curvature zipper_res3.ply --json ….json --out ….npz"),
     ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml --qif ….qif"),
     ("trend", "trend inspect.json inspect.json --json ….json --csv ….csv --html ….html"),
