@@ -359,7 +359,10 @@ fn a_surface_is_cut_along_the_outline() {
         |kind: &str| text.lines().filter(|l| l.as_bytes()[72] == b'D' && l.starts_with(kind)).count();
     // Two lines an entry: the face, and a curve on the surface for each bound.
     assert_eq!([entries("     144"), entries("     142")], [2, 4]);
-    for file in [step, iges] {
+    let result = f.file("l.json");
+    let json = result.to_str().unwrap();
+    assert_eq!(status(&trueness(["surface", points.to_str().unwrap(), "--trim", "--json", json])), 0);
+    for file in [step, iges, json] {
         let d = document(["compare", points.to_str().unwrap(), file]);
         let warned = d["inputs"][1]["warnings"].to_string();
         assert!(warned.contains("each surface was taken whole"), "{warned}");
@@ -371,6 +374,9 @@ fn a_surface_is_cut_along_the_outline() {
     // The gap of the inner corner and the hole are narrower than twice this.
     let bridged = ask("--trim=12");
     assert_eq!(bridged["trim"]["regions"][0]["holes"].as_array().unwrap().len(), 0);
+    let line = f.write("line.asc", (0..40).map(|k| format!("{k} 0 {}\n", k % 3)).collect::<String>());
+    let o = trueness(["surface", line.to_str().unwrap(), "--base", "xy", "--trim"]);
+    assert!(status(&o) > 1, "{}", stderr(&o));
     for wrong in ["--trim=0", "--trim=-1", "--trim=wide", "--trim=inf"] {
         let o = trueness(["surface", points.to_str().unwrap(), wrong]);
         assert!(status(&o) == 2 && stderr(&o).contains("it is auto, or a length above 0"), "{}", stderr(&o));

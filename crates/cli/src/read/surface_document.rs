@@ -3,9 +3,11 @@
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use trueness_files::Warning;
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Nurbs, Surface};
 use trueness_inspect::results::surface::SCHEMA;
@@ -18,6 +20,13 @@ struct Document {
     degree: [usize; 2],
     knots: Directions,
     control_points: Vec<Vec<[f64; 3]>>,
+    trim: Option<Trim>,
+}
+
+/// The outline that it is cut along.
+#[derive(Deserialize)]
+struct Trim {
+    regions: Vec<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
@@ -45,7 +54,7 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
     if document.schema != SCHEMA {
         bail!("{shown}: this is a document {}; {wanted} ({SCHEMA})", document.schema);
     }
-    let Document { degree, knots, control_points, .. } = document;
+    let Document { degree, knots, control_points, trim, .. } = document;
     let direction = |name: &str, degree: usize, values: Vec<f64>| {
         Knots::new(degree, values).with_context(|| format!("{shown}: knots of {name}"))
     };
@@ -60,6 +69,7 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
     let points = control_points.concat();
     let count = points.len() as u64;
     let surface = Surface::new(knots, points).with_context(|| format!("{shown}: control_points"))?;
+    let trimmed = trim.map(|trim| Warning::Trimmed { count: trim.regions.len() as u64 });
     let record = InputRecord {
         role: Role::Reference,
         path: shown.to_string(),
@@ -73,7 +83,7 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
         points: count,
         facets: None,
         bounds: None,
-        warnings: vec![],
+        warnings: trimmed.iter().map(ToString::to_string).collect(),
     };
     Ok(Some((surface.into(), record)))
 }

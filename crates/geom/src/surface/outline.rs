@@ -3,7 +3,7 @@
 //! A place is inside where no disk of the *reach* as its radius holds it without holding a point (the α-shape of Edelsbrunner,
 //! Kirkpatrick & Seidel 1983, with round notches): gaps narrower than twice the reach are bridged, wider ones are holes or lie
 //! outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance transforms (Felzenszwalb & Huttenlocher
-//! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by three cells
+//! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by 3.5 cells
 //! and then made of as few sides as lie within one cell of it, so that all points are within.
 
 use super::raster::{Raster, distances};
@@ -35,7 +35,7 @@ const CELLS: f64 = 6.0;
 /// a distance by as much, and a cut at the rim of the domain by one.
 const OFF: f64 = 3.5;
 const STRAIGHT: f64 = 1.0;
-/// Cells of the grid at most: 64 MB.
+/// Cells of the grid at most: 32 MB for each of its values.
 const MOST: f64 = (1 << 22) as f64;
 /// Regions with a smaller share of the points are left out.
 const SHARE: f64 = 0.01;

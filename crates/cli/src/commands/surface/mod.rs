@@ -11,6 +11,7 @@ use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
+use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
@@ -190,6 +191,11 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         Some(Trim::Auto) => Some(fit.outline(None, &stage)?),
         Some(Trim::Reach(reach)) => Some(fit.outline(Some(reach), &stage)?),
     };
+    if outline.as_ref().is_some_and(|o| o.regions.is_empty()) {
+        bail!(
+            "{shown}: the points lie in a line on the base: there is no outline to cut along; leave out --trim"
+        );
+    }
     let document =
         trueness_inspect::surface::document(&fit, &points, &options, outline.as_ref(), vec![record]);
     drop(stage);
