@@ -13,7 +13,7 @@ pub enum Warning {
     NonFiniteFacets {
         /// How many.
         count: u64,
-        /// The first of them, counted from 1.
+        /// The first of them, counted from 0.
         first: u64,
     },
     /// Bytes follow what the header declares; they were not read.

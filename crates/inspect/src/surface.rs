@@ -77,7 +77,7 @@ pub fn document(
         corrections: fit.corrections as u64,
         outliers: fit.outliers as u64,
         unsettled: fit.unsettled as u64,
-        warnings: warnings(fit),
+        warnings: warnings(fit, outline),
     }
 }
 
@@ -169,9 +169,31 @@ fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
     }
 }
 
-/// What makes the surface doubtful, in words.
-fn warnings(fit: &SurfaceFit) -> Vec<String> {
+/// What is to be said of an outline.
+fn cut(outline: &Outline) -> Vec<String> {
     let mut all = vec![];
+    if outline.reach > (1.0 + 1e-9) * outline.wanted {
+        all.push(format!(
+            "--trim={}: the outline of a surface so large is found to {:.4} mm and no finer",
+            outline.wanted, outline.reach
+        ));
+    }
+    if outline.regions.len() > 1 {
+        all.push(format!(
+            "the outline of the points has {} parts: gaps of more than {:.4} mm part them; a greater --trim=MM joins them",
+            outline.regions.len(),
+            2.0 * outline.reach
+        ));
+    }
+    if outline.left_out > 0 {
+        all.push(format!("{} points of small parts are left out of the outline", outline.left_out));
+    }
+    all
+}
+
+/// What makes the surface doubtful, in words.
+fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
+    let mut all: Vec<String> = outline.into_iter().flat_map(cut).collect();
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     if fit.base.folded_share > FOLDED {
         all.push(format!(

@@ -21,7 +21,8 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Fins,
 };
 
-/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell.
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell, and of all in
+/// all rounds.
 const FIN: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
@@ -75,6 +76,9 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
     let mut open = vec![false; known.topology.shells];
     let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| FIN * area).collect();
+    // In all rounds together, of what there was at first.
+    let mut gone = work.state.handover.fins_gone;
+    let most = FIN * (known.properties.area + gone);
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];
@@ -92,14 +96,17 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     for s in candidates {
         let sheet = &sheets[s as usize];
         let not_needed = |(edge, own): (&usize, &usize)| meetings[*edge] >= own + 2;
-        if small(sheet, &may_go) && sheet.edges.iter().all(not_needed) {
-            may_go[shell(sheet)] -= if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
+        let fin = if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
+        if small(sheet, &may_go) && gone + fin <= most && sheet.edges.iter().all(not_needed) {
+            may_go[shell(sheet)] -= fin;
+            gone += fin;
             sheet.edges.iter().for_each(|(edge, own)| meetings[*edge] -= own);
             let place = work.middle(sheet.facets[0]);
             work.log(&STEP, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
             removed.extend(&sheet.facets);
         }
     }
+    work.state.handover.fins_gone = gone;
     if !removed.is_empty() {
         work.replace(&removed, &[]);
     }

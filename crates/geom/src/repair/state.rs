@@ -36,6 +36,8 @@ pub(super) struct Handover {
     pub has_widened: bool,
     /// Area, mm², by which they may still be.
     pub widening_left: f64,
+    /// Area, mm², of fins that are gone.
+    pub fins_gone: f64,
     /// Nothing else has helped: crossing facets may be cut out.
     pub may_cut_out: bool,
     /// Why shells that meet were not united.

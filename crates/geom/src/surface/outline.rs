@@ -14,6 +14,8 @@ use crate::progress::{Cancelled, Progress};
 pub struct Outline {
     /// Half the width of the widest gap that is bridged, millimeters.
     pub reach: f64,
+    /// The reach that was asked for: less than `reach` where the grid is no finer.
+    pub wanted: f64,
     /// Regions that do not hang together, the largest first.
     pub regions: Vec<Region>,
     /// Points of regions too small to count: not within any.
@@ -37,14 +39,19 @@ const OFF: f64 = 3.5;
 const STRAIGHT: f64 = 1.0;
 /// Cells of the grid at most: 32 MB for each of its values.
 const MOST: f64 = (1 << 22) as f64;
-/// Regions with a smaller share of the points are left out.
+/// Regions with a smaller share of the points of the one that has most are left out.
 const SHARE: f64 = 0.01;
+/// Of more regions than this a greater reach is tried, so many times as great each time, up to this share of the longer side.
+const PARTS: usize = 8;
+const STEP: f64 = 1.4;
+const WIDEST: f64 = 0.05;
 
 impl Outline {
-    /// Of points in a rectangle of parameters, with this reach or, without one, three times the mean distance of neighbors.
+    /// Of points in a rectangle of parameters, with this reach. Without one it is three times the mean distance of neighbors, or, where
+    /// that gives more than eight regions, the least that gives fewer, up to a twentieth of the longer side.
     ///
-    /// Regions with less than 1 % of the points are left out. No region comes of no points. Cost: linear in points and cells, 4 million
-    /// cells at most; of finer ones the reach is greater than asked for, and told.
+    /// Regions with less than 1 % of the points of the one with most are left out. No region comes of no points. Cost: linear in points
+    /// and cells, 4 million cells at most; of finer ones the reach is greater than asked for, and told.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -55,12 +62,39 @@ impl Outline {
         progress: &dyn Progress,
     ) -> Result<Outline, Cancelled> {
         let sides = domain.map(|(from, to)| to - from);
-        let least = |reach: f64| (1..40).map(|k| reach * f64::from(k)).find(|r| room(sides, *r) <= MOST);
-        let wanted = reach.unwrap_or_else(|| 3.0 * spacing(points, domain));
-        let (Some(reach), false) = (least(wanted.max(1e-3 * sides[0].max(sides[1]))), points.is_empty())
-        else {
-            return Ok(Outline::default());
+        let longest = sides[0].max(sides[1]);
+        let fine = |reach: f64| -> Option<f64> {
+            let reach = reach.max(1e-3 * longest);
+            (1..40).map(|k| reach * f64::from(k)).find(|r| room(sides, *r) <= MOST)
         };
+        if points.is_empty() {
+            return Ok(Outline::default());
+        }
+        if let Some(wanted) = reach {
+            let Some(reach) = fine(wanted) else { return Ok(Outline::default()) };
+            return Ok(Outline { wanted, ..Outline::over(points, domain, reach, progress)? });
+        }
+        let Some(least) = fine(3.0 * spacing(points, domain)) else { return Ok(Outline::default()) };
+        let first = Outline::over(points, domain, least, progress)?;
+        // Points in lines lie nearer to each other along these than across: then the lines are parts, and a greater reach joins them.
+        let mut reach = least;
+        while first.regions.len() > PARTS && reach < WIDEST * longest {
+            reach = (STEP * reach).min(WIDEST * longest);
+            let wider = Outline::over(points, domain, reach, progress)?;
+            if wider.regions.len() <= PARTS {
+                return Ok(wider);
+            }
+        }
+        Ok(first)
+    }
+
+    /// With this reach.
+    fn over(
+        points: &[[f64; 2]],
+        domain: [(f64, f64); 2],
+        reach: f64,
+        progress: &dyn Progress,
+    ) -> Result<Outline, Cancelled> {
         let cell_size = reach / CELLS;
         let margin = (CELLS + OFF).ceil() + 2.0;
         let raster = Raster::new(domain, cell_size, margin as usize);
@@ -97,7 +131,7 @@ impl Outline {
                 _ => {}
             }
         }
-        Ok(kept(regions, points.len(), reach))
+        Ok(kept(regions, reach))
     }
 
     /// Whether a place is within.
@@ -146,6 +180,11 @@ fn room(sides: [f64; 2], reach: f64) -> f64 {
 /// their number in it.
 fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     const POINTS: f64 = 8.0;
+    // A place that is there several times is no neighbor of itself.
+    let mut points: Vec<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
+    points.sort_unstable();
+    points.dedup();
+    let points: Vec<[f64; 2]> = points.into_iter().map(|p| p.map(f64::from_bits)).collect();
     let [long, short] = domain.map(|(from, to)| to - from);
     let n = points.len().max(1) as f64;
     let least = (long * short / MOST).sqrt().max(long.max(short) / MOST);
@@ -183,13 +222,13 @@ fn winding(line: &[[f64; 2]], p: [f64; 2]) -> i32 {
 }
 
 /// The regions with enough of the points, the largest first.
-fn kept(regions: Vec<(usize, Region)>, points: usize, reach: f64) -> Outline {
-    let enough =
-        |(count, region): &(usize, Region)| *count as f64 >= SHARE * points as f64 && region.outer.len() > 2;
+fn kept(regions: Vec<(usize, Region)>, reach: f64) -> Outline {
+    let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0) as f64;
+    let enough = |(count, region): &(usize, Region)| *count as f64 >= SHARE * most && region.outer.len() > 2;
     let (kept, few): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
     let mut regions: Vec<Region> = kept.into_iter().map(|(_, region)| region).collect();
     regions.sort_by(|a, b| area(&b.outer).total_cmp(&area(&a.outer)));
-    Outline { reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
+    Outline { reach, wanted: reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
 }
 
 /// A closed line of as few sides as keep it within the distance of all its places (Douglas & Peucker 1973). Where it comes to the rim

@@ -192,9 +192,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         Some(Trim::Reach(reach)) => Some(fit.outline(Some(reach), &stage)?),
     };
     if outline.as_ref().is_some_and(|o| o.regions.is_empty()) {
-        bail!(
-            "{shown}: the points lie in a line on the base: there is no outline to cut along; leave out --trim"
-        );
+        bail!("{shown}: the points have no outline on the base to cut along; leave out --trim");
     }
     let document =
         trueness_inspect::surface::document(&fit, &points, &options, outline.as_ref(), vec![record]);

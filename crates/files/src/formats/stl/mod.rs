@@ -86,7 +86,7 @@ fn mesh<F: Facet>(
     let kept: Vec<F>;
     let mut good = facets;
     if let Some(&first) = bad.first() {
-        warnings.push(Warning::NonFiniteFacets { count: bad.len() as u64, first: first as u64 + 1 });
+        warnings.push(Warning::NonFiniteFacets { count: bad.len() as u64, first: first as u64 });
         kept = facets.iter().filter(|f| f.finite()).copied().collect();
         good = &kept;
     }

@@ -467,3 +467,17 @@ fn cubes_that_touch_in_edges_keep_the_cells_between() {
     let volume = repaired.after.properties.signed_volume;
     assert!(repaired.after.sound && (volume - 14.0).abs() < 1e-2, "{} {volume}", repaired.after.sound);
 }
+
+/// However many rounds there are, no more than a tenth of the area goes as fins.
+#[test]
+fn flaps_at_one_edge_do_not_go_by_rounds() {
+    let random = &mut Random::new(3);
+    let mut mesh = Mesh { positions: vec![[0.0; 3], [1.0, 0.0, 0.0]], faces: vec![] };
+    for i in 0..100 {
+        mesh.positions.push([random.unit(), 2.0 * random.unit() * if i % 2 == 0 { 1.0 } else { -1.0 }, 0.0]);
+        mesh.faces.push(if i % 2 == 0 { [0, 1, i + 2] } else { [1, 0, i + 2] });
+    }
+    let repaired = mend(&mesh);
+    let [before, after] = [&repaired.before, &repaired.after].map(|report| report.properties.area);
+    assert!(after >= 0.89 * before, "{before} {after}");
+}

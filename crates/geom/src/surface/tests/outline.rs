@@ -84,6 +84,28 @@ fn outlines_go_into_corners_holes_and_gaps() {
     assert_eq!((outline.regions.len(), outline.left_out), (1, 2));
 }
 
+/// Lines of a scanner are one part, however near points lie along them; places that are there several times are no neighbors; of many parts
+/// alike none is left out.
+#[test]
+fn outlines_of_lines_copies_and_islands_leave_nothing_out() {
+    let random = &mut Random::new(4);
+    let lines: Vec<[f64; 2]> = (0..40_000).map(|k| [2.5 * f64::from(k % 41), 60.0 * random.unit()]).collect();
+    let grid = |copies: u32| -> Vec<[f64; 2]> {
+        (0..41 * 31 * copies).map(|k| [f64::from(k % 41) * 2.5, f64::from(k / 41 % 31) * 2.0]).collect()
+    };
+    for (name, points) in [("lines", lines), ("once", grid(1)), ("copies", grid(20))] {
+        let outline = Outline::new(&points, DOMAIN, None, &Silent).unwrap();
+        assert_eq!((outline.regions.len(), outline.left_out), (1, 0), "{name}: {}", outline.reach);
+        assert!(outline.area() > 0.95 * 6000.0, "{name}");
+    }
+    let islands: Vec<[f64; 2]> = (0..28_800)
+        .map(|k| [0, 1].map(|j| [f64::from(k % 12), f64::from(k / 12 % 12)][j] * 50.0 + 5.0 * random.unit()))
+        .collect();
+    let outline = Outline::new(&islands, domain(&islands), Some(1.0), &Silent).unwrap();
+    assert_eq!((outline.regions.len(), outline.left_out), (144, 0));
+    assert!(outline.reach > outline.wanted);
+}
+
 /// Nothing to cut along, and rectangles without an inside.
 #[test]
 fn outlines_of_nothing_are_empty() {
