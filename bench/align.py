@@ -23,17 +23,9 @@ import small_gicp
 import trimesh
 from scipy.spatial.transform import Rotation
 
+from harness.pose import moved, pose_of
+
 REG = o3d.pipelines.registration
-
-
-def moved(pose, points):
-    return points @ pose[:3, :3].T + pose[:3, 3]
-
-
-def pose_of(rotation, shift):
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = rotation, shift
-    return pose
 
 
 def random_pose(rng, size):

@@ -18,15 +18,7 @@ import numpy as np
 import trimesh
 from scipy.spatial.transform import Rotation
 
-
-def moved(pose, points):
-    return points @ pose[:3, :3].T + pose[:3, 3]
-
-
-def pose_of(rotation, shift):
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = rotation, shift
-    return pose
+from harness.pose import moved, pose_of
 
 
 def trueness(program, folder, mesh, nominal):

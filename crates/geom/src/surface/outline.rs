@@ -134,7 +134,7 @@ impl Outline {
         Ok(kept(regions, reach))
     }
 
-    /// Whether a place is within.
+    /// Whether a place is within, or on the rim.
     pub fn holds(&self, p: [f64; 2]) -> bool {
         self.regions.iter().any(|region| region.holds(p))
     }
@@ -165,9 +165,9 @@ impl Region {
         std::iter::once(&self.outer).chain(&self.holes).map(Vec::as_slice)
     }
 
-    /// Whether a place is within.
+    /// Whether a place is within, or on the rim.
     pub fn holds(&self, p: [f64; 2]) -> bool {
-        self.loops().map(|line| winding(line, p)).sum::<i32>() != 0
+        self.loops().map(|line| winding(line, p)).sum::<i32>() != 0 || self.loops().any(|line| is_on(line, p))
     }
 }
 
@@ -203,19 +203,31 @@ fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     side / POINTS.sqrt()
 }
 
-/// Twice the area of a polygon that runs against the clock, halved; negative where it runs with the clock.
+/// Area of a polygon that runs against the clock; negative where it runs with the clock.
 fn area(line: &[[f64; 2]]) -> f64 {
     let next = line.iter().cycle().skip(1);
     0.5 * line.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
 }
 
+/// Above 0 where a place lies to the left of the way from one to another.
+fn side(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// Whether a place lies on a side of a polygon; those along the rim of the domain tell it without rounding.
+fn is_on(line: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let next = line.iter().cycle().skip(1);
+    line.iter().zip(next).any(|(a, b)| {
+        (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k])) && side(*a, *b, p) == 0.0
+    })
+}
+
 /// How often a polygon winds around a place.
 fn winding(line: &[[f64; 2]], p: [f64; 2]) -> i32 {
     let next = line.iter().cycle().skip(1);
-    let side = |a: &[f64; 2], b: &[f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     let passes = |(a, b): (&[f64; 2], &[f64; 2])| match (a[1] <= p[1], b[1] <= p[1]) {
-        (true, false) => i32::from(side(a, b) > 0.0),
-        (false, true) => -i32::from(side(a, b) < 0.0),
+        (true, false) => i32::from(side(*a, *b, p) > 0.0),
+        (false, true) => -i32::from(side(*a, *b, p) < 0.0),
         _ => 0,
     };
     line.iter().zip(next).map(passes).sum()

@@ -97,6 +97,11 @@ fn outlines_of_lines_copies_and_islands_leave_nothing_out() {
         let outline = Outline::new(&points, DOMAIN, None, &Silent).unwrap();
         assert_eq!((outline.regions.len(), outline.left_out), (1, 0), "{name}: {}", outline.reach);
         assert!(outline.area() > 0.95 * 6000.0, "{name}");
+        // The rim of the domain is within on all four sides.
+        assert!(
+            [[0.0, 30.0], [100.0, 30.0], [50.0, 0.0], [50.0, 60.0]].iter().all(|p| outline.holds(*p)),
+            "{name}"
+        );
     }
     let islands: Vec<[f64; 2]> = (0..28_800)
         .map(|k| [0, 1].map(|j| [f64::from(k % 12), f64::from(k / 12 % 12)][j] * 50.0 + 5.0 * random.unit()))
