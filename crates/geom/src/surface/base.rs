@@ -35,6 +35,9 @@ pub struct Base {
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
+    /// Share of the points whose surface stands on edge on the base, at 80° and more: the surface follows its plan there, and not
+    /// what stands on it.
+    pub standing_share: f64,
 }
 
 /// How the parameters of a cylinder or a sphere run from the lengths along its own directions.
@@ -49,6 +52,18 @@ struct Course {
 }
 
 impl Base {
+    /// The unit normal of the base at the place nearest to one.
+    fn up(&self, p: Point) -> Vector {
+        let [x, y, z] = self.axes;
+        let d = minus(p, self.origin);
+        let out = match self.kind {
+            BaseKind::Plane | BaseKind::Xy => z,
+            BaseKind::Cylinder => plus(times(dot(d, x), x), times(dot(d, y), y)),
+            BaseKind::Sphere => d,
+        };
+        unit(out).map_or(z, |(d, _)| d)
+    }
+
     /// The place of the base with these parameters.
     pub(super) fn at(&self, [u, v]: [f64; 2]) -> Point {
         let own = match self.course.turned {
@@ -73,6 +88,12 @@ impl Base {
 
 /// Where a point lies over the base: two lengths along it and the height.
 type Seen = ([f64; 2], f64);
+
+/// Share of the points that may stand on edge: walls of a part do, and points at its edges.
+pub const STANDING: f64 = 0.1;
+
+/// Share of the points that may lie in layers where a plane is taken over which no more stand on edge.
+const FEW: f64 = 0.01;
 
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
 const LINE: f64 = 1e-6;
@@ -115,6 +136,7 @@ pub(super) fn parameters(
         return Err(SurfaceError::Line);
     }
     base.folded_share = folded_share(&seen);
+    base.standing_share = upright::standing(points, |p| base.up(p), progress)?;
     Ok((base, found))
 }
 
@@ -124,8 +146,8 @@ fn folded_share(seen: &[Seen]) -> f64 {
     fold::share(seen, [range(&parameters, 0), range(&parameters, 1)])
 }
 
-/// The least-squares plane; where the points lie in layers over it, the plane over which the surface is least steep, if it has at
-/// most half as many in layers.
+/// The least-squares plane; where the points lie in layers or stand on edge over it, the plane over which the surface is least steep, if
+/// at most half as many lie in layers over that, or hardly any do either.
 fn upright(
     points: &[Point],
     point: Point,
@@ -133,8 +155,9 @@ fn upright(
     progress: &dyn Progress,
 ) -> Result<(Base, Vec<Seen>), SurfaceError> {
     let flat = plane(points, point, normal)?;
-    let folded = folded_share(&flat.1);
-    if folded == 0.0 {
+    let standing = |base: &Base| upright::standing(points, |_| base.axes[2], progress);
+    let (folded, on_edge) = (folded_share(&flat.1), standing(&flat.0)?);
+    if folded == 0.0 && on_edge <= STANDING {
         return Ok(flat);
     }
     let Some(direction) = upright::direction(points, normal, progress)? else { return Ok(flat) };
@@ -142,7 +165,10 @@ fn upright(
     let largest = direction.into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
     let direction = times(largest.signum(), direction);
     let (base, seen) = plane(points, point, direction)?;
-    if 2.0 * folded_share(&seen) > folded {
+    let (layers, edges) = (folded_share(&seen), standing(&base)?);
+    let fewer_layers = folded > 0.0 && 2.0 * layers <= folded && edges <= on_edge.max(STANDING);
+    let upright = on_edge > STANDING && edges <= STANDING && layers <= FEW;
+    if !fewer_layers && !upright {
         return Ok(flat);
     }
     let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
@@ -160,6 +186,7 @@ fn xy() -> Base {
         around: false,
         course: Course::default(),
         folded_share: 0.0,
+        standing_share: 0.0,
     }
 }
 

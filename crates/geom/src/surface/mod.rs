@@ -46,7 +46,7 @@ mod tolerance;
 mod trimmed;
 mod upright;
 
-pub use base::Base;
+pub use base::{Base, STANDING};
 pub use error::SurfaceError;
 pub use found::{Reached, Support, SurfaceFit};
 pub use options::{BaseKind, Fairness, HIGHEST_DEGREE, Layout, Options};
