@@ -181,9 +181,7 @@ fn smoothed(matrix: &Sparse, diagonal: &[f64], group: &[usize], groups: usize) -
     let mut entries = vec![];
     for i in 0..matrix.rows() {
         entries.push((i as u32, group[i] as u32, 1.0));
-        entries.extend(
-            matrix.row(i).map(|(j, a)| (i as u32, group[j] as u32, -SMOOTHED * a / diagonal[i])),
-        );
+        entries.extend(matrix.row(i).map(|(j, a)| (i as u32, group[j] as u32, -SMOOTHED * a / diagonal[i])));
     }
     Sparse::new(matrix.rows(), groups, &entries)
 }

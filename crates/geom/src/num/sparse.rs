@@ -66,7 +66,8 @@ impl Sparse {
     /// The matrix with rows and columns exchanged.
     pub fn transposed(&self) -> Sparse {
         let mut entries = Vec::with_capacity(self.values.len());
-        (0..self.rows()).for_each(|i| entries.extend(self.row(i).map(|(j, value)| (j as u32, i as u32, value))));
+        (0..self.rows())
+            .for_each(|i| entries.extend(self.row(i).map(|(j, value)| (j as u32, i as u32, value))));
         Sparse::new(self.width, self.rows(), &entries)
     }
 

@@ -84,7 +84,9 @@ impl Base {
         let round = || plus(times(libm::cos(angle), self.axes[0]), times(libm::sin(angle), self.axes[1]));
         let off = match self.kind {
             // Of a mesh nothing but the directions is told.
-            BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => plus(times(u, self.axes[0]), times(v, self.axes[1])),
+            BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => {
+                plus(times(u, self.axes[0]), times(v, self.axes[1]))
+            }
             BaseKind::Cylinder => plus(times(radius, round()), times(b, self.axes[2])),
             BaseKind::Sphere => {
                 let up = b / radius;
@@ -157,10 +159,7 @@ fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
 }
 
 /// The parameters of all vertices of a mesh laid flat, in its minimum bounding rectangle.
-pub(super) fn laid_flat(
-    mesh: &Mesh,
-    progress: &dyn Progress,
-) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
+pub(super) fn laid_flat(mesh: &Mesh, progress: &dyn Progress) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
     let Scatter { mean, axes: [_, middle, most], variance } = Scatter::of(&mesh.positions);
     if variance[1] <= LINE * LINE * variance[2] {
         return Err(SurfaceError::Line);

@@ -1,6 +1,6 @@
 //! Why there is no surface.
 
-use super::flatten::NotADisc;
+use super::flatten::not_a_disc::NotADisc;
 use super::options::HIGHEST_DEGREE;
 use crate::fit::FitError;
 use crate::progress::Cancelled;
@@ -71,7 +71,9 @@ pub enum SurfaceError {
     )]
     Line,
     /// Points without facets, where these are to be laid flat.
-    #[error("points without facets cannot be laid flat: give a mesh, or take plane, xy, cylinder or sphere as the base")]
+    #[error(
+        "points without facets cannot be laid flat: give a mesh, or take plane, xy, cylinder or sphere as the base"
+    )]
     NoFacets,
     /// A mesh that cannot be laid flat.
     #[error(transparent)]

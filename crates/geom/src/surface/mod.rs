@@ -153,9 +153,7 @@ fn over(
         [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
     };
     let found = match &options.layout {
-        Layout::Spans(spans) => {
-            pass::corrected(points, parameters, base, uniform(*spans), options, progress)
-        }
+        Layout::Spans(spans) => pass::corrected(points, parameters, base, uniform(*spans), options, progress),
         Layout::Knots(knots) => pass::corrected(points, parameters, base, knots.clone(), options, progress),
         Layout::Tolerance(t) => {
             let task = refine::Task { points, tolerance: *t, options, progress };

@@ -154,9 +154,10 @@ impl Outline {
         }
         let is_wide = |deepest: f64| 2.0 * (deepest - CELLS) >= WIDE * CELLS;
         let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0);
-        let islands = regions.iter().zip(deepest).filter(|((count, _), deepest)| {
-            *count as f64 >= SHARE * most as f64 && is_wide(*deepest)
-        });
+        let islands = regions
+            .iter()
+            .zip(deepest)
+            .filter(|((count, _), deepest)| *count as f64 >= SHARE * most as f64 && is_wide(*deepest));
         let islands = islands.count();
         Ok((kept(regions, reach), islands))
     }

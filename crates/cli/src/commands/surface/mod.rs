@@ -167,9 +167,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     let mesh = match body {
         Body::Mesh(mesh) => mesh.mesh,
-        Body::Points(source) => {
-            Mesh { positions: read::all_points(&args.points, source)?, faces: vec![] }
-        }
+        Body::Points(source) => Mesh { positions: read::all_points(&args.points, source)?, faces: vec![] },
     };
     if mesh.faces.is_empty() && options.base == BaseKind::Mesh {
         return Err(Usage(format!(

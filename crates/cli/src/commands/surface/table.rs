@@ -86,7 +86,8 @@ fn moved(base: &BaseRecord) -> String {
         0.0 => String::new(),
         angle => format!(", {} by {}° {}", how[0], fixed(angle.to_degrees(), 2), how[1]),
     };
-    let tilted = by(base.tilted, ["tilted", "from the least-squares plane, over which it folds or stands on edge"]);
+    let tilted =
+        by(base.tilted, ["tilted", "from the least-squares plane, over which it folds or stands on edge"]);
     let stretch = base.stretch.map(|[least, most]| {
         format!(", laid flat: lengths {} to {} of what they are", fixed(least, 3), fixed(most, 3))
     });

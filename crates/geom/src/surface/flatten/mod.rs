@@ -7,12 +7,13 @@
 mod crossing;
 mod disc;
 mod mean_value;
+pub(super) mod not_a_disc;
 mod relax;
 #[cfg(test)]
 mod tests;
 mod triangle;
 
-pub use disc::NotADisc;
+pub use not_a_disc::NotADisc;
 
 use super::SurfaceError;
 use crate::mesh::Mesh;
@@ -43,11 +44,8 @@ const FEW: f64 = 0.01;
 /// Cost: some dozens of rounds over the facets; memory about 1 kB a vertex.
 pub(super) fn flatten(mesh: &Mesh, progress: &dyn Progress) -> Result<Flat, SurfaceError> {
     let disc = Disc::of(mesh, progress)?;
-    let triangles: Vec<Triangle> = disc
-        .faces
-        .par_iter()
-        .map(|face| Triangle::of(face.map(|v| mesh.positions[v as usize])))
-        .collect();
+    let triangles: Vec<Triangle> =
+        disc.faces.par_iter().map(|face| Triangle::of(face.map(|v| mesh.positions[v as usize]))).collect();
     let area = triangles.iter().map(|t| 0.5 * t.doubled_area()).sum();
     let circle = mean_value::within_circle(&mesh.positions, &disc, area, progress)?;
     let mut places = circle.clone();

@@ -81,7 +81,8 @@ pub(super) fn relax(
                 plain = Some(target);
             }
             None => {
-                let step = |(p, t): (&mut [f64; 2], &[f64; 2])| (0..2).for_each(|d| p[d] += part * (t[d] - p[d]));
+                let step =
+                    |(p, t): (&mut [f64; 2], &[f64; 2])| (0..2).for_each(|d| p[d] += part * (t[d] - p[d]));
                 places.iter_mut().zip(&target).for_each(step);
             }
         }

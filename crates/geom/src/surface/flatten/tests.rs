@@ -64,7 +64,8 @@ fn cap(radius: f64, angle: f64, rings: u32, noise: f64, random: &mut Random) -> 
         let down = angle * f64::from(ring) / f64::from(rings);
         for k in 0..6 * ring {
             let turn = 2.0 * PI * f64::from(k) / f64::from(6 * ring);
-            positions.push([down.sin() * turn.cos(), down.sin() * turn.sin(), down.cos()].map(|x| radius * x));
+            positions
+                .push([down.sin() * turn.cos(), down.sin() * turn.sin(), down.cos()].map(|x| radius * x));
         }
         for k in 0..6 * ring {
             let (side, step) = (k / ring, k % ring);
@@ -111,10 +112,13 @@ fn no_facet_turns_over_within_the_circle() {
             .map(|k| [f64::from(k % (m + 1)), f64::from(k / (m + 1)), 0.0])
             .map(|p| p.map(|x| x + size * (random.unit() - 0.5)))
             .collect();
-        let at = |x: f64, y: f64| places[((y * f64::from(n)).round() * f64::from(m + 1) + (x * f64::from(m)).round()) as usize];
+        let at = |x: f64, y: f64| {
+            places[((y * f64::from(n)).round() * f64::from(m + 1) + (x * f64::from(m)).round()) as usize]
+        };
         // Holes at times.
         let kept: Vec<bool> = (0..m * n).map(|_| case % 3 > 0 || random.unit() > 0.15).collect();
-        let keep = |x: f64, y: f64| kept[((y * f64::from(n)) as u32 * m + (x * f64::from(m)) as u32) as usize];
+        let keep =
+            |x: f64, y: f64| kept[((y * f64::from(n)) as u32 * m + (x * f64::from(m)) as u32) as usize];
         let mesh = sheet([m, n], at, keep);
         let disc = match Disc::of(&mesh, &Silent) {
             Ok(disc) => disc,
@@ -128,7 +132,9 @@ fn no_facet_turns_over_within_the_circle() {
         // The whole has the area of its facets within the rims: none lies on another.
         let area = |line: &[u32]| {
             let around = line.iter().zip(line.iter().cycle().skip(1));
-            0.5 * around.map(|(a, b)| triangle::cross(flat.places[*a as usize], flat.places[*b as usize])).sum::<f64>()
+            0.5 * around
+                .map(|(a, b)| triangle::cross(flat.places[*a as usize], flat.places[*b as usize]))
+                .sum::<f64>()
         };
         let facets: f64 = disc.faces.iter().map(|f| area(f)).sum();
         let rims: f64 = disc.rims.iter().map(|r| area(r)).sum();
@@ -194,7 +200,8 @@ fn surfaces_over_meshes_keep_to_the_noise() {
     let half = 0.5f64;
     let from_cone = |p: Point| p[0].hypot(p[1]) * half.cos() + p[2] * half.sin();
     let from_center = |p: Point| norm(p) - 20.0;
-    let cases: [(&str, Mesh, [usize; 2], &dyn Fn(Point) -> f64); 4] = [
+    type Case<'a> = (&'a str, Mesh, [usize; 2], &'a dyn Fn(Point) -> f64);
+    let cases: [Case; 4] = [
         ("pipe", noisy(sheet([120, 50], pipe(300.0, 20.0, 50.0), all)), [16, 4], &from_axis),
         ("cone", noisy(sheet([150, 40], cone(300.0, half), all)), [14, 10], &from_cone),
         ("half sphere", noisy(cap(20.0, 0.5 * PI, 45, 0.0, &mut Random::new(1))), [10, 10], &from_center),
@@ -271,9 +278,14 @@ fn what_is_no_disc_is_refused() {
     let at = |i: u32, j: u32| (j % n) * m + i % m;
     let cells = (1..m * n).map(|k| (k % m, k / m));
     let faces = cells
-        .flat_map(|(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]])
+        .flat_map(|(i, j)| {
+            [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+        })
         .collect();
-    assert_eq!(refused(&Mesh { positions: (0..m * n).map(torus).collect(), faces }), NotADisc::Handles { handles: 1 });
+    assert_eq!(
+        refused(&Mesh { positions: (0..m * n).map(torus).collect(), faces }),
+        NotADisc::Handles { handles: 1 }
+    );
     struct Stopped;
     impl Progress for Stopped {
         fn cancelled(&self) -> bool {

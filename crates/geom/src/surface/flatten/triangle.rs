@@ -59,7 +59,10 @@ impl Triangle {
         let (c, d) = (image.edge(0, 1), image.edge(0, 2));
         let doubled = self.doubled_area();
         // The matrix that takes a to c and b to d, column by column.
-        let column = |k: usize| [0, 1].map(|r| if k == 0 { c[r] * b[1] - d[r] * a[1] } else { d[r] * a[0] - c[r] * b[0] } / doubled);
+        let column = |k: usize| {
+            [0, 1]
+                .map(|r| if k == 0 { c[r] * b[1] - d[r] * a[1] } else { d[r] * a[0] - c[r] * b[0] } / doubled)
+        };
         let (x, y) = (column(0), column(1));
         // As a turn with growth and a mirrored one: their sizes added and subtracted.
         let turn = 0.5 * libm::hypot(x[0] + y[1], x[1] - y[0]);

@@ -122,7 +122,11 @@ fn outlines_keep_islands_apart() {
             points.extend((0..each).map(|_| corner.map(|x| x + 3.0 * random.unit())));
         }
         let outline = Outline::new(&points, domain(&points), None, &Silent).unwrap();
-        assert_eq!((outline.regions.len(), outline.left_out), ((rows * rows) as usize, 0), "{rows} {each} {gap}");
+        assert_eq!(
+            (outline.regions.len(), outline.left_out),
+            ((rows * rows) as usize, 0),
+            "{rows} {each} {gap}"
+        );
         // What lies between them is outside.
         let between = 3.0 + 0.5 * gap;
         assert!(!outline.holds([between, 1.5]) && !outline.holds([between; 2]) && outline.holds([1.5; 2]));

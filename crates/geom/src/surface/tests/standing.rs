@@ -17,8 +17,7 @@ fn a_strip_is_fitted_flat() {
     let random = &mut Random::new(5);
     let height = |x: f64, y: f64| 0.3 * (x / 7.0).sin() + 0.2 * (y / 5.0).cos();
     let place = |random: &mut Random| [100.0 * random.unit(), 0.5 * random.unit()];
-    let points: Vec<Point> =
-        (0..3000).map(|_| place(random)).map(|[x, y]| [x, y, height(x, y)]).collect();
+    let points: Vec<Point> = (0..3000).map(|_| place(random)).map(|[x, y]| [x, y, height(x, y)]).collect();
     let found = over_plane(&points);
     assert!(found.base.tilted > 1.5 && found.base.standing_share == 0.0, "{:?}", found.base);
     assert!(found.base.axes[2][2].abs() > 0.999);
@@ -52,7 +51,9 @@ fn what_stands_on_edge_is_told() {
     assert_eq!(fit(&fence(30.0, 0.1), &cylinder, &Silent).unwrap().base.standing_share, 0.0);
     // A tin with a tenth of its points on its bottom.
     let mut tin = fence(30.0, 0.0);
-    let disk = |k: f64| [50.0 * (k / 600.0).sqrt() * (2.4 * k).cos(), 50.0 * (k / 600.0).sqrt() * (2.4 * k).sin(), 0.0];
+    let disk = |k: f64| {
+        [50.0 * (k / 600.0).sqrt() * (2.4 * k).cos(), 50.0 * (k / 600.0).sqrt() * (2.4 * k).sin(), 0.0]
+    };
     tin.extend((0..600).map(|k| disk(f64::from(k))));
     let share = fit(&tin, &cylinder, &Silent).unwrap().base.standing_share;
     assert!(share > 0.05 && share < 0.12, "{share}");
@@ -63,7 +64,10 @@ fn what_stands_on_edge_is_told() {
     let line = |k: u32| [f64::from(k / 20) * 0.05, f64::from(k % 20) * 5.0];
     let lines: Vec<Point> =
         (0..40_000).map(line).map(|[x, y]| [x, y, 2.0 * (x / 7.0).sin() + 0.01 * y]).collect();
-    let step: Vec<Point> = scan(6000, 0.0, 4).into_iter().map(|[x, y, z]| [x, y, z + if x + y > 90.0 { 20.0 } else { 0.0 }]).collect();
+    let step: Vec<Point> = scan(6000, 0.0, 4)
+        .into_iter()
+        .map(|[x, y, z]| [x, y, z + if x + y > 90.0 { 20.0 } else { 0.0 }])
+        .collect();
     for points in [lines, step] {
         let found = over_plane(&points);
         assert!(found.base.standing_share < 0.02 && found.base.tilted == 0.0, "{:?}", found.base);
