@@ -13,7 +13,6 @@ use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
@@ -62,7 +61,7 @@ impl Run for TrendArgs {
             let text = csv(&document);
             whole_file(path, |file| file.write_all(text.as_bytes()))?;
         }
-        self.report.write(Answer::Trend(&document), &[], &[], common.progress)?;
+        self.report.write(&document, &[], &[], common.progress)?;
         self.document.write(&document)?;
         self.document.table(|| table(&document))?;
         let well = document.verdict == Verdict::Pass && document.in_control;

@@ -1,5 +1,7 @@
 //! `trueness/trend/1`: one plan over many parts.
 
+mod page;
+
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
 use super::verdict::rank;
 use super::{UNITS, VERSION, Verdict, overall};

@@ -20,7 +20,6 @@ use trueness_geom::progress::Cancelled;
 use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Stop, View};
 use trueness_inspect::plan::PlanError;
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::InspectDocument;
 
@@ -148,7 +147,7 @@ fn inspect(
             compare::View::new(name, mesh, references, &d.found)
         });
         let view = View::new(&document, &found, deviations.as_ref());
-        args.report.write(Answer::Inspect(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
     Ok(document)

@@ -16,7 +16,6 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::surface::View;
 
@@ -201,7 +200,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     drop(stage);
     if args.report.html.is_some() {
         let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, points);
-        args.report.write(Answer::Surface(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     let stage = Stage::new(common.progress, "writing the surface", "points", None);
     args.models.write(&fit.surface, outline.as_ref(), &stage)?;
