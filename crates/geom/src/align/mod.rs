@@ -27,6 +27,7 @@ mod field;
 mod freedom;
 mod icp;
 mod minimax;
+mod near;
 mod response;
 mod rows;
 mod sample;

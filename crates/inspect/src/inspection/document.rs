@@ -50,6 +50,7 @@ impl InspectDocument {
             ),
             characteristics,
             deviation,
+            deviation_map: None,
             scale,
         }
     }

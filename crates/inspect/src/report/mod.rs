@@ -20,7 +20,7 @@ mod text;
 mod up;
 mod values;
 
-pub use documents::{Answer, flat};
+pub use documents::{Answer, MapPage, flat};
 pub use error::ReportError;
 pub use input::{ReportInput, ReportOptions};
 pub use marks::{Mark, MarkGroup, Marks};

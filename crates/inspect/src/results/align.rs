@@ -174,7 +174,7 @@ pub struct PairRecord {
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`; of an inspection also `size_ratio` and
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
@@ -196,6 +196,8 @@ pub enum AlignNoteKind {
     Scale,
     /// Few points were given.
     Few,
+    /// One of several searches alone found the pose.
+    Unconfirmed,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -206,13 +208,14 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 9] = [
+    pub const ALL: [AlignNoteKind; 10] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
         AlignNoteKind::NormalsTurned,
         AlignNoteKind::Scale,
         AlignNoteKind::Few,
+        AlignNoteKind::Unconfirmed,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -227,6 +230,7 @@ impl AlignNoteKind {
             AlignNoteKind::NormalsTurned => "normals_turned",
             AlignNoteKind::Scale => "scale",
             AlignNoteKind::Few => "few",
+            AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -242,6 +246,7 @@ impl AlignNoteKind {
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
             | AlignNoteKind::Few
+            | AlignNoteKind::Unconfirmed
             | AlignNoteKind::NotConverged
             | AlignNoteKind::SizeRatio
             | AlignNoteKind::HardlyOverlapping => true,
@@ -309,6 +314,13 @@ impl AlignNote {
                 format!(
                     "{count} points are few for a search from any pose: look at the result, or align roughly and start \
                      --from-here, or give --method pairs"
+                ),
+            ),
+            AlignWarning::Unconfirmed { searches } => (
+                AlignNoteKind::Unconfirmed,
+                format!(
+                    "many points do not lie on the reference, and one of {searches} searches alone found this pose: look at the \
+                     result, or align roughly and start --from-here"
                 ),
             ),
             AlignWarning::NotConverged => {

@@ -3,6 +3,7 @@
 use super::align::AlignNote;
 use super::compare::Comparison;
 use super::fit::Number;
+use super::place_map::PlaceMap;
 use super::verdict::rank;
 use super::word::named;
 use super::{InputRecord, Verdict, Word};
@@ -43,6 +44,9 @@ pub struct InspectDocument {
     /// Why there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub deviation_reason: Option<String>,
+    /// Deviations at places that are the same for every part, for the map of a trend; absent where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub deviation_map: Option<PlaceMap>,
     /// The colors of the deviations; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub scale: Option<Scale>,

@@ -11,6 +11,7 @@ pub mod curvature;
 pub mod fit;
 mod input;
 pub mod inspect;
+pub mod place_map;
 pub mod repair;
 pub mod research;
 pub mod section;

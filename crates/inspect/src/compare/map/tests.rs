@@ -65,9 +65,9 @@ fn drawn(
     tolerance: Option<Tolerance>,
 ) -> (Vec<Known>, MapSurface, Vec<usize>) {
     let (known, places) = compare(mesh, points);
-    let mut map = PointMap::new(mesh, tolerance);
+    let mut map = PointMap::new(mesh, tolerance, false);
     for (k, (face, weights)) in known.iter().zip(&places) {
-        map.add(map.foot(*face, *weights), k.deviation);
+        map.add(map.foot(mesh, *face, *weights), k.deviation);
     }
     let mut order: Vec<usize> = (0..known.len()).collect();
     order.sort_by(|a, b| known[*a].deviation.total_cmp(&known[*b].deviation));

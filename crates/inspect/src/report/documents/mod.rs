@@ -15,6 +15,7 @@ mod trend;
 
 pub use section::flat;
 pub use subject::{Drawn, Frame, Head, Map, Pick, Subject};
+pub use trend::MapPage;
 
 use crate::results::check::CheckDocument;
 use crate::results::compare::CompareDocument;
@@ -50,6 +51,8 @@ pub enum Answer<'a> {
     Surface(&'a SurfaceDocument),
     /// Does this process keep its tolerances, part by part?
     Trend(&'a TrendDocument),
+    /// What do the parts have in common, and where do they differ?
+    TrendMap(MapPage<'a>),
 }
 
 impl Answer<'_> {
@@ -66,6 +69,7 @@ impl Answer<'_> {
             Answer::Segment(d) => *d,
             Answer::Surface(d) => *d,
             Answer::Trend(d) => *d,
+            Answer::TrendMap(d) => d,
         }
     }
 }
