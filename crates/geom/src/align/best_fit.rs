@@ -35,6 +35,8 @@ const SPARSE: usize = 50;
 /// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.
 const EXPLAINED: f64 = 0.95;
 const AGAIN: usize = 2;
+/// Starts that such a search iterates to the end.
+const BRIEF: usize = 5;
 /// How often, from where the last round ended, and the share of the spacing that is no other pose.
 const ROUNDS: usize = 3;
 const SAME: f64 = 0.02;
@@ -106,7 +108,7 @@ pub fn best_fit(
     if let Some(search) = start.search.take() {
         if options.robust && result.share < EXPLAINED {
             let own = result.reference_from_measured;
-            let again = work.sought_again(&search, &samples, &some, progress)?;
+            let again = work.sought_again(&search, &own, &samples, &some, progress)?;
             start.poses.push(own);
             start.poses.extend(&again);
             let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), &some, progress)?;
@@ -249,10 +251,11 @@ impl<'a> Work<'a> {
     }
 
     /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
-    /// may miss the place. [`AGAIN`] poses, fewer where a search finds nothing.
+    /// may miss the place. As soon as one ends at `own` it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
     fn sought_again(
         &self,
         search: &Search,
+        own: &Rigid,
         samples: &Samples,
         some: &Samples,
         progress: &dyn Progress,
@@ -262,9 +265,13 @@ impl<'a> Work<'a> {
             let seed = self.options.seed.wrapping_add(k);
             let again = search.again(samples.thinned(FEW, seed).with_normals(&samples.points), seed);
             let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
-            let poses = self.promising(&again, &candidates, progress)?;
+            let mut poses = self.promising(&again, &candidates, progress)?;
+            poses.truncate(BRIEF);
             if !poses.is_empty() {
                 found.push(self.choose(&poses, some, progress)?.0);
+            }
+            if found.last().is_some_and(|f| search.apart(f, own) <= search.spacing) {
+                break;
             }
         }
         Ok(found)
@@ -286,7 +293,10 @@ impl<'a> Work<'a> {
         let system = few.system_of_facets(&matches, &pose);
         let tried = near::poses(&system, &result.freedoms, &pose, search.spacing);
         let cap = self.cap(OF_MEDIAN * result.median);
-        let best = search.nearest_of(&tried, &few, cap, progress)?;
+        let best = search.nearest_of(&tried, &pose, &few, cap, progress)?;
+        if best.is_empty() {
+            return Ok(pose);
+        }
         Ok(self.choose(&[&[pose][..], &best].concat(), some, progress)?.0)
     }
 

@@ -30,6 +30,10 @@ const REFINED: usize = 32;
 const CLOSE: usize = 12;
 /// Share of the spacing within which places count where poses close together are told apart.
 const NEAR: f64 = 0.5;
+/// Cost over that of the pose there is, up to which another may be the better one: the samples are few.
+const WORSE: f64 = 1.1;
+/// Share of the spacing from which on poses are not the same.
+const OTHER: f64 = 0.05;
 
 /// The search for a start.
 pub(super) struct Search {
@@ -274,11 +278,12 @@ impl Search {
         Ok(kept)
     }
 
-    /// The best of many poses that may lie close together: tried on the grid, the best of them refined. No distance counts for more
-    /// than `cap`.
+    /// Those of many poses, refined, that are other than `own` and not clearly worse, best first; they may lie close together. No distance
+    /// counts for more than `cap`.
     pub fn nearest_of(
         &self,
         poses: &[Rigid],
+        own: &Rigid,
         problem: &Problem,
         cap: f64,
         progress: &dyn Progress,
@@ -296,9 +301,11 @@ impl Search {
             .collect();
         let mut refined = refined?;
         refined.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let most = WORSE * problem.cost(own, cap, progress)?;
+        let other = |a: &Rigid, b: &Rigid| self.apart(a, b) > OTHER * self.spacing;
         let mut kept: Vec<Rigid> = vec![];
-        for (_, pose) in refined {
-            if kept.len() < CLOSE / 2 && !kept.iter().any(|k| self.apart(k, &pose) < 0.05 * self.spacing) {
+        for (_, pose) in refined.into_iter().filter(|r| r.0 <= most && other(&r.1, own)) {
+            if kept.len() < CLOSE / 2 && kept.iter().all(|k| other(k, &pose)) {
                 kept.push(pose);
             }
         }
