@@ -31,7 +31,7 @@ fn points() -> String {
 }
 
 /// The left half but for its upper end, the whole upper end, and what is far from all points.
-const REGIONS: &str = "[[region]]\nid = \"left\"\nbetween = [[10, 15, 1], [0, 0, -1]]\ntolerance = [-0.1, 0.1]\ninside = 90\n\
+const REGIONS: &str = "[[region]]\nid = \"left\"\nbetween = [[10, 15, 1], [0, 0, -1]]\ntolerance = 0.1\ninside = 90\n\
 [[region]]\nid = \"upper\"\nbetween = [[0, 10, -1], [20, 20, 1]]\ntolerance = [0, 0.2]\n";
 
 fn share(region: &Value) -> (u64, f64, &str) {

@@ -278,7 +278,7 @@ impl<'a> Work<'a> {
     }
 
     /// The best pose about that of the result.
-    fn around(
+    pub(super) fn around(
         &self,
         search: &Search,
         result: &Alignment,
@@ -350,7 +350,7 @@ impl<'a> Work<'a> {
     }
 
     /// Figures of the result at `pose`.
-    fn worth(
+    pub(super) fn worth(
         &self,
         all: &Problem,
         pose: &Rigid,

@@ -102,7 +102,7 @@ pub(super) fn deviations(
 }
 
 /// The regions, those of features with their facets.
-fn regions(
+pub(super) fn regions(
     asked: &Deviation,
     plan: &Plan,
     seeds: &BTreeMap<usize, Seeded>,

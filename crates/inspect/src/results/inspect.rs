@@ -70,7 +70,7 @@ pub struct PlanRecord {
 /// How the measured data came to lie on the reference.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
-    /// `none`, `given`, `best-fit`, `chebyshev`, `datum`, `pairs` or `rps`.
+    /// `none`, `given`, `best-fit`, `chebyshev`, `zones`, `datum`, `pairs` or `rps`.
     pub method: String,
     /// 4×4, row by row: takes measured coordinates to those of the reference.
     pub transform: [[f64; 4]; 4],
@@ -82,6 +82,10 @@ pub struct AlignmentRecord {
     /// Of `chebyshev` the greatest distance of a point that counts: the least there is near the best fit.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub greatest: Option<f64>,
+    /// Of `zones` how far the worst point that counts is beyond its tolerance, negative where all are within: the least there is near the best
+    /// fit.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub excess: Option<f64>,
     /// Of pairs the distance left of each, of reference points the signed one along its direction; absent of other ways.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub residuals: Option<Vec<f64>>,

@@ -69,7 +69,7 @@ impl Subject for InspectDocument {
                 (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
             }
             (section(s, "features", features(s, self)))
-            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, left_out, warnings: &of.warnings }))
+            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, excess: of.excess, left_out, warnings: &of.warnings }))
         }
     }
 
