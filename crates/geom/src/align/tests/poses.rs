@@ -111,6 +111,10 @@ fn a_pose_beside_the_right_one_is_left() {
     for peg in &pegs {
         points.extend(peg.faces.iter().map(|f| middle(peg, f)).filter(|p| p[2] > 5.1));
     }
+    let random = &mut Random::new(4);
+    for p in &mut points {
+        *p = p.map(|x| x + 0.02 * (random.unit() - 0.5));
+    }
     let tree = Tree::build(&reference).unwrap();
     let target = Target::new(&reference, &tree);
     let start = Rigid::translation_by([4.0, -3.0, 0.0])
