@@ -186,7 +186,10 @@ pub struct RegionText {
 
 /// What a deviation may be.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "the tolerance is [least, greatest] allowed deviation, as in [-0.1, 0.1], or one number for as much to either side"
+)]
 pub enum ZoneText {
     /// As much to either side.
     Even(f64),
