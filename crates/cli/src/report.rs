@@ -6,7 +6,7 @@ use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueness_inspect::report::{
-    self, Answer, Language, Marks, ReportError, ReportInput, ReportOptions, Up, ViewObject,
+    self, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
 };
 
 /// A self-contained report.
@@ -84,7 +84,7 @@ impl ReportArgs {
     /// Writes the report, if one was asked for.
     pub fn write(
         &self,
-        result: Answer,
+        result: &dyn Subject,
         objects: &[ViewObject],
         marks: &[Marks],
         progress: ProgressStyle,
@@ -99,7 +99,7 @@ impl ReportArgs {
     pub fn write_to(
         &self,
         path: &Path,
-        result: Answer,
+        result: &dyn Subject,
         objects: &[ViewObject],
         marks: &[Marks],
         progress: ProgressStyle,

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use trueness_geom::fit::Method;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
-use trueness_inspect::report::{self, Answer, Language, ReportError, ReportInput, ReportOptions};
+use trueness_inspect::report::{self, Language, ReportError, ReportInput, ReportOptions};
 use trueness_inspect::results::inspect::InspectDocument;
 
 const NAMES: [&str; 2] = ["scan.stl", "nominal.stl"];
@@ -153,7 +153,7 @@ fn inspect_page(options: &ReportOptions) -> Vec<u8> {
         ],
     }))
     .unwrap();
-    let result = Answer::Inspect(&document);
+    let result = &document;
     let mut page = vec![];
     report::write(&ReportInput { result, objects: &[], marks: &[], options }, &Silent, &mut page).unwrap();
     page

@@ -17,7 +17,6 @@ use trueness_geom::fit::{self, FitError, Method, Options};
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::Kind;
 use trueness_inspect::fit::View;
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::{FitDocument, Number};
 
@@ -131,7 +130,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
-        args.report.write(Answer::Fit(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
     args.document.table(|| table(&document))?;

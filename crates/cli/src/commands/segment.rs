@@ -19,7 +19,6 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
 use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
@@ -153,7 +152,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = SegmentDocument::new(&found, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
-        args.report.write(Answer::Segment(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
     args.document.table(|| table(&document, &found))?;

@@ -13,11 +13,12 @@ use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueness_inspect::report::{Answer, MapPage};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::place_map::{MapPlace, TrendMap};
-use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
+use trueness_inspect::results::trend::{
+    IndexRecord, MapPage, ResultInput, TrendDocument, TrendError, TrendRecord,
+};
 use trueness_inspect::trend::View;
 
 /// Longest result that is read, bytes.
@@ -74,10 +75,10 @@ impl Run for TrendArgs {
             let text = csv(&document);
             whole_file(path, |file| file.write_all(text.as_bytes()))?;
         }
-        self.report.write(Answer::Trend(&document), &[], &[], common.progress)?;
+        self.report.write(&document, &[], &[], common.progress)?;
         if let (Some((path, Some(page))), Some(map)) = (page, &document.map) {
             let view = View::new(map);
-            self.report.write_to(path, Answer::TrendMap(page), &view.objects(), &[], common.progress)?;
+            self.report.write_to(path, &page, &view.objects(), &[], common.progress)?;
         }
         self.document.write(&document)?;
         self.document.table(|| table(&document))?;

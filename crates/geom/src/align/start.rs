@@ -30,6 +30,8 @@ const REFINED: usize = 32;
 const CLOSE: usize = 12;
 /// Share of the spacing within which places count where poses close together are told apart.
 const NEAR: f64 = 0.5;
+/// Share of the spacing for what cannot be told from zero in the first steps: ten standard deviations are half a spacing then.
+const WIDE: f64 = 0.05 / 16.0;
 /// Cost over that of the pose there is, up to which another may be the better one: the samples are few.
 const WORSE: f64 = 1.1;
 /// Share of the spacing from which on poses are not the same.
@@ -293,9 +295,12 @@ impl Search {
             poses.par_iter().map(|p| (self.worth_within(p, reach), *p)).collect();
         tried.sort_by(|x, y| y.0.total_cmp(&x.0));
         tried.truncate(REFINED);
+        // What is some way off must count at first: as outliers it would draw nothing.
+        let wide = Problem { rounding: problem.rounding.max(WIDE * self.spacing), ..*problem };
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (tried.par_iter())
             .map(|(_, pose)| {
-                let pose = problem.run(*pose, self.spacing, 12, progress)?.pose;
+                let pose = wide.run(*pose, self.spacing, 8, progress)?.pose;
+                let pose = problem.run(pose, self.spacing, 8, progress)?.pose;
                 Ok((problem.cost(&pose, cap, progress)?, pose))
             })
             .collect();

@@ -15,7 +15,7 @@ use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
 use trueness_geom::surface;
 use trueness_inspect::repair::Around;
-use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
+use trueness_inspect::report::{ReportInput, ReportOptions};
 use trueness_inspect::results::check::CheckDocument;
 use trueness_inspect::results::fit::FitDocument;
 use trueness_inspect::results::repair::OutputRecord;
@@ -106,7 +106,7 @@ pub fn check_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
     let document = check_document(mesh);
     let view = trueness_inspect::check::View::new(&document, "part.stl", mesh, Default::default());
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    super::bytes(&ReportInput { result: Answer::Check(&document), objects: &objects, marks, options })
+    super::bytes(&ReportInput { result: &document, objects: &objects, marks, options })
 }
 
 /// What the check says.
@@ -145,7 +145,7 @@ pub fn repair_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
     let document = trueness_inspect::repair::document(&repaired, &wish, around);
     let view = trueness_inspect::repair::View::new(&document, "part.stl", mesh, &repaired.mesh);
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    super::bytes(&ReportInput { result: Answer::Repair(&document), objects: &objects, marks, options })
+    super::bytes(&ReportInput { result: &document, objects: &objects, marks, options })
 }
 
 /// Radius 10, axis z, 30 long, three lobes of ±0.1: the highest at the front.
@@ -167,8 +167,7 @@ pub fn fit_page(points: &[Point], method: Method, options: &ReportOptions) -> (V
     let document = trueness_inspect::fit::document(&fit, points, files, 1);
     let view = trueness_inspect::fit::View::new(&document, "bore.xyz", &fit.shape, points);
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    let page =
-        super::bytes(&ReportInput { result: Answer::Fit(&document), objects: &objects, marks, options });
+    let page = super::bytes(&ReportInput { result: &document, objects: &objects, marks, options });
     (page, document)
 }
 
@@ -210,7 +209,7 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let document = SegmentDocument::new(&found, PieceKind::Facets, files, &wish, None);
     let view = trueness_inspect::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    let result = Answer::Segment(&document);
+    let result = &document;
     (super::bytes(&ReportInput { result, objects: &objects, marks, options }), document)
 }
 
@@ -243,7 +242,7 @@ pub fn curvature_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
     let document =
         trueness_inspect::curvature::document(&found, &mesh.positions, of_mesh, &wish, inputs).unwrap();
     let view = trueness_inspect::curvature::View::new(&document, name, mesh, &found);
-    let result = Answer::Curvature(&document);
+    let result = &document;
     super::bytes(&ReportInput { result, objects: &view.objects(), marks: &[], options })
 }
 
@@ -266,7 +265,7 @@ pub fn surface_page(options: &ReportOptions) -> Vec<u8> {
     let document = trueness_inspect::surface::document(&found, &points, &wish, None, inputs);
     let view = trueness_inspect::surface::View::new(&document, &found, None, "sheet.xyz", &points);
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    super::bytes(&ReportInput { result: Answer::Surface(&document), objects: &objects, marks, options })
+    super::bytes(&ReportInput { result: &document, objects: &objects, marks, options })
 }
 
 /// A file of a mesh.

@@ -12,7 +12,7 @@ use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
 use trueness_inspect::compare::{self, Inputs, Options, Reference, View};
 use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::report::{self, Answer, ReportInput, ReportOptions};
+use trueness_inspect::report::{self, ReportInput, ReportOptions};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::tolerance::Tolerance;
@@ -71,12 +71,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
     let view = View::new("points.xyz", None, &references, &found);
     let (objects, marks) = (view.objects(), view.marks(&document));
     let options = ReportOptions::default();
-    let input = ReportInput {
-        result: Answer::Compare(&document),
-        objects: &objects,
-        marks: &marks,
-        options: &options,
-    };
+    let input = ReportInput { result: &document, objects: &objects, marks: &marks, options: &options };
     let mut page = vec![];
     report::write(&input, &Silent, &mut page).unwrap();
     page

@@ -33,8 +33,8 @@ use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
 use trueness_inspect::compare::Method;
 use trueness_inspect::report::{
-    self, Answer, Geometry, NoValue, ReportError, ReportInput, ReportOptions, ReportSummary, ViewField,
-    ViewObject, ViewRole,
+    self, Geometry, NoValue, ReportError, ReportInput, ReportOptions, ReportSummary, ViewField, ViewObject,
+    ViewRole,
 };
 use trueness_inspect::results::compare::*;
 use trueness_inspect::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word};
@@ -300,7 +300,7 @@ pub fn heard(
         });
     }
     let mut page = vec![];
-    let result = Answer::Compare(&result);
+    let result = &result;
     let input = ReportInput { result, objects: &objects, marks: &[], options };
     let summary = report::write(&input, progress, &mut page)?;
     Ok((page, summary))

@@ -5,7 +5,7 @@ use trueness_geom::progress::Silent;
 use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Data, View};
 use trueness_inspect::plan::Plan;
-use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
+use trueness_inspect::report::{ReportInput, ReportOptions};
 use trueness_inspect::results::inspect::{InspectDocument, PlanRecord, ZoneForm};
 use trueness_inspect::results::{Role, Word};
 
@@ -101,5 +101,5 @@ pub fn page(material: bool, options: &ReportOptions) -> Vec<u8> {
     let map = compare::View::new("scan.stl", found.measured.as_ref(), &references, &deviations.found);
     let view = View::new(&document, &found, Some(&map));
     let (objects, marks) = (view.objects(), &view.marks[..]);
-    super::bytes(&ReportInput { result: Answer::Inspect(&document), objects: &objects, marks, options })
+    super::bytes(&ReportInput { result: &document, objects: &objects, marks, options })
 }

@@ -6,7 +6,7 @@ use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::section::{Options, contour};
 use trueness_geom::space::Point;
-use trueness_inspect::report::{Answer, ReportInput, ReportOptions, ViewObject, flat};
+use trueness_inspect::report::{ReportInput, ReportOptions, ViewObject, flat};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
 
@@ -69,6 +69,6 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
     let files = vec![super::record(Role::Measured, "profile.txt", count, None)];
     let document = SectionDocument::new(&sections, files, &wish);
     let objects: Vec<ViewObject> = places.iter().map(|p| ViewObject::measured(p)).collect();
-    let result = Answer::Section(&document);
+    let result = &document;
     super::bytes(&ReportInput { result, objects: &objects, marks: &[], options: &options })
 }

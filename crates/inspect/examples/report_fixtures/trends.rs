@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use trueness_geom::num::random::Random;
-use trueness_inspect::report::{Answer, ReportInput, ReportOptions};
+use trueness_inspect::report::{ReportInput, ReportOptions};
 use trueness_inspect::results::inspect::{
     AlignmentRecord, CharacteristicRecord, Counts, InspectDocument, PlanRecord, SCHEMA, ZoneForm,
 };
@@ -19,7 +19,7 @@ pub fn write_all(folder: &Path) {
 
 /// The report of a trend.
 fn page(document: &TrendDocument, options: &ReportOptions) -> Vec<u8> {
-    super::bytes(&ReportInput { result: Answer::Trend(document), objects: &[], marks: &[], options })
+    super::bytes(&ReportInput { result: document, objects: &[], marks: &[], options })
 }
 
 /// What was found of a characteristic on a part.

@@ -1,17 +1,17 @@
 //! What a report is made of.
 
-use super::documents::Answer;
 use super::marks::Marks;
 use super::object::ViewObject;
+use super::subject::Subject;
 use super::text::Language;
 use super::up::Up;
 
 /// What a report is made of.
 pub struct ReportInput<'a> {
-    /// The answer; every number on the page is from here.
-    pub result: Answer<'a>,
+    /// The result document; every number on the page is from here.
+    pub result: &'a dyn Subject,
     /// What is drawn, the first being what the marks lie on. In a comparison: the measured object, then the references. Of
-    /// sections: the points of each contour in its plane, the third coordinate 0 (`flat`).
+    /// sections: the points of each contour in its plane, the third coordinate 0 ([`flat`](super::flat)).
     pub objects: &'a [ViewObject<'a>],
     /// What is drawn over it, in the order of the numbers that the list's rows lead to.
     pub marks: &'a [Marks],

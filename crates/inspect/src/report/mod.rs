@@ -7,33 +7,33 @@
 //! ```
 //! The same input gives the same bytes.
 
-mod documents;
 mod error;
 mod input;
 mod marks;
-mod number;
+pub(crate) mod number;
 mod object;
-mod page;
-mod payload;
+pub(crate) mod page;
+pub(crate) mod payload;
 mod picture;
-mod text;
+pub(crate) mod subject;
+pub(crate) mod text;
 mod up;
-mod values;
+pub(crate) mod values;
 
-pub use documents::{Answer, MapPage, flat};
 pub use error::ReportError;
 pub use input::{ReportInput, ReportOptions};
 pub use marks::{Mark, MarkGroup, Marks};
-pub use object::{Gathered, Geometry, ViewField, ViewObject, ViewRole};
+pub use object::{Gathered, Geometry, ViewField, ViewObject, ViewRole, flat};
 pub use payload::NoValue;
 pub(crate) use picture::first_view;
+pub use subject::Subject;
 pub use text::Language;
 pub use up::Up;
 
 use crate::scale::Scale;
-use documents::Drawn;
 use payload::{Payload, Purpose};
 use std::io::Write;
+use subject::Drawn;
 use trueness_geom::progress::{Cancelled, Progress};
 
 /// What was written.
@@ -75,7 +75,7 @@ pub fn write(
             return Err(ReportError::FieldLength { object, values: f.values.len(), places });
         }
     }
-    let subject = input.result.subject();
+    let subject = input.result;
     if let Some(drawing) = subject.drawing() {
         return write_drawing(input, drawing, progress, out);
     }
@@ -85,7 +85,7 @@ pub fn write(
     let ranges: Vec<f64> = scales.map(range).collect();
     let purpose = Purpose { ranges: &ranges, zone, progress };
     let draw = || {
-        let view = picture::FirstView::of(input, &input.result.subject().picks());
+        let view = picture::FirstView::of(input, &input.result.picks());
         picture::png(input, &view, progress).map(|png| page::Picture { png: payload::base64(&png), view })
     };
     let (picture, maps) = rayon::join(draw, || page::maps(input));

@@ -157,7 +157,7 @@ impl<'a> ViewObject<'a> {
         }
     }
 
-    pub(super) fn places(&self) -> &'a [Point] {
+    pub(crate) fn places(&self) -> &'a [Point] {
         match self.geometry {
             Geometry::Mesh(mesh) => &mesh.positions,
             Geometry::Points(points) => points,
@@ -171,4 +171,9 @@ impl<'a> ViewObject<'a> {
     pub(super) fn field(&self, comparison: usize) -> Option<&ViewField<'a>> {
         self.fields.iter().find(|f| f.comparison == comparison)
     }
+}
+
+/// Points of a row, for a report: places in the plane of the section, the third coordinate 0.
+pub fn flat(row: &[[f64; 2]]) -> Vec<Point> {
+    row.iter().map(|p| [p[0], p[1], 0.0]).collect()
 }

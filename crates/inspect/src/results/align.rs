@@ -1,5 +1,7 @@
 //! `trueness/align/1`: the motion that brings a measured part onto its reference.
 
+pub(crate) mod page;
+
 use super::word::named;
 use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;

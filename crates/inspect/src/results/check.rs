@@ -1,5 +1,7 @@
 //! `trueness/check/1`: size and defects of a mesh.
 
+pub(crate) mod page;
+
 use super::Bounds;
 use super::{InputRecord, Word};
 use schemars::JsonSchema;

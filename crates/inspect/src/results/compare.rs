@@ -1,5 +1,6 @@
 //! `trueness/compare/1`: deviations of measured points from one or several references.
 
+pub(crate) mod page;
 mod words;
 
 use super::align::AlignedTo;

@@ -1,5 +1,7 @@
 //! `trueness/curvature/1`: curvatures of a mesh or cloud, place by place.
 
+pub(crate) mod page;
+
 use super::word::named;
 use super::{Histogram, Statistics};
 use super::{InputRecord, Word};

@@ -1,5 +1,7 @@
 //! `trueness/fit/1`: an element fitted to points.
 
+mod page;
+
 use super::Histogram;
 use super::{InputRecord, UNITS, VERSION, Word};
 use crate::scale::Scale;

@@ -1,5 +1,7 @@
 //! `trueness/inspect/1`: a plan, evaluated.
 
+mod page;
+
 use super::align::AlignNote;
 use super::compare::Comparison;
 use super::fit::Number;

@@ -1,5 +1,6 @@
 //! The result documents: what a command found out, as the one thing that tables, reports and scripts read.
 //!
+//! One file each, and beside it, in `NAME/page.rs`, what its page says ([`Subject`](crate::report::Subject)).
 //! Every document starts with the same header and names its inputs. A number that does not exist is `null`
 //! beside a reason; NaN and infinity never appear.
 

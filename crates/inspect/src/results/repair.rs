@@ -1,5 +1,7 @@
 //! `trueness/repair/1`: what was mended in a mesh, and what that cost.
 
+mod page;
+
 use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

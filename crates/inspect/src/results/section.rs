@@ -5,6 +5,7 @@ mod dimension;
 mod found;
 mod near_arc;
 mod nominal;
+mod page;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};

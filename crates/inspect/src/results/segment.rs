@@ -1,5 +1,7 @@
 //! `trueness/segment/1`: elements found in a mesh or cloud.
 
+mod page;
+
 use super::Bounds;
 use super::fit::{Number, named, uncertainty};
 use super::{InputRecord, UNITS, VERSION, Word};

@@ -1,5 +1,7 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
+mod page;
+
 use super::curvature::{BendRecord, Range};
 use super::{Histogram, Statistics};
 use super::{InputRecord, Word};

@@ -1,5 +1,9 @@
 //! `trueness/trend/1`: one plan over many parts.
 
+mod page;
+
+pub use page::MapPage;
+
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
 use super::place_map::{PlaceMap, TrendMap};
 use super::verdict::rank;

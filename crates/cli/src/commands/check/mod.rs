@@ -15,7 +15,6 @@ use trueness_files::ReadOptions;
 use trueness_geom::check::{self, CheckError, Options};
 use trueness_inspect::check::View;
 use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 
 /// Size and defects of a mesh
@@ -99,7 +98,7 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, left_out);
-        args.report.write(Answer::Check(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
     args.document.table(|| table::text(&document, &check::KINDS))?;

@@ -11,7 +11,6 @@ use trueness_files::WriteError;
 use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
 use trueness_geom::parallel::prelude::*;
 use trueness_inspect::compare::{self, Excluded};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::compare::CompareDocument;
 use trueness_inspect::scale::Scale;
 
@@ -69,7 +68,7 @@ impl OutputArgs {
         view: &compare::View,
         progress: ProgressStyle,
     ) -> anyhow::Result<()> {
-        self.report.write(Answer::Compare(document), &view.objects(), &view.marks(document), progress)
+        self.report.write(document, &view.objects(), &view.marks(document), progress)
     }
 }
 

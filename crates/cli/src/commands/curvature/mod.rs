@@ -16,7 +16,6 @@ use trueness_files::write::{Values, Writable, values};
 use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::curvature::{CurvatureKind, View, document, without};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::curvature::CurvatureDocument;
 
@@ -143,7 +142,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
     };
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &mesh, &found);
-        args.report.write(Answer::Curvature(&document), &view.objects(), &[], common.progress)?;
+        args.report.write(&document, &view.objects(), &[], common.progress)?;
     }
     if let Some(path) = &args.out {
         write(path, &mesh, &found, &document, args.color.into())?;

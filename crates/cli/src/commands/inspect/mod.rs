@@ -20,7 +20,6 @@ use trueness_geom::progress::Cancelled;
 use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Deviations, Stop, View};
 use trueness_inspect::plan::PlanError;
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::InspectDocument;
 
@@ -157,7 +156,7 @@ fn inspect(
             compare::View::new(name, mesh, references, &d.found)
         });
         let view = View::new(&document, &found, deviations.as_ref());
-        args.report.write(Answer::Inspect(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     // Pages do without: they have a map of their own.
     document.deviation_map = found.deviations.as_ref().and_then(Deviations::place_map);

@@ -17,7 +17,6 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
 use trueness_inspect::repair::{Around, View, at_least, defects, document};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::repair::OutputRecord;
 
@@ -165,7 +164,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let document = document(&repaired, &options, around);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
-        args.report.write(Answer::Repair(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     file.finish()?;
     args.document.write(&document)?;

@@ -19,7 +19,7 @@ use found::{Found, described};
 use std::path::PathBuf;
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
-use trueness_inspect::report::{Answer, ViewObject, flat};
+use trueness_inspect::report::{ViewObject, flat};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
 
@@ -188,7 +188,7 @@ fn report(
     }
     let places: Vec<Vec<Point>> = rows.iter().map(|row| flat(row)).collect();
     let objects: Vec<ViewObject> = places.iter().map(|p| ViewObject::measured(p)).collect();
-    args.report.write(Answer::Section(document), &objects, &[], common.progress)
+    args.report.write(document, &objects, &[], common.progress)
 }
 
 /// A row in space in the plane nearest to it; a row of two columns as it is.

@@ -15,7 +15,6 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
-use trueness_inspect::report::Answer;
 use trueness_inspect::results::Role;
 use trueness_inspect::surface::View;
 
@@ -199,7 +198,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     drop(stage);
     if args.report.html.is_some() {
         let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, &points);
-        args.report.write(Answer::Surface(&document), &view.objects(), &view.marks, common.progress)?;
+        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     let stage = Stage::new(common.progress, "writing the surface", "points", None);
     args.models.write(&fit.surface, outline.as_ref(), &stage)?;

@@ -129,6 +129,8 @@ fn a_pose_beside_the_right_one_is_left() {
     let few = samples.thinned(400, 0).with_normals(&samples.points);
     let search = crate::align::start::Search::new(&target, few, 0, &Silent).unwrap();
     let found = work.around(&search, &stuck, &samples, &Silent).unwrap();
+    let options = BestFit { start: Start::Given(found), ..BestFit::default() };
+    let found = best_fit(&measured, &target, &options, &Silent).unwrap().reference_from_measured;
     let off = [[10.0, 10.0, 5.0], [50.0, 30.0, 5.0]].map(|p| found.displacement(p));
     assert!(off.iter().all(|d| *d < 0.05), "{off:?}");
 }

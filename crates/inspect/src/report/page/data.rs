@@ -1,8 +1,8 @@
 //! What the script reads: manifest, words, blobs.
 
-use super::super::documents::{Frame, Map, Pick};
 use super::super::payload::{Entry, Payload};
 use super::super::picture::{FirstView, others};
+use super::super::subject::{Frame, Map, Pick};
 use super::super::values::json;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
 use crate::results::compare::{Histogram, ToleranceShares};
@@ -110,7 +110,7 @@ impl<'a> Data<'a> {
         first: Option<&FirstView>,
         maps: &[MapEntry],
     ) -> Result<Data<'a>, ReportError> {
-        let subject = input.result.subject();
+        let subject = input.result;
         let first_entry = |first: &FirstView| FirstEntry {
             toward: first.toward,
             places: first.places.iter().map(|(n, _)| *n).collect(),
@@ -149,7 +149,7 @@ impl Render for Data<'_> {
 
 /// The maps that can be shown, with what the scale draws beside them.
 pub fn maps<'a>(input: &'a ReportInput) -> Vec<MapEntry<'a>> {
-    let subject = input.result.subject();
+    let subject = input.result;
     let of = |(n, m): (usize, Map<'a>)| {
         let values = sorted(input, n);
         MapEntry {
@@ -212,7 +212,7 @@ fn picks(input: &ReportInput, first: Option<&FirstView>) -> Vec<PickEntry> {
         value: p.value,
         frame: p.frame,
     };
-    input.result.subject().picks().into_iter().enumerate().map(of).collect()
+    input.result.picks().into_iter().enumerate().map(of).collect()
 }
 
 fn palettes(scale: &Scale) -> Palettes {

@@ -1,8 +1,8 @@
 //! The flags of the stored picture, as SVG over it: for print, and for readers without scripts or WebGL.
 
-use super::super::documents::{Frame, Pick};
 use super::super::number::Style;
 use super::super::picture::{FirstView, flagged};
+use super::super::subject::{Frame, Pick};
 use super::super::values::{Text, leaf};
 use crate::scale::Scale;
 use maud::{Markup, html};

@@ -10,7 +10,7 @@ use maud::{Markup, html};
 
 /// The heading: the title given, else the document's own, else the part's name, else the first file's.
 pub fn title(input: &ReportInput) -> String {
-    let subject = input.result.subject();
+    let subject = input.result;
     let first = subject.head().inputs.first().map(|i| file_name(&i.path));
     let given = input.options.title.as_deref().or(subject.title()).or(input.options.part.as_deref());
     given.or(first).unwrap_or("trueness").to_string()
@@ -18,7 +18,7 @@ pub fn title(input: &ReportInput) -> String {
 
 /// The header of the page.
 pub fn header(s: Style, input: &ReportInput) -> Markup {
-    let subject = input.result.subject();
+    let subject = input.result;
     let headline = subject.headline();
     html! {
         header class={ "header h-" (headline.tone.name()) } {
@@ -43,7 +43,7 @@ pub fn header(s: Style, input: &ReportInput) -> Markup {
 
 /// The files and what they are. Of several references that of the comparison on the stage, and how many there are.
 fn who(s: Style, input: &ReportInput) -> Markup {
-    let files = input.result.subject().head().inputs;
+    let files = input.result.head().inputs;
     let references = files.iter().filter(|f| f.role == Role::Reference).count();
     // Of each file its number among several references, if it is one of them.
     let numbers = files.iter().scan(0, |next, file| {
@@ -82,7 +82,7 @@ fn identification(s: Style, input: &ReportInput) -> Markup {
 
 /// The line at the foot: what is shown, what was left out, how it was computed.
 pub fn status(s: Style, input: &ReportInput, payload: &Payload) -> Markup {
-    let subject = input.result.subject();
+    let subject = input.result;
     let (shown, given) = payload.points;
     html! {
         footer.status {

@@ -11,10 +11,10 @@ pub mod symbols;
 
 pub use data::maps;
 
-use super::documents::Drawn;
 use super::number::Style;
 use super::payload::Payload;
 use super::picture::FirstView;
+use super::subject::Drawn;
 use super::values::Text;
 use super::{ReportError, ReportInput};
 use data::{Data, MapEntry};
@@ -43,7 +43,7 @@ pub fn page(
     on: &Stage,
     maps: &[MapEntry],
 ) -> Result<String, ReportError> {
-    let (options, subject) = (input.options, input.result.subject());
+    let (options, subject) = (input.options, input.result);
     let s = Style { language: options.language, decimal: options.decimal };
     let (first, class) = match on {
         Stage::Drawing(drawing, _) => (None, Some(format!("no-scale {}", drawing.classes()[0]))),
@@ -82,7 +82,7 @@ pub fn page(
 }
 
 fn head(s: Style, input: &ReportInput) -> Markup {
-    let (options, headline) = (input.options, input.result.subject().headline());
+    let (options, headline) = (input.options, input.result.headline());
     let title = header::title(input);
     let running =
         policy::running_head(&[Some(title.as_str()), options.part.as_deref(), options.serial.as_deref()]);
@@ -105,7 +105,7 @@ fn head(s: Style, input: &ReportInput) -> Markup {
 
 /// The list beside the stage, with the files and the method.
 fn list(s: Style, input: &ReportInput) -> Markup {
-    let subject = input.result.subject();
+    let subject = input.result;
     let head = subject.head();
     let method = html! {
         (subject.method(s))
@@ -124,7 +124,7 @@ fn list(s: Style, input: &ReportInput) -> Markup {
 
 /// The stored picture and the distribution under it; the script draws over the one and redraws the other.
 fn stage(s: Style, input: &ReportInput, picture: &Picture) -> Markup {
-    let subject = input.result.subject();
+    let subject = input.result;
     let view = &picture.view;
     let key = subject.picture();
     let histogram = subject.maps().first().and_then(|m| m.histogram);

@@ -4,8 +4,8 @@
 //! for a short list of directions; the usual one is kept when it shows everything. What hides places is what is drawn; for a
 //! cloud it is the reference, drawn or not: between points one looks through, and the part is there all the same.
 
-use super::super::documents::Pick;
 use super::super::marks::{Mark, Marks};
+use super::super::subject::Pick;
 use super::super::{Geometry, ReportInput, Up, ViewObject, ViewRole};
 use super::camera::vertical_and_front;
 use super::shown::{mapped, shown_objects};
@@ -43,7 +43,7 @@ pub struct Direction {
 
 /// Chooses the direction for a report.
 pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
-    let subject = input.result.subject();
+    let subject = input.result;
     let shown = shown_objects(input.objects);
     let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
     let bounds = Aabb::of(shown.iter().flat_map(|o| o.places()).filter(finite));

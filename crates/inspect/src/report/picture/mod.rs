@@ -14,7 +14,7 @@ mod shown;
 pub use direction::{flagged, others};
 pub use shown::first_view;
 
-use super::documents::Pick;
+use super::subject::Pick;
 use super::{Geometry, ReportInput, ViewRole};
 use camera::Camera;
 use canvas::{Canvas, FINE};
@@ -79,7 +79,7 @@ impl FirstView {
 /// The first view of a report as a PNG on a transparent ground. `progress` hears of the places of all objects.
 pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Result<Vec<u8>, Cancelled> {
     let (objects, camera) = (input.objects, &view.camera);
-    let scale = input.result.subject().scale();
+    let scale = input.result.scale();
     let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
     for object in shown_objects(objects) {
         let paint = Paint {

@@ -1,0 +1,47 @@
+//! How the measured part was brought to its reference: the same section in every report that aligns.
+
+use crate::report::number::Style;
+use crate::report::page::parts::{fact, section};
+use crate::report::values::Text;
+use crate::results::align::AlignNote;
+use maud::{Markup, Render, html};
+
+/// What there is to be said of an alignment.
+pub struct Facts<'a> {
+    /// Its method, as the result document names it.
+    pub method: &'a str,
+    /// Root mean square distance of what counts, mm.
+    pub rms: Option<f64>,
+    /// Greatest distance, where it is the least, mm.
+    pub greatest: Option<f64>,
+    /// How far the worst point is beyond its tolerance, where that is the least, mm.
+    pub excess: Option<f64>,
+    /// Points without a weight.
+    pub left_out: Option<u64>,
+    /// What is to be said about the result.
+    pub warnings: &'a [AlignNote],
+}
+
+/// The section.
+pub fn alignment(s: Style, of: &Facts) -> Markup {
+    // Four decimals tell nothing of less.
+    let length = |x: f64| if x < 1e-3 { s.small(x) } else { s.number(x, 4).render() };
+    section(
+        s,
+        "alignment",
+        html! {
+            dl.facts.pairs {
+                (fact(s, "method", s.word(format!("align.{}", of.method))))
+                @if let Some(rms) = of.rms { (fact(s, "rms", html! { (length(rms)) "\u{a0}mm" })) }
+                @if let Some(greatest) = of.greatest {
+                    (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
+                }
+                @if let Some(excess) = of.excess {
+                    (fact(s, "align.excess", html! { (s.number(excess, 4).signed()) "\u{a0}mm" }))
+                }
+                @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
+            }
+            @for warning in of.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
+        },
+    )
+}

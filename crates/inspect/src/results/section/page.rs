@@ -1,0 +1,165 @@
+//! The page of sections: the contours drawn to scale, their segments and joins with uncertainties, their residuals.
+
+mod airfoil;
+mod course;
+mod path;
+mod pieces;
+mod sheet;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use crate::report::ViewObject;
+use crate::report::number::Style;
+use crate::report::page::parts::{Headline, Tone, fact, key_number, section};
+use crate::report::subject::{Drawn, Head, Pick, Subject};
+use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
+use maud::{Markup, html};
+use serde_json::Value;
+
+/// Bytes that a measured point takes in the drawing.
+const DOT: usize = 26;
+
+impl Subject for SectionDocument {
+    fn head(&self) -> Head<'_> {
+        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
+    }
+
+    fn headline(&self) -> Headline {
+        Headline { key: "sectioned", tone: Tone::Neutral }
+    }
+
+    fn convention(&self) -> Option<&'static str> {
+        Some("sign.section")
+    }
+
+    fn picture(&self) -> &'static str {
+        "picture.section"
+    }
+
+    fn numbers(&self, s: Style) -> Markup {
+        let count = |f: &dyn Fn(&ContourRecord) -> usize| self.contours.iter().map(f).sum::<usize>() as u64;
+        let counts = [
+            ("segments", "lead", count(&|c| c.segments.len())),
+            ("joins", "", count(&|c| c.joins.len())),
+            ("contours", "", self.contours.len() as u64),
+            ("planes", "", self.planes.len() as u64),
+            ("outliers", "warn", count(&|c| c.outliers.len())),
+            ("gaps", "warn", count(&|c| c.gaps.len())),
+            ("segments.astray", "warn", count(&|c| c.astray.len())),
+        ];
+        html! {
+            dl.key-numbers {
+                @for (key, class, n) in counts.into_iter().filter(|(.., n)| *n > 0) {
+                    (key_number(s, key, class, s.count(n)))
+                }
+                @if let [one] = &self.contours[..] {
+                    (key_number(s, "noise", "", html! { (s.small(one.noise)) "\u{a0}mm" }))
+                }
+            }
+        }
+    }
+
+    fn list(&self, s: Style) -> Markup {
+        html! {
+            (section(s, "contours", tables::contours(s, self)))
+            @if self.dimensions.count > 0 { (section(s, "dimensions", tables::dimensions(s, &self.dimensions))) }
+            @if let Some(airfoils) = &self.airfoils { (section(s, "airfoil", airfoil::airfoils(s, airfoils))) }
+            @if let Some(nominal) = &self.nominal { (section(s, "nominal.section", tables::nominal(s, nominal))) }
+            @if let Some(methods) = &self.methods { (section(s, "methods", tables::methods(s, methods))) }
+            @if !self.planes.is_empty() { (section(s, "planes", tables::planes(s, &self.planes))) }
+            (section(s, "model", html! {
+                dl.facts.pairs {
+                    (fact(s, "level", s.percent(self.level, 1)))
+                    @if let Some(noise) = self.noise_given {
+                        (fact(s, "noise.given", html! { (s.small(noise)) "\u{a0}mm" }))
+                    }
+                    @if let Some(continuity) = &self.continuity_given {
+                        (fact(s, "continuity.given", s.word(format!("join.{continuity}"))))
+                    }
+                }
+            }))
+        }
+    }
+
+    fn method(&self, s: Style) -> Markup {
+        let keys = ["method.section.text", "method.section.join", "method.section.comb"];
+        html! { @for key in keys { p { (s.word(key)) } } }
+    }
+
+    fn how(&self, s: Style) -> Markup {
+        html! { (s.word("fit.gaussian")) " · " (s.word("orthogonal")) }
+    }
+
+    fn points(&self) -> Option<u64> {
+        Some(self.contours.iter().map(|c| c.points).sum())
+    }
+
+    fn picks(&self) -> Vec<Pick> {
+        let mut all = vec![];
+        for contour in &self.contours {
+            let frame = self.frame_of(contour);
+            all.extend(contour.segments.iter().map(|s| Pick {
+                position: frame.place([0, 1].map(|k| 0.5 * (s.start[k] + s.end[k]))),
+                reach: Some(0.5 * s.length),
+                ..Pick::default()
+            }));
+            all.extend(contour.joins.iter().map(|j| Pick { position: j.position, ..Pick::default() }));
+        }
+        all.into_iter().enumerate().map(|(n, pick)| Pick { mark: Some(n), ..pick }).collect()
+    }
+
+    fn json(&self) -> serde_json::Result<Value> {
+        serde_json::to_value(self)
+    }
+
+    fn drawing(&self) -> Option<&dyn Drawn> {
+        Some(self)
+    }
+}
+
+impl Drawn for SectionDocument {
+    fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize) {
+        let shown = stride(objects, room)
+            .map_or(0, |stride| objects.iter().map(|o| o.places().len().div_ceil(stride)).sum());
+        (shown, count(objects))
+    }
+
+    fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup {
+        let stride = stride(objects, room);
+        html! {
+            div id="drawing" class="drawing" {
+                "\n"
+                @for (n, sheet) in sheet::sheets(self).iter().enumerate() {
+                    div.sheet data-plane=[sheet.plane] hidden[n > 0] {
+                        "\n" (sheet.draw(s, self, objects, stride))
+                    }
+                    "\n"
+                }
+            }
+            "\n"
+            div id="courses" class="courses" {
+                "\n"
+                @for (n, contour) in self.contours.iter().enumerate() { (course::course(s, n, contour)) }
+            }
+            "\n"
+        }
+    }
+}
+
+fn count(objects: &[ViewObject]) -> usize {
+    objects.iter().map(|o| o.places().len()).sum()
+}
+
+/// Every which point is drawn in so many bytes; `None` where there is no room for any.
+fn stride(objects: &[ViewObject], room: usize) -> Option<usize> {
+    let fit = (room / DOT).checked_sub(objects.len()).filter(|n| *n > 0)?;
+    Some(count(objects).div_ceil(fit).max(1))
+}
+
+impl SectionDocument {
+    fn frame_of(&self, contour: &ContourRecord) -> &FrameRecord {
+        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
+        plane.map_or(&self.frame, |p| &p.frame)
+    }
+}

@@ -1,0 +1,125 @@
+//! The residuals of a contour beside the length along it, as SVG.
+//!
+//! The axes are stretched to the room there is; the words stand around the figure, so that they are not.
+
+use super::pieces::kind;
+use crate::report::number::Style;
+use crate::report::values::leaf;
+use crate::results::section::{ContourRecord, JoinRecord};
+use maud::{Markup, html};
+use std::fmt::Write;
+
+/// Width of the figure, and half its height, in units of its own.
+pub const WIDTH: f64 = 1000.0;
+pub const HALF: f64 = 100.0;
+/// More points than this are drawn as their range over columns.
+const DOTS: usize = 6000;
+/// Columns.
+const COLUMNS: usize = 1000;
+/// Standard deviations that the figure shows at least.
+const SHOWN: f64 = 3.0;
+
+/// Length and greatest distance that the figure shows.
+struct Axes {
+    length: f64,
+    range: f64,
+}
+
+impl Axes {
+    fn of(contour: &ContourRecord) -> Axes {
+        let kept = contour.residuals.iter().enumerate();
+        let kept = kept.filter(|(i, _)| contour.outliers.binary_search(&(*i as u64)).is_err());
+        let range = kept.map(|(_, r)| r.abs()).fold(SHOWN * contour.noise, f64::max);
+        let range = if range > 0.0 { range } else { 1e-9 };
+        Axes { length: contour.length.max(f64::MIN_POSITIVE), range: 1.05 * range }
+    }
+
+    fn x(&self, station: f64) -> f64 {
+        (WIDTH * station / self.length).clamp(0.0, WIDTH)
+    }
+
+    fn y(&self, residual: f64) -> f64 {
+        -HALF * residual / self.range
+    }
+}
+
+/// The figure of contour `number`; of several all but the first wait to be asked for.
+pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
+    let axes = Axes::of(contour);
+    let stations = contour.segments.iter().scan(0.0, |start, segment| {
+        *start += segment.length;
+        Some(*start)
+    });
+    html! {
+        figure.course data-contour=(number) hidden[number > 0] {
+            figcaption { (s.word("residuals")) ", mm · " (s.word("contour")) " " (number + 1) }
+            div.course-y {
+                span { "+" (s.small(axes.range)) } span { "0" } span { "\u{2212}" (s.small(axes.range)) }
+            }
+            svg viewBox={ "0 " (-HALF) " " (WIDTH) " " (2.0 * HALF) } preserveAspectRatio="none"
+                data-length=(axes.length) data-range=(axes.range) role="img" {
+                title { (s.bare_word("course.title")) }
+                @for (join, station) in contour.joins.iter().zip(stations) { (interval(&axes, join, station)) }
+                @for sigma in [-2.0, 2.0] {
+                    (path("sigma", &format!("M0 {:.3}H{WIDTH}", axes.y(sigma * contour.noise))))
+                }
+                (path("zero", &format!("M0 0H{WIDTH}")))
+                (points(&axes, contour))
+            }
+            div.course-x { span { "0" } (s.word("course.along")) (s.number(axes.length, 2)) }
+        }
+        "\n"
+    }
+}
+
+fn path(class: &str, d: &str) -> Markup {
+    leaf("path", &[("class", &class), ("d", &d)])
+}
+
+/// A join, and how far to either side it may lie. That of a corner lies across the contour too; its length is shown.
+fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
+    let far = |p: [f64; 2]| libm::hypot(p[0] - join.point[0], p[1] - join.point[1]);
+    let [from, to] = [station - far(join.interval[0]), station + far(join.interval[1])].map(|s| axes.x(s));
+    let [x, width] = [from, to - from].map(|x| format!("{x:.3}"));
+    let (y, height) = (-HALF, 2.0 * HALF);
+    html! {
+        (leaf(
+            "rect",
+            &[("class", &"interval"), ("x", &x), ("y", &y), ("width", &width), ("height", &height)],
+        ))
+        (path("join", &format!("M{:.3} {}V{HALF}", axes.x(station), -HALF)))
+    }
+}
+
+/// Points by the kind of their segment; outliers at the rim where they are beyond it.
+fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
+    let mut paths: [(&str, String); 4] = ["line", "arc", "spline", "outlier"].map(|k| (k, String::new()));
+    let mut columns: Vec<[Option<[f64; 2]>; 4]> = vec![[None; 4]; COLUMNS];
+    let many = contour.residuals.len() > DOTS;
+    let all = contour.residuals.iter().zip(&contour.stations).zip(&contour.labels).enumerate();
+    for (i, ((residual, station), label)) in all {
+        let Some(segment) = contour.segments.get(*label as usize) else { continue };
+        let outlier = contour.outliers.binary_search(&(i as u64)).is_ok();
+        let name = if outlier { "outlier" } else { kind(segment) };
+        let slot = paths.iter().position(|(k, _)| *k == name).unwrap_or(3);
+        let (x, y) = (axes.x(*station), axes.y(*residual).clamp(-HALF, HALF));
+        if many && !outlier {
+            let column = ((x / WIDTH * COLUMNS as f64) as usize).min(COLUMNS - 1);
+            let range = columns[column][slot].get_or_insert([y, y]);
+            *range = [range[0].min(y), range[1].max(y)];
+        } else {
+            let _ = write!(paths[slot].1, "M{x:.3} {y:.3}h0");
+        }
+    }
+    for (n, column) in columns.iter().enumerate() {
+        let x = (n as f64 + 0.5) * WIDTH / COLUMNS as f64;
+        for (slot, range) in column.iter().enumerate() {
+            if let Some([low, high]) = range {
+                let _ = write!(paths[slot].1, "M{x:.2} {low:.3}V{high:.3}");
+            }
+        }
+    }
+    html! {
+        @for (name, d) in paths.iter().filter(|(_, d)| !d.is_empty()) { (path(&format!("dots k-{name}"), d)) }
+    }
+}
