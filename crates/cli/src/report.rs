@@ -4,7 +4,7 @@ use crate::options::ProgressStyle;
 use crate::output::whole_file;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueness_inspect::report::{
     self, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
 };
@@ -89,7 +89,21 @@ impl ReportArgs {
         marks: &[Marks],
         progress: ProgressStyle,
     ) -> anyhow::Result<()> {
-        let Some(path) = &self.html else { return Ok(()) };
+        match &self.html {
+            Some(path) => self.write_to(path, result, objects, marks, progress),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a report with these options to `path`.
+    pub fn write_to(
+        &self,
+        path: &Path,
+        result: &dyn Subject,
+        objects: &[ViewObject],
+        marks: &[Marks],
+        progress: ProgressStyle,
+    ) -> anyhow::Result<()> {
         let options = ReportOptions {
             title: self.title.clone(),
             part: self.part.clone(),

@@ -202,3 +202,46 @@ fn the_least_greatest_distance() {
     let (_, found) = run(&[]);
     assert!(found["chebyshev"]["greatest"].as_f64().unwrap() < 1e-9 && found["chebyshev"]["left_out"] == 1);
 }
+
+/// Into zones: the block's top may be 0 to 0.2 too high, all else 0.1 either way; a perfect block rises by 0.05 and has as much left.
+#[test]
+fn the_least_greatest_excess_over_tolerances() {
+    let folder = Folder::new();
+    let corner = |i: u32| {
+        [if i & 1 == 1 { 10 } else { -10 }, if i & 2 == 2 { 6 } else { -6 }, if i & 4 == 4 { 4 } else { -4 }]
+    };
+    let places: Vec<String> = (0..8).map(corner).map(|[x, y, z]| format!("{x} {y} {z}")).collect();
+    let block = format!(
+        "OFF\n8 12 0\n{}\n3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n",
+        places.join("\n")
+    );
+    let block = folder.write("block.off", block);
+    let mut points = String::new();
+    for (i, j) in (-9..=9).flat_map(|i| (-5..=5).map(move |j| (f64::from(i), f64::from(j)))) {
+        for s in [-1, 1] {
+            points += &format!("{i} {j} {}\n{i} {} {}\n{} {j} {}\n", 4 * s, 6 * s, j * 0.6, 10 * s, i * 0.3);
+        }
+    }
+    let scan = folder.write("scan.xyz", points);
+    let top = "[[region]]\nid = \"top\"\nbetween = [[-20, -20, 3.99], [20, 20, 5]]\ntolerance = [0, 0.2]\n";
+    let (regions, json) = (folder.write("top.toml", top), folder.file("r.json"));
+    let [scan, block, regions, json] = [&scan, &block, &regions, &json].map(|p| p.to_str().unwrap());
+    let words = ["align", scan, block, "--from-here", "--method", "zones"];
+    let o = trueness(words.iter().chain(&["--regions", regions, "--tolerance", "0.1", "--json", json]));
+    assert_eq!(status(&o), 0, "{}{}", stdout(&o), stderr(&o));
+    let read = || serde_json::from_str::<serde_json::Value>(&std::fs::read_to_string(json).unwrap()).unwrap();
+    let found = read();
+    let excess = found["zones"]["excess"].as_f64().unwrap();
+    assert!((excess + 0.05).abs() < 1e-9, "{excess}");
+    assert!((found["transform"][2][3].as_f64().unwrap() - 0.05).abs() < 1e-6, "{}", found["transform"]);
+    assert_eq!((found["method"].as_str(), found["zones"]["without_zone"].as_u64()), (Some("zones"), Some(0)));
+    assert!(stdout(&o).contains("all within") || stdout(&o).contains("all 1254 points"), "{}", stdout(&o));
+    // What does not fit makes the exit status 1.
+    folder.write("top.toml", top.replace("[0, 0.2]", "[0.3, 0.4]"));
+    let o = trueness(words.iter().chain(&["--regions", regions, "--tolerance", "0.1", "--json", json]));
+    assert_eq!(status(&o), 1, "{}", stdout(&o));
+    assert!((read()["zones"]["excess"].as_f64().unwrap() - 0.1).abs() < 1e-9, "{}", read()["zones"]);
+    // Nothing allowed, and something allowed for another method.
+    assert_eq!(status(&trueness(words)), 2);
+    assert_eq!(status(&trueness(["align", scan, block, "--tolerance", "0.1"])), 2);
+}

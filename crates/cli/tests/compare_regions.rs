@@ -14,10 +14,10 @@ fn word(path: &Path) -> &str {
 /// A square of 20 mm in the plane z = 0, looking up.
 const SQUARE: &str = "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nf 1 2 3\nf 1 3 4\n";
 
-/// 400 points over it, one a square millimeter: 0.05 high over x < 10 (every tenth of them 0.3), 0.15 over the rest.
+/// 400 points over it, one a square millimeter, from the upper end down: 0.05 high over x < 10 (every tenth of them 0.3), 0.15 over the rest.
 fn points() -> String {
     let point = |k: usize| {
-        let (x, y) = (0.5 + (k % 20) as f64, 0.5 + (k / 20) as f64);
+        let (x, y) = (0.5 + (k % 20) as f64, 19.5 - (k / 20) as f64);
         let z = if x > 10.0 {
             0.15
         } else if k % 20 == 3 {
@@ -31,7 +31,7 @@ fn points() -> String {
 }
 
 /// The left half but for its upper end, the whole upper end, and what is far from all points.
-const REGIONS: &str = "[[region]]\nid = \"left\"\nbetween = [[10, 15, 1], [0, 0, -1]]\ntolerance = [-0.1, 0.1]\ninside = 90\n\
+const REGIONS: &str = "[[region]]\nid = \"left\"\nbetween = [[10, 15, 1], [0, 0, -1]]\ntolerance = 0.1\ninside = 90\n\
 [[region]]\nid = \"upper\"\nbetween = [[0, 10, -1], [20, 20, 1]]\ntolerance = [0, 0.2]\n";
 
 fn share(region: &Value) -> (u64, f64, &str) {
@@ -61,7 +61,9 @@ fn every_region_is_judged_by_its_own_tolerance() {
     assert_eq!(c["tolerance"]["inside"], 1.0);
     assert_eq!((code, c["verdict"].as_str(), found["verdict"].as_str()), (1, Some("fail"), Some("fail")));
     assert_eq!(c["deviation"]["all"]["count"], 400);
-    // The worst place is 0.2 beyond the tolerance of the left half, although the upper end has the same deviations.
+    let lower = |n: usize| c["regions"][n]["tolerance"]["lower"].as_f64();
+    assert_eq!((lower(0), lower(1)), (Some(-0.1), Some(0.0)));
+    // The worst place is 0.2 beyond the tolerance of the left half, although the upper end has the same deviations, and has them first.
     assert_eq!((&c["worst"][0]["region"], c["worst"][0]["deviation"].as_f64()), (&"left".into(), Some(0.3)));
     for part in ["left", "90.000", "upper", "96.667", "(others)", "together: FAIL"] {
         assert!(table.contains(part), "{part}\n{table}");

@@ -62,7 +62,8 @@ fn deviations_of_a_plan_are_those_of_a_comparison() {
     for (text, says) in [
         ("", "nothing in the plan can be judged"),
         ("tolerance = [0.1, -0.1]", "line 5, column 13: the tolerance is [least, greatest]"),
-        ("tolerance = 0.1", "line 5, column 13: invalid type"),
+        ("tolerance = -0.1", "line 5, column 13: the tolerance is [least, greatest]"),
+        ("tolerance = \"0.1\"", "line 5, column 13: the tolerance is [least, greatest]"),
         (
             "tolerance = [-1, 1]\ninside = 101",
             "line 6, column 10: inside is 101; a share is from 0 to 100 percent",
@@ -184,14 +185,24 @@ fn a_plan_aligns_by_the_least_greatest_distance() {
             serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
         let all = &answer["deviation"]["deviation"]["all"];
         let far = all["max"].as_f64().unwrap().max(-all["min"].as_f64().unwrap());
-        (far, answer["alignment"]["greatest"].as_f64(), stdout(&o))
+        (far, answer["alignment"]["greatest"].as_f64().or(answer["alignment"]["excess"].as_f64()), stdout(&o))
     };
+    // All tolerances ±1: the greatest excess is the greatest distance less 1.
+    let (into_zones, excess, table) = greatest("zones");
+    assert!((into_zones - 1.0 - excess.unwrap()).abs() < 1e-9, "{into_zones} {excess:?}");
+    assert!(table.contains("aligned by zones") && table.contains("greatest excess"), "{table}");
     let (by_squares, none, _) = greatest("best-fit");
     let (least, told, table) = greatest("chebyshev");
     assert_eq!(none, None);
     assert!(least < 0.95 * by_squares, "{least} {by_squares}");
     assert!((least - told.unwrap()).abs() < 1e-9, "{least} {told:?}");
+    assert!((least - into_zones).abs() < 1e-6, "{least} {into_zones}");
     assert!(table.contains("aligned by chebyshev") && table.contains("greatest distance"), "{table}");
+    let form = "[[feature]]\nid = \"A\"\nshape = \"plane\"\npoints = \"scan.xyz\"\n\
+                [[characteristic]]\nid = \"1\"\nkind = \"flatness\"\nfeature = \"A\"\ntolerance = 99\n";
+    let text = format!("{head}[align]\nmethod = \"zones\"\n[deviation]\n{form}");
+    let o = trueness(["inspect", folder.write("none.toml", text).to_str().unwrap()]);
+    assert!(status(&o) == 3 && stderr(&o).contains("fits into the tolerances"), "{}", stderr(&o));
     let bare = "schema = \"trueness/plan/1\"\n[align]\nmethod = \"chebyshev\"\n";
     let plan = folder.write("bare.toml", bare);
     let o = trueness(["inspect", plan.to_str().unwrap()]);

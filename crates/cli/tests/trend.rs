@@ -213,3 +213,103 @@ fn bars_show_where_the_true_value_lies() {
     assert_eq!(of(0), serde_json::json!([[value - 0.25, value + 0.25], null]));
     assert_eq!(of(1), serde_json::json!([[-0.5, 0.125], null]));
 }
+
+/// A measured block of 10 mm in 600 facets whose top rises by `rise` towards x = 10; with a `hole` nothing of its top is there for y > 5.
+fn block(rise: f64, hole: bool) -> String {
+    let mut text = String::from("solid block\n");
+    let mut facet = |p: [[f64; 3]; 3]| {
+        text.push_str("facet normal 0 0 0\nouter loop\n");
+        p.iter().for_each(|[x, y, z]| text.push_str(&format!("vertex {x:?} {y:?} {z:?}\n")));
+        text.push_str("endloop\nendfacet\n");
+    };
+    for (axis, side) in [(0, 0.0), (0, 10.0), (1, 0.0), (1, 10.0), (2, 0.0), (2, 10.0)] {
+        for (i, j) in (0..10).flat_map(|i| (0..10).map(move |j| (f64::from(i), f64::from(j)))) {
+            let at = |u: f64, v: f64| {
+                let mut p = [0.0; 3];
+                (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (side, u, v);
+                if axis == 2 && side > 0.0 {
+                    p[2] += rise * p[0] / 10.0;
+                }
+                p
+            };
+            let mut quad = [at(i, j), at(i + 1.0, j), at(i + 1.0, j + 1.0), at(i, j + 1.0)];
+            if side == 0.0 {
+                quad.reverse();
+            }
+            if hole && axis == 2 && side > 0.0 && quad.iter().any(|p| p[1] > 5.0) {
+                continue;
+            }
+            facet([quad[0], quad[1], quad[2]]);
+            facet([quad[0], quad[2], quad[3]]);
+        }
+    }
+    text + "endsolid block\n"
+}
+
+/// Mean and spread over the part against the closed form: the top of three parts rises by 0, 0.3 and 0.6 mm along x.
+#[test]
+fn mean_and_spread_are_told_over_the_part() {
+    let folder = Folder::new();
+    folder.write("nominal.stl", block(0.0, false));
+    let plan = "schema = \"trueness/plan/1\"\nmeasured = \"nominal.stl\"\nreference = \"nominal.stl\"\n\
+                [deviation]\ntolerance = [-1, 1]\n";
+    let plan = folder.write("plan.toml", plan);
+    let name = |n: &str| folder.file(n).to_str().unwrap().to_string();
+    let inspect = |n: usize, scan: String, places: bool| {
+        let (scan, json) = (folder.write(&format!("part-{n}.stl"), scan), name(&format!("part-{n}.json")));
+        let mut words =
+            vec!["inspect", plan.to_str().unwrap(), "--json", &json, "--measured", scan.to_str().unwrap()];
+        words.extend(places.then_some("--places"));
+        let o = trueness(words);
+        assert_eq!(status(&o), 0, "{}", stderr(&o));
+        json
+    };
+    let parts: Vec<String> =
+        [0.0, 0.3, 0.6].iter().enumerate().map(|(n, r)| inspect(n, block(*r, n == 2), true)).collect();
+    let (json, page) = (name("trend.json"), name("map.html"));
+    let mut words = vec!["trend", "--json", &json, "--map", &page];
+    words.extend(parts.iter().map(String::as_str));
+    let o = trueness(words);
+    assert_eq!(status(&o), 0, "{}{}", stdout(&o), stderr(&o));
+    assert!(stdout(&o).contains("sigma: greatest 0.27"), "{}", stdout(&o));
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    let map = &document["map"];
+    let (mut top, mut lacking) = (0, 0);
+    for (n, place) in map["places"].as_array().unwrap().iter().enumerate() {
+        let [x, y, z] = [0, 1, 2].map(|k| place[k].as_f64().unwrap());
+        // Well within the top: at its rim, vertices of the sides count too where the reference has them nearest.
+        if z < 10.0 || !(1.0..9.0).contains(&x) || !(1.0..9.0).contains(&y) {
+            continue;
+        }
+        top += 1;
+        // Each place has the value of the vertex of the scan nearest to it, half a facet away at most.
+        let (mean, sigma) = (map["mean"][n].as_f64().unwrap(), map["std_dev"][n].as_f64().unwrap());
+        match map["parts"][n].as_u64().unwrap() {
+            3 => {
+                assert!((mean - 0.03 * x).abs() < 0.03, "{mean} at {x}");
+                assert!((sigma - mean).abs() < 1e-6, "the spread of 0, r, 2 r is r: {sigma}, {mean}");
+            }
+            2 => {
+                lacking += 1;
+                assert!(y > 5.0 && (mean - 0.015 * x).abs() < 0.015, "{mean} at {x}, {y}");
+                assert!((sigma - mean * 2.0f64.sqrt()).abs() < 1e-6, "{sigma}, {mean}");
+            }
+            other => panic!("{other} parts at {x}, {y}"),
+        }
+    }
+    assert!(top > 500 && lacking > 100, "{top}, {lacking}");
+    assert_eq!(
+        map["partial"].as_u64().unwrap(),
+        map["parts"].as_array().unwrap().iter().filter(|p| **p == 2).count() as u64
+    );
+    let manifest = std::fs::read_to_string(&page).unwrap();
+    let manifest = manifest.split_once("id=\"manifest\">").unwrap().1.split_once("</script>").unwrap().0;
+    let manifest: Value = serde_json::from_str(manifest).unwrap();
+    assert_eq!(manifest["maps"].as_array().unwrap().len(), 2);
+    assert_eq!(manifest["maps"][1]["scale"]["lower"], 0.0);
+    // A result without places: why there is no map.
+    let bare = inspect(7, block(0.1, false), false);
+    let o = trueness(["trend", &parts[0], &bare, "--map", &page]);
+    assert_eq!(status(&o), 3, "{}", stdout(&o));
+    assert!(stderr(&o).contains("result 2 of 2 holds no deviations at places"), "{}", stderr(&o));
+}

@@ -11,6 +11,7 @@
 //! | inspection plans, as people write them | [`plan`] |
 //! | kinds of characteristics | [`characteristic`] |
 //! | a plan and data make verdicts | [`inspection`] |
+//! | mean and spread over many parts, as reports draw them | [`trend`] |
 //! | result documents, as JSON and for reports | [`results`] |
 //! | reports, one HTML file each | [`report`] |
 //! | color scale | [`scale`] |
@@ -35,3 +36,4 @@ mod spacing;
 pub mod surface;
 pub mod tolerance;
 pub mod tolerance_class;
+pub mod trend;

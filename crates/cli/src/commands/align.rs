@@ -1,13 +1,15 @@
 //! `trueness align`: the motion that brings a measured part onto its reference.
 
 use crate::command::Run;
+use crate::commands::compare::references;
 use crate::console;
 use crate::exit::{Outcome, Usage};
-use crate::number::{POINTS, counted, fixed, scientific, six_digits};
+use crate::number::{POINTS, counted, fixed, scientific, signed, six_digits};
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
 use crate::run_files::RunFiles;
+use crate::tolerance::ToleranceArg;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
@@ -15,9 +17,11 @@ use std::path::{Path, PathBuf};
 use trueness_files::write::{self, Block, Layout, Writable};
 use trueness_geom::align::{self, AlignError, BestFit, Measured, Row, RowFit, Start, Target};
 use trueness_geom::closest::Tree;
+use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
+use trueness_inspect::compare::Regions;
 use trueness_inspect::results::align::AlignDocument;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -35,6 +39,7 @@ Examples:
   trueness align scan.stl nominal.stl -o aligned.stl
   trueness align scan.ply nominal.stl --json transform.json
   trueness align scan.stl nominal.stl --method chebyshev -o aligned.stl
+  trueness align scan.stl nominal.stl --method zones --tolerance 0.2 --regions regions.toml -o aligned.stl
   trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl")]
 pub struct AlignArgs {
     /// The scan: a mesh or points; `-` reads stdin
@@ -50,6 +55,12 @@ pub struct AlignArgs {
     /// Table of places that belong together, for the methods other than best-fit
     #[arg(long, value_name = "FILE", required_if_eq_any = [("method", "pairs"), ("method", "3-2-1"), ("method", "rps")])]
     points: Option<PathBuf>,
+    /// For zones: what deviations may be, ±T or -L,+U in mm, where no region says otherwise
+    #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
+    tolerance: Option<ToleranceArg>,
+    /// For zones: regions of the reference with tolerances of their own, as for `trueness compare`
+    #[arg(long, value_name = "FILE")]
+    regions: Option<PathBuf>,
     /// Start from the pose in the files instead of looking for one
     #[arg(long)]
     from_here: bool,
@@ -70,6 +81,8 @@ enum MethodArg {
     BestFit,
     /// The least greatest distance to the surface, near the best fit.
     Chebyshev,
+    /// The least greatest excess over tolerances, near the best fit.
+    Zones,
     /// Pairs of points that belong together.
     Pairs,
     /// Six rows that hold all six degrees of freedom, exactly.
@@ -89,7 +102,8 @@ fn out_help() -> String {
 
 impl Run for AlignArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of([&self.measured, &self.reference].into_iter().chain(&self.points))
+        let tables = self.points.iter().chain(&self.regions);
+        Ok(RunFiles::of([&self.measured, &self.reference].into_iter().chain(tables))
             .also("--out", self.out.as_ref())
             .document(self.document.json.as_ref()))
     }
@@ -139,7 +153,17 @@ impl Scan {
 }
 
 fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
-    if matches!(args.method, MethodArg::BestFit | MethodArg::Chebyshev) && args.points.is_some() {
+    let zones = args.method == MethodArg::Zones;
+    if zones != (args.tolerance.is_some() || args.regions.is_some()) {
+        let what = match zones {
+            true => "--method zones needs what is allowed: give --tolerance, --regions or both",
+            false => "--tolerance and --regions are for --method zones",
+        };
+        return Err(Usage(what.into()).into());
+    }
+    if matches!(args.method, MethodArg::BestFit | MethodArg::Chebyshev | MethodArg::Zones)
+        && args.points.is_some()
+    {
         return Err(
             Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
         );
@@ -157,7 +181,7 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
         (Some(path), method) => {
             let found = by_rows(path, method)?;
             let name = match method {
-                MethodArg::BestFit | MethodArg::Chebyshev | MethodArg::Pairs => "pairs",
+                MethodArg::BestFit | MethodArg::Chebyshev | MethodArg::Zones | MethodArg::Pairs => "pairs",
                 MethodArg::ThreeTwoOne => "3-2-1",
                 MethodArg::Rps => "rps",
             };
@@ -169,7 +193,8 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
-    Ok(if document.sound() { Outcome::Conforming } else { Outcome::NotConforming })
+    let within = document.zones.as_ref().is_none_or(|z| z.excess <= 0.0);
+    Ok(if document.sound() && within { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
 fn best_fit(
@@ -200,11 +225,23 @@ fn best_fit(
         e => anyhow::anyhow!("{}: {e}", args.measured.display()),
     };
     let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
-    if args.method != MethodArg::Chebyshev {
-        return Ok(AlignDocument::of_best_fit(&fit, records, common.seed));
+    match args.method {
+        MethodArg::Chebyshev => {
+            let found = align::minimax(&measured, &target, &fit, &options, &stage).map_err(failed)?;
+            Ok(AlignDocument::of_minimax(&found, &fit, records, common.seed))
+        }
+        MethodArg::Zones => {
+            let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), &stage)?;
+            let rules = args.regions.as_deref().map(references::regions).transpose()?.unwrap_or_default();
+            let regions = Regions::new(&rules, reference, &tree, common.seed, &stage)
+                .map_err(|e| anyhow::anyhow!("{}: {e}", of_reference()))?;
+            let elsewhere = args.tolerance.map(|t| t.0);
+            let zones = |face, place: &Point| regions.allowed(face, place, elsewhere);
+            let found = align::into_zones(&measured, &target, &surface, &zones, &fit, &options, &stage);
+            Ok(AlignDocument::of_zones(&found.map_err(failed)?, &fit, records, common.seed))
+        }
+        _ => Ok(AlignDocument::of_best_fit(&fit, records, common.seed)),
     }
-    let found = align::minimax(&measured, &target, &fit, &options, &stage).map_err(failed)?;
-    Ok(AlignDocument::of_minimax(&found, &fit, records, common.seed))
 }
 
 /// The rows of a table: numbers parted by blanks, commas, semicolons or tabs; `#` begins a comment.
@@ -287,6 +324,23 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
             out,
             "greatest distance {} at {x}, {y}, {z}: the least near the best fit, of which:",
             six_digits(found.greatest)
+        );
+    }
+    if let Some(found) = &document.zones {
+        let [x, y, z] = found.at.map(six_digits);
+        let [lower, upper] = found.tolerance.map(|t| signed(t));
+        let _ = writeln!(
+            out,
+            "greatest excess {} at {x}, {y}, {z} (deviation {}, allowed {lower} … {upper}): the least near the best fit",
+            signed(found.excess),
+            signed(found.deviation)
+        );
+        let _ = writeln!(
+            out,
+            "{} within {}, {} at places without a tolerance; of the best fit:",
+            if found.excess <= 0.0 { "all" } else { "not all" },
+            counted(found.used, POINTS),
+            found.without_zone
         );
     }
     if let Some(fit) = &document.best_fit {

@@ -15,7 +15,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
-use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
+use trueness_inspect::results::place_map::{MapPlace, TrendMap};
+use trueness_inspect::results::trend::{
+    IndexRecord, MapPage, ResultInput, TrendDocument, TrendError, TrendRecord,
+};
+use trueness_inspect::trend::View;
 
 /// Longest result that is read, bytes.
 const LONGEST: u64 = 256 << 20;
@@ -28,7 +32,8 @@ const LONGEST: u64 = 256 << 20;
 #[command(after_help = "\
 Examples:
   trueness trend part-01.json part-02.json part-03.json
-  trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html")]
+  trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html
+  trueness trend results/*.json --map map.html      (results of `inspect --places`)")]
 pub struct TrendArgs {
     /// Results of `trueness inspect --json`, one part each, in their order
     #[arg(required = true)]
@@ -38,6 +43,9 @@ pub struct TrendArgs {
     /// Write the characteristics as a table, one line each
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Write a report with the maps of mean and spread over the part; needs results of `trueness inspect --places`
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
     #[command(flatten)]
     report: ReportArgs,
 }
@@ -47,7 +55,8 @@ impl Run for TrendArgs {
         Ok(RunFiles::of(&self.results)
             .document(self.document.json.as_ref())
             .report(self.report.html.as_ref())
-            .also("--csv", self.csv.as_ref()))
+            .also("--csv", self.csv.as_ref())
+            .also("--map", self.map.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let read = self.results.iter().map(|path| read(path));
@@ -57,11 +66,20 @@ impl Run for TrendArgs {
             TrendError::Different { index, .. } => anyhow!("{}: {e}", self.results[*index].display()),
             TrendError::None => anyhow!("{e}"),
         })?;
+        let page = self.map.as_ref().map(|path| (path, MapPage::of(&document)));
+        if let Some((path, None)) = &page {
+            let why = document.map_reason.as_deref().unwrap_or("there are no places");
+            bail!("{}: there is no map: {why}", path.display());
+        }
         if let Some(path) = &self.csv {
             let text = csv(&document);
             whole_file(path, |file| file.write_all(text.as_bytes()))?;
         }
         self.report.write(&document, &[], &[], common.progress)?;
+        if let (Some((path, Some(page))), Some(map)) = (page, &document.map) {
+            let view = View::new(map);
+            self.report.write_to(path, &page, &view.objects(), &[], common.progress)?;
+        }
         self.document.write(&document)?;
         self.document.table(|| table(&document))?;
         let well = document.verdict == Verdict::Pass && document.in_control;
@@ -127,6 +145,7 @@ fn table(document: &TrendDocument) -> String {
             let _ = writeln!(out, "  {}: {reason}", c.id);
         }
     }
+    out.extend(document.map.as_ref().map(of_map));
     let passed = document.parts.iter().filter(|p| p.verdict == Verdict::Pass).count();
     let _ = writeln!(
         out,
@@ -136,6 +155,26 @@ fn table(document: &TrendDocument) -> String {
         if document.in_control { "in control" } else { "out of control" },
         100.0 * document.confidence
     );
+    out
+}
+
+/// Where mean and spread over the part are greatest.
+fn of_map(map: &TrendMap) -> String {
+    let at = |place: Option<MapPlace>| match place {
+        None => "–".into(),
+        Some(MapPlace { position: [x, y, z], value, .. }) => {
+            let [x, y, z] = [x, y, z].map(|x| fixed(x, 3));
+            format!("{} at {x}, {y}, {z}", six_digits(value))
+        }
+    };
+    let complete = counted(map.complete, ["place", "places"]);
+    let mut out = format!(
+        "map: {complete} with a value in every part, {} with some, {} with none\n",
+        map.partial, map.without
+    );
+    for (name, of) in [("mean", &map.means), ("sigma", &map.std_devs)] {
+        let _ = writeln!(out, "  {name}: greatest {}", at(of.greatest));
+    }
     out
 }
 

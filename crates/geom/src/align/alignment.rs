@@ -70,6 +70,12 @@ pub enum AlignWarning {
         /// Points given.
         count: usize,
     },
+    /// Much of the measured does not lie on the reference, and of several independent searches one alone found this pose: a
+    /// better one may have been missed.
+    Unconfirmed {
+        /// Searches made.
+        searches: usize,
+    },
     /// The iteration did not settle.
     NotConverged,
 }

@@ -1,10 +1,12 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
-use super::icp::{MOST, Match, Problem, weighted_median};
+use super::icp::{MOST, Match, OF_MEDIAN, Problem, weighted_median};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
-use super::{AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom};
+use super::{
+    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
+};
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
@@ -30,6 +32,14 @@ const DOUBTFUL: f64 = 0.6;
 const POOR: f64 = 0.01;
 /// Fewer points than these are found wrongly now and then: of clouds of 20 about one in ten, of 25 none in tries with a bracket.
 const SPARSE: usize = 50;
+/// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.
+const EXPLAINED: f64 = 0.95;
+const AGAIN: usize = 2;
+/// Starts that such a search iterates to the end.
+const BRIEF: usize = 5;
+/// How often, from where the last round ended, and the share of the spacing that is no other pose.
+const ROUNDS: usize = 3;
+const SAME: f64 = 0.02;
 /// Factors between units that are confused.
 const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
@@ -77,29 +87,53 @@ pub fn best_fit(
     let samples = checked(measured, reference)?;
     let boundary_edges = BoundaryEdges::watched(reference.tree, progress)?;
     let work = Work::new(reference, &boundary_edges, options, &samples);
-    let start = match options.start {
+    let mut start = match options.start {
         Start::Anywhere => work.search(&samples, progress)?,
         Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
     };
     let turned = |samples: Samples| if start.turned { samples.turned() } else { samples };
     let samples = turned(samples);
     let some = samples.thinned(SOME, options.seed);
-    let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
     // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
     let surface = turned(Samples::of_surface(measured));
     let surface = work.problem(&surface);
-    let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
-    let mut result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
-    if let Some(search) = &start.search {
-        result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
-        if let Some(pose) = nearest(search, &result) {
-            let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
-            result = work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)?;
-            result.alternatives = work.alternatives(search, &start.poses, &result, &some, progress)?;
+    let settled = |pose: Rigid, sigma: f64| {
+        let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
+        work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)
+    };
+    let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
+    let mut result = settled(pose, sigma)?;
+    let mut unconfirmed = None;
+    if let Some(search) = start.search.take() {
+        if options.robust && result.share < EXPLAINED {
+            let own = result.reference_from_measured;
+            let again = work.sought_again(&search, &own, &samples, &some, progress)?;
+            start.poses.push(own);
+            start.poses.extend(&again);
+            let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), &some, progress)?;
+            result = settled(pose, sigma)?;
+            for _ in 0..ROUNDS {
+                let pose = work.around(&search, &result, &some, progress)?;
+                if search.apart(&result.reference_from_measured, &pose) <= SAME * search.spacing {
+                    break;
+                }
+                result = settled(pose, sigma)?;
+            }
+            let pose = result.reference_from_measured;
+            let here = |r: &&Rigid| search.apart(r, &pose) <= search.spacing;
+            let found = [own].iter().chain(&again).filter(here).count();
+            unconfirmed = (found < 2).then_some(1 + AGAIN);
         }
+        result.alternatives = work.alternatives(&search, &start.poses, &result, &some, progress)?;
+        if let Some(pose) = better(&search, &result) {
+            result = settled(pose, sigma)?;
+            result.alternatives = work.alternatives(&search, &start.poses, &result, &some, progress)?;
+        }
+        start.search = Some(search);
     }
     result.warnings = work.warnings(&result, &start, measured);
+    result.warnings.extend(unconfirmed.map(|searches| AlignWarning::Unconfirmed { searches }));
     Ok(result)
 }
 
@@ -200,10 +234,70 @@ impl<'a> Work<'a> {
             }
         }
         let scale = self.scale(&search, best(&candidates), progress)?;
-        let refined = search.refine(&candidates, &self.problem(&search.samples), progress)?;
+        let poses = self.promising(&search, &candidates, progress)?;
+        Ok(Found { poses, turned, scale, search: Some(search) })
+    }
+
+    /// The best of the candidates, refined on the samples of the search.
+    fn promising(
+        &self,
+        search: &Search,
+        candidates: &[Candidate],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let refined = search.refine(candidates, &self.problem(&search.samples), progress)?;
         let least = refined.first().map_or(0.0, |r| r.0);
-        let good = refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect();
-        Ok(Found { poses: good, turned, scale, search: Some(search) })
+        Ok(refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect())
+    }
+
+    /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
+    /// may miss the place. As soon as one ends at `own` it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
+    fn sought_again(
+        &self,
+        search: &Search,
+        own: &Rigid,
+        samples: &Samples,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let mut found = vec![];
+        for k in 1..=AGAIN as u64 {
+            let seed = self.options.seed.wrapping_add(k);
+            let again = search.again(samples.thinned(FEW, seed).with_normals(&samples.points), seed);
+            let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
+            let mut poses = self.promising(&again, &candidates, progress)?;
+            poses.truncate(BRIEF);
+            if !poses.is_empty() {
+                found.push(self.choose(&poses, some, progress)?.0);
+            }
+            if found.last().is_some_and(|f| search.apart(f, own) <= search.spacing) {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The best pose about that of the result.
+    pub(super) fn around(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Rigid, AlignError> {
+        let pose = result.reference_from_measured;
+        let few = self.problem(&search.samples);
+        let mut matches = few.matches(&pose, f64::INFINITY, progress)?;
+        let sigma = few.deviation(&matches);
+        few.weigh(&mut matches, sigma);
+        let system = few.system_of_facets(&matches, &pose);
+        let tried = near::poses(&system, &result.freedoms, &pose, search.spacing);
+        let cap = self.cap(OF_MEDIAN * result.median);
+        let best = search.nearest_of(&tried, &pose, &few, cap, progress)?;
+        if best.is_empty() {
+            return Ok(pose);
+        }
+        Ok(self.choose(&[&[pose][..], &best].concat(), some, progress)?.0)
     }
 
     /// The factor between units by which the measured fits better than as it is.
@@ -256,7 +350,7 @@ impl<'a> Work<'a> {
     }
 
     /// Figures of the result at `pose`.
-    fn worth(
+    pub(super) fn worth(
         &self,
         all: &Problem,
         pose: &Rigid,
@@ -361,8 +455,11 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Of the poses that fit equally well the one that moves least, if that is not the result's.
-fn nearest(search: &Search, result: &Alignment) -> Option<Rigid> {
+/// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.
+fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
+    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL < 1.0) {
+        return Some(best.reference_from_measured);
+    }
     let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
     let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
     let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;

@@ -51,6 +51,9 @@ pub enum AlignError {
         /// How many.
         free: usize,
     },
+    /// No point that counts lies where something is asked.
+    #[error("no point lies over a place that has a tolerance: give one to places where there are points")]
+    NoZone,
     /// The search did not settle.
     #[error("the search for the least greatest distance did not settle")]
     NotSettled,

@@ -22,7 +22,7 @@ use crate::space::{Point, Vector, minus, norm, unit};
 const FULL: f64 = 6.0;
 const NONE: f64 = 10.0;
 /// Standard deviation over median magnitude of a normal distribution.
-const OF_MEDIAN: f64 = 1.4826;
+pub(super) const OF_MEDIAN: f64 = 1.4826;
 /// Iterations before the fit counts as not converging.
 pub(super) const MOST: usize = 200;
 /// Share of its own standard uncertainty below which a step is none.

@@ -72,31 +72,8 @@ pub fn minimax(
     options: &BestFit,
     progress: &dyn Progress,
 ) -> Result<Minimax, AlignError> {
-    if !from.freedoms.is_empty() {
-        return Err(AlignError::Free { free: from.freedoms.len() });
-    }
-    let all = Samples::all(measured);
-    let samples = if from.warnings.contains(&AlignWarning::NormalsTurned) { all.turned() } else { all };
-    let edges = BoundaryEdges::watched(reference.tree, progress)?;
-    let moments = samples.moments();
-    let problem = Problem {
-        target: reference,
-        boundary_edges: (edges.count() > 0).then_some(&edges),
-        samples: &samples,
-        mean: moments.mean,
-        robust: options.robust,
-        radius: moments.radius(),
-        rounding: 4.0 * f64::EPSILON * moments.radius().max(reference.bounds.diagonal()),
-    };
     let start = from.reference_from_measured;
-    let mut matches = problem.matches(&start, f64::INFINITY, progress)?;
-    let sigma = problem.deviation(&matches);
-    problem.weigh(&mut matches, sigma);
-    let counts: Vec<usize> = (0..matches.len()).filter(|&i| matches[i].equation.weight > 0.0).collect();
-    let points: Vec<Point> = counts.iter().map(|&i| samples.points[i]).collect();
-    if points.is_empty() {
-        return Err(AlignError::NoOverlap);
-    }
+    let Counting { points, weights, left_out } = Counting::of(measured, reference, from, options, progress)?;
     let distance = |_: usize, p: Point| -> Option<(f64, Vector)> {
         let place = reference.tree.closest(&p, f64::INFINITY).ok().flatten()?;
         let away = minus(p, place.point);
@@ -107,24 +84,79 @@ pub fn minimax(
         }
     };
     let search = Search { start, free: Freedom::ALL, middle: 0.0, floating: false, outer: false };
-    let found = placed(&points, &distance, &search, progress).map_err(|e| match e {
-        ZoneError::Cancelled => AlignError::Cancelled(crate::progress::Cancelled),
-        _ => AlignError::NotSettled,
-    })?;
+    let found = placed(&points, &distance, &search, progress).map_err(unsettled)?;
     let motion = found.motion;
     let ends: Vec<f64> = points.iter().map(|p| distance(0, motion.point(*p)).map_or(0.0, |d| d.0)).collect();
-    let weights = || counts.iter().map(|&i| samples.weights[i]);
-    let sum = |f: &dyn Fn(f64) -> f64| {
-        let terms = weights().zip(&ends).map(|(w, d)| w * f(*d));
-        terms.fold(Sum::default(), Sum::plus).value() / weights().sum::<f64>()
-    };
+    let sum = |f: &dyn Fn(f64) -> f64| weighted_mean(&weights, &ends, f);
     Ok(Minimax {
         reference_from_measured: motion,
         greatest: found.half,
         at: motion.point(points[found.max.1]),
         rms: sum(&|d| d * d).sqrt(),
         mean_abs: sum(&|d| d),
-        used: counts.len() as u64,
-        left_out: (matches.len() - counts.len()) as u64,
+        used: points.len() as u64,
+        left_out,
     })
+}
+
+/// The points that count in a best fit, which searches from it look at alone.
+pub(super) struct Counting {
+    pub points: Vec<Point>,
+    pub weights: Vec<f64>,
+    /// Number of the others.
+    pub left_out: u64,
+}
+
+impl Counting {
+    /// Of the best fit `from`, which must leave nothing free.
+    pub fn of(
+        measured: &Measured,
+        reference: &Target,
+        from: &Alignment,
+        options: &BestFit,
+        progress: &dyn Progress,
+    ) -> Result<Counting, AlignError> {
+        if !from.freedoms.is_empty() {
+            return Err(AlignError::Free { free: from.freedoms.len() });
+        }
+        let all = Samples::all(measured);
+        let samples = if from.warnings.contains(&AlignWarning::NormalsTurned) { all.turned() } else { all };
+        let edges = BoundaryEdges::watched(reference.tree, progress)?;
+        let moments = samples.moments();
+        let problem = Problem {
+            target: reference,
+            boundary_edges: (edges.count() > 0).then_some(&edges),
+            samples: &samples,
+            mean: moments.mean,
+            robust: options.robust,
+            radius: moments.radius(),
+            rounding: 4.0 * f64::EPSILON * moments.radius().max(reference.bounds.diagonal()),
+        };
+        let mut matches = problem.matches(&from.reference_from_measured, f64::INFINITY, progress)?;
+        let sigma = problem.deviation(&matches);
+        problem.weigh(&mut matches, sigma);
+        let counts: Vec<usize> = (0..matches.len()).filter(|&i| matches[i].equation.weight > 0.0).collect();
+        if counts.is_empty() {
+            return Err(AlignError::NoOverlap);
+        }
+        Ok(Counting {
+            points: counts.iter().map(|&i| samples.points[i]).collect(),
+            weights: counts.iter().map(|&i| samples.weights[i]).collect(),
+            left_out: (matches.len() - counts.len()) as u64,
+        })
+    }
+}
+
+/// Why a search found nothing.
+pub(super) fn unsettled(error: ZoneError) -> AlignError {
+    match error {
+        ZoneError::Cancelled => AlignError::Cancelled(crate::progress::Cancelled),
+        _ => AlignError::NotSettled,
+    }
+}
+
+/// Weighted mean of `f` of the values.
+pub(super) fn weighted_mean(weights: &[f64], values: &[f64], f: &dyn Fn(f64) -> f64) -> f64 {
+    let terms = weights.iter().zip(values).map(|(w, d)| w * f(*d));
+    terms.fold(Sum::default(), Sum::plus).value() / weights.iter().sum::<f64>()
 }

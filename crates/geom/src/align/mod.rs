@@ -27,6 +27,7 @@ mod field;
 mod freedom;
 mod icp;
 mod minimax;
+mod near;
 mod response;
 mod rows;
 mod sample;
@@ -35,6 +36,7 @@ mod system;
 mod target;
 #[cfg(test)]
 mod tests;
+mod zones;
 
 pub use alignment::{AlignWarning, Alignment, Alternative, BestFit, Start};
 pub use best_fit::best_fit;
@@ -45,3 +47,4 @@ pub use response::{Response, response};
 pub use rows::{Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use target::Target;
+pub use zones::{InZones, ZoneAt, into_zones};

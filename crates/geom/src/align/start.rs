@@ -9,7 +9,7 @@ use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times};
 use std::sync::Arc;
 
 /// Places on the reference whose pairs are known.
@@ -28,6 +28,14 @@ const COMPARABLE: f64 = 0.5;
 /// Starts that are refined, and those whose refined pose is looked at closely.
 const REFINED: usize = 32;
 const CLOSE: usize = 12;
+/// Share of the spacing within which places count where poses close together are told apart.
+const NEAR: f64 = 0.5;
+/// Share of the spacing for what cannot be told from zero in the first steps: ten standard deviations are half a spacing then.
+const WIDE: f64 = 0.05 / 16.0;
+/// Cost over that of the pose there is, up to which another may be the better one: the samples are few.
+const WORSE: f64 = 1.1;
+/// Share of the spacing from which on poses are not the same.
+const OTHER: f64 = 0.05;
 
 /// The search for a start.
 pub(super) struct Search {
@@ -85,8 +93,12 @@ impl Search {
 
     /// The same for samples `factor` times as large.
     pub fn scaled(&self, factor: f64) -> Search {
-        let samples = self.samples.scaled(factor);
-        let (bounds, known, spacing, seed) = (self.bounds, self.known.clone(), self.spacing, self.seed);
+        self.again(self.samples.scaled(factor), self.seed)
+    }
+
+    /// The same for other samples and random choices.
+    pub fn again(&self, samples: Samples, seed: u64) -> Search {
+        let (bounds, known, spacing) = (self.bounds, self.known.clone(), self.spacing);
         Search { measured: samples.moments(), samples, bounds, known, spacing, seed }
     }
 
@@ -266,6 +278,52 @@ impl Search {
             }
         }
         Ok(kept)
+    }
+
+    /// Those of many poses, refined, that are other than `own` and not clearly worse, best first; they may lie close together. No distance
+    /// counts for more than `cap`.
+    pub fn nearest_of(
+        &self,
+        poses: &[Rigid],
+        own: &Rigid,
+        problem: &Problem,
+        cap: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let reach = NEAR * self.spacing;
+        let mut tried: Vec<(f64, Rigid)> =
+            poses.par_iter().map(|p| (self.worth_within(p, reach), *p)).collect();
+        tried.sort_by(|x, y| y.0.total_cmp(&x.0));
+        tried.truncate(REFINED);
+        // What is some way off must count at first: as outliers it would draw nothing.
+        let wide = Problem { rounding: problem.rounding.max(WIDE * self.spacing), ..*problem };
+        let refined: Result<Vec<(f64, Rigid)>, AlignError> = (tried.par_iter())
+            .map(|(_, pose)| {
+                let pose = wide.run(*pose, self.spacing, 8, progress)?.pose;
+                let pose = problem.run(pose, self.spacing, 8, progress)?.pose;
+                Ok((problem.cost(&pose, cap, progress)?, pose))
+            })
+            .collect();
+        let mut refined = refined?;
+        refined.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let most = WORSE * problem.cost(own, cap, progress)?;
+        let other = |a: &Rigid, b: &Rigid| self.apart(a, b) > OTHER * self.spacing;
+        let mut kept: Vec<Rigid> = vec![];
+        for (_, pose) in refined.into_iter().filter(|r| r.0 <= most && other(&r.1, own)) {
+            if kept.len() < CLOSE / 2 && kept.iter().all(|k| other(k, &pose)) {
+                kept.push(pose);
+            }
+        }
+        Ok(kept)
+    }
+
+    /// Mean worth of all samples at a pose, within a reach of its own.
+    fn worth_within(&self, pose: &Rigid, reach: f64) -> f64 {
+        let samples = self.samples.points.iter().zip(&self.samples.normals);
+        let worth = |(p, n): (&Point, &Vector)| {
+            self.known.field.worth(pose.point(*p), pose.vector(*n), self.samples.oriented, reach)
+        };
+        samples.map(worth).sum::<f64>() / self.samples.points.len() as f64
     }
 
     /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the

@@ -54,13 +54,6 @@ pub struct Search {
     pub outer: bool,
 }
 
-impl Search {
-    /// How far a distance is out of the middle, on the sides that count.
-    fn off(&self, d: f64, middle: f64) -> f64 {
-        if self.outer { d - middle } else { (d - middle).abs() }
-    }
-}
-
 /// The least greatest distance of `points` (mm) over the free motions, and the motion that has it.
 ///
 /// Local: the motion nearest to `start`. Without freedom, one pass. Each round costs a pass over all points; two to five
@@ -92,11 +85,42 @@ pub fn placed(
     search: &Search,
     progress: &dyn Progress,
 ) -> Result<Placed, ZoneError> {
+    placed_within(points, distance, &[], search, progress)
+}
+
+/// As [`placed`], where each point has a `room` of its own that is taken off its magnitude before the greatest counts, millimeters: half the
+/// width of the zone that it may fill. `half` is the greatest excess, negative where all points are within their rooms. Without any rooms
+/// (an empty list) it is [`placed`]; a list of another length than `points` has rooms of zero where it lacks them.
+///
+/// # Errors
+/// Those of [`placed`].
+///
+/// ```
+/// use trueness_geom::progress::Silent;
+/// use trueness_geom::rigid::Rigid;
+/// use trueness_geom::zone::datum::Freedom;
+/// use trueness_geom::zone::motion::{Search, placed_within};
+/// // Points at the heights 0 and 1, free to rise. The lower may be off by 0.1, the upper by 0.5: it takes the more of what is left.
+/// let height = |_, p: [f64; 3]| Some((p[2], [0.0, 0.0, 1.0]));
+/// let free = Freedom { shift: [false, false, true], turn: [false; 3] };
+/// let search = Search { start: Rigid::IDENTITY, free, middle: 0.0, floating: false, outer: false };
+/// let found = placed_within(&[[0.0; 3], [0.0, 0.0, 1.0]], &height, &[0.1, 0.5], &search, &Silent)?;
+/// assert!((found.half - 0.2).abs() < 1e-12 && (found.motion.point([0.0; 3])[2] + 0.3).abs() < 1e-12);
+/// # Ok::<(), trueness_geom::zone::ZoneError>(())
+/// ```
+pub fn placed_within(
+    points: &[Point],
+    distance: &Distance,
+    room: &[f64],
+    search: &Search,
+    progress: &dyn Progress,
+) -> Result<Placed, ZoneError> {
     sane(points)?;
     let moved: Vec<Point> = points.iter().map(|p| search.start.point(*p)).collect();
     let bounds = Aabb::of(&moved);
     let center = times(0.5, plus(bounds.min, bounds.max));
-    let work = Work { points: &moved, distance, search, center, reach: 0.5 * bounds.diagonal().max(1e-9) };
+    let work =
+        Work { points: &moved, distance, room, search, center, reach: 0.5 * bounds.diagonal().max(1e-9) };
     let mut motion = Rigid::IDENTITY;
     if search.free.is_none() && !search.floating {
         return work.surveyed(search.middle, &motion).map(|s| s.placed(search, &motion));
@@ -114,8 +138,8 @@ pub fn placed(
         let before = working.len();
         if all.half > low.half {
             let mut out: Vec<usize> =
-                (0..points.len()).filter(|&i| search.off(all.values[i], middle) > low.half).collect();
-            let far = |i: &usize| search.off(all.values[*i], middle);
+                (0..points.len()).filter(|&i| work.off(i, all.values[i], middle) > low.half).collect();
+            let far = |i: &usize| work.off(*i, all.values[*i], middle);
             out.sort_by(|i, j| far(j).total_cmp(&far(i)).then(i.cmp(j)));
             out.truncate(JOINING);
             out.retain(|i| !working.contains(i));
@@ -131,6 +155,7 @@ pub fn placed(
 struct Work<'a> {
     points: &'a [Point],
     distance: &'a Distance<'a>,
+    room: &'a [f64],
     search: &'a Search,
     /// Turns are about this place, in units that move the farthest point by a millimeter.
     center: Point,
@@ -167,6 +192,16 @@ impl Surveyed {
 const UNKNOWNS: usize = 7;
 
 impl Work<'_> {
+    fn room(&self, i: usize) -> f64 {
+        self.room.get(i).copied().unwrap_or(0.0)
+    }
+
+    /// How far the distance of point `i` is out of the middle and its room, on the sides that count.
+    fn off(&self, i: usize, d: f64, middle: f64) -> f64 {
+        let out = if self.search.outer { d - middle } else { (d - middle).abs() };
+        out - self.room(i)
+    }
+
     fn surveyed(&self, middle: f64, motion: &Rigid) -> Result<Surveyed, ZoneError> {
         let one = |(i, p): (usize, &Point)| {
             (self.distance)(i, motion.point(*p)).map(|d| d.0).filter(|d| d.is_finite())
@@ -177,23 +212,27 @@ impl Work<'_> {
             return Err(ZoneError::NotFinite { index });
         }
         let values: Vec<f64> = values.into_iter().flatten().collect();
-        let half = values.iter().fold(f64::NEG_INFINITY, |m, d| m.max(self.search.off(*d, middle)));
+        let off = values.iter().enumerate().map(|(i, d)| self.off(i, *d, middle));
+        let half = off.fold(f64::NEG_INFINITY, f64::max);
         Ok(Surveyed { values, half })
     }
 
     fn greatest(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<f64> {
         working.iter().try_fold(f64::NEG_INFINITY, |most, &i| {
             let (d, _) = (self.distance)(i, motion.point(self.points[i]))?;
-            d.is_finite().then(|| most.max(self.search.off(d, middle)))
+            d.is_finite().then(|| most.max(self.off(i, d, middle)))
         })
     }
 
     /// How far the distances that count range: the size of the first box.
     fn range(&self, working: &[usize], motion: &Rigid, middle: f64, half: f64) -> f64 {
-        if !self.search.outer {
-            return half;
-        }
         let at = |i: &usize| (self.distance)(*i, motion.point(self.points[*i])).map_or(0.0, |d| d.0 - middle);
+        if !self.search.outer {
+            return match self.room.is_empty() {
+                true => half,
+                false => working.iter().map(|i| at(i).abs()).fold(0.0, f64::max),
+            };
+        }
         half - working.iter().map(at).fold(f64::INFINITY, f64::min)
     }
 
@@ -212,9 +251,10 @@ impl Work<'_> {
                 _ => 0.0,
             });
             slope[6] = if self.search.floating { -1.0 } else { 0.0 };
-            all.push(Function { level: d - middle, slope });
+            let room = self.room(i);
+            all.push(Function { level: d - middle - room, slope });
             if !self.search.outer {
-                all.push(Function { level: middle - d, slope: slope.map(|x| -x) });
+                all.push(Function { level: middle - d - room, slope: slope.map(|x| -x) });
             }
         }
         Some(all)

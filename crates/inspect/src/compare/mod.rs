@@ -25,7 +25,7 @@ pub use document::{Inputs, document};
 pub use excluded::Excluded;
 pub use facing::{Facing, facet_normals, vertex_normals};
 pub use found::Comparisons;
-pub use map::MapSurface;
+pub use map::{MapSurface, PlaceMeans};
 pub use options::{Coverage, Method, Options};
 pub use outliers::{NoLimits, OutlierLimits, OutlierRule};
 pub use reference::{Compared, Outliers, RegionFound, Values, WorstPlace};

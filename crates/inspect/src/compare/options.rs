@@ -70,6 +70,8 @@ pub struct Options {
     pub outliers: Option<OutlierRule>,
     /// Which part of the references the points cover; with a report it is looked for in any case.
     pub coverage: Option<Coverage>,
+    /// Whether mean deviations are kept at places of the references that are the same for every part.
+    pub places: bool,
     /// Parts of the references with tolerances of their own, the first that has a place counts.
     pub regions: Vec<RegionRule>,
     /// The zone that deviations must keep; those of no region, where there are regions.
@@ -96,6 +98,7 @@ impl Default for Options {
             facing: None,
             outliers: None,
             coverage: None,
+            places: false,
             regions: vec![],
             tolerance: None,
             required_share: 1.0,

@@ -4,7 +4,7 @@ use super::against::{Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
 use super::excluded::Excluded;
 use super::facing::Facing;
-use super::map::{Flagged, Foot, MapSurface, PointMap};
+use super::map::{Flagged, Foot, MapSurface, PlaceMeans, PointMap};
 use super::options::{Coverage, Method, Options};
 use super::outliers::{NoLimits, OutlierLimits, OutlierRule};
 use super::region::{RegionRule, Regions};
@@ -59,6 +59,8 @@ pub struct Compared {
     pub splines: Option<SplinesFound>,
     /// The reference colored by the points near each place, for a report and for what is not covered.
     pub map: Option<MapSurface>,
+    /// Mean deviations at places that are the same for every part, where they are asked for.
+    pub places: Option<PlaceMeans>,
 }
 
 /// What was found in a region.
@@ -192,8 +194,9 @@ impl<'a> Running<'a> {
             coverage: options.coverage.unwrap_or_default(),
             worst: WorstPlaces::new(&mesh.bounds()),
             paper,
-            map: (options.shown > 0 || options.coverage.is_some())
-                .then(|| PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()))),
+            map: (options.shown > 0 || options.coverage.is_some() || options.places).then(|| {
+                PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
+            }),
             regions,
             mesh,
             left_out: reference.left_out.0.to_vec(),
@@ -207,7 +210,7 @@ impl<'a> Running<'a> {
         points: &[Point],
         progress: &dyn Progress,
     ) -> Result<Taken, PaperError> {
-        let (map, regions) = (self.map.as_ref(), self.regions.as_ref());
+        let (map, regions) = (self.map.as_ref().map(|map| (map, self.mesh)), self.regions.as_ref());
         let asked = Asked { start, map, facing: self.facing.as_ref(), regions };
         let Measures { mut deviations, feet, regions, uncertain } =
             self.target.measure(points, &asked, progress)?;
@@ -321,7 +324,11 @@ impl<'a> Running<'a> {
         let flag =
             |w: &WorstPlace| Flagged { face: w.face, weights: w.weights, deviation: w.place.deviation };
         let flagged: Vec<Flagged> = worst.iter().map(flag).collect();
+        let mut map = self.map;
+        let places = map.as_mut().and_then(PointMap::take_places);
+        let map = map.map(|map| MapSurface::of(self.mesh, &map, &flagged, self.coverage));
         Ok(Compared {
+            places: places.zip(map.as_ref()).map(|(places, map)| places.means(map.carried)),
             diagonal: self.mesh.bounds().diagonal(),
             histogram: self.values.histogram(&summary.all, self.limits.as_ref()),
             limits: self.limits,
@@ -354,7 +361,7 @@ impl<'a> Running<'a> {
             outliers: self.outliers,
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
             splines: self.splines,
-            map: self.map.map(|map| MapSurface::of(self.mesh, &map, &flagged, self.coverage)),
+            map,
         })
     }
 }

@@ -130,6 +130,12 @@ impl Regions {
         facet.into_iter().chain(first).min().unwrap_or(0)
     }
 
+    /// What a deviation may be at a place of facet `face`: as its region says, `else_where` where it is in none.
+    pub fn allowed(&self, face: u32, place: &Point, else_where: Option<Tolerance>) -> Option<[f64; 2]> {
+        let zone = self.zone(self.of(face, place)).or(else_where)?;
+        Some([zone.lower, zone.upper])
+    }
+
     /// The zone of a region by its number.
     pub fn zone(&self, number: u16) -> Option<Tolerance> {
         self.rules.get(usize::from(number).checked_sub(1)?).map(|r| r.tolerance)

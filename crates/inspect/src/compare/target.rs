@@ -51,8 +51,8 @@ pub struct Nearest {
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     pub start: u64,
-    /// Where nearest places are looked up.
-    pub map: Option<&'a PointMap>,
+    /// Where nearest places are looked up, and the facets they lie on.
+    pub map: Option<(&'a PointMap, &'a Mesh)>,
     /// Only points that look the same way count.
     pub facing: Option<&'a Facing>,
     /// Parts of the reference that are told apart.
@@ -68,7 +68,7 @@ impl Asked<'_> {
     /// What is kept of a point with this deviation and place on the reference.
     fn kept(&self, deviation: f64, face: u32, weights: [f64; 3], place: &Point) -> Kept {
         let region = self.regions.map_or(0, |r| r.of(face, place));
-        (deviation, self.map.map(|map| map.foot(face, weights)), region)
+        (deviation, self.map.map(|(map, mesh)| map.foot(mesh, face, weights)), region)
     }
 
     /// Whether point `i` of these may count beside a place of the reference with this normal.
@@ -199,7 +199,7 @@ impl<'a> Target<'a> {
                         return (facing, None, foot.certain);
                     }
                     let map = asked.map.filter(|_| deviation.is_finite());
-                    (deviation, map.map(|map| map.foot(foot.face, foot.weights)), foot.certain)
+                    (deviation, map.map(|(map, mesh)| map.foot(mesh, foot.face, foot.weights)), foot.certain)
                 })?;
                 let uncertain = found.iter().filter(|f| !f.2).count() as u64;
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();

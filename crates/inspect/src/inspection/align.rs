@@ -2,14 +2,19 @@
 
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
+use super::deviation;
 use super::seed::Seeded;
 use super::{Taken, take};
 use crate::characteristic::{Missing, datum_source};
+use crate::compare::Regions;
 use crate::plan::{Align, Plan};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use trueness_geom::align::{self, AlignError, BestFit, Measured, Minimax, RowFit, Target, best_fit, minimax};
+use trueness_geom::align::{
+    self, AlignError, BestFit, InZones, Measured, Minimax, RowFit, Target, best_fit, into_zones, minimax,
+};
 use trueness_geom::closest::Tree;
+use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
@@ -34,6 +39,8 @@ pub enum Found {
     BestFit(Box<align::Alignment>),
     /// The least greatest distance, and the best fit that it began with.
     Chebyshev(Minimax, Box<align::Alignment>),
+    /// The least greatest excess over the zones, and the best fit that it began with.
+    Zones(InZones, Box<align::Alignment>),
     /// A fit of pairs or reference points.
     Rows(RowFit),
 }
@@ -57,8 +64,9 @@ pub(super) fn aligned(
         Align::Datum { start: None, .. } if data.measured.is_none() || data.reference.is_none() => {
             Alignment { motion: Rigid::IDENTITY, found: Found::Nothing }
         }
-        Align::BestFit | Align::Datum { start: None, .. } => best_fitted(&data, false, progress)?,
-        Align::Chebyshev => best_fitted(&data, true, progress)?,
+        Align::BestFit | Align::Chebyshev | Align::Zones | Align::Datum { start: None, .. } => {
+            best_fitted(plan, &data, seeds, progress)?
+        }
         Align::Pairs { measured, nominal, weights } => rows(align::pairs(measured, nominal, Some(weights)))?,
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
     };
@@ -93,8 +101,13 @@ pub(super) fn failed(e: AlignError) -> Stop {
     }
 }
 
-/// The best fit of the measured data onto the reference, and from there the least greatest distance, if that is what counts.
-fn best_fitted(data: &Data, chebyshev: bool, progress: &dyn Progress) -> Result<Alignment, Stop> {
+/// The best fit of the measured data onto the reference, and from there the least greatest distance or excess, if that is what counts.
+fn best_fitted(
+    plan: &Plan,
+    data: &Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Alignment, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
         return Err(Stop::Align("one of them is not there".into()));
     };
@@ -107,7 +120,19 @@ fn best_fitted(data: &Data, chebyshev: bool, progress: &dyn Progress) -> Result<
     let options = BestFit { seed: data.seed, ..BestFit::default() };
     let target = Target::new(reference, &tree);
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
-    if chebyshev {
+    if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
+        let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)
+            .map_err(|e| Stop::Align(e.to_string()))?;
+        let rules = deviation::regions(asked, plan, seeds, reference, progress)?;
+        let regions = Regions::new(&rules, reference, &tree, data.seed, progress)
+            .map_err(|e| Stop::Align(e.to_string()))?;
+        let zones = |face, place: &_| regions.allowed(face, place, asked.tolerance);
+        let found =
+            into_zones(&measured, &target, &surface, &zones, &fit, &options, progress).map_err(failed)?;
+        let motion = found.reference_from_measured;
+        return Ok(Alignment { motion, found: Found::Zones(found, Box::new(fit)) });
+    }
+    if plan.align == Align::Chebyshev {
         let found = minimax(&measured, &target, &fit, &options, progress).map_err(failed)?;
         let motion = found.reference_from_measured;
         return Ok(Alignment { motion, found: Found::Chebyshev(found, Box::new(fit)) });

@@ -19,6 +19,8 @@ pub struct Data {
     pub reference_left_out: Vec<u32>,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
+    /// Whether deviations are kept at places that are the same for every part.
+    pub places: bool,
     /// The points of features that have files of their own, by the number of the feature.
     pub points: BTreeMap<usize, OwnPoints>,
     /// Seed of the random choices of the alignment.

@@ -8,6 +8,7 @@ use crate::compare::{
 use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
 use crate::results::compare::MeasuredKind;
+use crate::results::place_map::PlaceMap;
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 use trueness_geom::closest::{QueryError, Tree};
@@ -32,6 +33,18 @@ pub struct Deviations {
 }
 
 impl Deviations {
+    /// Deviations at places that are the same for every part, where they were asked for.
+    pub fn place_map(&self) -> Option<PlaceMap> {
+        let found = self.found.references.first()?.places.as_ref()?;
+        Some(PlaceMap {
+            places: found.mesh.positions.clone(),
+            facets: found.mesh.faces.clone(),
+            deviations: found.means.iter().map(|d| Some(*d).filter(|d| d.is_finite())).collect(),
+            points: found.counts.clone(),
+            reach: found.reach,
+        })
+    }
+
     /// The reference under the name that documents call it by.
     pub fn references(&self, name: &str) -> [Reference<'_>; 1] {
         [reference(name, &self.reference, &self.left_out)]
@@ -72,6 +85,7 @@ pub(super) fn deviations(
         tolerance: asked.tolerance,
         required_share: asked.required_share,
         shown: data.shown,
+        places: data.places,
         seed: data.seed,
         ..Options::default()
     };
@@ -88,7 +102,7 @@ pub(super) fn deviations(
 }
 
 /// The regions, those of features with their facets.
-fn regions(
+pub(super) fn regions(
     asked: &Deviation,
     plan: &Plan,
     seeds: &BTreeMap<usize, Seeded>,

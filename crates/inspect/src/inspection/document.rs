@@ -50,6 +50,7 @@ impl InspectDocument {
             ),
             characteristics,
             deviation,
+            deviation_map: None,
             scale,
         }
     }
@@ -63,6 +64,7 @@ impl AlignmentRecord {
             rms: None,
             mean_abs: None,
             greatest: None,
+            excess: None,
             residuals: None,
             iterations: None,
             converged: None,
@@ -82,6 +84,15 @@ impl AlignmentRecord {
                 rms: Some(minimax.rms),
                 mean_abs: Some(minimax.mean_abs),
                 greatest: Some(minimax.greatest),
+                iterations: Some(fit.iterations as u64),
+                converged: Some(fit.converged),
+                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                ..bare
+            },
+            Found::Zones(zones, fit) => AlignmentRecord {
+                rms: Some(zones.rms),
+                mean_abs: Some(zones.mean_abs),
+                excess: Some(zones.excess),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
                 warnings: fit.warnings.iter().map(AlignNote::of).collect(),

@@ -64,7 +64,8 @@ impl PoseNoise {
         let options = BestFit { seed: data.seed, ..BestFit::default() };
         let found = response(&of, &Target::new(reference, &tree), fit, &options, progress);
         let found = found.map_err(super::align::failed)?;
-        Ok(PoseNoise::Response(Box::new(Answer::new(&found, points, noise, features))))
+        let of_features = features.iter().flat_map(|f| &f.points);
+        Ok(PoseNoise::Response(Box::new(Answer::new(&found, points, noise, of_features))))
     }
 
     /// The motion of the pose in a draw of the noise; `moved` are the features with their noise.
@@ -86,14 +87,18 @@ impl PoseNoise {
 }
 
 impl Answer {
-    fn new(found: &Response, points: &[Point], noise: &Noise, features: &[Taken]) -> Answer {
+    fn new<'a>(
+        found: &Response,
+        points: &[Point],
+        noise: &Noise,
+        of_features: impl Iterator<Item = &'a Point>,
+    ) -> Answer {
         let sources = |p: &Point| {
             let (parts, count) = parts(p, noise.correlation);
             let size = parts.iter().map(|p| p.1 * p.1).sum::<f64>().sqrt();
             parts.into_iter().take(count).map(move |(source, weight)| (source, weight / size))
         };
-        let touched: HashSet<Source> =
-            features.iter().flat_map(|f| &f.points).flat_map(|p| sources(p).map(|s| s.0)).collect();
+        let touched: HashSet<Source> = of_features.flat_map(|p| sources(p).map(|s| s.0)).collect();
         let mut own: BTreeMap<Source, [Vector; 6]> = BTreeMap::new();
         let mut others: BTreeMap<Source, [Vector; 6]> = BTreeMap::new();
         let mut covariance = [[0.0; 6]; 6];
@@ -164,6 +169,67 @@ fn root(a: [Six; 6]) -> [Six; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Some places with gains of a fit.
+    fn fitted() -> (Vec<Point>, Response) {
+        let mut random = trueness_geom::num::random::Random::new(3);
+        let mut three = |size: f64| -> Vector { std::array::from_fn(|_| size * (random.unit() - 0.5)) };
+        let points: Vec<Point> = (0..40).map(|_| three(9.0)).collect();
+        let gains = points.iter().map(|_| std::array::from_fn(|_| three(0.1))).collect();
+        (points, Response { gains, center: [1.0, 2.0, 3.0] })
+    }
+
+    /// The change of the pose by the noise of every point, summed up one by one.
+    fn direct(points: &[Point], found: &Response, field: &mut Field) -> Six {
+        let mut change = [0.0; 6];
+        for (p, gain) in points.iter().zip(&found.gains) {
+            let moved = field.at(p);
+            change = std::array::from_fn(|i| change[i] + dot(gain[i], moved));
+        }
+        change
+    }
+
+    /// Where all points are of features, the pose moves by the noise of these very points: draw by draw, to rounding.
+    #[test]
+    fn the_pose_moves_with_the_noise_of_the_points() {
+        let (points, found) = fitted();
+        for correlation in [0.0, 2.5] {
+            let noise = Noise { deviation: 0.01, correlation, draws: 1 };
+            let answer = Answer::new(&found, &points, &noise, points.iter());
+            for draw in 0..20 {
+                let told = answer.motion(&Field::new(&noise, draw));
+                let wanted = direct(&points, &found, &mut Field::new(&noise, draw));
+                let wanted = Response::motion(found.center, wanted);
+                for p in &points {
+                    let off = plus(told.point(*p), times(-1.0, wanted.point(*p)));
+                    assert!(dot(off, off).sqrt() < 1e-12, "{correlation}: {off:?}");
+                }
+            }
+        }
+    }
+
+    /// Noise of points that are of no feature, or of half of them: the spread of the pose is that of the sums, within what 4,000 draws tell.
+    #[test]
+    fn what_is_of_no_feature_moves_the_pose_as_far() {
+        let (points, found) = fitted();
+        for (correlation, touched) in [(0.0, 0), (0.0, 20), (2.5, 0), (2.5, 20)] {
+            let noise = Noise { deviation: 0.01, correlation, draws: 1 };
+            let answer = Answer::new(&found, &points, &noise, points[..touched].iter());
+            let (mut told, mut wanted) = ([0.0; 3], [0.0; 3]);
+            for draw in 0..4000 {
+                let moved = answer.motion(&Field::new(&noise, draw)).point(found.center);
+                let sums = direct(&points, &found, &mut Field::new(&noise, 10_000 + draw));
+                for k in 0..3 {
+                    told[k] += (moved[k] - found.center[k]).powi(2);
+                    wanted[k] += sums[3 + k].powi(2);
+                }
+            }
+            for k in 0..3 {
+                let ratio = (told[k] / wanted[k]).sqrt();
+                assert!((ratio - 1.0).abs() < 0.06, "{correlation} {touched}: {ratio}");
+            }
+        }
+    }
 
     #[test]
     fn the_root_makes_the_matrix() {

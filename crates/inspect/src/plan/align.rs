@@ -22,6 +22,8 @@ pub enum Align {
     BestFit,
     /// The least greatest distance from the reference, near the best fit from any pose.
     Chebyshev,
+    /// The least greatest excess over the tolerances of the deviations, near the best fit from any pose.
+    Zones,
     /// By datum features, whose frame comes to lie on that of their nominals.
     Datum {
         /// Numbers of the features, the first datum first.
@@ -59,6 +61,7 @@ impl Align {
             Align::Given(_) => AlignWord::Given,
             Align::BestFit => AlignWord::BestFit,
             Align::Chebyshev => AlignWord::Chebyshev,
+            Align::Zones => AlignWord::Zones,
             Align::Datum { .. } => AlignWord::Datum,
             Align::Pairs { .. } => AlignWord::Pairs,
             Align::Rps { .. } => AlignWord::Rps,
@@ -68,7 +71,7 @@ impl Align {
 
     /// Whether it uses the mesh of the reference.
     pub fn uses_reference(&self) -> bool {
-        matches!(self, Align::BestFit | Align::Chebyshev | Align::Datum { start: None, .. })
+        matches!(self, Align::BestFit | Align::Chebyshev | Align::Zones | Align::Datum { start: None, .. })
     }
 }
 
@@ -82,9 +85,17 @@ pub(super) fn align(checker: &Checker, plan: &PlanText, features: &[Feature]) ->
     };
     match word {
         AlignWord::None => Ok(Align::None),
-        AlignWord::BestFit | AlignWord::Chebyshev if plan.measured.is_none() || plan.reference.is_none() => {
+        AlignWord::BestFit | AlignWord::Chebyshev | AlignWord::Zones
+            if plan.measured.is_none() || plan.reference.is_none() =>
+        {
             checker.wrong(span, "a best fit needs `measured` and `reference`")
         }
+        AlignWord::Zones if !judged(plan) => {
+            let what =
+                "method \"zones\" fits into the tolerances of [deviation]; give it a `tolerance` or regions";
+            checker.wrong(span, what)
+        }
+        AlignWord::Zones => Ok(Align::Zones),
         AlignWord::BestFit => Ok(Align::BestFit),
         AlignWord::Chebyshev => Ok(Align::Chebyshev),
         AlignWord::Given => match start {
@@ -105,6 +116,11 @@ pub(super) fn align(checker: &Checker, plan: &PlanText, features: &[Feature]) ->
             Ok(Align::Rps { rows: rows.collect::<Result<_, _>>()?, start })
         }
     }
+}
+
+/// Whether deviations are judged somewhere.
+fn judged(plan: &PlanText) -> bool {
+    plan.deviation.as_ref().is_some_and(|d| d.value.tolerance.is_some() || !d.value.region.is_empty())
 }
 
 /// Refuses keys that the method has no use for: they would be lost in silence.

@@ -4,7 +4,7 @@ use super::at::At;
 use super::checker::Checker;
 use super::error::PlanError;
 use super::feature::{Feature, named};
-use super::text::{RegionText, RegionsText};
+use super::text::{RegionText, RegionsText, ZoneText};
 use crate::compare::{Extent, RegionRule};
 use crate::tolerance::Tolerance;
 use std::ops::Range;
@@ -35,6 +35,8 @@ const MOST: usize = 1000;
 /// assert_eq!(regions_of_file(text)?[0].extent, Extent::Seed([1.0, 2.0, 3.0]));
 /// let error = regions_of_file(&text.replace("seed", "sed")).unwrap_err();
 /// assert!(error.to_string().starts_with("line 3, column 1: "), "{error}");
+/// let even = regions_of_file(&text.replace("[-0.02, 0.05]", "0.05"))?;
+/// assert_eq!((even[0].tolerance.lower, even[0].tolerance.upper), (-0.05, 0.05));
 /// # Ok::<(), trueness_inspect::plan::PlanError>(())
 /// ```
 pub fn regions_of_file(text: &str) -> Result<Vec<RegionRule>, PlanError> {
@@ -81,12 +83,18 @@ fn region(checker: &Checker, written: &RegionText, features: &[Feature]) -> Resu
 }
 
 /// A zone as it is written, in millimeters.
-pub(super) fn zone(checker: &Checker, written: &At<[f64; 2]>) -> Result<Tolerance, PlanError> {
-    let [lower, upper] = written.value.map(|x| x * checker.unit);
+pub(super) fn zone(checker: &Checker, written: &At<ZoneText>) -> Result<Tolerance, PlanError> {
+    let written_zone = match written.value {
+        ZoneText::Even(size) => [-size, size],
+        ZoneText::Between(zone) => zone,
+    };
+    let [lower, upper] = written_zone.map(|x| x * checker.unit);
     if lower.is_finite() && upper.is_finite() && lower <= upper {
         return Ok(Tolerance { lower, upper });
     }
-    checker.wrong(&written.span, "the tolerance is [least, greatest] allowed deviation, as in [-0.1, 0.1]")
+    let what = "the tolerance is [least, greatest] allowed deviation, as in [-0.1, 0.1], or one number from 0 upwards for as much to \
+                either side";
+    checker.wrong(&written.span, what)
 }
 
 /// Percent as a share.

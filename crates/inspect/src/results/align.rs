@@ -6,7 +6,7 @@ use super::word::named;
 use super::{InputRecord, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, Minimax, RowFit};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, InZones, Minimax, RowFit};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -22,7 +22,7 @@ pub struct AlignDocument {
     pub units: String,
     /// The files read: the measured first.
     pub inputs: Vec<InputRecord>,
-    /// `best-fit`, `chebyshev`, `pairs`, `3-2-1` or `rps`.
+    /// `best-fit`, `chebyshev`, `zones`, `pairs`, `3-2-1` or `rps`.
     pub method: String,
     /// 4×4, row by row, acting on columns (x, y, z, 1): takes measured coordinates to those of the reference.
     pub transform: [[f64; 4]; 4],
@@ -40,12 +40,15 @@ pub struct AlignDocument {
     pub degrees_of_freedom: u64,
     /// The motions that stay free.
     pub free: Vec<FreeMotion>,
-    /// What a best fit tells beyond that, also the one that `chebyshev` began with; absent for the other methods.
+    /// What a best fit tells beyond that, also the one that `chebyshev` or `zones` began with; absent for the other methods.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub best_fit: Option<BestFitRecord>,
     /// Of `chebyshev`: the greatest distance, which is the least that there is.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub chebyshev: Option<ChebyshevRecord>,
+    /// Of `zones`: the greatest excess over a tolerance, which is the least that there is.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub zones: Option<ZonesRecord>,
     /// Of `pairs`, `3-2-1` and `rps`: what is left in each row of the table, in its order.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub pairs: Vec<PairRecord>,
@@ -141,6 +144,25 @@ pub struct ChebyshevRecord {
     pub left_out: u64,
 }
 
+/// The pose with the least greatest excess over the tolerances.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ZonesRecord {
+    /// How far the worst point is beyond its tolerance; negative where all points that count are within, by so much at least.
+    pub excess: f64,
+    /// Where that point lies after the motion.
+    pub at: [f64; 3],
+    /// Its deviation.
+    pub deviation: f64,
+    /// Its tolerance: least and greatest deviation.
+    pub tolerance: [f64; 2],
+    /// Points that count and have a tolerance.
+    pub used: u64,
+    /// Points that do not count, as in the best fit that it began with.
+    pub left_out: u64,
+    /// Points that count, at places without a tolerance.
+    pub without_zone: u64,
+}
+
 /// Another pose that fits nearly as well.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlternativeRecord {
@@ -176,7 +198,7 @@ pub struct PairRecord {
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few` or `not_converged`; of an inspection also `size_ratio` and
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
@@ -198,6 +220,8 @@ pub enum AlignNoteKind {
     Scale,
     /// Few points were given.
     Few,
+    /// One of several searches alone found the pose.
+    Unconfirmed,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -208,13 +232,14 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 9] = [
+    pub const ALL: [AlignNoteKind; 10] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
         AlignNoteKind::NormalsTurned,
         AlignNoteKind::Scale,
         AlignNoteKind::Few,
+        AlignNoteKind::Unconfirmed,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -229,6 +254,7 @@ impl AlignNoteKind {
             AlignNoteKind::NormalsTurned => "normals_turned",
             AlignNoteKind::Scale => "scale",
             AlignNoteKind::Few => "few",
+            AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -244,6 +270,7 @@ impl AlignNoteKind {
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
             | AlignNoteKind::Few
+            | AlignNoteKind::Unconfirmed
             | AlignNoteKind::NotConverged
             | AlignNoteKind::SizeRatio
             | AlignNoteKind::HardlyOverlapping => true,
@@ -313,6 +340,13 @@ impl AlignNote {
                      --from-here, or give --method pairs"
                 ),
             ),
+            AlignWarning::Unconfirmed { searches } => (
+                AlignNoteKind::Unconfirmed,
+                format!(
+                    "many points do not lie on the reference, and one of {searches} searches alone found this pose: look at the \
+                     result, or align roughly and start --from-here"
+                ),
+            ),
             AlignWarning::NotConverged => {
                 (AlignNoteKind::NotConverged, "the iteration did not settle".into())
             }
@@ -356,6 +390,7 @@ impl AlignDocument {
                 alternatives: alternatives.collect(),
             }),
             chebyshev: None,
+            zones: None,
             pairs: vec![],
             warnings: found.warnings.iter().map(AlignNote::of).collect(),
             seed,
@@ -385,6 +420,27 @@ impl AlignDocument {
         }
     }
 
+    /// Of the least greatest excess over tolerances, found from the best fit `from`.
+    pub fn of_zones(found: &InZones, from: &Alignment, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
+        AlignDocument {
+            method: "zones".into(),
+            transform: found.reference_from_measured.matrix(),
+            angle: found.reference_from_measured.angle(),
+            rms: found.rms,
+            mean_abs: found.mean_abs,
+            zones: Some(ZonesRecord {
+                excess: found.excess,
+                at: found.at,
+                deviation: found.deviation,
+                tolerance: found.zone,
+                used: found.used,
+                left_out: found.left_out,
+                without_zone: found.without_zone,
+            }),
+            ..AlignDocument::of_best_fit(from, inputs, seed)
+        }
+    }
+
     /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`.
     pub fn of_rows(found: &RowFit, method: &str, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
         let count = found.residuals.len().max(1) as f64;
@@ -406,6 +462,7 @@ impl AlignDocument {
             free: vec![],
             best_fit: None,
             chebyshev: None,
+            zones: None,
             pairs: found.residuals.iter().enumerate().map(row).collect(),
             warnings: if found.converged { vec![] } else { vec![note] },
             seed,

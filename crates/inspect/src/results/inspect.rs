@@ -5,6 +5,7 @@ mod page;
 use super::align::AlignNote;
 use super::compare::Comparison;
 use super::fit::Number;
+use super::place_map::PlaceMap;
 use super::verdict::rank;
 use super::word::named;
 use super::{InputRecord, Verdict, Word};
@@ -45,6 +46,9 @@ pub struct InspectDocument {
     /// Why there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub deviation_reason: Option<String>,
+    /// Deviations at places that are the same for every part, for the map of a trend; absent where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub deviation_map: Option<PlaceMap>,
     /// The colors of the deviations; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub scale: Option<Scale>,
@@ -68,7 +72,7 @@ pub struct PlanRecord {
 /// How the measured data came to lie on the reference.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignmentRecord {
-    /// `none`, `given`, `best-fit`, `chebyshev`, `datum`, `pairs` or `rps`.
+    /// `none`, `given`, `best-fit`, `chebyshev`, `zones`, `datum`, `pairs` or `rps`.
     pub method: String,
     /// 4×4, row by row: takes measured coordinates to those of the reference.
     pub transform: [[f64; 4]; 4],
@@ -80,6 +84,10 @@ pub struct AlignmentRecord {
     /// Of `chebyshev` the greatest distance of a point that counts: the least there is near the best fit.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub greatest: Option<f64>,
+    /// Of `zones` how far the worst point that counts is beyond its tolerance, negative where all are within: the least there is near the best
+    /// fit.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub excess: Option<f64>,
     /// Of pairs the distance left of each, of reference points the signed one along its direction; absent of other ways.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub residuals: Option<Vec<f64>>,

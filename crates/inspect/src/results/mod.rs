@@ -12,6 +12,7 @@ pub mod curvature;
 pub mod fit;
 mod input;
 pub mod inspect;
+pub mod place_map;
 pub mod repair;
 pub mod research;
 pub mod section;

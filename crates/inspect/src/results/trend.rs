@@ -2,7 +2,10 @@
 
 mod page;
 
+pub use page::MapPage;
+
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
+use super::place_map::{PlaceMap, TrendMap};
 use super::verdict::rank;
 use super::{UNITS, VERSION, Verdict, overall};
 use schemars::JsonSchema;
@@ -35,6 +38,11 @@ pub struct TrendDocument {
     pub confidence: f64,
     /// The characteristics, in the plan's order.
     pub characteristics: Vec<TrendRecord>,
+    /// Mean and spread of the deviations over the part.
+    pub map: Option<TrendMap>,
+    /// Why there is none: results without deviations at places.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub map_reason: Option<String>,
     /// Whether no value of any characteristic is out of control.
     pub in_control: bool,
     /// The worst verdict of all parts.
@@ -243,6 +251,7 @@ impl TrendDocument {
                 return Err(TrendError::Different { index, what });
             }
         }
+        let (map, map_reason) = map(results)?;
         let mut warnings = Vec::new();
         let texts = |d: &InspectDocument| d.plan.sha256.clone();
         if results.iter().any(|d| texts(d).is_some() && texts(first).is_some() && texts(d) != texts(first)) {
@@ -271,6 +280,8 @@ impl TrendDocument {
             warnings,
             confidence: CONFIDENCE,
             characteristics,
+            map,
+            map_reason,
         })
     }
 
@@ -310,6 +321,21 @@ impl TrendRecord {
     pub fn verdict(&self) -> Verdict {
         overall(self.verdicts.iter().copied())
     }
+}
+
+/// The map over all parts, or why there is none.
+fn map(results: &[InspectDocument]) -> Result<(Option<TrendMap>, Option<String>), TrendError> {
+    if let Some(n) = results.iter().position(|d| d.deviation_map.is_none()) {
+        let what = "holds no deviations at places; `trueness inspect --places --json` writes them";
+        return Ok((None, Some(format!("result {} of {} {what}", n + 1, results.len()))));
+    }
+    let maps: Vec<&PlaceMap> = results.iter().filter_map(|d| d.deviation_map.as_ref()).collect();
+    let tolerance = results.first().and_then(|d| d.scale.as_ref()?.tolerance);
+    let found = TrendMap::of(&maps, tolerance).map_err(|index| TrendError::Different {
+        index,
+        what: "its places are not those of the first result: the reference is another".into(),
+    });
+    Ok((found?, None))
 }
 
 /// What distinguishes the characteristics of a result from those of the first one.

@@ -2,7 +2,7 @@
 
 mod measured;
 mod output;
-mod references;
+pub mod references;
 mod table;
 mod words;
 

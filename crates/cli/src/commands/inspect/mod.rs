@@ -18,7 +18,7 @@ use files::PlanFile;
 use std::path::{Path, PathBuf};
 use trueness_geom::progress::Cancelled;
 use trueness_inspect::compare;
-use trueness_inspect::inspection::{self, Stop, View};
+use trueness_inspect::inspection::{self, Deviations, Stop, View};
 use trueness_inspect::plan::PlanError;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::InspectDocument;
@@ -32,6 +32,7 @@ use trueness_inspect::results::inspect::InspectDocument;
 Examples:
   trueness inspect bracket.toml
   trueness inspect bracket.toml --measured scan-0815.stl --json result.json --html report.html
+  trueness inspect bracket.toml --measured scan-0816.stl --json part-0816.json --places
   trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml
   trueness inspect bracket.toml --qif results.qif")]
 pub struct InspectArgs {
@@ -42,6 +43,9 @@ pub struct InspectArgs {
     measured: Vec<PathBuf>,
     #[command(flatten)]
     document: DocumentArgs,
+    /// Keep in the document of --json the deviations at places that are the same for every part: for the maps of `trend`
+    #[arg(long, requires = "json")]
+    places: bool,
     /// Write the characteristics as a table, one line each
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -97,6 +101,10 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
             "--measured replaces the plan's measured data, but the plan names none; add `measured` to it";
         return Err(Usage(what.into()).into());
     }
+    if args.places && plan.plan.deviation.is_none() {
+        let what = "--places keeps deviations from the reference, but the plan has no [deviation]; add it";
+        return Err(Usage(what.into()).into());
+    }
     let mut documents = Vec::new();
     for part in args.parts() {
         let document = inspect(args, &plan, part, common)?;
@@ -126,7 +134,8 @@ fn inspect(
     part: Option<&Path>,
     common: &Common,
 ) -> anyhow::Result<InspectDocument> {
-    let (data, inputs) = plan.data(part, common.seed, args.report.shown())?;
+    let (mut data, inputs) = plan.data(part, common.seed, args.report.shown())?;
+    data.places = args.places;
     let stage = Stage::new(common.progress, "inspecting", "features", None);
     let found = inspection::run(&plan.plan, data, &stage);
     drop(stage);
@@ -137,7 +146,7 @@ fn inspect(
         }
         stop => anyhow!("{}: {stop}", plan.path.display()),
     })?;
-    let document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
+    let mut document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
     if args.report.html.is_some() {
         let name = document.inputs.first().map_or("", |i| &i.path);
         let references = found.deviations.as_ref().zip(document.deviation.as_ref());
@@ -149,6 +158,8 @@ fn inspect(
         let view = View::new(&document, &found, deviations.as_ref());
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
+    // Pages do without: they have a map of their own.
+    document.deviation_map = found.deviations.as_ref().and_then(Deviations::place_map);
     args.document.write(&document)?;
     Ok(document)
 }

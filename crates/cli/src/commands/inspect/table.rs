@@ -18,7 +18,9 @@ pub fn table(document: &InspectDocument) -> String {
     if let Some(rms) = alignment.rms {
         let greatest =
             alignment.greatest.map_or_else(String::new, |g| format!(", greatest distance {}", six_digits(g)));
-        let _ = writeln!(out, "aligned by {}, rms {}{greatest}", alignment.method, six_digits(rms));
+        let excess =
+            alignment.excess.map_or_else(String::new, |x| format!(", greatest excess {}", signed(x)));
+        let _ = writeln!(out, "aligned by {}, rms {}{greatest}{excess}", alignment.method, six_digits(rms));
     }
     for warning in &alignment.warnings {
         let _ = writeln!(out, "! alignment: {}", warning.text);

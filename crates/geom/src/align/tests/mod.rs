@@ -5,3 +5,4 @@ mod parts;
 mod poses;
 mod response;
 mod rows;
+mod zones;

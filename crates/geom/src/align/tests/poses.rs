@@ -84,6 +84,57 @@ fn clutter_around_a_piece_of_the_part_does_not_hide_its_place() {
     assert_eq!(right, 10);
 }
 
+/// The top of a plate with two pegs, off by some millimeters and degrees: the plate holds what is seen of it where it is, the pegs count
+/// as outliers, and no small step leads to where they fit.
+#[test]
+fn a_pose_beside_the_right_one_is_left() {
+    let plate = block([0.0; 3], [60.0, 40.0, 5.0], 2.0);
+    let pegs =
+        [block([12.0, 8.0, 5.0], [18.0, 14.0, 9.0], 1.0), block([40.0, 24.0, 5.0], [46.0, 28.0, 9.0], 1.0)];
+    let reference = super::parts::together(&[plate.clone(), pegs[0].clone(), pegs[1].clone()]);
+    let inner = |f: &&[u32; 3]| {
+        f.iter().all(|v| {
+            plate.positions[*v as usize][2] == 5.0 && (8.0..52.0).contains(&plate.positions[*v as usize][0])
+        })
+    };
+    let middle = |mesh: &Mesh, f: &[u32; 3]| -> Point {
+        std::array::from_fn(|k| f.iter().map(|v| mesh.positions[*v as usize][k]).sum::<f64>() / 3.0)
+    };
+    let under = |p: &Point| {
+        pegs.iter().any(|peg| {
+            let b = peg.bounds();
+            (0..2).all(|k| b.min[k] - 0.1 <= p[k] && p[k] <= b.max[k] + 0.1)
+        })
+    };
+    let mut points: Vec<Point> =
+        plate.faces.iter().filter(inner).map(|f| middle(&plate, f)).filter(|p| !under(p)).collect();
+    for peg in &pegs {
+        points.extend(peg.faces.iter().map(|f| middle(peg, f)).filter(|p| p[2] > 5.1));
+    }
+    let random = &mut Random::new(4);
+    for p in &mut points {
+        *p = p.map(|x| x + 0.02 * (random.unit() - 0.5));
+    }
+    let tree = Tree::build(&reference).unwrap();
+    let target = Target::new(&reference, &tree);
+    let start = Rigid::translation_by([4.0, -3.0, 0.0])
+        .after(&Rigid::rotation_about([30.0, 20.0, 5.0], [0.0, 0.0, 0.1]));
+    let options = BestFit { start: Start::Given(start), ..BestFit::default() };
+    let measured = Measured::Points { points: &points, normals: None };
+    let stuck = best_fit(&measured, &target, &options, &Silent).unwrap();
+    assert!(stuck.reference_from_measured.displacement([30.0, 20.0, 5.0]) > 2.0, "{stuck:?}");
+    let samples = crate::align::sample::Samples::all(&measured);
+    let edges = crate::closest::BoundaryEdges::watched(&tree, &Silent).unwrap();
+    let work = crate::align::best_fit::Work::new(&target, &edges, &options, &samples);
+    let few = samples.thinned(400, 0).with_normals(&samples.points);
+    let search = crate::align::start::Search::new(&target, few, 0, &Silent).unwrap();
+    let found = work.around(&search, &stuck, &samples, &Silent).unwrap();
+    let options = BestFit { start: Start::Given(found), ..BestFit::default() };
+    let found = best_fit(&measured, &target, &options, &Silent).unwrap().reference_from_measured;
+    let off = [[10.0, 10.0, 5.0], [50.0, 30.0, 5.0]].map(|p| found.displacement(p));
+    assert!(off.iter().all(|d| *d < 0.05), "{off:?}");
+}
+
 fn triangle_area([a, b, c]: [Point; 3]) -> f64 {
     0.5 * norm(cross(minus(b, a), minus(c, a)))
 }

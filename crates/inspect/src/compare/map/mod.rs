@@ -3,13 +3,17 @@
 //! The reference may have facets far larger than the points are apart, so for drawing its facets are cut into pieces
 //! ([`bisection`]) about as large as the points lie densely. While the points pass by, each piece keeps the worst of those whose
 //! nearest place lies in it. In the end ([`surface`]) pieces are put together until they match the points' spacing ([`crate::spacing`]).
+//!
+//! Beside it, where asked for, stand mean deviations at [`places`] that are the same for every part.
 
 mod bisection;
 mod creases;
 mod fill;
+mod places;
 mod point_map;
 mod surface;
 
+pub use places::PlaceMeans;
 pub use point_map::{Flagged, Foot, PointMap};
 pub use surface::MapSurface;
 

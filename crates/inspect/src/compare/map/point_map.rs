@@ -1,6 +1,7 @@
 //! The map while the points pass by: the worst point of each piece.
 
 use super::bisection::Bisection;
+use super::places::Places;
 use crate::tolerance::{Tolerance, badness};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
@@ -16,6 +17,8 @@ pub struct PointMap {
     pub(super) pieces: Bisection,
     pub(super) worst: Vec<Kept>,
     pub(super) tolerance: Option<Tolerance>,
+    /// Where means are kept, if they are asked for.
+    pub(super) places: Option<Places>,
 }
 
 /// Where the nearest place of a point lies: the piece, and the weights of its facet's first two corners.
@@ -23,6 +26,8 @@ pub struct PointMap {
 pub struct Foot {
     piece: u32,
     weights: [f32; 2],
+    /// The place at which the point counts, where there are such.
+    place: u32,
 }
 
 /// A point that a piece shows; NaN where there is none.
@@ -45,20 +50,26 @@ pub struct Flagged {
 
 impl PointMap {
     /// An empty map on `mesh`. With a tolerance the worst point is the one farthest beyond it, else the one farthest away.
-    pub fn new(mesh: &Mesh, tolerance: Option<Tolerance>) -> PointMap {
-        let corners = mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize]));
-        let areas: Vec<f64> = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).collect();
-        let area: f64 = areas.iter().sum();
-        let edge = (area / (PIECE * MOST_CUTS as f64)).sqrt();
+    /// With `places` means are kept, too.
+    pub fn new(mesh: &Mesh, tolerance: Option<Tolerance>, places: bool) -> PointMap {
+        let edge = (whole_area(mesh) / (PIECE * MOST_CUTS as f64)).sqrt();
         let edge = if edge > 0.0 { edge } else { f64::INFINITY };
         let pieces = Bisection::of(mesh, edge, MOST_CUTS);
         let none = Kept { deviation: f64::NAN, weights: [0.0; 2] };
-        PointMap { worst: vec![none; pieces.len()], pieces, tolerance }
+        let places = places.then(|| Places::new(mesh));
+        PointMap { worst: vec![none; pieces.len()], pieces, tolerance, places }
     }
 
-    /// The piece that a place on a facet lies in.
-    pub fn foot(&self, face: u32, weights: [f64; 3]) -> Foot {
-        Foot { piece: self.pieces.piece(face, weights), weights: [weights[0] as f32, weights[1] as f32] }
+    /// The piece that a place on a facet of `mesh` lies in.
+    pub fn foot(&self, mesh: &Mesh, face: u32, weights: [f64; 3]) -> Foot {
+        let place = self.places.as_ref().map_or(u32::MAX, |places| places.at(mesh, face, weights));
+        let piece = self.pieces.piece(face, weights);
+        Foot { piece, weights: [weights[0] as f32, weights[1] as f32], place }
+    }
+
+    /// The places with what was added so far.
+    pub fn take_places(&mut self) -> Option<Places> {
+        self.places.take()
     }
 
     /// Adds a point; of equally bad ones the first stays.
@@ -67,7 +78,17 @@ impl PointMap {
         if worse(deviation, kept.deviation, self.tolerance) {
             *kept = Kept { deviation, weights: foot.weights };
         }
+        if let Some(places) = &mut self.places {
+            places.add(foot.place, deviation);
+        }
     }
+}
+
+/// Area of all facets, square millimeters.
+pub(super) fn whole_area(mesh: &Mesh) -> f64 {
+    let corners = mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize]));
+    let areas: Vec<f64> = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).collect();
+    areas.iter().sum()
 }
 
 /// Whether deviation `a` is worse than `b`: farther beyond the tolerance, else of greater size. Anything is worse than NaN.

@@ -32,6 +32,8 @@ pub struct MapSurface {
     pub reach: f64,
     /// How far the points' nearest places lie apart, millimeters.
     pub spacing: f64,
+    /// How far deviations go over to places without points, millimeters.
+    pub carried: f64,
     /// Area of the surface, square millimeters.
     pub area: f64,
     /// Area of the facets with a corner that has no value, which are drawn gray.
@@ -106,7 +108,17 @@ impl MapSurface {
         fill(&mesh, &mut values, REACH * apart);
         let [area, uncovered] = areas(&mesh, &values);
         let reach = farthest + REACH * apart;
-        MapSurface { mesh: refined.then_some(mesh), values, keep, reach, spacing: found, area, uncovered }
+        let carried = REACH * apart;
+        MapSurface {
+            mesh: refined.then_some(mesh),
+            values,
+            keep,
+            reach,
+            spacing: found,
+            carried,
+            area,
+            uncovered,
+        }
     }
 }
 

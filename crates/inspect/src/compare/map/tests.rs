@@ -65,9 +65,9 @@ fn drawn(
     tolerance: Option<Tolerance>,
 ) -> (Vec<Known>, MapSurface, Vec<usize>) {
     let (known, places) = compare(mesh, points);
-    let mut map = PointMap::new(mesh, tolerance);
+    let mut map = PointMap::new(mesh, tolerance, false);
     for (k, (face, weights)) in known.iter().zip(&places) {
-        map.add(map.foot(*face, *weights), k.deviation);
+        map.add(map.foot(mesh, *face, *weights), k.deviation);
     }
     let mut order: Vec<usize> = (0..known.len()).collect();
     order.sort_by(|a, b| known[*a].deviation.total_cmp(&known[*b].deviation));
@@ -194,4 +194,63 @@ fn a_fine_reference_keeps_its_facets_and_few_points_leave_most_gray() {
     let few = drawn(&cube(20.0), &measured(40, 20.0, |_| false), None).1;
     let gray = few.values.iter().filter(|v| v.is_nan()).count();
     assert!(2 * gray > few.values.len(), "{gray} of {}", few.values.len());
+}
+
+/// The means at shared places against the points, one by one: each counts at the nearest corner of the piece that it lies over.
+#[test]
+fn means_at_places_are_those_of_the_points_over_them() {
+    let mesh = cube(20.0);
+    let points = measured(30_000, 20.0, |p| p[0] > 15.0 && p[2] > 19.0);
+    let (known, feet) = compare(&mesh, &points);
+    let mut map = PointMap::new(&mesh, None, true);
+    for (k, (face, weights)) in known.iter().zip(&feet) {
+        map.add(map.foot(&mesh, *face, *weights), k.deviation);
+    }
+    let reach = 0.5;
+    let found = map.take_places().unwrap().means(reach);
+    let pieces = &found.mesh;
+    assert!(pieces.positions.len() > 10_000, "{}", pieces.positions.len());
+    let sides = pieces.faces.iter().flat_map(|f| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]]);
+    let length = |[a, b]: [u32; 2]| norm(minus(pieces.positions[a as usize], pieces.positions[b as usize]));
+    let longest = sides.map(length).fold(0.0, f64::max);
+    let normals = vertex_normals(pieces);
+    // Brute force: the facet of the pieces that the foot lies on, among those that face as the facet of the reference does.
+    let tree = Tree::build(pieces).unwrap();
+    let mut own: Vec<Vec<f64>> = vec![vec![]; pieces.positions.len()];
+    for k in &known {
+        let inward = [0, 1, 2].map(|i| k.foot[i] + 1e-7 * k.normal[i]);
+        let hit = tree.closest(&inward, f64::INFINITY).unwrap().unwrap();
+        let away = |v: u32| norm(minus(pieces.positions[v as usize], k.foot));
+        let mut corners = pieces.faces[hit.face as usize];
+        corners.sort_by(|a, b| away(*a).total_cmp(&away(*b)));
+        assert!(dot(normals[corners[0] as usize][0], k.normal) > 0.99 && away(corners[0]) <= longest);
+        own[corners[0] as usize].push(k.deviation);
+    }
+    let mut astray = 0;
+    for (v, list) in own.iter().enumerate() {
+        let mean = list.iter().sum::<f64>() / list.len() as f64;
+        // A foot within rounding of a side may have gone to either.
+        let same = found.counts[v] == list.len() as u64
+            && (list.is_empty() || (found.means[v] - mean).abs() < 1e-12);
+        astray += usize::from(!same);
+        // Means go over to empty places near by, and no farther.
+        if list.is_empty() && found.counts[v] == 0 && !normals[v].is_empty() {
+            let near = |(w, o): (usize, &Vec<f64>)| {
+                let same_side = dot(normals[w][0], normals[v][0]) > 0.99;
+                if o.is_empty() || !same_side {
+                    f64::INFINITY
+                } else {
+                    norm(minus(pieces.positions[w], pieces.positions[v]))
+                }
+            };
+            let nearest = own.iter().enumerate().map(near).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= reach || found.means[v].is_nan(), "{nearest}");
+        }
+    }
+    assert!(astray <= 4, "{astray}");
+    assert_eq!(found.counts.iter().sum::<u64>(), points.len() as u64);
+    assert!(found.means.iter().any(|m| m.is_nan()));
+    // Other points, the same places.
+    let other = PointMap::new(&mesh, None, true).take_places().unwrap().means(0.1);
+    assert_eq!((&other.mesh, other.means.iter().all(|m| m.is_nan())), (&found.mesh, true));
 }

@@ -121,6 +121,8 @@ pub enum AlignWord {
     BestFit,
     /// The least greatest distance from the reference, near the best fit.
     Chebyshev,
+    /// The least greatest excess over the tolerances of `[deviation]`, near the best fit.
+    Zones,
     /// By datum features.
     Datum,
     /// By reference points.
@@ -133,8 +135,8 @@ pub enum AlignWord {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviationText {
-    /// Least and greatest allowed deviation, + out of the material. Without it nothing is judged.
-    pub tolerance: Option<At<[f64; 2]>>,
+    /// Least and greatest allowed deviation, + out of the material, or one number for as much to either side. Without it nothing is judged.
+    pub tolerance: Option<At<ZoneText>>,
     /// Share of the points that must keep the tolerance, percent. Without it: 100.
     pub inside: Option<At<f64>>,
     /// Points farther from the reference than this are left out and counted.
@@ -176,10 +178,23 @@ pub struct RegionText {
     pub between: Option<At<[[f64; 3]; 2]>>,
     /// A feature of the plan with a nominal or a seed: the facets of the reference that belong to it are the region.
     pub feature: Option<At<String>>,
-    /// Least and greatest allowed deviation.
-    pub tolerance: At<[f64; 2]>,
+    /// Least and greatest allowed deviation, or one number for as much to either side.
+    pub tolerance: At<ZoneText>,
     /// Share of its points that must keep it, percent. Without it: 100.
     pub inside: Option<At<f64>>,
+}
+
+/// What a deviation may be.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "the tolerance is [least, greatest] allowed deviation, as in [-0.1, 0.1], or one number for as much to either side"
+)]
+pub enum ZoneText {
+    /// As much to either side.
+    Even(f64),
+    /// From and to.
+    Between([f64; 2]),
 }
 
 /// What is measured along.
@@ -210,6 +225,7 @@ impl AlignWord {
             AlignWord::Given => "given",
             AlignWord::BestFit => "best-fit",
             AlignWord::Chebyshev => "chebyshev",
+            AlignWord::Zones => "zones",
             AlignWord::Datum => "datum",
             AlignWord::Rps => "rps",
             AlignWord::Pairs => "pairs",

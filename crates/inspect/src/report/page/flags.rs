@@ -17,7 +17,7 @@ const GAP: f64 = 8.0;
 const STUB: f64 = 6.0;
 /// Width of a sign, and of a letter of usual text.
 const SIGN: f64 = 22.0;
-const LETTER: f64 = 8.6;
+const LETTER: f64 = 9.0;
 
 /// A flag that has found its place.
 struct Placed {

@@ -14,6 +14,8 @@ pub struct Facts<'a> {
     pub rms: Option<f64>,
     /// Greatest distance, where it is the least, mm.
     pub greatest: Option<f64>,
+    /// How far the worst point is beyond its tolerance, where that is the least, mm.
+    pub excess: Option<f64>,
     /// Points without a weight.
     pub left_out: Option<u64>,
     /// What is to be said about the result.
@@ -33,6 +35,9 @@ pub fn alignment(s: Style, of: &Facts) -> Markup {
                 @if let Some(rms) = of.rms { (fact(s, "rms", html! { (length(rms)) "\u{a0}mm" })) }
                 @if let Some(greatest) = of.greatest {
                     (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
+                }
+                @if let Some(excess) = of.excess {
+                    (fact(s, "align.excess", html! { (s.number(excess, 4).signed()) "\u{a0}mm" }))
                 }
                 @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
             }

@@ -70,7 +70,7 @@ impl Subject for InspectDocument {
                 (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
             }
             (section(s, "features", features(s, self)))
-            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, left_out, warnings: &of.warnings }))
+            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, excess: of.excess, left_out, warnings: &of.warnings }))
         }
     }
 
@@ -196,12 +196,13 @@ fn characteristics(s: Style, d: &InspectDocument) -> Markup {
     }
 }
 
-/// Its uncertainty; where noise leads to one side, from and to where the true value lies.
+/// Its uncertainty; where noise leads to one side, from and to where the true value lies, on a line of its own: beside the value it would push the
+/// verdict out of view.
 fn uncertain(s: Style, c: &CharacteristicRecord) -> Markup {
     let number = |x| s.number(x, digits(c));
     html! {
         @match (c.uncertainty, c.interval, c.noise_bias) {
-            (_, Some([from, to]), Some(_)) => { " [" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" }
+            (_, Some([from, to]), Some(_)) => { br; small { "[" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" } }
             (Some(u), ..) => { " ±\u{a0}" (number(u)) }
             _ => {}
         }

@@ -4,10 +4,13 @@ mod axes;
 mod chart;
 mod facts;
 mod gutter;
+mod map;
 mod overview;
 mod parts;
 #[cfg(test)]
 mod tests;
+
+pub use map::MapPage;
 
 use crate::report::ViewObject;
 use crate::report::number::Style;
@@ -92,7 +95,7 @@ impl Subject for TrendDocument {
     }
 
     fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+        stripped(self)
     }
 
     fn drawing(&self) -> Option<&dyn Drawn> {
@@ -123,6 +126,15 @@ impl Drawn for TrendDocument {
             "\n"
         }
     }
+}
+
+/// The document without the lists of its places, which a page has no use for and no room.
+fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
+    let mut value = serde_json::to_value(document)?;
+    if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
+        map.retain(|_, v| !v.is_array());
+    }
+    Ok(value)
 }
 
 /// How many parts have each verdict, the worst first, with the class of that number; the worst of all leads.

@@ -45,6 +45,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
                 method: "best-fit",
                 rms: Some(a.rms),
                 greatest: None,
+                excess: None,
                 left_out: Some(a.left_out),
                 warnings: &a.warnings,
             }))

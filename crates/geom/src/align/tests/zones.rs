@@ -1,0 +1,128 @@
+//! The best fit into zones: closed forms, no better pose nearby, invariance, zones that depend on the place.
+
+use super::parts::block;
+use crate::align::{
+    AlignError, BestFit, InZones, Measured, Start, Target, ZoneAt, best_fit, into_zones, minimax,
+};
+use crate::closest::Tree;
+use crate::deviation::surface::{ReferenceSurface, SurfaceOptions};
+use crate::mesh::Mesh;
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::rigid::Rigid;
+use crate::space::Point;
+
+const LOW: Point = [-10.0, -6.0, -4.0];
+const HIGH: Point = [10.0, 6.0, 4.0];
+
+fn fitted(points: &[Point], mesh: &Mesh, start: Rigid, zones: &ZoneAt) -> Result<InZones, AlignError> {
+    let tree = Tree::build(mesh).unwrap();
+    let target = Target::new(mesh, &tree);
+    let surface = ReferenceSurface::new(&tree, mesh, &SurfaceOptions::default(), &Silent).unwrap();
+    let measured = Measured::Points { points, normals: None };
+    let options = BestFit { start: Start::Given(start), robust: false, seed: 0 };
+    let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
+    into_zones(&measured, &target, &surface, zones, &fit, &options, &Silent)
+}
+
+/// The greatest excess at a pose, with signs by which side of the block's faces a point is on.
+fn excess(points: &[Point], mesh: &Mesh, motion: &Rigid, zones: &ZoneAt) -> f64 {
+    let tree = Tree::build(mesh).unwrap();
+    let of = |p: &Point| {
+        let p = motion.point(*p);
+        let place = tree.closest(&p, f64::INFINITY).unwrap().unwrap();
+        let inside = (0..3).all(|k| LOW[k] <= p[k] && p[k] <= HIGH[k]);
+        let deviation = if inside { -place.distance } else { place.distance };
+        let zone = zones(place.face, &place.point);
+        zone.map_or(f64::NEG_INFINITY, |[lower, upper]| (deviation - upper).max(lower - deviation))
+    };
+    points.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+}
+
+fn places(step: f64) -> Vec<Point> {
+    let mesh = block(LOW, HIGH, step);
+    let middle = |f: &[u32; 3]| {
+        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
+    };
+    mesh.faces.iter().map(middle).collect()
+}
+
+/// The top may be 0 to 0.4 too high, all else 0.1 either way: a perfect block rises by 0.05 and has 0.05 left on both sides.
+#[test]
+fn room_is_shared_out_in_closed_form() {
+    let mesh = block(LOW, HIGH, 40.0);
+    let zones = |_: u32, p: &Point| Some(if p[2] > 3.99 { [0.0, 0.4] } else { [-0.1, 0.1] });
+    for start in [Rigid::IDENTITY, Rigid::rotation_about([1.0, 2.0, 3.0], [0.002, -0.001, 0.003])] {
+        let points = places(1.0);
+        let found = fitted(&points, &mesh, start, &zones).unwrap();
+        assert!((found.excess + 0.05).abs() < 1e-9, "{}", found.excess);
+        let up = found.reference_from_measured.point([0.0; 3])[2];
+        assert!((up - 0.05).abs() < 1e-6 && found.used == points.len() as u64, "{up}");
+        assert!(
+            (excess(&points, &mesh, &found.reference_from_measured, &zones) - found.excess).abs() < 1e-12
+        );
+        // Where nothing is asked of the bottom it may rise until the top has more left than the sides.
+        let open = |face: u32, p: &Point| if p[2] < -3.99 { None } else { zones(face, p) };
+        let found = fitted(&points, &mesh, start, &open).unwrap();
+        assert!((found.excess + 0.1).abs() < 1e-9 && found.without_zone > 100, "{}", found.excess);
+    }
+}
+
+#[test]
+fn equal_zones_are_the_least_greatest_distance() {
+    let mesh = block(LOW, HIGH, 40.0);
+    let mut points = places(1.0);
+    points.push([10.3, 0.0, 0.0]);
+    let found = fitted(&points, &mesh, Rigid::IDENTITY, &|_, _| Some([-0.02, 0.02])).unwrap();
+    assert!((found.excess - 0.13).abs() < 1e-9, "{}", found.excess);
+    let tree = Tree::build(&mesh).unwrap();
+    let (target, measured) = (Target::new(&mesh, &tree), Measured::Points { points: &points, normals: None });
+    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, seed: 0 };
+    let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
+    let least = minimax(&measured, &target, &fit, &options, &Silent).unwrap();
+    assert!((least.greatest - 0.02 - found.excess).abs() < 1e-9);
+    assert_eq!((found.zone, found.deviation > 0.0), ([-0.02, 0.02], true));
+}
+
+#[test]
+fn no_pose_nearby_is_better_and_moving_the_scan_changes_nothing() {
+    let random = &mut Random::new(11);
+    let mut uneven = |size: f64| -> Point { std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0)) };
+    let mesh = block(LOW, HIGH, 40.0);
+    // Uneven zones whose borders run across the faces.
+    let zones = |_: u32, p: &Point| match p[0] {
+        x if x < -3.0 => Some([-0.01, 0.06]),
+        x if x < 4.0 => Some([-0.05, 0.06]),
+        _ => None,
+    };
+    for _ in 0..3 {
+        let mut points = places(1.3);
+        for p in &mut points {
+            let off = uneven(0.05);
+            *p = std::array::from_fn(|k| p[k] + off[k]);
+        }
+        let found = fitted(&points, &mesh, Rigid::IDENTITY, &zones).unwrap();
+        let best = found.reference_from_measured;
+        assert!((excess(&points, &mesh, &best, &zones) - found.excess).abs() < 1e-12);
+        for k in 0..300 {
+            let size = [1e-2, 1e-3, 1e-4][k % 3];
+            let turn = Rigid::rotation_about([0.0; 3], uneven(size / 10.0));
+            let other = Rigid::translation_by(uneven(size)).after(&turn).after(&best);
+            let there = excess(&points, &mesh, &other, &zones);
+            assert!(there >= found.excess - 1e-9, "{there} {} by {size}", found.excess);
+        }
+        let away = Rigid::rotation_about([3.0, 2.0, 1.0], [0.4, -0.9, 0.7])
+            .after(&Rigid::translation_by([50.0, -7.0, 3.0]));
+        let moved: Vec<Point> = points.iter().map(|p| away.point(*p)).collect();
+        let again = fitted(&moved, &mesh, away.inverse(), &zones).unwrap();
+        assert!((again.excess - found.excess).abs() < 1e-8, "{} {}", again.excess, found.excess);
+    }
+}
+
+#[test]
+fn without_any_zone_there_is_no_answer() {
+    let mesh = block(LOW, HIGH, 40.0);
+    let found = fitted(&places(2.0), &mesh, Rigid::IDENTITY, &|_, _| None);
+    assert_eq!(found, Err(AlignError::NoZone));
+}
