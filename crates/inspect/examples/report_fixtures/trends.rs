@@ -126,6 +126,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             rms: None,
             mean_abs: None,
             greatest: None,
+            excess: None,
             residuals: None,
             iterations: None,
             converged: None,
@@ -134,6 +135,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
         features: vec![],
         deviation: None,
         deviation_reason: None,
+        deviation_map: None,
         scale: None,
         decision_rule: "iso14253-1".into(),
         counts: Counts {

@@ -2,8 +2,6 @@
 
 mod page;
 
-pub use page::MapPage;
-
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
 use super::place_map::{PlaceMap, TrendMap};
 use super::verdict::rank;

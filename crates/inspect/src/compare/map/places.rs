@@ -5,8 +5,8 @@
 
 use super::bisection::{Bisection, half_corners, half_weights, in_second};
 use super::creases;
+use super::facet::{place, whole_area};
 use super::fill::fill;
-use super::point_map::{place, whole_area};
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::sum::Sum;

@@ -3,8 +3,9 @@
 use super::super::options::Coverage;
 use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
 use super::creases;
+use super::facet::place;
 use super::fill::fill;
-use super::point_map::{Flagged, PointMap, place, worse};
+use super::point_map::{Flagged, PointMap, worse};
 use crate::spacing::spacing;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;

@@ -10,8 +10,6 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-pub use map::MapPage;
-
 use crate::report::ViewObject;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, key_number, section};
@@ -95,7 +93,7 @@ impl Subject for TrendDocument {
     }
 
     fn json(&self) -> serde_json::Result<Value> {
-        stripped(self)
+        parts::stripped(self)
     }
 
     fn drawing(&self) -> Option<&dyn Drawn> {
@@ -126,15 +124,6 @@ impl Drawn for TrendDocument {
             "\n"
         }
     }
-}
-
-/// The document without the lists of its places, which a page has no use for and no room.
-fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
-    let mut value = serde_json::to_value(document)?;
-    if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
-        map.retain(|_, v| !v.is_array());
-    }
-    Ok(value)
 }
 
 /// How many parts have each verdict, the worst first, with the class of that number; the worst of all leads.
