@@ -127,6 +127,11 @@ fn no_facet_turns_over_within_the_circle() {
         };
         let circle = mean_value::within_circle(&mesh.positions, &disc, 1.0, &Silent).unwrap();
         assert_eq!(turned_over(&disc, &circle), 0.0, "{case}");
+        let triangle = |f: &[u32; 3]| Triangle::of(f.map(|v| mesh.positions[v as usize]));
+        let triangles: Vec<Triangle> = disc.faces.iter().map(triangle).collect();
+        let mut relaxed = circle.clone();
+        relax::relax(&disc, &triangles, &mut relaxed, &Silent).unwrap();
+        assert_eq!(turned_over(&disc, &relaxed), 0.0, "{case}");
         let flat = flatten(&mesh, &Silent).unwrap();
         assert_eq!((flat.folded_share, turned_over(&disc, &flat.places)), (0.0, 0.0), "{case}");
         // The whole has the area of its facets within the rims: none lies on another.
