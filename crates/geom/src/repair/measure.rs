@@ -103,7 +103,7 @@ pub enum DeviationError {
     Query(#[from] QueryError),
 }
 
-/// Places on a facet that are asked about, and their weights.
+/// Places on a facet that are asked about: its corners, the middles of its edges, its own middle.
 pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     let half = |p, q| times(0.5, plus(p, q));
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
