@@ -16,9 +16,8 @@ use std::path::{Path, PathBuf};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::place_map::{MapPlace, TrendMap};
-use trueness_inspect::results::trend::{
-    IndexRecord, MapPage, ResultInput, TrendDocument, TrendError, TrendRecord,
-};
+use trueness_inspect::results::trend::page::MapPage;
+use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
 use trueness_inspect::trend::View;
 
 /// Longest result that is read, bytes.

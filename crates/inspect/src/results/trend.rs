@@ -1,8 +1,6 @@
 //! `trueness/trend/1`: one plan over many parts.
 
-mod page;
-
-pub use page::MapPage;
+pub mod page;
 
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
 use super::place_map::{PlaceMap, TrendMap};

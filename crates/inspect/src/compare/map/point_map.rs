@@ -1,16 +1,12 @@
 //! The map while the points pass by: the worst point of each piece.
 
-use super::bisection::Bisection;
+use super::bisection::{Bisection, PIECE, whole_area};
 use super::places::Places;
 use crate::tolerance::{Tolerance, badness};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::parallel::prelude::*;
-use trueness_geom::space::{Point, cross, minus, norm};
 
 /// Cuts of the reference's facets, at most: beyond, more detail cannot be seen and costs room in the report.
 const MOST_CUTS: usize = 400_000;
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-const PIECE: f64 = 0.18;
 
 /// The worst point of each piece so far.
 pub struct PointMap {
@@ -84,23 +80,10 @@ impl PointMap {
     }
 }
 
-/// Area of all facets, square millimeters.
-pub(super) fn whole_area(mesh: &Mesh) -> f64 {
-    let corners = mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize]));
-    let areas: Vec<f64> = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).collect();
-    areas.iter().sum()
-}
-
 /// Whether deviation `a` is worse than `b`: farther beyond the tolerance, else of greater size. Anything is worse than NaN.
 pub(super) fn worse(a: f64, b: f64, tolerance: Option<Tolerance>) -> bool {
     let zone = tolerance.map(|t| [t.lower, t.upper]);
     b.is_nan() || badness(a, zone) > badness(b, zone)
-}
-
-/// The place with these weights of a facet's corners.
-pub(super) fn place(mesh: &Mesh, face: u32, weights: [f64; 3]) -> Point {
-    let corners = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-    [0, 1, 2].map(|k| (0..3).map(|j| weights[j] * corners[j][k]).sum())
 }
 
 impl Kept {

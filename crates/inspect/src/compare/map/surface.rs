@@ -1,10 +1,10 @@
 //! The reference as it is drawn: pieces as large as the points are apart, each vertex with the worst point near it.
 
 use super::super::options::Coverage;
-use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
+use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest, place};
 use super::creases;
 use super::fill::fill;
-use super::point_map::{Flagged, PointMap, place, worse};
+use super::point_map::{Flagged, PointMap, worse};
 use crate::spacing::spacing;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;

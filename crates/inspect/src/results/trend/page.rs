@@ -7,6 +7,7 @@ mod gutter;
 mod map;
 mod overview;
 mod parts;
+mod stripped;
 #[cfg(test)]
 mod tests;
 
@@ -22,6 +23,7 @@ use crate::results::trend::TrendDocument;
 use axes::Axes;
 use maud::{Markup, html};
 use serde_json::Value;
+use stripped::stripped;
 
 impl Subject for TrendDocument {
     fn head(&self) -> Head<'_> {
@@ -126,15 +128,6 @@ impl Drawn for TrendDocument {
             "\n"
         }
     }
-}
-
-/// The document without the lists of its places, which a page has no use for and no room.
-fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
-    let mut value = serde_json::to_value(document)?;
-    if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
-        map.retain(|_, v| !v.is_array());
-    }
-    Ok(value)
 }
 
 /// How many parts have each verdict, the worst first, with the class of that number; the worst of all leads.

@@ -1,6 +1,7 @@
 //! The page of a trend's maps: mean and spread of the deviations over the part.
 
-use super::{parts, stripped};
+use super::parts;
+use super::stripped::stripped;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use crate::report::subject::{Head, Map, Pick, Subject};
