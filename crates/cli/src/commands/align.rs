@@ -328,7 +328,7 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
     }
     if let Some(found) = &document.zones {
         let [x, y, z] = found.at.map(six_digits);
-        let [lower, upper] = found.tolerance.map(|t| signed(t));
+        let [lower, upper] = found.tolerance.map(signed);
         let _ = writeln!(
             out,
             "greatest excess {} at {x}, {y}, {z} (deviation {}, allowed {lower} … {upper}): the least near the best fit",
