@@ -205,7 +205,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![good, "--tolerance", "0"], 2, "tolerance 0: it must be a length above 0"),
         (vec![good, "--tolerance", "1", "--spans", "3"], 2, "cannot be used with"),
         (vec![good, "--fairness", "-1"], 2, "it is auto, or a number from 0 upwards"),
-        (vec![good, "--base", "mesh"], 2, "facets are not unrolled; take plane, xy, cylinder or sphere"),
+        (vec![good, "--base", "mesh"], 2, "--base mesh lays facets flat, and the file has none; give a mesh"),
         (vec![good, "--spans", "80x80", "--fairness", "0"], 3, "ask for fewer spans or a fairness above 0"),
         (vec![good, "--knots", open], 3, "open.json: the knots of u are not clamped"),
         (vec![good, "--knots", other], 3, "other.json: no knots; it must be"),
@@ -381,4 +381,99 @@ fn a_surface_is_cut_along_the_outline() {
         let o = trueness(["surface", points.to_str().unwrap(), wrong]);
         assert!(status(&o) == 2 && stderr(&o).contains("it is auto, or a length above 0"), "{}", stderr(&o));
     }
+}
+
+/// A pipe of 300°, as a mesh, with a wave of 0.02 mm on it: it folds over any plane, and is fitted over its own facets.
+#[test]
+fn a_pipe_is_fitted_over_its_facets() {
+    let folder = Folder::new();
+    let mut text = String::new();
+    for k in 0..101 * 31 {
+        let (angle, z) = (f64::from(k % 101) / 100.0 * 300f64.to_radians(), f64::from(k / 101));
+        let r = 20.0 + 0.02 * (3.0 * angle + 0.2 * z).sin();
+        text += &format!("v {:.9} {:.9} {z:.9}\n", r * angle.cos(), r * angle.sin());
+    }
+    for k in (0..101 * 30).filter(|k| k % 101 < 100) {
+        let a = k + 1;
+        text += &format!("f {a} {} {}\nf {a} {} {}\n", a + 1, a + 102, a + 102, a + 101);
+    }
+    let pipe = folder.write("pipe.obj", text);
+    let pipe = pipe.to_str().unwrap();
+    let file = |name: &str| folder.file(name).to_str().unwrap().to_string();
+    let (json, html, step) = (file("a.json"), file("a.html"), file("a.stp"));
+    let o = trueness([
+        "surface", pipe, "--base", "mesh", "--spans", "16x6", "--trim", "--json", &json, "--html", &html,
+        "--step", &step,
+    ]);
+    assert_eq!(status(&o), 0, "{}{}", stdout(&o), stderr(&o));
+    assert!(
+        stdout(&o).contains("base mesh, laid flat: lengths 0.999 to 1.001 of what they are"),
+        "{}",
+        stdout(&o)
+    );
+    let answer: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+    assert_eq!(answer["base"]["kind"], "mesh");
+    assert!(answer["deviation"]["rms"].as_f64().unwrap() < 1e-3, "{}", answer["deviation"]);
+    assert!(answer["trim"]["share"].as_f64().unwrap() > 0.99, "{}", answer["trim"]);
+    assert_eq!(answer["warnings"], serde_json::json!([]));
+    // The domain is the pipe unrolled: 300° of 20 mm, 30 mm high.
+    let knots = |name: &str| answer["knots"][name].as_array().unwrap().last().unwrap().as_f64().unwrap();
+    assert!((knots("u") - 104.7).abs() < 0.1 && (knots("v") - 30.0).abs() < 0.1, "{}", answer["knots"]);
+    // Its normal looks outward, as that of the facets.
+    assert!(
+        (answer["curvature"]["k2"]["median"].as_f64().unwrap() + 0.05).abs() < 1e-3,
+        "{}",
+        answer["curvature"]
+    );
+    // What was written is the surface.
+    let compared = document(["compare", pipe, &step]);
+    assert!(compared["comparisons"][0]["deviation"]["all"]["rms"].as_f64().unwrap() < 1e-3);
+    // Over a plane it lies in layers, or stands on edge.
+    let o = trueness(["surface", pipe]);
+    assert_eq!(status(&o), 1, "{}", stdout(&o));
+    let (mut cube, corner) = (String::new(), |k: usize| [k & 1, k >> 1 & 1, k >> 2 & 1]);
+    (0..8).map(corner).for_each(|[x, y, z]| cube += &format!("v {x} {y} {z}\n"));
+    for [a, b, c, d] in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+        cube += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+    }
+    let cube = folder.write("cube.obj", cube);
+    let o = trueness(["surface", cube.to_str().unwrap(), "--base", "mesh"]);
+    assert_eq!(status(&o), 3);
+    assert!(
+        stderr(&o).contains("cube.obj: the mesh is closed, it has no rim to be laid out from"),
+        "{}",
+        stderr(&o)
+    );
+}
+
+/// A strip narrower than its ripples is fitted flat, and said to be; a fence stands on edge, whatever the plane.
+#[test]
+fn what_stands_on_edge_is_told() {
+    let folder = Folder::new();
+    let odd = |k: u32, n: u32| {
+        f64::from(k.wrapping_mul(2_654_435_761).wrapping_add(n * 40_503_311) >> 8 & 0xffff) / 65536.0
+    };
+    let (mut strip, mut fence) = (String::new(), String::new());
+    for k in 0..4000 {
+        let (x, y) = (100.0 * odd(k, 0), 0.5 * f64::from(k % 83) / 82.0);
+        strip += &format!("{x} {y} {}\n", 0.3 * (x / 7.0).sin() + 0.2 * (y / 5.0).cos());
+        let angle = std::f64::consts::TAU * odd(k, 0);
+        fence +=
+            &format!("{} {} {}\n", 50.0 * angle.cos(), 50.0 * angle.sin(), 10.0 * f64::from(k % 83) / 82.0);
+    }
+    let o = trueness(["surface", folder.write("strip.xyz", strip).to_str().unwrap(), "--spans", "12x2"]);
+    let text = stdout(&o);
+    assert_eq!(status(&o), 0, "{text}");
+    assert!(text.contains("from the least-squares plane, over which it folds or stands on edge"), "{text}");
+    assert!(
+        text.contains("the points lie in a strip of 99.9") || text.contains("control points 15x5"),
+        "{text}"
+    );
+    let file = folder.write("fence.xyz", fence);
+    let o = trueness(["surface", file.to_str().unwrap()]);
+    let text = stdout(&o);
+    assert_eq!(status(&o), 1, "{text}");
+    assert!(text.contains("100.0 % of the points stand on edge on the base (plane)"), "{text}");
+    let answer = document(["surface", file.to_str().unwrap(), "--base", "cylinder"]);
+    assert_eq!(answer["base"]["standing_share"], 0.0);
 }

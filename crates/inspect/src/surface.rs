@@ -18,11 +18,19 @@ use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_geom::surface::{
-    Base, Fairness, Layout, Options, Outline, Region, SurfaceFit, minimum_rectangle,
+    Base, BaseKind, Fairness, Layout, Options, Outline, Region, STANDING, SurfaceFit, minimum_rectangle,
 };
 
 /// Share of points in layers beyond which the surface is doubtful.
-pub const FOLDED: f64 = 0.01;
+const FOLDED: f64 = 0.01;
+
+/// Factor by which lengths may grow or shrink as a mesh is laid flat.
+const STRETCHED: f64 = 2.0;
+
+/// Whether so many points lie in layers or stand on edge over the base that the surface is not theirs.
+pub fn is_doubtful(base: &BaseRecord) -> bool {
+    base.folded_share > FOLDED || base.standing_share > STANDING
+}
 
 /// Sides of the rectangle of the points with a lesser ratio make a strip.
 const SLIM: f64 = 1e-3;
@@ -92,6 +100,9 @@ fn base(found: &Base) -> BaseRecord {
         radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
         around: found.around,
         folded_share: found.folded_share,
+        standing_share: found.standing_share,
+        stretch: found.stretch,
+        round: found.round,
     }
 }
 
@@ -201,6 +212,27 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
             percent(fit.base.folded_share),
             fit.base.kind.name()
         ));
+    }
+    if fit.base.standing_share > STANDING {
+        all.push(format!(
+            "{} of the points stand on edge on the base ({}): the surface follows the line that they stand on, not what they are part of; take another base ({}), or a part of the points that lies flatter",
+            percent(fit.base.standing_share),
+            fit.base.kind.name(),
+            match fit.base.kind {
+                BaseKind::Cylinder | BaseKind::Sphere => "plane, or mesh where there are facets",
+                _ => "cylinder, sphere, or mesh where there are facets",
+            }
+        ));
+    }
+    if let Some([least, most]) = fit.base.stretch
+        && (least < 1.0 / STRETCHED || most > STRETCHED)
+    {
+        all.push(format!(
+            "laid flat, lengths on the facets are {least:.3} to {most:.3} times what they are: where they grow the surface has few points for its knots, where they shrink it has few knots; take a part of the mesh that bends less"
+        ));
+    }
+    if fit.base.round {
+        all.push("laid out freely, the mesh would lie on itself: it is laid within a circle, where its parts are less alike in size".into());
     }
     if fit.base.around {
         all.push("the points go all around the base: the surface has a seam, where it is not smooth".into());

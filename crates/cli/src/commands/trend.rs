@@ -16,7 +16,6 @@ use std::path::{Path, PathBuf};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::place_map::{MapPlace, TrendMap};
-use trueness_inspect::results::trend::page::MapPage;
 use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
 use trueness_inspect::trend::View;
 
@@ -65,7 +64,7 @@ impl Run for TrendArgs {
             TrendError::Different { index, .. } => anyhow!("{}: {e}", self.results[*index].display()),
             TrendError::None => anyhow!("{e}"),
         })?;
-        let page = self.map.as_ref().map(|path| (path, MapPage::of(&document)));
+        let page = self.map.as_ref().map(|path| (path, document.map_page()));
         if let Some((path, None)) = &page {
             let why = document.map_reason.as_deref().unwrap_or("there are no places");
             bail!("{}: there is no map: {why}", path.display());

@@ -38,8 +38,8 @@ pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
     split(work, vertices, &VERTICES, false)
 }
 
-/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Negative: out of the
-/// material; where the tips of two pits touch, the way into the material of one leads into the other.
+/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every second one is
+/// negative, out of the material: where the tips of two pits touch, the way into the material of one leads into the other.
 const OFFSETS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
@@ -112,12 +112,13 @@ fn apart(
         lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut together = together(work, &lost);
+    let mut ways = ways(work, &lost, &together);
     let mut nth = vec![0; asked.len()];
     // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
     let mut changed: Option<BTreeSet<u32>> = None;
     loop {
         let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
-        set_off(work, (&lost, &together), again, &distances);
+        set_off(work, (&lost, &ways), again, &distances);
         let has_changed = |v: &u32| changed.as_ref().map_or(*v >= first, |changed| changed.contains(v));
         let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
         let faces = &work.mesh().faces;
@@ -134,27 +135,39 @@ fn apart(
         bad.extend((0..lost.len()).filter(|i| with.contains(&together[*i])));
         bad.sort_unstable();
         bad.dedup();
+        let step_of = |i: usize| ways.get(i).map_or(1, |way| way.step);
         let (more, last): (Vec<usize>, Vec<usize>) =
-            bad.into_iter().partition(|&i| nth[i] + 1 < OFFSETS.len());
+            bad.into_iter().partition(|&i| nth[i] + step_of(i) < OFFSETS.len());
         let kept: Vec<usize> =
             if *step == VERTICES { last.into_iter().filter(|&i| i < lost.len()).collect() } else { vec![] };
         if more.is_empty() && kept.is_empty() {
             return Ok(lost);
         }
         work.restore(before.clone());
-        more.iter().for_each(|&i| nth[i] += 1);
+        more.iter().for_each(|&i| nth[i] += step_of(i));
         let moved = more.iter().map(|&i| first + (i - kept.partition_point(|k| *k < i)) as u32);
         changed = Some(moved.chain(kept.iter().map(|&i| lost[i].0)).collect());
-        for i in kept.into_iter().rev() {
-            lost.remove(i);
-            together.remove(i);
-            nth.remove(i);
-            asked.remove(i);
+        if !kept.is_empty() {
+            let stays = |i: usize| kept.binary_search(&i).is_err();
+            retain(&mut lost, stays);
+            retain(&mut together, stays);
+            retain(&mut nth, stays);
+            retain(&mut asked, stays);
+            ways = self::ways(work, &lost, &together);
         }
         if asked.is_empty() {
             return Ok(lost);
         }
     }
+}
+
+/// Drops what does not stay, by its number.
+fn retain<T>(all: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
+    let mut i = 0;
+    all.retain(|_| {
+        i += 1;
+        stays(i - 1)
+    });
 }
 
 /// A number for each fan. Fans with the same number are moved together: they have common facets, at vertices within the gap
@@ -191,33 +204,22 @@ fn as_one(work: &Work, lost: &[(u32, Vec<u32>)], first: usize) -> Vec<usize> {
 /// Fans at one vertex that are compared with each other.
 const MANY: usize = 64;
 
-/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance; fans with
-/// the same number go the same way.
+/// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
 fn set_off(
     work: &mut Work,
-    (lost, together): (&[(u32, Vec<u32>)], &[u32]),
+    (lost, ways): (&[(u32, Vec<u32>)], &[Way]),
     again: &[([u32; 2], [u32; 2])],
     distances: &[f64],
 ) {
-    let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-    for ((_, fan), number) in lost.iter().zip(together) {
-        facets.entry(*number).or_default().extend(fan);
-    }
-    let mut ways: BTreeMap<u32, Vector> = BTreeMap::new();
     let mut renamed = BTreeMap::new();
-    for (((v, fan), number), distance) in lost.iter().zip(together).zip(distances) {
-        let way = ways.entry(*number).or_insert_with(|| {
-            let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
-            outwards(work, &facets, work.at(*v))
-        });
-        let place = plus(work.at(*v), times(-distance, *way));
-        let new = work.add(place);
+    for (((v, fan), way), distance) in lost.iter().zip(ways).zip(distances) {
+        let new = work.add(plus(work.at(*v), times(-distance, way.out)));
         renamed.extend(fan.iter().map(|&f| ((f, *v), new)));
     }
     let (mut removed, mut added) = (vec![], vec![]);
     for ((ends, facets), distance) in again.iter().zip(&distances[lost.len()..]) {
         let middle = times(0.5, plus(work.at(ends[0]), work.at(ends[1])));
-        let place = plus(middle, times(-distance, outwards(work, facets, middle)));
+        let place = plus(middle, times(-distance, outwards(work, facets, middle).out));
         let new = work.add(place);
         for &f in facets {
             removed.push(f);
@@ -229,15 +231,50 @@ fn set_off(
     work.replace(&removed, &added);
 }
 
-/// Unit vector out of the material between these facets, away from which their common place can be moved.
-fn outwards(work: &Work, facets: &[u32], at: Point) -> Vector {
+/// Where a fan goes.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Unit vector, away from which it is moved.
+    out: Vector,
+    /// How many of [`OFFSETS`] are one step: all, or those on this side.
+    step: usize,
+}
+
+/// The ways of the fans; those with the same number go the same way.
+fn ways(work: &Work, lost: &[(u32, Vec<u32>)], together: &[u32]) -> Vec<Way> {
+    let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for ((_, fan), number) in lost.iter().zip(together) {
+        facets.entry(*number).or_default().extend(fan);
+    }
+    let mut ways: BTreeMap<u32, Way> = BTreeMap::new();
+    let way = |((v, _), number): (&(u32, Vec<u32>), &u32)| {
+        *ways.entry(*number).or_insert_with(|| {
+            let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
+            outwards(work, &facets, work.at(*v))
+        })
+    };
+    lost.iter().zip(together).map(way).collect()
+}
+
+/// Away from which the common place of these facets can be moved: out of the cone that they are seen in from there, where that
+/// is narrow, for what is moved within the cone meets nothing outside; else out of the material between them, and back.
+fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
+    /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
+    const NARROW: f64 = 0.5;
+    let corners = facets.iter().flat_map(|f| work.corners(*f)).filter(|p| norm(minus(*p, at)) > work.gap);
+    let seen: Vec<Vector> = corners.filter_map(|p| unit(minus(p, at))).map(|(way, _)| way).collect();
+    let axis = unit(seen.iter().copied().fold([0.0; 3], plus));
+    if let Some((axis, _)) = axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > NARROW)) {
+        return Way { out: times(-1.0, axis), step: 2 };
+    }
     let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
     let away = || {
         let middle = facets.iter().map(|f| work.middle(*f)).fold([0.0; 3], plus);
         minus(at, times(1.0 / facets.len() as f64, middle))
     };
-    unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n)
+    let out = unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n);
+    Way { out, step: 1 }
 }
 
 /// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.

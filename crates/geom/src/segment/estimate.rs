@@ -27,6 +27,27 @@ pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
     }
 }
 
+/// Whether the element is of a size that a part of this size can show.
+pub(super) fn is_sound(shape: &Shape, size: f64) -> bool {
+    let most = 10.0 * size;
+    match *shape {
+        Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
+        Shape::Cone { half_angle, radius, .. } => {
+            radius.abs() < most && half_angle < 1.5 && half_angle > 1e-3
+        }
+        Shape::Torus { major_radius, minor_radius, .. } => {
+            major_radius < most && minor_radius < 0.95 * major_radius
+        }
+        Shape::Plane { .. } => true,
+        // Curves are no faces.
+        Shape::Line2 { .. }
+        | Shape::Line { .. }
+        | Shape::Circle2 { .. }
+        | Shape::Circle { .. }
+        | Shape::Ellipse2 { .. } => false,
+    }
+}
+
 fn mean(points: impl Iterator<Item = Point> + Clone) -> Point {
     let count = points.clone().count() as f64;
     times(1.0 / count, points.fold([0.0; 3], plus))

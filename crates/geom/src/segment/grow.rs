@@ -1,7 +1,7 @@
 //! One region: from a patch to all that belongs to its element.
 
 use super::criterion::{BETTER, CLEARLY, better, fewest_points};
-use super::estimate::estimate;
+use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, flood, patch, rings};
 use super::pieces::{Band, PieceGraph};
 use super::probe::Probe;
@@ -136,7 +136,7 @@ impl Context<'_> {
         for &kind in self.kinds.iter().filter(|kind| kind.unknowns() > own.unknowns()) {
             let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
             let Some((shape, rms)) = improved(&points, &start.shape) else { continue };
-            let clearly = rms < CLEARLY * region.rms && self.sound(&shape);
+            let clearly = rms < CLEARLY * region.rms && is_sound(&shape, self.size);
             if clearly && self.agreeing(&shape, &region.pieces) >= FITTING {
                 (region.shape, region.rms) = (shape, rms);
             }
@@ -163,7 +163,7 @@ impl Context<'_> {
         if points.len() < fewest_points(kind) {
             return None;
         }
-        let (shape, rms) = improved(&points, &first).filter(|f| self.sound(&f.0))?;
+        let (shape, rms) = improved(&points, &first).filter(|f| is_sound(&f.0, self.size))?;
         (self.agreeing(&shape, patch) >= share).then_some((shape, rms))
     }
 
@@ -189,7 +189,7 @@ impl Context<'_> {
             if points.len() < fewest_points(kind) {
                 return None;
             }
-            let (better, rms) = improved(&points, &shape).filter(|f| self.sound(&f.0))?;
+            let (better, rms) = improved(&points, &shape).filter(|f| is_sound(&f.0, self.size))?;
             let full = pieces.len() >= limit.min(most);
             if pieces.len() >= most || (!full && pieces.len() <= last + last / stop_gain) {
                 let weight = self.surface.weight(&pieces);
@@ -209,26 +209,5 @@ impl Context<'_> {
         let mut points = self.surface.some_places(pieces, ENOUGH);
         points.retain(|&p| element.distance(p).abs() <= self.band.distance);
         points
-    }
-
-    /// Whether the element is of a size that the part can show.
-    fn sound(&self, shape: &Shape) -> bool {
-        let most = 10.0 * self.size;
-        match *shape {
-            Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
-            Shape::Cone { half_angle, radius, .. } => {
-                radius.abs() < most && half_angle < 1.5 && half_angle > 1e-3
-            }
-            Shape::Torus { major_radius, minor_radius, .. } => {
-                major_radius < most && minor_radius < 0.95 * major_radius
-            }
-            Shape::Plane { .. } => true,
-            // Curves are no faces.
-            Shape::Line2 { .. }
-            | Shape::Line { .. }
-            | Shape::Circle2 { .. }
-            | Shape::Circle { .. }
-            | Shape::Ellipse2 { .. } => false,
-        }
     }
 }

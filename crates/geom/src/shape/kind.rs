@@ -159,6 +159,10 @@ impl Kind {
             Kind::Torus => [Turn, Turn],
         }
     }
+    /// Whether plans seek it in a part by its nominal form ([`Nominal`](crate::feature::Nominal)).
+    pub fn has_nominal(self) -> bool {
+        matches!(self, Kind::Plane | Kind::Cylinder | Kind::Cone | Kind::Sphere)
+    }
     /// The kind with this name, in the plane z = 0 or not.
     pub fn named(name: &str, flat: bool) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name && kind.is_flat() == flat)

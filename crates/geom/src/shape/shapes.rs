@@ -191,6 +191,48 @@ impl Shape {
             }
         }
     }
+    /// Direction of the axis, line or normal of an element that has one.
+    pub fn direction(&self) -> Option<Vector> {
+        match *self {
+            Shape::Plane { normal, .. } | Shape::Circle { normal, .. } => Some(normal),
+            Shape::Line { direction, .. }
+            | Shape::Line2 { direction, .. }
+            | Shape::Cylinder { direction, .. }
+            | Shape::Cone { direction, .. }
+            | Shape::Torus { direction, .. } => Some(direction),
+            Shape::Circle2 { .. } | Shape::Ellipse2 { .. } | Shape::Sphere { .. } => None,
+        }
+    }
+
+    /// A point of the axis, line or plane.
+    pub fn foot(&self) -> Option<Point> {
+        match *self {
+            Shape::Plane { point, .. }
+            | Shape::Line { point, .. }
+            | Shape::Line2 { point, .. }
+            | Shape::Cylinder { point, .. }
+            | Shape::Cone { point, .. } => Some(point),
+            Shape::Circle { center, .. } | Shape::Torus { center, .. } => Some(center),
+            Shape::Circle2 { .. } | Shape::Ellipse2 { .. } | Shape::Sphere { .. } => None,
+        }
+    }
+
+    /// Center of an element that counts as a point.
+    pub fn center(&self) -> Option<Point> {
+        match *self {
+            Shape::Sphere { center, .. } => Some(center),
+            Shape::Line2 { .. }
+            | Shape::Line { .. }
+            | Shape::Plane { .. }
+            | Shape::Circle2 { .. }
+            | Shape::Circle { .. }
+            | Shape::Ellipse2 { .. }
+            | Shape::Cylinder { .. }
+            | Shape::Cone { .. }
+            | Shape::Torus { .. } => None,
+        }
+    }
+
     /// The frame that its places are told in: an origin and three axes. Of what is round the third is the axis; which way the
     /// others look about it does not matter to the element.
     pub fn frame(&self) -> (Point, [Vector; 3]) {

@@ -1,9 +1,11 @@
 //! Parameters of points from a simple surface near them.
 
+use super::flatten::{Flat, flatten};
 use super::rectangle::minimum_rectangle;
 use super::{BaseKind, SurfaceError};
 use super::{fold, upright};
-use crate::fit::{self, FitError};
+use crate::fit::{self, FitError, Scatter};
+use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
@@ -14,10 +16,12 @@ use std::f64::consts::TAU;
 pub struct Base {
     /// What it is.
     pub kind: BaseKind,
-    /// Of a plane the corner of the rectangle, of a cylinder a place of its axis, of a sphere its center.
+    /// Of a plane the corner of the rectangle, of a cylinder a place of its axis, of a sphere its center, of a mesh the mean of its
+    /// vertices.
     pub origin: Point,
     /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
-    /// first where its angle is 0; of a sphere the first points amid the points and the third to the pole.
+    /// first where its angle is 0; of a sphere the first points amid the points and the third to the pole; of a mesh those in which its
+    /// vertices spread, most in the first.
     pub axes: [Vector; 3],
     /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
     /// rectangle was turned along what bends.
@@ -35,6 +39,13 @@ pub struct Base {
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
+    /// Share of the points whose surface stands on edge on the base, at 80° and more: the surface follows its plan there, and not
+    /// what stands on it.
+    pub standing_share: f64,
+    /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the second.
+    pub stretch: Option<[f64; 2]>,
+    /// Whether a mesh was laid within a circle: laid out freely, its rim would cross itself.
+    pub round: bool,
 }
 
 /// How the parameters of a cylinder or a sphere run from the lengths along its own directions.
@@ -49,6 +60,18 @@ struct Course {
 }
 
 impl Base {
+    /// The unit normal of the base at the place nearest to one.
+    fn up(&self, p: Point) -> Vector {
+        let [x, y, z] = self.axes;
+        let d = minus(p, self.origin);
+        let out = match self.kind {
+            BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => z,
+            BaseKind::Cylinder => plus(times(dot(d, x), x), times(dot(d, y), y)),
+            BaseKind::Sphere => d,
+        };
+        unit(out).map_or(z, |(d, _)| d)
+    }
+
     /// The place of the base with these parameters.
     pub(super) fn at(&self, [u, v]: [f64; 2]) -> Point {
         let own = match self.course.turned {
@@ -60,7 +83,10 @@ impl Base {
         let angle = a / radius + self.course.angle;
         let round = || plus(times(libm::cos(angle), self.axes[0]), times(libm::sin(angle), self.axes[1]));
         let off = match self.kind {
-            BaseKind::Plane | BaseKind::Xy => plus(times(u, self.axes[0]), times(v, self.axes[1])),
+            // Of a mesh nothing but the directions is told.
+            BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => {
+                plus(times(u, self.axes[0]), times(v, self.axes[1]))
+            }
             BaseKind::Cylinder => plus(times(radius, round()), times(b, self.axes[2])),
             BaseKind::Sphere => {
                 let up = b / radius;
@@ -73,6 +99,12 @@ impl Base {
 
 /// Where a point lies over the base: two lengths along it and the height.
 type Seen = ([f64; 2], f64);
+
+/// Share of the points that may stand on edge: walls of a part do, and points at its edges.
+pub const STANDING: f64 = 0.1;
+
+/// Share of the points that may lie in layers where a plane is taken over which no more stand on edge.
+const FEW: f64 = 0.01;
 
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
 const LINE: f64 = 1e-6;
@@ -93,6 +125,7 @@ pub(super) fn parameters(
         })
     };
     let (mut base, seen) = match kind {
+        BaseKind::Mesh => return Err(SurfaceError::NoFacets),
         BaseKind::Xy => (xy(), points.iter().map(|p| ([p[0], p[1]], p[2])).collect()),
         BaseKind::Plane => match shape(Kind::Plane)? {
             Shape::Plane { point, normal } => upright(points, point, normal, progress)?,
@@ -108,14 +141,41 @@ pub(super) fn parameters(
         },
     };
     let found: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
-    let [u, v] = [range(&found, 0), range(&found, 1)];
+    no_line(&found)?;
+    base.folded_share = folded_share(&seen);
+    base.standing_share = upright::standing(points, |p| base.up(p), progress)?;
+    Ok((base, found))
+}
+
+/// Refuses places on one line.
+fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
+    let [u, v] = [range(places, 0), range(places, 1)];
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
     // Also what lies aslant on one line.
-    if short <= LINE * long || minimum_rectangle(&found).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
+    if short <= LINE * long || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
         return Err(SurfaceError::Line);
     }
-    base.folded_share = folded_share(&seen);
-    Ok((base, found))
+    Ok(())
+}
+
+/// The parameters of all vertices of a mesh laid flat, in its minimum bounding rectangle.
+pub(super) fn laid_flat(mesh: &Mesh, progress: &dyn Progress) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
+    let Scatter { mean, axes: [_, middle, most], variance } = Scatter::of(&mesh.positions);
+    if variance[1] <= LINE * LINE * variance[2] {
+        return Err(SurfaceError::Line);
+    }
+    let Flat { places, stretch, folded_share, round } = flatten(mesh, progress)?;
+    let rectangle = minimum_rectangle(&places).ok_or(SurfaceError::Line)?;
+    let [a, b] = rectangle.along;
+    let seen = |p: &[f64; 2]| {
+        let d = [0, 1].map(|k| p[k] - rectangle.corner[k]);
+        [a * d[0] + b * d[1], a * d[1] - b * d[0]]
+    };
+    let axes = [most, middle, cross(most, middle)];
+    let kind = BaseKind::Mesh;
+    let stretch = Some(stretch);
+    let base = Base { kind, origin: mean, axes, folded_share, stretch, round, ..xy() };
+    Ok((base, places.iter().map(seen).collect()))
 }
 
 /// Share of the points that lie in layers.
@@ -124,8 +184,8 @@ fn folded_share(seen: &[Seen]) -> f64 {
     fold::share(seen, [range(&parameters, 0), range(&parameters, 1)])
 }
 
-/// The least-squares plane; where the points lie in layers over it, the plane over which the surface is least steep, if it has at
-/// most half as many in layers.
+/// The least-squares plane; where the points lie in layers or stand on edge over it, the plane over which the surface is least steep, if
+/// at most half as many lie in layers over that, or hardly any do either.
 fn upright(
     points: &[Point],
     point: Point,
@@ -133,8 +193,9 @@ fn upright(
     progress: &dyn Progress,
 ) -> Result<(Base, Vec<Seen>), SurfaceError> {
     let flat = plane(points, point, normal)?;
-    let folded = folded_share(&flat.1);
-    if folded == 0.0 {
+    let standing = |base: &Base| upright::standing(points, |_| base.axes[2], progress);
+    let (folded, on_edge) = (folded_share(&flat.1), standing(&flat.0)?);
+    if folded == 0.0 && on_edge <= STANDING {
         return Ok(flat);
     }
     let Some(direction) = upright::direction(points, normal, progress)? else { return Ok(flat) };
@@ -142,7 +203,10 @@ fn upright(
     let largest = direction.into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
     let direction = times(largest.signum(), direction);
     let (base, seen) = plane(points, point, direction)?;
-    if 2.0 * folded_share(&seen) > folded {
+    let (layers, edges) = (folded_share(&seen), standing(&base)?);
+    let fewer_layers = folded > 0.0 && 2.0 * layers <= folded && edges <= on_edge.max(STANDING);
+    let upright = on_edge > STANDING && edges <= STANDING && layers <= FEW;
+    if !fewer_layers && !upright {
         return Ok(flat);
     }
     let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
@@ -160,6 +224,9 @@ fn xy() -> Base {
         around: false,
         course: Course::default(),
         folded_share: 0.0,
+        standing_share: 0.0,
+        stretch: None,
+        round: false,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Why there is no surface.
 
+use super::flatten::not_a_disc::NotADisc;
 use super::options::HIGHEST_DEGREE;
 use crate::fit::FitError;
 use crate::progress::Cancelled;
@@ -69,6 +70,14 @@ pub enum SurfaceError {
         "all points lie on one straight line as seen on the base, or one lies very far from the others: they determine no surface"
     )]
     Line,
+    /// Points without facets, where these are to be laid flat.
+    #[error(
+        "points without facets cannot be laid flat: give a mesh, or take plane, xy, cylinder or sphere as the base"
+    )]
+    NoFacets,
+    /// A mesh that cannot be laid flat.
+    #[error(transparent)]
+    NotADisc(#[from] NotADisc),
     /// The base could not be fitted.
     #[error("no base: {0}")]
     Base(FitError),

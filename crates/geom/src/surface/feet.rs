@@ -4,7 +4,7 @@
 //! together through loops over arrays; a point that leaves its cell, comes to the edge of the domain, has no convex distance or no end
 //! after some steps begins anew by itself ([`Patches::foot_from`]). So the answer for a point depends on no other.
 
-use super::gram::Binned;
+use super::gram::{Binned, within};
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::simd::widest::widest;
@@ -15,6 +15,8 @@ use crate::spline::surface::Patches;
 const GROUP: usize = 8;
 /// One number of each.
 type Lanes = [f64; GROUP];
+/// Pieces of work whose answers wait to be put in their places.
+const BATCH: usize = 256;
 /// Steps that are taken side by side.
 const STEPS: usize = 5;
 /// Length of a step, relative to the place, after which the next one is rounding: as of the search for one point.
@@ -59,14 +61,13 @@ struct Group {
     state: Lanes,
 }
 
-/// The nearest places of the points, which have these parameters.
+/// The nearest places of the points, from the parameters that they were sorted by.
 ///
 /// Cost: four evaluations a point, about 0.1 µs.
 pub(super) fn feet(
     data: &Binned,
     found: &Found,
     points: &[Point],
-    parameters: &[[f64; 2]],
     progress: &dyn Progress,
 ) -> Result<Feet, Cancelled> {
     let reach = found.surface.reach();
@@ -103,12 +104,10 @@ pub(super) fn feet(
                         out.doubtful.push(number);
                     }
                     out.deviations.push(if group.side[l] < 0.0 { -distance } else { distance });
-                    out.feet.push([0, 1].map(|k| {
-                        let ((low, high), x) = (limits[k], group.at[k][l]);
-                        (0.5 * (low * (1.0 - x) + high * (1.0 + x))).clamp(low, high)
-                    }));
+                    out.feet.push([0, 1].map(|k| within(limits[k], group.at[k][l])));
                 } else {
-                    let foot = found.surface.foot_from(points[number as usize], parameters[number as usize]);
+                    let own = data.parameters(*cell as usize, first + l);
+                    let foot = found.surface.foot_from(points[number as usize], own);
                     if !foot.settled || foot.distance >= reach {
                         out.doubtful.push(number);
                     }
@@ -122,19 +121,22 @@ pub(super) fn feet(
         Ok(out)
     };
     let items = data.items();
-    let parts: Result<Vec<Feet>, Cancelled> = items.par_iter().map(one).collect();
     let count = points.len();
     let mut all = Feet { deviations: vec![0.0; count], feet: vec![[0.0; 2]; count], ..Feet::default() };
-    for ((_, from, _), part) in items.iter().zip(parts?) {
-        let numbers = &data.order[*from as usize..][..part.feet.len()];
-        for (number, (deviation, foot)) in numbers.iter().zip(part.deviations.iter().zip(&part.feet)) {
-            all.deviations[*number as usize] = *deviation;
-            all.feet[*number as usize] = *foot;
+    // A batch at a time: what its pieces hold is held twice.
+    for batch in items.chunks(BATCH) {
+        let parts: Result<Vec<Feet>, Cancelled> = batch.par_iter().map(one).collect();
+        for ((_, from, _), part) in batch.iter().zip(parts?) {
+            let numbers = &data.order[*from as usize..][..part.feet.len()];
+            for (number, (deviation, foot)) in numbers.iter().zip(part.deviations.iter().zip(&part.feet)) {
+                all.deviations[*number as usize] = *deviation;
+                all.feet[*number as usize] = *foot;
+            }
+            all.doubtful.extend(part.doubtful);
+            all.unsettled += part.unsettled;
+            all.sum_of_squares += part.sum_of_squares;
+            all.max_residual = all.max_residual.max(part.max_residual);
         }
-        all.doubtful.extend(part.doubtful);
-        all.unsettled += part.unsettled;
-        all.sum_of_squares += part.sum_of_squares;
-        all.max_residual = all.max_residual.max(part.max_residual);
     }
     all.doubtful.sort_unstable();
     all.max_residual = all.max_residual.sqrt();
@@ -340,7 +342,7 @@ mod tests {
             let data = Binned::new(&knots, &points, &parameters, None, center);
             let centered = Patches::of(data.spans.clone(), &centered, counts[1]);
             let found = Found { surface: &patches, centered: &centered };
-            let feet = feet(&data, &found, &points, &parameters, &Silent).unwrap();
+            let feet = feet(&data, &found, &points, &Silent).unwrap();
             let mut square = 0.0;
             for (i, point) in points.iter().enumerate() {
                 let alone = patches.foot_from(*point, parameters[i]);

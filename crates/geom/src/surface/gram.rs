@@ -46,6 +46,11 @@ pub(super) struct Sums {
     pub square: f64,
 }
 
+/// The place in a span with this coordinate from −1 to 1.
+pub(super) fn within((low, high): (f64, f64), x: f64) -> f64 {
+    (0.5 * (low * (1.0 - x) + high * (1.0 + x))).clamp(low, high)
+}
+
 impl Binned {
     pub(super) fn new(
         knots: &[Knots; 2],
@@ -74,6 +79,7 @@ impl Binned {
             *at += 1;
         }
         let local = order.par_iter().map(|i| places[*i as usize].1).collect();
+        drop(places);
         let own = |i: &u32| std::array::from_fn(|d| points[*i as usize][d] - center[d]);
         let sorted = order.par_iter().map(own).collect();
         let weights = weights.map(|w| order.iter().map(|i| w[*i as usize]).collect());
@@ -84,6 +90,12 @@ impl Binned {
     /// Number of points.
     pub(super) fn len(&self) -> usize {
         self.order.len()
+    }
+    /// The parameters of the point at this place of the order, in this cell: those given, to rounding.
+    pub(super) fn parameters(&self, cell: usize, at: usize) -> [f64; 2] {
+        let columns = self.spans[1].count();
+        let cell = [cell / columns, cell % columns];
+        [0, 1].map(|k| within(self.spans[k].limits(cell[k]), self.local[at][k]))
     }
     /// Cells, and how many of them hold no point.
     pub(super) fn cells(&self) -> (usize, usize) {

@@ -5,6 +5,7 @@
 //! surface leaves the part. So functions that meet few points get a plate of their own, as stiff as the noise asks for; and as a
 //! plate goes on for ever with the slope at its edge, a second term lets it lie down along the base.
 
+use super::BaseKind;
 use super::base::Base;
 use super::energy::{over_span, squares};
 use super::gram::Binned;
@@ -51,7 +52,11 @@ impl Hold {
             return None;
         }
         let sides = ground.knots.each_ref().map(|k| k.domain().1 - k.domain().0);
-        let reach = REACH * sides[0].min(sides[1]);
+        // Over a mesh laid flat there is no base in space to lie down along: the plate alone holds.
+        let reach = match ground.base.kind {
+            BaseKind::Mesh => f64::INFINITY,
+            _ => REACH * sides[0].min(sides[1]),
+        };
         let integrals = data.spans.each_ref().map(Integrals::new);
         let mut stencil = Stencil::new(data.counts, data.spans.each_ref().map(Spans::degree));
         for cell in 0..data.spans[0].count() * data.spans[1].count() {
@@ -134,7 +139,10 @@ fn need_at(data: &Binned, needs: &[f64], cell: usize, quarter: usize) -> f64 {
 }
 
 /// Control points of the base, tilted as the points over it are.
-fn target(Ground { knots, base, points, parameters, .. }: &Ground) -> Vec<Point> {
+fn target(Ground { knots, base, points, parameters, center }: &Ground) -> Vec<Point> {
+    if base.kind == BaseKind::Mesh {
+        return vec![*center; knots[0].count() * knots[1].count()];
+    }
     let slopes = slopes(base, points, parameters);
     let [us, vs] = knots.each_ref().map(Knots::greville);
     let at = |u: f64, v: f64| {

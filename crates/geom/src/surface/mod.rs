@@ -7,6 +7,7 @@
 //! | file | what |
 //! |---|---|
 //! | `base`, `rectangle`, `fold`, `upright` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it, and the plane without |
+//! | `flatten` | parameters from the facets of a mesh, laid flat |
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
 //! | `hold` | what holds the control points where points are few |
@@ -26,6 +27,7 @@ mod coarser;
 mod energy;
 mod error;
 mod feet;
+mod flatten;
 mod fold;
 mod found;
 mod grain;
@@ -46,14 +48,16 @@ mod tolerance;
 mod trimmed;
 mod upright;
 
-pub use base::Base;
+pub use base::{Base, STANDING};
 pub use error::SurfaceError;
+pub use flatten::NotADisc;
 pub use found::{Reached, Support, SurfaceFit};
 pub use options::{BaseKind, Fairness, HIGHEST_DEGREE, Layout, Options};
 pub use outline::{Outline, Region};
 pub use rectangle::{Rectangle, minimum_rectangle};
 pub use trimmed::trimmed;
 
+use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::Point;
 use crate::spline::basis::Knots;
@@ -86,33 +90,77 @@ pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Resu
     check(points, options)?;
     rayon::scope(|_| {
         let (base, parameters) = base::parameters(points, options.base, progress)?;
-        let domain = [0, 1].map(|k| match &options.layout {
-            Layout::Knots(knots) => knots[k].domain(),
-            _ => base::range(&parameters, k),
-        });
-        for (k, domain) in domain.into_iter().enumerate() {
-            let outside = |p: &[f64; 2]| p[k] < domain.0 || p[k] > domain.1;
-            if let Some(index) = parameters.iter().position(outside) {
-                return Err(SurfaceError::OutsideKnots { index, value: parameters[index][k], domain });
-            }
-        }
-        let uniform = |spans: [usize; 2]| {
-            [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
-        };
-        let found = match &options.layout {
-            Layout::Spans(spans) => {
-                pass::corrected(points, parameters, base, uniform(*spans), options, progress)
-            }
-            Layout::Knots(knots) => {
-                pass::corrected(points, parameters, base, knots.clone(), options, progress)
-            }
-            Layout::Tolerance(t) => {
-                let task = refine::Task { points, tolerance: *t, options, progress };
-                tolerance::to_tolerance(task, base, parameters)
-            }
-        };
-        nearest::told(points, found?, 0.0, progress)
+        over(points, base, parameters, options, progress)
     })
+}
+
+/// The B-spline surface of least squares through the vertices of a mesh. With [`BaseKind::Mesh`] the parameters come from its facets,
+/// which are laid flat; with the other bases it is [`fit`] of the vertices.
+///
+/// Facets count that name three different vertices. The mesh has one part with a rim and without handles; holes are allowed. Lengths
+/// of the facets are kept as far as they can be; what was unrolled keeps them all. Parameters run along the minimum bounding rectangle; the
+/// normal looks as that of the facets does. Cost: besides that of the fit some dozens of rounds over the facets, and 1 kB a vertex.
+///
+/// # Errors
+/// [`SurfaceError`]: as of [`fit`], and [`NotADisc`].
+///
+/// ```
+/// use trueness_geom::mesh::Mesh;
+/// use trueness_geom::progress::Silent;
+/// use trueness_geom::surface::{BaseKind, Options, fit_mesh};
+/// // Three quarters of a pipe.
+/// let place = |k: u32| {
+///     let angle = f64::from(k % 61) * 0.0785;
+///     [10.0 * angle.cos(), 10.0 * angle.sin(), f64::from(k / 61)]
+/// };
+/// let cells = (0..20).flat_map(|j| (0..60).map(move |i| 61 * j + i));
+/// let faces = cells.flat_map(|a| [[a, a + 1, a + 62], [a, a + 62, a + 61]]).collect();
+/// let mesh = Mesh { positions: (0..61 * 21).map(place).collect(), faces };
+/// let options = Options { base: BaseKind::Mesh, ..Options::default() };
+/// let found = fit_mesh(&mesh, &options, &Silent).unwrap();
+/// assert!(found.deviations.iter().all(|d| d.abs() < 1e-2));
+/// ```
+pub fn fit_mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<SurfaceFit, SurfaceError> {
+    if options.base != BaseKind::Mesh {
+        return fit(&mesh.positions, options, progress);
+    }
+    check(&mesh.positions, options)?;
+    rayon::scope(|_| {
+        let (base, parameters) = base::laid_flat(mesh, progress)?;
+        over(&mesh.positions, base, parameters, options, progress)
+    })
+}
+
+/// The fit over the parameters of a base.
+fn over(
+    points: &[Point],
+    base: Base,
+    parameters: Vec<[f64; 2]>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let domain = [0, 1].map(|k| match &options.layout {
+        Layout::Knots(knots) => knots[k].domain(),
+        _ => base::range(&parameters, k),
+    });
+    for (k, domain) in domain.into_iter().enumerate() {
+        let outside = |p: &[f64; 2]| p[k] < domain.0 || p[k] > domain.1;
+        if let Some(index) = parameters.iter().position(outside) {
+            return Err(SurfaceError::OutsideKnots { index, value: parameters[index][k], domain });
+        }
+    }
+    let uniform = |spans: [usize; 2]| {
+        [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
+    };
+    let found = match &options.layout {
+        Layout::Spans(spans) => pass::corrected(points, parameters, base, uniform(*spans), options, progress),
+        Layout::Knots(knots) => pass::corrected(points, parameters, base, knots.clone(), options, progress),
+        Layout::Tolerance(t) => {
+            let task = refine::Task { points, tolerance: *t, options, progress };
+            tolerance::to_tolerance(task, base, parameters)
+        }
+    };
+    nearest::told(points, found?, 0.0, progress)
 }
 
 fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {

@@ -13,11 +13,14 @@ pub enum BaseKind {
     Cylinder,
     /// The least-squares sphere: lengths along its equator and its meridians, whose cross lies amid the points.
     Sphere,
+    /// The facets of a mesh, laid flat: lengths as far as they can be kept.
+    Mesh,
 }
 
 impl BaseKind {
     /// All of them.
-    pub const ALL: [BaseKind; 4] = [BaseKind::Plane, BaseKind::Xy, BaseKind::Cylinder, BaseKind::Sphere];
+    pub const ALL: [BaseKind; 5] =
+        [BaseKind::Plane, BaseKind::Xy, BaseKind::Cylinder, BaseKind::Sphere, BaseKind::Mesh];
 
     /// The word for it: `plane`, `xy`, …
     pub fn name(self) -> &'static str {
@@ -26,6 +29,7 @@ impl BaseKind {
             BaseKind::Xy => "xy",
             BaseKind::Cylinder => "cylinder",
             BaseKind::Sphere => "sphere",
+            BaseKind::Mesh => "mesh",
         }
     }
 }

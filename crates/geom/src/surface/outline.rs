@@ -41,6 +41,8 @@ const STRAIGHT: f64 = 1.0;
 const MOST: f64 = (1 << 22) as f64;
 /// Regions with a smaller share of the points of the one that has most are left out.
 const SHARE: f64 = 0.01;
+/// A region wider than this share of its reach is an island, not a line of points: no greater reach joins islands.
+const WIDE: f64 = 2.0 / 3.0;
 /// Of more regions than this a greater reach is tried, so many times as great each time, up to this share of the longer side.
 const PARTS: usize = 8;
 const STEP: f64 = 1.4;
@@ -48,7 +50,8 @@ const WIDEST: f64 = 0.05;
 
 impl Outline {
     /// Of points in a rectangle of parameters, with this reach. Without one it is three times the mean distance of neighbors, or, where
-    /// that gives more than eight regions, the least that gives fewer, up to a twentieth of the longer side.
+    /// that gives more than eight regions which are lines of points, the least that gives fewer, up to a twentieth of the longer side, and
+    /// as long as no islands grow together.
     ///
     /// Regions with less than 1 % of the points of the one with most are left out. No region comes of no points. Cost: linear in points
     /// and cells, 4 million cells at most; of finer ones the reach is greater than asked for, and told.
@@ -75,12 +78,15 @@ impl Outline {
             return Ok(Outline { wanted, ..Outline::over(points, domain, reach, progress)? });
         }
         let Some(least) = fine(3.0 * spacing(points, domain)) else { return Ok(Outline::default()) };
-        let first = Outline::over(points, domain, least, progress)?;
+        let (first, islands) = Outline::counted(points, domain, least, progress)?;
         // Points in lines lie nearer to each other along these than across: then the lines are parts, and a greater reach joins them.
         let mut reach = least;
-        while first.regions.len() > PARTS && reach < WIDEST * longest {
+        while first.regions.len() > PARTS && islands <= PARTS && reach < WIDEST * longest {
             reach = (STEP * reach).min(WIDEST * longest);
             let wider = Outline::over(points, domain, reach, progress)?;
+            if wider.regions.len() < islands {
+                break;
+            }
             if wider.regions.len() <= PARTS {
                 return Ok(wider);
             }
@@ -95,6 +101,16 @@ impl Outline {
         reach: f64,
         progress: &dyn Progress,
     ) -> Result<Outline, Cancelled> {
+        Ok(Outline::counted(points, domain, reach, progress)?.0)
+    }
+
+    /// With this reach, and how many of the regions are islands.
+    fn counted(
+        points: &[[f64; 2]],
+        domain: [(f64, f64); 2],
+        reach: f64,
+        progress: &dyn Progress,
+    ) -> Result<(Outline, usize), Cancelled> {
         let cell_size = reach / CELLS;
         let margin = (CELLS + OFF).ceil() + 2.0;
         let raster = Raster::new(domain, cell_size, margin as usize);
@@ -117,6 +133,11 @@ impl Outline {
         let (part, count) = raster.parts(&depth, CELLS - OFF);
         let mut regions = vec![(0, Region::default()); count];
         points.iter().for_each(|p| regions[part[raster.cell(*p)] as usize].0 += 1);
+        // The points of a line are as deep as the reach.
+        let mut deepest = vec![0.0f64; count];
+        for (part, depth) in part.iter().zip(&depth).filter(|(part, _)| **part != u32::MAX) {
+            deepest[*part as usize] = deepest[*part as usize].max(*depth);
+        }
         for (cell, line) in raster.contours(&depth, CELLS - OFF) {
             let mut line: Vec<[f64; 2]> = line.into_iter().map(clamp).collect();
             line.dedup();
@@ -131,7 +152,14 @@ impl Outline {
                 _ => {}
             }
         }
-        Ok(kept(regions, reach))
+        let is_wide = |deepest: f64| 2.0 * (deepest - CELLS) >= WIDE * CELLS;
+        let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0);
+        let islands = regions
+            .iter()
+            .zip(deepest)
+            .filter(|((count, _), deepest)| *count as f64 >= SHARE * most as f64 && is_wide(*deepest));
+        let islands = islands.count();
+        Ok((kept(regions, reach), islands))
     }
 
     /// Whether a place is within, or on the rim.
@@ -180,6 +208,10 @@ fn room(sides: [f64; 2], reach: f64) -> f64 {
 /// their number in it.
 fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     const POINTS: f64 = 8.0;
+    /// Of fewer points to a square in the mean, their number tells more of chance than of their distance.
+    const FEWEST: f64 = 4.0;
+    /// Squares of half the side tell less by this factor where they are no longer wider than what they hold.
+    const LESS: f64 = 0.75;
     // A place that is there several times is no neighbor of itself.
     let mut points: Vec<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
     points.sort_unstable();
@@ -189,18 +221,30 @@ fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     let n = points.len().max(1) as f64;
     let least = (long * short / MOST).sqrt().max(long.max(short) / MOST);
     let mut side = (long * short * POINTS / n).sqrt().max(least);
-    // Where much of the domain is empty, the rest holds more: its squares are made smaller.
-    for _ in 0..4 {
+    let held = |side: f64| {
         let raster = Raster::new(domain, side, 0);
         let mut filled = vec![false; raster.counts[0] * raster.counts[1]];
         points.iter().for_each(|p| filled[raster.cell(*p)] = true);
-        let held = n / filled.iter().filter(|f| **f).count() as f64;
-        if held < 1.5 * POINTS {
-            return side / held.sqrt();
+        n / filled.iter().filter(|f| **f).count() as f64
+    };
+    // Where much of the domain is empty, the rest holds more: its squares are made smaller.
+    let mut own = held(side);
+    for _ in 0..4 {
+        if own < 1.5 * POINTS {
+            break;
         }
-        side = (side * (POINTS / held).sqrt()).max(least);
+        side = (side * (POINTS / own).sqrt()).max(least);
+        own = held(side);
     }
-    side / POINTS.sqrt()
+    // Squares wider than an island hold all of it, however near to each other its points lie: then smaller ones tell less.
+    while own > FEWEST && side > 2.0 * least {
+        let half = held(0.5 * side);
+        if 0.5 * side / half.sqrt() > LESS * side / own.sqrt() {
+            break;
+        }
+        (side, own) = (0.5 * side, half);
+    }
+    side / own.sqrt()
 }
 
 /// Area of a polygon that runs against the clock; negative where it runs with the clock.

@@ -20,18 +20,17 @@ const TUKEY: f64 = 4.685;
 /// The fit over these knots, with parameters corrected and outliers weighed as the options say.
 pub(super) fn corrected(
     points: &[Point],
-    mut parameters: Vec<[f64; 2]>,
+    parameters: Vec<[f64; 2]>,
     base: Base,
     knots: [Knots; 2],
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let corrections = if options.base == BaseKind::Xy { 0 } else { options.corrections };
-    let mut best = weighed(points, &parameters, base, &knots, None, options, progress)?;
+    let mut best = weighed(points, parameters, base, &knots, None, options, progress)?;
     let mut known = None;
     for n in 1..=corrections {
-        parameters.clone_from(&best.feet);
-        let next = weighed(points, &parameters, base, &knots, known, options, progress)?;
+        let next = weighed(points, best.feet.clone(), base, &knots, known, options, progress)?;
         // The weight of the thin plate settles with the first correction.
         known = next.degrees_of_freedom.map(|degrees_of_freedom| Known {
             fairness: next.fairness,
@@ -58,17 +57,17 @@ pub(super) fn rms(values: &[f64]) -> f64 {
 /// The fit at these parameters; of a robust one, until the weights have settled.
 fn weighed(
     points: &[Point],
-    parameters: &[[f64; 2]],
+    parameters: Vec<[f64; 2]>,
     base: Base,
     knots: &[Knots; 2],
     known: Option<Known>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
-    let mut found = once(points, parameters, base, knots, None, known, options, progress)?;
     if !options.robust {
-        return Ok(found);
+        return once(points, parameters, base, knots, None, known, options, progress);
     }
+    let mut found = once(points, parameters.clone(), base, knots, None, known, options, progress)?;
     let mut weights: Vec<f64> = vec![];
     for _ in 0..REWEIGHTED {
         let mut sizes: Vec<f64> = found.deviations.iter().map(|d| d.abs()).collect();
@@ -89,7 +88,7 @@ fn weighed(
             break;
         }
         weights = next;
-        found = once(points, parameters, base, knots, Some(&weights), known, options, progress)?;
+        found = once(points, parameters.clone(), base, knots, Some(&weights), known, options, progress)?;
         found.outliers = weights.iter().filter(|w| **w == 0.0).count();
     }
     Ok(found)
@@ -98,7 +97,7 @@ fn weighed(
 #[expect(clippy::too_many_arguments, reason = "the steps of one pass, each with a name")]
 fn once(
     points: &[Point],
-    parameters: &[[f64; 2]],
+    parameters: Vec<[f64; 2]>,
     base: Base,
     knots: &[Knots; 2],
     weights: Option<&[f64]>,
@@ -108,9 +107,11 @@ fn once(
 ) -> Result<SurfaceFit, SurfaceError> {
     let hull = Aabb::of(points);
     let center = times(0.5, plus(hull.min, hull.max));
-    let data = Binned::new(knots, points, parameters, weights, center);
-    let ground = Ground { knots, base: &base, points, parameters, center };
+    let data = Binned::new(knots, points, &parameters, weights, center);
+    let ground = Ground { knots, base: &base, points, parameters: &parameters, center };
     let solved = solve::solve(&data, &ground, known, options, progress)?;
+    // The sorted points know them too, and this is where most memory is in use.
+    drop(parameters);
     let counts = data.counts;
     let centered = Patches::of(data.spans.clone(), &solved.points, counts[1]);
     let control: Vec<Point> = solved.points.iter().map(|p| plus(*p, center)).collect();
@@ -122,7 +123,7 @@ fn once(
     let patches = Patches::new(&surface);
     let both = Found { surface: &patches, centered: &centered };
     let Feet { deviations, feet, doubtful, unsettled, sum_of_squares, max_residual } =
-        feet(&data, &both, points, parameters, progress)?;
+        feet(&data, &both, points, progress)?;
     let far = far(&base, points, 0.5 * hull.diagonal());
     Ok(SurfaceFit {
         far_control_points: surface.points().iter().filter(|p| far(p)).count(),

@@ -5,6 +5,7 @@ mod holes;
 mod nearest;
 mod outline;
 mod references;
+mod standing;
 
 use super::*;
 use crate::num::random::Random;

@@ -1,5 +1,8 @@
-//! The direction in which a surface has heights where it has none over the least-squares plane of its points.
+//! Whether points stand on edge on their base, and the direction in which a surface has heights where it has none over the
+//! least-squares plane of its points.
 //!
+//! A strip whose ripples are larger than its width has the plane of the ripples as its own, and stands on edge on it; so does
+//! a ring like a low fence. Over a place of the plane there is then no height, but all those of the strip's width.
 //! Steep ground that rises to one corner leans over its own plane: seen along the normal of that plane it folds, seen along
 //! another direction it does not. It has heights along a direction that no normal of the surface is at right angles to.
 
@@ -16,12 +19,63 @@ const POINTS: usize = 1 << 16;
 const ASKED: usize = 1 << 12;
 /// Points that a normal is found from.
 const AROUND: usize = 16;
+/// Of fewer points none has a normal that can be relied upon.
+const FEWEST: usize = 64;
+/// Of the places around a point, variance across the line through them as a share of that along it: less makes it a line of places.
+const LINE: f64 = 0.04;
+/// Points that are asked whether they stand on edge, and those among which their neighbors are looked for, at most.
+const LOOKED: usize = 1 << 10;
+const AMONG: usize = 1 << 14;
+/// Cosine of the angle between normal and base, 80°, below which a point stands on edge.
+const EDGE: f64 = 0.17;
 /// Share of the normals that may stand at a worse angle: at edges and outliers they are those of no surface.
 const APART: f64 = 0.02;
 /// First angle between directions that are tried, radians.
 const COARSE: f64 = 0.1;
 /// Times that the angle is halved.
 const HALVED: u32 = 8;
+
+/// Share of the points whose surface stands on edge on the base, at 80° and more, as the normals of some of them tell; `up` is
+/// the normal of the base at a place. 0 of fewer than 64 points.
+///
+/// Cost: a search among at most 16,384 points.
+pub(super) fn standing(
+    points: &[Point],
+    up: impl Fn(Point) -> Vector,
+    progress: &dyn Progress,
+) -> Result<f64, Cancelled> {
+    if points.len() < FEWEST {
+        return Ok(0.0);
+    }
+    let (found, asked) = normals(points, [AMONG, LOOKED], progress)?;
+    let on_edge = found.iter().filter(|(place, normal)| dot(up(*place), *normal).abs() < EDGE).count();
+    // Among noise wider than the distance of neighbors hardly any have a normal.
+    Ok(on_edge as f64 / asked as f64)
+}
+
+/// Some of the points and their normals, those of planes through 16 neighbors, and how many were asked: so many are searched, and so
+/// many asked at most.
+fn normals(
+    points: &[Point],
+    [among, asked]: [usize; 2],
+    progress: &dyn Progress,
+) -> Result<(Vec<(Point, Vector)>, usize), Cancelled> {
+    let some: Vec<Point> = points.iter().step_by(points.len().div_ceil(among)).copied().collect();
+    let tree = PointTree::new(&some);
+    let of = |p: &Point| {
+        let around: Vec<Vector> =
+            tree.k_nearest(p, AROUND, None).iter().map(|n| minus(some[n.1 as usize], *p)).collect();
+        let Scatter { variance, axes, .. } = Scatter::of(&around);
+        // Of points on a line every direction across is a normal.
+        let plane = variance[1] > 4.0 * variance[0] && variance[1] > LINE * variance[2];
+        plane.then_some((*p, axes[0]))
+    };
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    let asked: Vec<Point> = some.iter().step_by(some.len().div_ceil(asked)).copied().collect();
+    Ok((asked.par_iter().filter_map(of).collect(), asked.len()))
+}
 
 /// The direction, to the side of `normal`, for which the least cosine of the angle to a normal of the surface is greatest; 2 % of
 /// the normals do not count. Normals are those of planes through 16 neighbors. `None` where no points have a plane.
@@ -32,20 +86,8 @@ pub(super) fn direction(
     normal: Vector,
     progress: &dyn Progress,
 ) -> Result<Option<Vector>, Cancelled> {
-    let some: Vec<Point> = points.iter().step_by(points.len().div_ceil(POINTS)).copied().collect();
-    let tree = PointTree::new(&some);
-    let of = |p: &Point| {
-        let around: Vec<Vector> =
-            tree.k_nearest(p, AROUND, None).iter().map(|n| minus(some[n.1 as usize], *p)).collect();
-        let Scatter { variance, axes, .. } = Scatter::of(&around);
-        // Of points on a line every direction across is a normal.
-        (variance[1] > 4.0 * variance[0]).then_some(axes[0])
-    };
-    if progress.cancelled() {
-        return Err(Cancelled);
-    }
-    let asked: Vec<Point> = some.iter().step_by(some.len().div_ceil(ASKED)).copied().collect();
-    let normals: Vec<Vector> = asked.par_iter().filter_map(of).collect();
+    let normals: Vec<Vector> =
+        normals(points, [POINTS, ASKED], progress)?.0.into_iter().map(|(_, normal)| normal).collect();
     if normals.is_empty() {
         return Ok(None);
     }

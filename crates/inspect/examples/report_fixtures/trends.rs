@@ -134,8 +134,8 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
         },
         features: vec![],
         deviation: None,
-        deviation_map: None,
         deviation_reason: None,
+        deviation_map: None,
         scale: None,
         decision_rule: "iso14253-1".into(),
         counts: Counts {

@@ -8,7 +8,7 @@ use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::minus;
-use trueness_geom::zone::datum::{Datum, Freedom, Rule, Source, System, center, mean};
+use trueness_geom::zone::datum::{Datum, Freedom, Rule, Source, System, mean};
 
 /// The frame in which true places are given, and what it leaves free: that of the datums, or the one that the plan gives.
 pub(super) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
@@ -30,7 +30,7 @@ pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
             Rule::MinimumZone => Method::MinimumZone,
         };
         let shape = first.refitted(Kind::Sphere, method, m.progress)?.shape;
-        let center = center(&shape).ok_or_else(|| Missing::NotMeasured("the datum has no center".into()))?;
+        let center = shape.center().ok_or_else(|| Missing::NotMeasured("the datum has no center".into()))?;
         return Ok(Datum::Point(center));
     }
     system(m)?.datums.first().copied().ok_or_else(none)

@@ -8,7 +8,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::{Point, Vector, dot, minus, plus, times};
-use trueness_geom::zone::datum::{self, Datum, mean};
+use trueness_geom::zone::datum::{Datum, mean};
 
 /// A feature of a plan, measured or not.
 #[derive(Clone, Debug)]
@@ -188,7 +188,7 @@ impl Taken {
 
     /// Both ends of an axis over the extent of the points.
     fn ends(&self, shape: &Shape) -> Result<Vec<Point>, Missing> {
-        let (Some(foot), Some(direction)) = (datum::foot(shape), datum::direction(shape)) else {
+        let (Some(foot), Some(direction)) = (shape.foot(), shape.direction()) else {
             return Err(self.missing("it has no axis"));
         };
         let along = |p: &Point| dot(minus(*p, foot), direction);
@@ -212,7 +212,7 @@ impl Taken {
     /// Why there is none.
     pub fn direction(&self) -> Result<Vector, Missing> {
         let found = match self.element()? {
-            Element::Fit(fit) => datum::direction(&fit.shape),
+            Element::Fit(fit) => fit.shape.direction(),
             Element::Derived(Datum::Plane { normal, .. }) => Some(*normal),
             Element::Derived(Datum::Axis { direction, .. }) => Some(*direction),
             _ => None,

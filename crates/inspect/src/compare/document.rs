@@ -8,7 +8,7 @@ use super::{
 use crate::file_numbers::LeftOut;
 use crate::results::check::Defects;
 use crate::results::compare::*;
-use crate::results::{InputRecord, UNITS, VERSION, Verdict, Word};
+use crate::results::{InputRecord, UNITS, VERSION, Verdict, Word, worst as worst_of};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{DefectKind, Found, NOT_FINITE_FACETS};
@@ -60,7 +60,6 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
             c.warnings = plausibility::warnings(measured, reference, "--units, --reference-units");
         }
     }
-    let worst_verdict = |a: Verdict, b: Verdict| if a == Verdict::Pass { b } else { a };
     CompareDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -75,7 +74,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         facing: options.facing.as_ref().map(Facing::angle),
         paired: found.paired.iter().map(|(a, b, p)| paired(*a, *b, p)).collect(),
         scale: inputs.scale.unwrap_or_else(|| scale(found, options)),
-        verdict: comparisons.iter().filter_map(|c| c.verdict).reduce(worst_verdict),
+        verdict: worst_of(comparisons.iter().filter_map(|c| c.verdict)),
         comparisons,
         sampling: None,
         seed: options.seed,
@@ -249,8 +248,7 @@ fn shares(limits: &Limits, required: f64) -> ToleranceShares {
 /// What all say together: the worst of them. Where all points are of regions, the others have nothing to say.
 fn verdict(others: Option<&ToleranceShares>, regions: &[RegionRecord]) -> Option<Verdict> {
     let others = others.filter(|t| regions.is_empty() || t.inside.is_some()).map(judged);
-    let all = || others.into_iter().chain(regions.iter().map(|r| r.verdict));
-    [Verdict::Fail, Verdict::NotMeasured, Verdict::Pass].into_iter().find(|v| all().any(|o| o == *v))
+    worst_of(others.into_iter().chain(regions.iter().map(|r| r.verdict)))
 }
 
 fn judged(t: &ToleranceShares) -> Verdict {

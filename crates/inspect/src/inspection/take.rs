@@ -19,7 +19,7 @@ use trueness_geom::shape::Kind;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, Vector, cross, minus, norm, plus, times};
 use trueness_geom::spatial::neighbors::PointTree;
-use trueness_geom::zone::datum::{self, Datum, mean};
+use trueness_geom::zone::datum::{Datum, mean};
 
 /// All features of the plan, in its order.
 pub(super) fn features(
@@ -288,7 +288,7 @@ fn ray(taken: &Taken) -> Result<Ray, String> {
             Ok(Ray { point: *point, direction: *direction })
         }
         Element::Fit(fit) => {
-            let (point, direction) = (datum::foot(&fit.shape), datum::direction(&fit.shape));
+            let (point, direction) = (fit.shape.foot(), fit.shape.direction());
             Ok(Ray { point: point.ok_or_else(none)?, direction: direction.ok_or_else(none)? })
         }
         Element::Point(_) | Element::Derived(Datum::Point(_)) => Err(none()),

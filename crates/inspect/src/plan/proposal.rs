@@ -2,13 +2,13 @@
 
 use super::feature::COVERAGE;
 use super::region::{facets_of, nominal_of};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{Region, Segmentation};
-use trueness_geom::shape::Shape;
+use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::{Point, cross, dot, minus, norm};
-use trueness_geom::zone::datum::direction;
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
 const TOLERANCE: &str = "0.1";
@@ -29,31 +29,20 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
         quoted(reference)
     );
     let mut features: Vec<(String, &Region)> = Vec::new();
-    let mut numbers = [0usize; 4];
+    let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     for (label, region) in found.regions.iter().enumerate() {
         let facets = facets_of(mesh, found, label as u32);
-        let (kind, class) = match region.fit.shape {
-            Shape::Plane { .. } => (0, "plane"),
-            Shape::Cylinder { .. } => (1, "cylinder"),
-            Shape::Cone { .. } => (2, "cone"),
-            Shape::Sphere { .. } => (3, "sphere"),
-            Shape::Torus { .. }
-            | Shape::Line2 { .. }
-            | Shape::Line { .. }
-            | Shape::Circle2 { .. }
-            | Shape::Circle { .. }
-            | Shape::Ellipse2 { .. } => {
-                let kind = region.fit.shape.kind().name();
-                let _ = writeln!(
-                    out,
-                    "\n# A {kind} was found too; a plan cannot seek it by its nominal form yet."
-                );
-                continue;
-            }
-        };
-        numbers[kind] += 1;
-        let first_plane = kind == 0 && numbers[0] == 1;
-        let id = if first_plane { "A".to_string() } else { format!("{class} {}", numbers[kind]) };
+        let kind = region.fit.shape.kind();
+        let class = kind.name();
+        if !kind.has_nominal() {
+            let _ =
+                writeln!(out, "\n# A {class} was found too; a plan cannot seek it by its nominal form yet.");
+            continue;
+        }
+        let number = numbers.entry(class).or_insert(0);
+        *number += 1;
+        let id =
+            if kind == Kind::Plane && *number == 1 { "A".to_string() } else { format!("{class} {number}") };
         let Some(nominal) = nominal_of(&region.fit.shape, &facets) else { continue };
         let _ = write!(
             out,
@@ -75,23 +64,13 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
         number += 1;
         let _ = write!(out, "\n[[characteristic]]\nid = \"{number}\"\n{lines}\n");
     };
-    let datum = features.iter().find(|(id, _)| id == "A").and_then(|(_, r)| direction(&r.fit.shape));
+    let datum = features.iter().find(|(id, _)| id == "A").and_then(|(_, r)| r.fit.shape.direction());
     for (id, region) in features {
         let id_text = quoted(id);
         let shape = &region.fit.shape;
-        let form = match shape {
-            Shape::Plane { .. } => Some("flatness"),
-            Shape::Cylinder { .. } => Some("cylindricity"),
-            Shape::Sphere { .. }
-            | Shape::Cone { .. }
-            | Shape::Torus { .. }
-            | Shape::Line2 { .. }
-            | Shape::Line { .. }
-            | Shape::Circle2 { .. }
-            | Shape::Circle { .. }
-            | Shape::Ellipse2 { .. } => None,
-        };
-        if let Some(form) = form {
+        let form = [(Kind::Plane, "flatness"), (Kind::Cylinder, "cylindricity")];
+        let form = form.into_iter().find(|(kind, _)| *kind == shape.kind());
+        if let Some((_, form)) = form {
             add(format!("kind = \"{form}\"\nfeature = {id_text}\ntolerance = {TOLERANCE}"));
         }
         if let Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } = shape {
@@ -100,7 +79,7 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
                 "kind = \"size\"\nsize = \"GG\"\nfeature = {id_text}\nnominal = {nominal}\nupper = {TOLERANCE}\nlower = -{TOLERANCE}"
             ));
         }
-        let (Some(own), Some(datum), true) = (direction(shape), datum, id != "A") else { continue };
+        let (Some(own), Some(datum), true) = (shape.direction(), datum, id != "A") else { continue };
         // Planes stand to each other as their normals do, an axis to a plane the other way round.
         let is_plane = matches!(shape, Shape::Plane { .. });
         let along = dot(own, datum).abs();

@@ -52,12 +52,7 @@ pub fn nominal_of(shape: &Shape, facets: &[[Point; 3]]) -> Option<Nominal> {
             Some(Nominal::Cone { apex, direction, half_angle, between: [from.max(0.0), to] })
         }
         Shape::Sphere { center, radius } => Some(Nominal::Sphere { center, radius }),
-        // Plans have no nominal form of these.
-        Shape::Torus { .. }
-        | Shape::Line2 { .. }
-        | Shape::Line { .. }
-        | Shape::Circle2 { .. }
-        | Shape::Circle { .. }
-        | Shape::Ellipse2 { .. } => None,
+        // Those without, as `Kind::has_nominal` says.
+        _ => None,
     }
 }

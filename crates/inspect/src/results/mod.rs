@@ -27,7 +27,7 @@ pub use bounds::Bounds;
 pub use input::{ColumnRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::Verdict;
-pub(crate) use verdict::overall;
+pub(crate) use verdict::{overall, worst};
 pub use word::{Named, Word};
 
 /// Name and JSON schema of every result document, as kept under `docs/schema/`.

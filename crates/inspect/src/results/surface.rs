@@ -87,12 +87,13 @@ pub struct KnotsRecord {
 /// Where parameters came from.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct BaseRecord {
-    /// `plane`, `xy`, `cylinder` or `sphere`.
+    /// `plane`, `xy`, `cylinder`, `sphere` or `mesh`.
     pub kind: Word<BaseKind>,
-    /// Of a plane the corner of the bounding rectangle, of a cylinder a place of its axis, of a sphere its center.
+    /// Of a plane the corner of the bounding rectangle, of a cylinder a place of its axis, of a sphere its center, of a mesh the mean
+    /// of its vertices.
     pub origin: [f64; 3],
     /// Right-handed unit axes: of a plane the sides of the rectangle (the longer one first) and the normal; of a cylinder the third is its axis; of a
-    /// sphere the first points amid the points.
+    /// sphere the first points amid the points; of a mesh those in which its vertices spread, most in the first.
     pub axes: [[f64; 3]; 3],
     /// Angle from the longer side of the minimum bounding rectangle to the first axis, radians from −π/2 to π/2: 0 but of a plane whose
     /// rectangle was turned for a tolerance, along the direction in which the surface bends most.
@@ -111,6 +112,21 @@ pub struct BaseRecord {
     pub around: bool,
     /// Share of the points where layers lie over one another as seen on the base (0 to 1).
     pub folded_share: f64,
+    /// Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1): of a tenth and more the surface is not
+    /// theirs.
+    #[serde(default)]
+    pub standing_share: f64,
+    /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the
+    /// second.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub stretch: Option<[f64; 2]>,
+    /// Whether a mesh was laid within a circle: laid out freely, its rim would cross itself.
+    #[serde(skip_serializing_if = "is_false", default)]
+    pub round: bool,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// A point and its deviation.

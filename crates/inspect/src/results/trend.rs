@@ -1,6 +1,6 @@
 //! `trueness/trend/1`: one plan over many parts.
 
-pub mod page;
+mod page;
 
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
 use super::place_map::{PlaceMap, TrendMap};

@@ -39,9 +39,14 @@ pub(crate) fn rank(verdict: Verdict) -> u8 {
     }
 }
 
+/// The worst of all verdicts, whatever their order; `None` where there are none.
+pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
+    verdicts.into_iter().max_by_key(|v| rank(*v))
+}
+
 /// The verdict on all: the worst of them.
 pub fn overall(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
-    verdicts.into_iter().max_by_key(|v| rank(*v)).unwrap_or(Verdict::NotMeasured)
+    worst(verdicts).unwrap_or(Verdict::NotMeasured)
 }
 
 #[cfg(test)]
@@ -54,5 +59,7 @@ mod tests {
         assert_eq!(overall([Pass, Undecided, Fail, NotMeasured]), Fail);
         assert_eq!(overall([Pass, NotMeasured]), NotMeasured);
         assert_eq!(overall([Pass, Pass]), Pass);
+        assert_eq!([worst([NotMeasured, Fail]), worst([Fail, NotMeasured])], [Some(Fail); 2]);
+        assert_eq!((worst([]), overall([])), (None, NotMeasured));
     }
 }

@@ -14,6 +14,7 @@ use crate::run_files::RunFiles;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
 use trueness_inspect::results::Role;
 use trueness_inspect::surface::View;
@@ -27,6 +28,7 @@ use trueness_inspect::surface::View;
 Examples:
   trueness surface scan.asc --spans 12x8 --step surface.stp
   trueness surface scan.ply --tolerance 0.02 --json result.json --html report.html
+  trueness surface shoulder.stl --base mesh --spans 20x12 --step surface.stp --trim
   trueness surface heights.xyz --base xy --knots knots.json --fairness 0")]
 pub struct SurfaceArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
@@ -79,8 +81,7 @@ enum BaseArg {
     Cylinder,
     /// The least-squares sphere.
     Sphere,
-    /// Refused; the others are named.
-    #[value(hide = true)]
+    /// The facets of the mesh, laid flat: for parts that fold over any plane.
     Mesh,
 }
 
@@ -124,13 +125,7 @@ impl SurfaceArgs {
             BaseArg::Xy => BaseKind::Xy,
             BaseArg::Cylinder => BaseKind::Cylinder,
             BaseArg::Sphere => BaseKind::Sphere,
-            BaseArg::Mesh => {
-                return Err(Usage(
-                    "--base mesh: facets are not unrolled; take plane, xy, cylinder or sphere, and a part of the mesh that does not fold over on it"
-                        .into(),
-                )
-                .into());
-            }
+            BaseArg::Mesh => BaseKind::Mesh,
         };
         let layout = match (&self.knots, self.tolerance) {
             (Some(path), _) => Layout::Knots(knots::read(path, self.degree)?),
@@ -169,14 +164,21 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     if planar {
         return Err(Usage(format!("{shown}: it has two columns; a surface needs x, y and z")).into());
     }
-    let points = match body {
-        Body::Mesh(mesh) => mesh.mesh.positions,
-        Body::Points(source) => read::all_points(&args.points, source)?,
+    let mesh = match body {
+        Body::Mesh(mesh) => mesh.mesh,
+        Body::Points(source) => Mesh { positions: read::all_points(&args.points, source)?, faces: vec![] },
     };
-    read::describe(&mut record, &points);
+    if mesh.faces.is_empty() && options.base == BaseKind::Mesh {
+        return Err(Usage(format!(
+            "{shown}: --base mesh lays facets flat, and the file has none; give a mesh (STL, PLY, OBJ, OFF), or take plane, xy, cylinder or sphere"
+        ))
+        .into());
+    }
+    let points = &mesh.positions;
+    read::describe(&mut record, points);
     read::hash(&mut record, &args.points)?;
     let stage = Stage::new(common.progress, "fitting", "points", None);
-    let fit = surface::fit(&points, &options, &stage);
+    let fit = surface::fit_mesh(&mesh, &options, &stage);
     let fit = fit.map_err(|e| match e {
         SurfaceError::Cancelled(e) => anyhow::Error::from(e),
         e @ (SurfaceError::Degree { .. }
@@ -194,10 +196,10 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         bail!("{shown}: the points have no outline on the base to cut along; leave out --trim");
     }
     let document =
-        trueness_inspect::surface::document(&fit, &points, &options, outline.as_ref(), vec![record]);
+        trueness_inspect::surface::document(&fit, points, &options, outline.as_ref(), vec![record]);
     drop(stage);
     if args.report.html.is_some() {
-        let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, &points);
+        let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, points);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     let stage = Stage::new(common.progress, "writing the surface", "points", None);
@@ -206,6 +208,6 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     let out = document.tolerance.as_ref().is_some_and(|t| !t.reached);
-    let folded = document.base.folded_share > trueness_inspect::surface::FOLDED;
-    Ok(if out || folded { Outcome::NotConforming } else { Outcome::Conforming })
+    let doubtful = trueness_inspect::surface::is_doubtful(&document.base);
+    Ok(if out || doubtful { Outcome::NotConforming } else { Outcome::Conforming })
 }

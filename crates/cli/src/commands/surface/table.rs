@@ -80,14 +80,18 @@ pub fn table(document: &SurfaceDocument) -> String {
     out
 }
 
-/// How far the base is tilted, and the rectangle of the parameters turned, where they are.
+/// How far the base is tilted, facets are stretched, and the rectangle of the parameters turned, where they are.
 fn moved(base: &BaseRecord) -> String {
     let by = |angle: f64, how: [&str; 2]| match angle {
         0.0 => String::new(),
         angle => format!(", {} by {}° {}", how[0], fixed(angle.to_degrees(), 2), how[1]),
     };
-    let tilted = by(base.tilted, ["tilted", "from the least-squares plane, over which it folds"]);
-    tilted + &by(base.turned, ["turned", "along what bends"])
+    let tilted =
+        by(base.tilted, ["tilted", "from the least-squares plane, over which it folds or stands on edge"]);
+    let stretch = base.stretch.map(|[least, most]| {
+        format!(", laid flat: lengths {} to {} of what they are", fixed(least, 3), fixed(most, 3))
+    });
+    tilted + &by(base.turned, ["turned", "along what bends"]) + &stretch.unwrap_or_default()
 }
 
 fn reached(value: f64, outside: u64, stopped_by: Reached) -> String {

@@ -15,18 +15,20 @@ use super::seen;
 use super::views::{Node, View, overlap};
 use super::walls::Walls;
 use crate::mesh::Mesh;
-use crate::space::Aabb;
+use crate::space::{Aabb, Point};
 use crate::topology::Topology;
 use std::ops::Range;
 
-/// Facets at a vertex with very many, but for flat ones, as arcs around it.
+/// Facets at a vertex with very many, but for flat ones, as arcs around it; or near a place, as triangles around it.
 pub(super) struct Hub {
-    center: u32,
-    /// Box of the place of the center.
+    /// The vertex that they have in common.
+    vertex: Option<u32>,
+    center: Point,
+    /// Box of the vertex; empty where there is none.
     place: Aabb,
     /// Where all facets have an edge in common.
     book: Option<Book>,
-    /// Neighbors stand near each other. Their bounds are those of the other two corners.
+    /// Neighbors stand near each other. Their bounds are those of the corners that are not in common.
     arcs: Vec<View>,
     root: Node,
 }
@@ -63,17 +65,27 @@ pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> b
 }
 
 impl Hub {
-    fn new(mesh: &Mesh, center: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
-        let others = |facet: u32| mesh.faces[facet as usize].into_iter().filter(|v| *v != center);
+    fn new(mesh: &Mesh, vertex: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
+        let center = mesh.positions[vertex as usize];
+        let book = spine.map(|spine| Book::new(mesh, [vertex, spine], facets));
+        Hub { book, ..Hub::around(mesh, (Some(vertex), center), Aabb::of([&center]), facets) }
+    }
+
+    /// Facets with corners near a place, which need not be one of them.
+    pub fn crowd(mesh: &Mesh, center: Point, facets: &[u32]) -> Hub {
+        Hub::around(mesh, (None, center), Aabb::EMPTY, facets)
+    }
+
+    fn around(mesh: &Mesh, (vertex, center): (Option<u32>, Point), place: Aabb, facets: &[u32]) -> Hub {
+        let others = |facet: u32| mesh.faces[facet as usize].into_iter().filter(|v| Some(*v) != vertex);
         let arc = |&facet: &u32| View {
             number: facet,
-            seen: seen_from(mesh, center, facet),
+            seen: seen_from(mesh, vertex, center, facet),
             bounds: Aabb::of(others(facet).map(|v| &mesh.positions[v as usize])),
         };
         let mut arcs: Vec<View> = facets.iter().map(arc).collect();
         let root = Node::of(&mut arcs);
-        let book = spine.map(|spine| Book::new(mesh, [center, spine], facets));
-        Hub { center, place: Aabb::of([&mesh.positions[center as usize]]), book, arcs, root }
+        Hub { vertex, center, place, book: None, arcs, root }
     }
 
     /// Its facets.
@@ -104,10 +116,9 @@ impl Hub {
             return pages
                 .all(|page| !overlap(&bounds, &Aabb::of(&mesh.corners(page))) || decide(facet, page));
         }
-        let center = mesh.positions[self.center as usize];
-        let one = View { number: facet, seen: seen_from(mesh, self.center, facet), bounds };
-        let sides = seen::Sides::of(center, mesh.corners(facet));
-        let walls = Walls::of(mesh.corners(facet), center);
+        let one = View { number: facet, seen: seen_from(mesh, self.vertex, self.center, facet), bounds };
+        let sides = seen::Sides::of(self.center, mesh.corners(facet));
+        let walls = Walls::of(mesh.corners(facet), self.center);
         let may_meet = |seen: &Aabb, others: &Aabb| {
             overlap(&one.seen, seen)
                 && overlap(&one.bounds, &others.union(&self.place))
@@ -168,17 +179,17 @@ impl Hub {
     }
 
     fn one_with(&self, one: &View, others: Range<usize>, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
-        let near = |o: &&View| overlap(&one.seen, &o.seen);
+        let whole = one.bounds.union(&self.place);
+        let near = |o: &&View| overlap(&one.seen, &o.seen) && overlap(&whole, &o.bounds.union(&self.place));
         self.arcs[others].iter().filter(near).all(|other| decide(one.number, other.number))
     }
 }
 
-/// Box of a facet as seen from a vertex: that of an arc where it is one of its corners.
-fn seen_from(mesh: &Mesh, center: u32, facet: u32) -> Aabb {
-    let from = mesh.positions[center as usize];
+/// Box of a facet as seen from a place: that of an arc where the vertex there is one of its corners.
+fn seen_from(mesh: &Mesh, vertex: Option<u32>, from: Point, facet: u32) -> Aabb {
     let place = |v: u32| mesh.positions[v as usize];
     match mesh.faces[facet as usize] {
-        [v, a, b] | [b, v, a] | [a, b, v] if v == center => seen::segment(from, place(a), place(b)),
+        [v, a, b] | [b, v, a] | [a, b, v] if Some(v) == vertex => seen::segment(from, place(a), place(b)),
         face => seen::triangle(from, face.map(place)),
     }
 }

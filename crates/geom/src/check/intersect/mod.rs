@@ -8,16 +8,20 @@
 //! 3. *Exact.* The rest is decided by `meet`.
 //! 4. *Hubs.* The boxes of all facets at a vertex overlap there. Facets at a vertex with very many are therefore not in the
 //!    tree. They are searched separately, among each other and against the facets of the tree (`hub`).
+//! 5. *Crowds.* Where far too many boxes overlap, the search ends and begins again with facets that end near one place, but not at
+//!    one vertex, as further hubs (`crowd`).
 //!
 //! Of several facets with the same three corners only the first is searched (`pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod book;
+mod crowd;
 mod filter;
 mod hub;
 mod masks;
 mod meet;
 mod pairs;
+mod reaching;
 pub(crate) mod seen;
 #[cfg(test)]
 mod tests;
@@ -32,11 +36,11 @@ use crate::simd::Level;
 use crate::simd::lanes::Plain;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::lanes_x86::A8;
-use crate::space::Aabb;
 use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
 use pairs::{Copies, Pairs, Wanted};
+pub(crate) use reaching::{reaching, reaching_any};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use tree::{Boxes, Leaf, Tree, W};
@@ -141,56 +145,6 @@ pub fn any_self_intersection(
     Ok(with(&search, progress, Level::detect())?.count > 0)
 }
 
-/// For each of some boxes the facets with area whose own box meets it, ascending. `None` if there are more than `most` in all.
-///
-/// # Errors
-/// [`Cancelled`].
-pub(crate) fn reaching(
-    mesh: &Mesh,
-    topology: &Topology,
-    boxes: &[Aabb],
-    most: usize,
-    progress: &dyn Progress,
-) -> Result<Option<Vec<Vec<u32>>>, Cancelled> {
-    let in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
-    let tree = Tree::build(mesh, topology, &in_tree, None, progress);
-    let found = AtomicUsize::new(0);
-    let of_box = |b: &Aabb| {
-        if found.load(Relaxed) > most || progress.cancelled() {
-            return vec![];
-        }
-        let mut facets = tree.reaching(b);
-        facets.sort_unstable();
-        found.fetch_add(facets.len(), Relaxed);
-        facets
-    };
-    let all = boxes.par_iter().map(of_box).collect();
-    if progress.cancelled() {
-        return Err(Cancelled);
-    }
-    Ok((found.into_inner() <= most).then_some(all))
-}
-
-/// The facets with area whose box meets one of these boxes, ascending: those that [`reaching`] lists for any of them. Cost: n log n,
-/// however many boxes a facet meets.
-///
-/// # Errors
-/// [`Cancelled`].
-pub(crate) fn reaching_any(
-    mesh: &Mesh,
-    topology: &Topology,
-    boxes: &[Aabb],
-    progress: &dyn Progress,
-) -> Result<Vec<u32>, Cancelled> {
-    let in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
-    let mut facets = Tree::build(mesh, topology, &in_tree, None, progress).reaching_any(boxes, progress);
-    if progress.cancelled() {
-        return Err(Cancelled);
-    }
-    facets.sort_unstable();
-    Ok(facets)
-}
-
 /// What is searched.
 struct Search<'a> {
     mesh: &'a Mesh,
@@ -205,20 +159,43 @@ struct Search<'a> {
     alone: bool,
 }
 
+/// Pairs of boxes that overlap, for each facet, beyond which crowds are looked for: a scan has six, a mesh of needles some tens.
+const CROWDED: usize = 64;
+
 fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
-    let &Search { mesh, topology, limit, most, alone, .. } = search;
+    let &Search { mesh, topology, .. } = search;
     let copies = Copies::new(topology);
+    let mut free: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
+    let mut hubs = hub::hubs(mesh, topology, |f| copies.later(f));
+    hubs.iter().flat_map(Hub::facets).for_each(|f| free[f as usize] = false);
+    topology.duplicate_facets.iter().for_each(|d| free[d[1] as usize] = false);
+    let limits = [CROWDED * (mesh.faces.len() + 1000), usize::MAX];
+    for enough in limits {
+        if let Some(found) = attempt(search, (&copies, &hubs, &free), enough, progress, level)? {
+            return Ok(found);
+        }
+        hubs.extend(crowd::crowds(mesh, &mut free));
+    }
+    Err(Cancelled)
+}
+
+/// The search with these hubs, and with the facets that are `free` in the tree; `None` where more than `enough` boxes overlap.
+fn attempt(
+    search: &Search,
+    (copies, hubs, free): (&Copies, &[Hub], &[bool]),
+    enough: usize,
+    progress: &dyn Progress,
+    level: Level,
+) -> Result<Option<Crossings>, Cancelled> {
+    let &Search { mesh, topology, limit, most, alone, .. } = search;
     let joined = search.some.map(|some| copies.joined(some));
     let some = joined.as_deref();
-    let hubs = hub::hubs(mesh, topology, |f| copies.later(f));
-    let mut in_tree: Vec<bool> = topology.shell_of.iter().map(|shell| *shell != u32::MAX).collect();
-    hubs.iter().flat_map(Hub::facets).for_each(|f| in_tree[f as usize] = false);
-    topology.duplicate_facets.iter().for_each(|d| in_tree[d[1] as usize] = false);
-    let tree = Tree::build(mesh, topology, &in_tree, some, progress);
-    let wanted = Wanted { copies: &copies, some: search.some, limit };
-    let walk = Walk { mesh, tree: &tree, progress, most, alone, found: AtomicUsize::new(0) };
+    let tree = Tree::build(mesh, topology, free, some, progress);
+    let wanted = Wanted { copies, some: search.some, limit };
+    let [found, tried] = [0, 0].map(AtomicUsize::new);
+    let walk = Walk { mesh, tree: &tree, progress, most, enough, alone, found, tried };
     let mut pairs = Pairs::new(wanted);
-    around_hubs(&walk, &hubs, some, &mut pairs);
+    around_hubs(&walk, hubs, some, &mut pairs);
     if !tree.leaves.is_empty() && !walk.is_over() {
         let top = tree.levels.len() - 1;
         match level.min(Level::detect()) {
@@ -231,9 +208,13 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     if progress.cancelled() {
         return Err(Cancelled);
     }
+    // Of a search that found too many pairs all is known that is asked for.
+    if walk.is_crowded() && pairs.count <= most {
+        return Ok(None);
+    }
     pairs.cut(0);
     pairs.first.par_sort_unstable();
-    Ok(Crossings { count: pairs.count, at_least: false, first: pairs.first })
+    Ok(Some(Crossings { count: pairs.count, at_least: false, first: pairs.first }))
 }
 
 /// Finds the pairs of which one facet is at a hub.
@@ -287,8 +268,12 @@ struct Walk<'a> {
     progress: &'a dyn Progress,
     most: usize,
     alone: bool,
+    /// Beyond so many pairs of boxes it is another search's turn.
+    enough: usize,
     /// Pairs found so far, wherever.
     found: AtomicUsize,
+    /// Pairs of boxes compared so far.
+    tried: AtomicUsize,
 }
 
 /// [`Walk::descend`] for one level of instructions.
@@ -318,7 +303,11 @@ fn lane(b: &Boxes, i: usize) -> [f32; 6] {
 
 impl Walk<'_> {
     fn is_over(&self) -> bool {
-        self.found.load(Relaxed) > self.most || self.progress.cancelled()
+        self.found.load(Relaxed) > self.most || self.is_crowded() || self.progress.cancelled()
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.tried.load(Relaxed) > self.enough
     }
 
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
@@ -409,7 +398,7 @@ impl Walk<'_> {
         if self.is_over() {
             return;
         }
-        let mut before = out.count;
+        let (mut before, mut tried) = (out.count, 0);
         let t = self.tree;
         let (l, own) = (&t.leaves[i], &t.levels[0][i]);
         let planes = filter::planes(self.mesh, &t.frame, l);
@@ -434,6 +423,7 @@ impl Walk<'_> {
                 if among == 0 || b[0] > b[3] {
                     continue; // an empty box has no area, or fills up
                 }
+                tried += among.count_ones() as usize;
                 let mut reach = 0.0;
                 for k in 0..3 {
                     reach += if other[k + 3] > b[k + 3] { other[k + 3] } else { b[k + 3] }
@@ -444,14 +434,16 @@ impl Walk<'_> {
                 self.decide((l, a), q, left, out);
             }
             // A leaf may have very many neighbors.
-            if out.count > before {
+            if out.count > before || tried > W * W * W {
                 self.found.fetch_add(out.count - before, Relaxed);
+                self.tried.fetch_add(std::mem::take(&mut tried), Relaxed);
                 before = out.count;
                 if self.is_over() {
                     return;
                 }
             }
         }
+        self.tried.fetch_add(tried, Relaxed);
     }
 
     /// Decides exactly about the pairs of triangle `a` of leaf `l` and those of leaf `q` that are `left`.

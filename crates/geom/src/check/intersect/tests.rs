@@ -2,7 +2,7 @@ use super::*;
 use crate::num::predicates;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::space::{Point, plus};
+use crate::space::{Aabb, Point, plus};
 use crate::topology::tests::{levels, on_threads};
 use crate::topology::weld;
 use std::collections::HashMap;
@@ -253,8 +253,17 @@ fn crowds_take_n_log_n() {
         let facets = block.faces.iter().map(|f| f.map(|v| block.positions[v as usize]));
         facets.cycle().take(12 * (n / 12)).collect()
     };
+    // Their tips are a hair apart.
+    let needles = |n: usize| -> Vec<Facet> {
+        let of = |i: usize| {
+            let (a, b) = (rim(i, n, 0.0), rim(i + 1, n, 0.0));
+            [rim(2 * i + 1, 2 * n, 1e5).map(|x| x * 1e-5), a, b]
+        };
+        (0..n).step_by(2).map(of).collect()
+    };
     type Shape<'a> = (&'a str, &'a dyn Fn(usize) -> Vec<Facet>);
-    let shapes: [Shape; 5] = [
+    let shapes: [Shape; 6] = [
+        ("needles", &needles),
         ("bicone", &bicone),
         ("book", &book),
         ("closed book", &closed_book),
@@ -271,6 +280,29 @@ fn crowds_take_n_log_n() {
         // Four times the facets: a square would be sixteen times the work.
         assert!(work.windows(2).all(|w| w[1] < 7 * w[0]), "{name} {work:?}");
         assert!(work[2] < 32_000 * 40, "{name} {work:?}");
+    }
+}
+
+/// Tips near one place, but not at one vertex, are searched as around one, and the pairs are the same.
+#[test]
+fn crowds_cross_where_they_do() {
+    let random = &mut Random::new(8);
+    for (apart, single) in [(1e-3, false), (1e-6, false), (1e-6, true), (1e-12, false)] {
+        let mut ball = |size: f64| -> Point { std::array::from_fn(|_| size * (random.unit() - 0.5)) };
+        let center = [0.3, 0.7, -0.2];
+        let mut facet = || {
+            let (far, tip) = (plus(center, ball(4.0)), plus(center, ball(apart)));
+            [tip, far, plus(far, ball(0.5))]
+        };
+        let mut facets: Vec<Facet> = (0..700).map(|_| facet()).collect();
+        facets.extend((0..30).map(|_| [ball(3.0), ball(3.0), ball(3.0)]));
+        if single {
+            facets.iter_mut().flatten().flatten().for_each(|x| *x = f64::from(*x as f32));
+        }
+        let mesh = weld::corners(facets.len(), |f, k| facets[f][k]).unwrap();
+        let hubs = crowd::crowds(&mesh, &mut vec![true; facets.len()]);
+        assert!(hubs.iter().flat_map(Hub::facets).count() > 600, "{apart}");
+        assert!(check(&format!("crowd {apart} {single}"), &facets) > 1000);
     }
 }
 

@@ -1,7 +1,8 @@
 //! What is joined, what is parted, and that neither undoes the other.
 
 use super::*;
-use crate::space::plus;
+use crate::num::random::Random;
+use crate::space::{cross, dot, norm, plus};
 use crate::topology::weld;
 
 /// Two blocks, the second with its lowest corner at `offset`.
@@ -20,6 +21,36 @@ fn the_larger_fan_keeps_the_vertex() {
     // The new vertex lies inside the small block.
     let new = repaired.mesh.positions.last().unwrap();
     assert!(new.iter().all(|x| *x > 0.49 && *x < 0.5), "{new:?}");
+}
+
+/// Each needle keeps its place: its tip goes back within it, and no other is touched.
+#[test]
+fn needles_at_one_vertex_are_parted_within_themselves() {
+    let random = &mut Random::new(5);
+    let mut mesh = Mesh { positions: vec![[0.0; 3]], faces: vec![] };
+    for i in 0..150u32 {
+        // Spread over a sphere, so far apart that no two meet.
+        let (z, turn) = (1.0 - (2.0 * f64::from(i) + 1.0) / 150.0, 2.399_963 * f64::from(i));
+        let (sin, cos) = libm::sincos(turn);
+        let far = [cos, sin, z].map(|x| x * 10.0);
+        let radius = libm::sqrt(1.0 - z * z);
+        let far = [far[0] * radius, far[1] * radius, far[2]];
+        let mut corner = || plus(far, std::array::from_fn(|_| random.unit() - 0.5));
+        let mut corners = [corner(), corner(), corner()];
+        if dot(cross(corners[0], corners[1]), corners[2]) < 0.0 {
+            corners.swap(0, 1);
+        }
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(corners);
+        let [a, b, c] = [first, first + 1, first + 2];
+        mesh.faces.extend([[0, b, a], [0, c, b], [0, a, c], [a, b, c]]);
+    }
+    let repaired = mend(&mesh);
+    assert!(repaired.after.sound, "{:?}", counts(&repaired.after));
+    assert_eq!(repaired.effect.bodies, [150, 150]);
+    assert_eq!(repaired.mesh.faces.len(), 600);
+    let tips = repaired.mesh.positions.iter().filter(|p| norm(**p) < 0.1);
+    assert_eq!(tips.count(), 150);
 }
 
 /// So small a gap that single precision rounds the first offsets to nothing.
@@ -44,23 +75,24 @@ fn vertices_that_cannot_be_set_off_become_one_again() {
 /// its edge within the stitching distance of one. Joined again, they would be parted again, and so on.
 #[test]
 fn what_was_parted_is_not_stitched() {
-    for (below, end) in [(0.045, -9.0), (0.055, -0.015)] {
+    let near = [[[0.0, 0.005, -0.045], [-10.0, 9.0, -9.0]], [[0.0, 0.004, -0.055], [-10.0, 0.015, -10.0]]];
+    for [vertex, end] in near {
         let positions = vec![
             [0.0; 3],
             [20.0, 0.0, 0.0],
             [20.0, 20.0, 0.0],
-            [-10.0, 0.0, 0.0],
-            [-10.0, -10.0, 0.0],
-            [0.0, 0.0, -below],
-            [-10.0, 0.0, end],
-            [-5.0, 5.0, -10.0],
+            [-10.0, 0.0, -10.0],
+            [10.0, 0.0, -10.0],
+            vertex,
+            end,
+            [-5.0, 20.0, -5.0],
         ];
         let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 3, 4], [5, 6, 7]] };
         let options = Options { gap: Some(0.01), stitch: Some(0.02), ..Options::default() };
         let repaired = unguarded(&mesh, &options);
         let place = repaired.mesh.positions.last();
-        assert_eq!(place, Some(&[0.0, 0.0, -0.04]), "{below}: set off by four gaps");
-        assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{below}: {:?}", repaired.changes);
+        assert_eq!(place, Some(&[0.0, 0.0, -0.04]), "{vertex:?}: set off by four gaps");
+        assert_eq!((repaired.rounds, repaired.changes.len()), (2, 1), "{vertex:?}: {:?}", repaired.changes);
     }
 }
 

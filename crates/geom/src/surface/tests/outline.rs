@@ -111,6 +111,28 @@ fn outlines_of_lines_copies_and_islands_leave_nothing_out() {
     assert!(outline.reach > outline.wanted);
 }
 
+/// Islands that lie nearer together than lines of a scanner may, many and few, with lines or dust beside: they are never joined.
+#[test]
+fn outlines_keep_islands_apart() {
+    let random = &mut Random::new(8);
+    for (rows, each, gap) in [(12, 200, 7.0), (12, 16, 7.0), (3, 400, 4.0), (2, 3000, 4.0), (6, 2000, 1.0)] {
+        let mut points = vec![];
+        for island in 0..rows * rows {
+            let corner = [island % rows, island / rows].map(|k| f64::from(k) * (3.0 + gap));
+            points.extend((0..each).map(|_| corner.map(|x| x + 3.0 * random.unit())));
+        }
+        let outline = Outline::new(&points, domain(&points), None, &Silent).unwrap();
+        assert_eq!(
+            (outline.regions.len(), outline.left_out),
+            ((rows * rows) as usize, 0),
+            "{rows} {each} {gap}"
+        );
+        // What lies between them is outside.
+        let between = 3.0 + 0.5 * gap;
+        assert!(!outline.holds([between, 1.5]) && !outline.holds([between; 2]) && outline.holds([1.5; 2]));
+    }
+}
+
 /// Nothing to cut along, and rectangles without an inside.
 #[test]
 fn outlines_of_nothing_are_empty() {

@@ -1,7 +1,7 @@
 //! Ideal elements associated with datum features.
 
 use super::attitude::{AS_DRAWN, Held, nearest};
-use super::element::{center as center_of, direction as direction_of, foot, mean};
+use super::element::mean;
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Method, Options};
 use crate::progress::Progress;
@@ -30,16 +30,16 @@ pub(super) fn associate(
         fit::fit(points, kind, &options, progress).map(|f| f.shape).map_err(failed)
     };
     let free = fitted(source.points, source.kind, Method::Gaussian)?;
-    if let Some(center) = center_of(&free) {
+    if let Some(center) = free.center() {
         return Ok(Datum::Point(match rule {
             Rule::Gaussian => center,
             Rule::MinimumZone => {
                 let shape = fitted(source.points, source.kind, method)?;
-                center_of(&shape).unwrap_or(center)
+                shape.center().unwrap_or(center)
             }
         }));
     }
-    let Some(direction) = direction_of(&free) else {
+    let Some(direction) = free.direction() else {
         return Err(DatumError::Unsupported { what: "an element without direction or center" });
     };
     let is_plane = matches!(free, Shape::Plane { .. });
@@ -59,15 +59,15 @@ pub(super) fn associate(
     };
     match (wanted, is_plane) {
         (None, true) => {
-            let normal = direction_of(&fitted(source.points, source.kind, method)?);
+            let normal = fitted(source.points, source.kind, method)?.direction();
             let normal = normal.unwrap_or(direction);
             Ok(touching(source, outside(normal, source.outward), rule))
         }
         (Some(normal), true) => Ok(touching(source, outside(normal, source.outward), rule)),
         (None, false) => {
             let shape = fitted(source.points, source.kind, method)?;
-            let point = foot(&shape).unwrap_or([0.0; 3]);
-            Ok(Datum::Axis { point, direction: direction_of(&shape).unwrap_or(direction) })
+            let point = shape.foot().unwrap_or([0.0; 3]);
+            Ok(Datum::Axis { point, direction: shape.direction().unwrap_or(direction) })
         }
         (Some(direction), false) => along(source, direction, |flat| fitted(flat, Kind::Circle2, method)),
     }

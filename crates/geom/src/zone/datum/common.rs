@@ -8,7 +8,7 @@
 use super::associate::{across_normal, associate, outside};
 use super::attitude::{AS_DRAWN, Held, nearest};
 use super::joint::{Form, Joint, MOST, Stand};
-use super::{Datum, DatumError, Rule, Source, direction, foot, mean};
+use super::{Datum, DatumError, Rule, Source, mean};
 use crate::fit::{self, Options};
 use crate::progress::Progress;
 use crate::shape::Kind;
@@ -54,7 +54,7 @@ impl Common<'_> {
         let one = |source: &Source| {
             let found = fit::fit(source.points, source.kind, &Options::default(), self.progress);
             let shape = found.map_err(|error| DatumError::Fit { datum: self.datum, error })?.shape;
-            match (foot(&shape), direction(&shape)) {
+            match (shape.foot(), shape.direction()) {
                 (Some(at), Some(way)) => {
                     let along = dot(minus(mean(source.points), at), way);
                     Ok((plus(at, times(along, way)), way))

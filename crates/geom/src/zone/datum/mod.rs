@@ -15,6 +15,6 @@ mod source;
 mod system;
 
 pub use attitude::{AS_DRAWN, Freedom, System};
-pub use element::{center, direction, foot, mean};
+pub use element::mean;
 pub use error::DatumError;
 pub use source::{Datum, Rule, Source};

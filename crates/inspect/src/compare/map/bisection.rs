@@ -6,14 +6,10 @@
 //! gives pieces that those of the smaller limit divide.
 
 use trueness_geom::mesh::Mesh;
-use trueness_geom::parallel::prelude::*;
-use trueness_geom::space::{Point, cross, dot, minus, norm};
+use trueness_geom::space::{Point, dot, minus};
 
 /// Halvings of one facet, at most, one after another.
 const DEEPEST: usize = 60;
-
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-pub const PIECE: f64 = 0.18;
 
 /// The pieces as a tree: nodes `0..F` are the facets themselves, the others follow in pairs.
 pub struct Bisection {
@@ -93,19 +89,6 @@ pub fn in_second(cut: usize, weights: &[f64; 3]) -> bool {
 pub fn half_weights(cut: usize, second: bool, weights: [f64; 3]) -> [f64; 3] {
     let [a, b, c] = [cut, (cut + 1) % 3, (cut + 2) % 3].map(|k| weights[k]);
     if second { [2.0 * a, b - a, c] } else { [a - b, 2.0 * b, c] }
-}
-
-/// Area of all facets, square millimeters.
-pub fn whole_area(mesh: &Mesh) -> f64 {
-    let corners = mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize]));
-    let areas: Vec<f64> = corners.map(|[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a)))).collect();
-    areas.iter().sum()
-}
-
-/// The place with these weights of a facet's corners.
-pub fn place(mesh: &Mesh, face: u32, weights: [f64; 3]) -> Point {
-    let corners = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
-    [0, 1, 2].map(|k| (0..3).map(|j| weights[j] * corners[j][k]).sum())
 }
 
 fn cut_all(mesh: &Mesh, edge: f64, most: usize) -> Option<Vec<u32>> {

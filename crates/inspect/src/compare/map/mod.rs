@@ -8,6 +8,7 @@
 
 mod bisection;
 mod creases;
+mod facet;
 mod fill;
 mod places;
 mod point_map;

@@ -3,8 +3,9 @@
 //! The facets are parted at creases and cut by the reference's own size alone ([`bisection`](super::bisection)). Each point counts at
 //! the corner of its piece that is nearest to its place on the reference.
 
-use super::bisection::{Bisection, PIECE, half_corners, half_weights, in_second, place, whole_area};
+use super::bisection::{Bisection, half_corners, half_weights, in_second};
 use super::creases;
+use super::facet::{place, whole_area};
 use super::fill::fill;
 use std::collections::HashMap;
 use trueness_geom::mesh::Mesh;
@@ -13,6 +14,8 @@ use trueness_geom::space::{Point, minus, norm};
 
 /// Cuts of the facets, at most: some 20,000 places on a reference of few facets.
 const CUTS: usize = 40_000;
+/// Area of a piece over the square of its longest edge, as halving leaves it.
+const PIECE: f64 = 0.18;
 
 /// Sums of deviations, place by place.
 pub struct Places {

@@ -1,12 +1,15 @@
 //! The map while the points pass by: the worst point of each piece.
 
-use super::bisection::{Bisection, PIECE, whole_area};
+use super::bisection::Bisection;
+use super::facet::whole_area;
 use super::places::Places;
 use crate::tolerance::{Tolerance, badness};
 use trueness_geom::mesh::Mesh;
 
 /// Cuts of the reference's facets, at most: beyond, more detail cannot be seen and costs room in the report.
 const MOST_CUTS: usize = 400_000;
+/// Area of a piece over the square of its longest edge, as halving leaves it.
+const PIECE: f64 = 0.18;
 
 /// The worst point of each piece so far.
 pub struct PointMap {

@@ -1,8 +1,9 @@
 //! The reference as it is drawn: pieces as large as the points are apart, each vertex with the worst point near it.
 
 use super::super::options::Coverage;
-use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest, place};
+use super::bisection::{Edges, edges, half_corners, half_edges, half_weights, in_second, longest};
 use super::creases;
+use super::facet::place;
 use super::fill::fill;
 use super::point_map::{Flagged, PointMap, worse};
 use crate::spacing::spacing;

@@ -11,7 +11,7 @@ use crate::results::curvature::Range;
 use crate::results::curvature::page::{Choice, choices, words};
 use crate::results::surface::{MapRecord, SurfaceDocument};
 use crate::scale::Scale;
-use crate::surface::FOLDED;
+use crate::surface::is_doubtful;
 use maud::{Markup, Render, html};
 use serde_json::Value;
 use trueness_geom::surface::BaseKind;
@@ -23,7 +23,7 @@ impl Subject for SurfaceDocument {
 
     fn headline(&self) -> Headline {
         match &self.tolerance {
-            _ if self.base.folded_share > FOLDED => Verdict::Undecided.into(),
+            _ if is_doubtful(&self.base) => Verdict::Undecided.into(),
             Some(t) if t.reached => Verdict::Pass.into(),
             Some(_) => Verdict::Fail.into(),
             None => Headline { key: "surface", tone: Tone::Neutral },
@@ -216,6 +216,7 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
         BaseKind::Sphere => "verdict.sphere",
         BaseKind::Xy => "base.xy",
         BaseKind::Plane => "verdict.plane",
+        BaseKind::Mesh => "base.mesh",
     };
     let fairness = match d.fairness {
         0.0 => html! { "0" },
@@ -228,6 +229,9 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
             (fact(s, "surface.base", s.word(base)))
             @if d.base.tilted != 0.0 {
                 (fact(s, "surface.tilted", html! { (s.number(d.base.tilted.to_degrees(), 2)) "°" }))
+            }
+            @if let Some([least, most]) = d.base.stretch {
+                (fact(s, "surface.stretch", html! { (s.number(least, 3)) " … " (s.number(most, 3)) }))
             }
             @if d.base.turned != 0.0 {
                 (fact(s, "surface.turned", html! { (s.number(d.base.turned.to_degrees(), 2).signed()) "°" }))

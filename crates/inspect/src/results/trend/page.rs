@@ -7,11 +7,8 @@ mod gutter;
 mod map;
 mod overview;
 mod parts;
-mod stripped;
 #[cfg(test)]
 mod tests;
-
-pub use map::MapPage;
 
 use crate::report::ViewObject;
 use crate::report::number::Style;
@@ -23,7 +20,6 @@ use crate::results::trend::TrendDocument;
 use axes::Axes;
 use maud::{Markup, html};
 use serde_json::Value;
-use stripped::stripped;
 
 impl Subject for TrendDocument {
     fn head(&self) -> Head<'_> {
@@ -97,7 +93,7 @@ impl Subject for TrendDocument {
     }
 
     fn json(&self) -> serde_json::Result<Value> {
-        stripped(self)
+        parts::stripped(self)
     }
 
     fn drawing(&self) -> Option<&dyn Drawn> {

@@ -1,7 +1,7 @@
 //! The page of a trend's maps: mean and spread of the deviations over the part.
 
 use super::parts;
-use super::stripped::stripped;
+use super::parts::stripped;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
 use crate::report::subject::{Head, Map, Pick, Subject};
@@ -23,12 +23,14 @@ pub struct MapPage<'a> {
 const MEAN: [&str; 3] = ["trend.mean", "ends.high", "ends.low"];
 const SPREAD: [&str; 3] = ["trend.std_dev", "ends.spread.high", "ends.spread.low"];
 
-impl<'a> MapPage<'a> {
-    /// Of a document; `None` where it has no map.
-    pub fn of(document: &'a TrendDocument) -> Option<MapPage<'a>> {
-        Some(MapPage { document, map: document.map.as_ref()? })
+impl TrendDocument {
+    /// The page of its maps; `None` where it has none.
+    pub fn map_page(&self) -> Option<MapPage<'_>> {
+        Some(MapPage { document: self, map: self.map.as_ref()? })
     }
+}
 
+impl<'a> MapPage<'a> {
     fn quantities(&self) -> [(&'static [&'static str; 3], &'a MapQuantity); 2] {
         [(&MEAN, &self.map.means), (&SPREAD, &self.map.std_devs)]
     }

@@ -6,6 +6,7 @@ use crate::report::values::{Name, Text};
 use crate::results::Verdict;
 use crate::results::trend::{ResultInput, TrendDocument, TrendRecord};
 use maud::{Markup, html};
+use serde_json::Value;
 
 /// Parts that are listed, and characteristics named of one.
 const LISTED: usize = 1000;
@@ -86,4 +87,13 @@ pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
             }
         }
     }
+}
+
+/// The document without the lists of its places, which a page has no use for and no room.
+pub fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
+    let mut value = serde_json::to_value(document)?;
+    if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
+        map.retain(|_, v| !v.is_array());
+    }
+    Ok(value)
 }
