@@ -42,11 +42,12 @@ impl Multigrid {
         while matrix.rows() > FEW {
             let diagonal = matrix.diagonal();
             let (group, groups) = gathered(&matrix, &diagonal, strong);
-            // What hardly hangs together is left to the sweeps of the level above.
-            if 10 * groups > 9 * matrix.rows() {
-                break;
-            }
-            let down = smoothed(&matrix, &diagonal, &group, groups);
+            // What hardly hangs together is left to the sweeps: nothing is below.
+            let hangs_together = 10 * groups <= 9 * matrix.rows();
+            let down = match hangs_together {
+                true => smoothed(&matrix, &diagonal, &group, groups),
+                false => Sparse::new(matrix.rows(), 0, &[]),
+            };
             let up = down.transposed();
             let next = up.product(&matrix.product(&down));
             levels.push(Level { matrix, diagonal, down, up });
@@ -290,6 +291,20 @@ mod tests {
                 assert!(rounds < 40, "{symmetric} {side}: {rounds}");
             }
         }
+    }
+
+    /// However many, they are not solved for at once.
+    #[test]
+    fn unknowns_that_do_not_hang_together_are_many_and_quick() {
+        let n = 200_000;
+        let entries: Vec<(u32, u32, f64)> = (0..n).map(|i| (i, i, 2.0 + f64::from(i % 7))).collect();
+        let mut x = vec![0.0; n as usize];
+        let right = vec![1.0; n as usize];
+        let left = Multigrid::new(Sparse::new(n as usize, n as usize, &entries))
+            .solve(&right, &mut x, 1e-12, &Silent)
+            .unwrap();
+        assert!(left <= 1e-12);
+        assert!((0..n).all(|i| (x[i as usize] * (2.0 + f64::from(i % 7)) - 1.0).abs() < 1e-12));
     }
 
     #[test]
