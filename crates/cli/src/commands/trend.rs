@@ -31,7 +31,7 @@ const LONGEST: u64 = 256 << 20;
 Examples:
   trueness trend part-01.json part-02.json part-03.json
   trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html
-  trueness trend results/*.json --map map.html      (results of `inspect --places`)")]
+  trueness trend results/*.json --map map.html")]
 pub struct TrendArgs {
     /// Results of `trueness inspect --json`, one part each, in their order
     #[arg(required = true)]
