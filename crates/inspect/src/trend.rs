@@ -20,7 +20,7 @@ impl View {
         View {
             mesh: map.mesh(),
             values: [map.drawn(&map.mean), map.drawn(&map.std_dev)],
-            reasons: vec![NoValue::NotMeasured; map.places.len()],
+            reasons: map.parts.iter().map(reason).collect(),
             keep: greatest.map(|g| g.index as u32).collect(),
         }
     }
@@ -39,4 +39,9 @@ impl View {
             gathered: None,
         }]
     }
+}
+
+/// Why there is no value at a place where so many parts have one.
+fn reason(parts: &u64) -> NoValue {
+    if *parts == 0 { NoValue::NotMeasured } else { NoValue::SomeParts }
 }

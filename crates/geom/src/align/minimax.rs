@@ -35,7 +35,8 @@ pub struct Minimax {
 }
 
 /// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
-/// from the surface is least. The points that count are those of the best fit: outliers do not, unless `options` say so.
+/// from the surface is least. The points that count are those of the best fit, of a mesh its vertices: outliers do not, unless `options`
+/// say so.
 ///
 /// A local search: the best fit decides near which pose. Cost: three to ten closest-point searches of all points, one by one.
 ///
@@ -119,7 +120,7 @@ impl Counting {
         if !from.freedoms.is_empty() {
             return Err(AlignError::Free { free: from.freedoms.len() });
         }
-        let all = Samples::all(measured);
+        let all = Samples::vertices(measured);
         let samples = if from.warnings.contains(&AlignWarning::NormalsTurned) { all.turned() } else { all };
         let edges = BoundaryEdges::watched(reference.tree, progress)?;
         let moments = samples.moments();

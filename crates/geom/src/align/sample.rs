@@ -57,8 +57,18 @@ const NEIGHBORS: usize = 16;
 impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
     pub fn all(measured: &Measured) -> Samples {
+        Samples::of(measured, LARGE)
+    }
+
+    /// The points that were measured: of a mesh its vertices alone, however large their facets. What decides by the worst place looks at these.
+    pub fn vertices(measured: &Measured) -> Samples {
+        Samples::of(measured, f64::INFINITY)
+    }
+
+    /// As [`Samples::all`]; facets beyond this share of the whole area are represented by places on them.
+    fn of(measured: &Measured, large: f64) -> Samples {
         let mut samples = match measured {
-            Measured::Mesh(mesh) => of_mesh(mesh),
+            Measured::Mesh(mesh) => of_mesh(mesh, large),
             Measured::Points { points, normals } => Samples {
                 points: points.to_vec(),
                 normals: normals.map(<[Vector]>::to_vec).unwrap_or_default(),
@@ -242,7 +252,7 @@ fn parts(double: Vector, total: f64) -> f64 {
     (norm(double) / (FINE * total)).sqrt()
 }
 
-fn of_mesh(mesh: &Mesh) -> Samples {
+fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
     let mut normals = vec![[0.0; 3]; mesh.positions.len()];
     let mut areas = vec![0.0; mesh.positions.len()];
     let mut samples = Samples { oriented: true, ..Samples::default() };
@@ -250,7 +260,7 @@ fn of_mesh(mesh: &Mesh) -> Samples {
     for face in &mesh.faces {
         let double = double_area(mesh, face);
         let size = norm(double);
-        if size > LARGE * total {
+        if size > large * total {
             let parts = (size / (PART * total)).sqrt();
             samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
             continue;

@@ -49,7 +49,7 @@ pub struct InZones {
 /// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest excess of a point over the zone
 /// at its place is least. `surface` is the reference made ready for signs; `zones` says what is allowed where.
 ///
-/// The points that count are those of the best fit. A local search: the best fit decides near which pose. Cost: per round three to ten
+/// The points that count are those of the best fit, of a mesh its vertices. A local search: the best fit decides near which pose. Cost: per round three to ten
 /// closest-point searches of all points, one by one; one to three rounds are the rule.
 ///
 /// # Errors

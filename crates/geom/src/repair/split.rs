@@ -136,8 +136,11 @@ fn apart(
         bad.sort_unstable();
         bad.dedup();
         let step_of = |i: usize| ways.get(i).map_or(1, |way| way.step);
-        let (more, last): (Vec<usize>, Vec<usize>) =
-            bad.into_iter().partition(|&i| nth[i] + step_of(i) < OFFSETS.len());
+        let may_go = |i: usize| {
+            let next = OFFSETS.get(nth[i] + step_of(i));
+            next.is_some_and(|o| o.abs() * work.gap <= ways.get(i).map_or(f64::INFINITY, |way| way.most))
+        };
+        let (more, last): (Vec<usize>, Vec<usize>) = bad.into_iter().partition(|&i| may_go(i));
         let kept: Vec<usize> =
             if *step == VERTICES { last.into_iter().filter(|&i| i < lost.len()).collect() } else { vec![] };
         if more.is_empty() && kept.is_empty() {
@@ -238,6 +241,8 @@ struct Way {
     out: Vector,
     /// How many of [`OFFSETS`] are one step: all, or those on this side.
     step: usize,
+    /// How far it may be moved at most: no farther than changes little of it.
+    most: f64,
 }
 
 /// The ways of the fans; those with the same number go the same way.
@@ -261,11 +266,14 @@ fn ways(work: &Work, lost: &[(u32, Vec<u32>)], together: &[u32]) -> Vec<Way> {
 fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
     const NARROW: f64 = 0.5;
+    /// Share of the way to the nearest other corner.
+    const LITTLE: f64 = 0.05;
     let corners = facets.iter().flat_map(|f| work.corners(*f)).filter(|p| norm(minus(*p, at)) > work.gap);
-    let seen: Vec<Vector> = corners.filter_map(|p| unit(minus(p, at))).map(|(way, _)| way).collect();
+    let (seen, far): (Vec<Vector>, Vec<f64>) = corners.filter_map(|p| unit(minus(p, at))).unzip();
+    let most = LITTLE * far.iter().copied().fold(f64::INFINITY, f64::min);
     let axis = unit(seen.iter().copied().fold([0.0; 3], plus));
     if let Some((axis, _)) = axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > NARROW)) {
-        return Way { out: times(-1.0, axis), step: 2 };
+        return Way { out: times(-1.0, axis), step: 2, most };
     }
     let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
@@ -274,7 +282,7 @@ fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
         minus(at, times(1.0 / facets.len() as f64, middle))
     };
     let out = unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n);
-    Way { out, step: 1 }
+    Way { out, step: 1, most }
 }
 
 /// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.

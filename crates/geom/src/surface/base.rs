@@ -39,8 +39,8 @@ pub struct Base {
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
-    /// Share of the points whose surface stands on edge on the base, at 80° and more: the surface follows its plan there, and not
-    /// what stands on it.
+    /// Share of the points that stand on edge on the base, at 80° and more, and, where these are more than a tenth, that the fitted surface passes
+    /// by, at 45° and more: it follows the line that they stand on, and not what they are part of.
     pub standing_share: f64,
     /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the second.
     pub stretch: Option<[f64; 2]>,
@@ -61,7 +61,7 @@ struct Course {
 
 impl Base {
     /// The unit normal of the base at the place nearest to one.
-    fn up(&self, p: Point) -> Vector {
+    pub(super) fn up(&self, p: Point) -> Vector {
         let [x, y, z] = self.axes;
         let d = minus(p, self.origin);
         let out = match self.kind {

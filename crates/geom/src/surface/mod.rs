@@ -160,7 +160,12 @@ fn over(
             tolerance::to_tolerance(task, base, parameters)
         }
     };
-    nearest::told(points, found?, 0.0, progress)
+    let mut found = nearest::told(points, found?, 0.0, progress)?;
+    if found.base.standing_share > STANDING {
+        let base = found.base;
+        found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
+    }
+    Ok(found)
 }
 
 fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {

@@ -11,6 +11,7 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
+use crate::spline::surface::{FootSearch, Surface};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Points among which neighbors are looked for, at most.
@@ -51,6 +52,31 @@ pub(super) fn standing(
     let on_edge = found.iter().filter(|(place, normal)| dot(up(*place), *normal).abs() < EDGE).count();
     // Among noise wider than the distance of neighbors hardly any have a normal.
     Ok(on_edge as f64 / asked as f64)
+}
+
+/// Share of the points that stand on edge and that the surface passes by: it has another direction there than they have, by 45° and more.
+/// Where it follows a steep wall they stand on edge, and it with them.
+///
+/// Cost: as of [`standing`], and some thousand nearest places.
+pub(super) fn passed_by(
+    points: &[Point],
+    up: impl Fn(Point) -> Vector,
+    surface: &Surface<Point>,
+    progress: &dyn Progress,
+) -> Result<f64, Cancelled> {
+    /// Cosine of the angle between the two from which on it follows them.
+    const FOLLOWS: f64 = 0.7;
+    let (mut found, asked) = normals(points, [AMONG, LOOKED], progress)?;
+    found.retain(|(place, normal)| dot(up(*place), *normal).abs() < EDGE);
+    let search = match FootSearch::new(&[surface.clone().into()], progress) {
+        Err(_) if progress.cancelled() => return Err(Cancelled),
+        Err(_) => return Ok(found.len() as f64 / asked as f64),
+        Ok(search) => search,
+    };
+    let beside = |(place, normal): &&(Point, Vector)| {
+        search.nearest(place).foot.normal.is_none_or(|n| dot(n, *normal).abs() < FOLLOWS)
+    };
+    Ok(found.par_iter().filter(beside).count() as f64 / asked as f64)
 }
 
 /// Some of the points and their normals, those of planes through 16 neighbors, and how many were asked: so many are searched, and so

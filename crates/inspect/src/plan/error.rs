@@ -33,7 +33,14 @@ impl PlanError {
         let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
         let what = match quoted.split_first() {
             Some((word, known)) if message.starts_with("unknown ") && !known.is_empty() => unknown(
-                message.split('`').next().unwrap_or("").trim_start_matches("unknown ").trim(),
+                // The reader's word for a value of a list.
+                &message
+                    .split('`')
+                    .next()
+                    .unwrap_or("")
+                    .trim_start_matches("unknown ")
+                    .trim()
+                    .replace("variant", "value"),
                 word,
                 known,
             ),
@@ -52,11 +59,13 @@ pub fn unknown(what: &str, word: &str, known: &[&str]) -> String {
     }
 }
 
-/// The word that needs fewest changes of letters, if these are no more than a third of its letters and one.
+/// The word that needs fewest changes of letters, if these are no more than a third of its letters and one; of several one that only
+/// goes on.
 fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let lower = word.to_lowercase();
-    let best = known.iter().map(|k| (changes(&lower, &k.to_lowercase()), *k)).min_by_key(|(n, _)| *n)?;
-    (best.0 <= 1 + word.chars().count() / 3).then_some(best.1)
+    let cost = |k: &&str| (changes(&lower, &k.to_lowercase()), !k.to_lowercase().starts_with(&lower));
+    let best = known.iter().min_by_key(|k| cost(k))?;
+    (cost(best).0 <= 1 + word.chars().count() / 3).then_some(*best)
 }
 
 /// Letters to put in, take out or replace (V. I. Levenshtein, 1966), two letters exchanged counting for two.
@@ -95,6 +104,7 @@ mod tests {
         assert!(unknown("kind", "flatnes", &known).contains("did you mean \"flatness\"?"));
         assert!(unknown("kind", "Rundness", &known).contains("did you mean \"roundness\"?"));
         assert!(!unknown("kind", "texture", &known).contains("did you mean"));
+        assert!(unknown("method", "zone", &["none", "zones"]).contains("did you mean \"zones\"?"));
         assert_eq!(changes("kitten", "sitting"), 3);
         assert_eq!(changes("", "abc"), 3);
     }

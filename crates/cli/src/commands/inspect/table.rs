@@ -44,9 +44,11 @@ pub fn table(document: &InspectDocument) -> String {
         deviation(&mut out, c);
     }
     let n = &document.counts;
+    let deviations = document.deviation.as_ref().and_then(|c| c.verdict);
+    let deviations = deviations.map_or_else(String::new, |v| format!("; deviations {}", v.word()));
     let _ = writeln!(
         out,
-        "{}: {} pass, {} fail, {} undecided, {} not measured; decision rule {}; mm, degrees",
+        "{}: {} pass, {} fail, {} undecided, {} not measured{deviations}; decision rule {}; mm, degrees",
         document.verdict.word(),
         n.pass,
         n.fail,

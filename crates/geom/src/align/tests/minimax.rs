@@ -100,3 +100,23 @@ fn what_is_free_has_no_such_pose() {
     let (_, found) = fitted(&points, &sheet, Rigid::IDENTITY);
     assert!(matches!(found, Err(AlignError::Free { free: 3 })), "{found:?}");
 }
+
+/// Of a mesh of large facets every vertex counts: the distance told is the greatest of all.
+#[test]
+fn a_vertex_between_large_facets_counts() {
+    let mesh = block([0.0; 3], [60.0, 40.0, 20.0], 80.0);
+    let mut measured = block([0.0; 3], [60.0, 40.0, 20.0], 8.0);
+    let on_top = |p: &Point| p[2] > 19.9 && (p[0] - 30.0).abs() < 5.0 && (p[1] - 20.0).abs() < 5.0;
+    let deep = measured.positions.iter().position(on_top).unwrap();
+    measured.positions[deep][2] -= 0.08;
+    let tree = Tree::build(&mesh).unwrap();
+    let target = Target::new(&mesh, &tree);
+    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, seed: 0 };
+    let fit = best_fit(&Measured::Mesh(&measured), &target, &options, &Silent).unwrap();
+    let found = minimax(&Measured::Mesh(&measured), &target, &fit, &options, &Silent).unwrap();
+    let worst = greatest(&measured.positions, &mesh, &found.reference_from_measured);
+    assert!((found.greatest - worst).abs() < 1e-12, "{} {worst}", found.greatest);
+    assert_eq!((found.used, found.left_out), (measured.positions.len() as u64, 0));
+    // Half of the dent is shared out at best.
+    assert!(worst > 0.039 && worst < 0.0801, "{worst}");
+}

@@ -31,11 +31,13 @@ pub enum NoValue {
     NoCrossing = 10,
     /// It has no normal to measure along.
     NoDirection = 11,
+    /// Not every part has a value there.
+    SomeParts = 12,
 }
 
 impl NoValue {
     /// All of them, in the order of their codes.
-    pub const ALL: [NoValue; 12] = [
+    pub const ALL: [NoValue; 13] = [
         NoValue::Unknown,
         NoValue::MaxDistance,
         NoValue::BoundaryEdge,
@@ -48,6 +50,7 @@ impl NoValue {
         NoValue::Outlier,
         NoValue::NoCrossing,
         NoValue::NoDirection,
+        NoValue::SomeParts,
     ];
 
     /// Name in the manifest and in the text table (`reason.<name>`).
@@ -65,6 +68,7 @@ impl NoValue {
             NoValue::Outlier => "outlier",
             NoValue::NoCrossing => Exclusion::NoCrossing.name(),
             NoValue::NoDirection => Exclusion::NoDirection.name(),
+            NoValue::SomeParts => "some_parts",
         }
     }
 }

@@ -12,7 +12,7 @@ mod tests;
 
 use crate::report::ViewObject;
 use crate::report::number::Style;
-use crate::report::page::parts::{Headline, Tone, key_number, section};
+use crate::report::page::parts::{Headline, Tone, file_name, key_number, section};
 use crate::report::subject::{Drawn, Head, Pick, Subject};
 use crate::report::values::{Name, Text, leaf};
 use crate::results::Verdict;
@@ -35,7 +35,7 @@ impl Subject for TrendDocument {
     }
 
     fn title(&self) -> Option<&str> {
-        self.title.as_deref()
+        self.title.as_deref().or(self.inputs.first().map(|result| file_name(&result.path)))
     }
 
     fn picture(&self) -> &'static str {

@@ -46,7 +46,7 @@ impl Subject for MapPage<'_> {
     }
 
     fn title(&self) -> Option<&str> {
-        self.document.title.as_deref()
+        self.document.title()
     }
 
     fn convention(&self) -> Option<&'static str> {
