@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::num::random::Random;
-use crate::space::{cross, dot, norm, plus};
+use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::weld;
 
 /// Two blocks, the second with its lowest corner at `offset`.
@@ -51,6 +51,29 @@ fn needles_at_one_vertex_are_parted_within_themselves() {
     assert_eq!(repaired.mesh.faces.len(), 600);
     let tips = repaired.mesh.positions.iter().filter(|p| norm(**p) < 0.1);
     assert_eq!(tips.count(), 150);
+}
+
+/// Far from the origin the gap is large. What is parted goes no farther than a twentieth of the way to its next corner, and else it stays.
+#[test]
+fn parts_are_moved_by_little_of_their_size() {
+    for far in [0.0, 1e3, 1e4, 1e5] {
+        let mut mesh = Mesh { positions: vec![[far; 3]], faces: vec![] };
+        for i in 0..12u32 {
+            let (sin, cos) = libm::sincos(f64::from(i) * 0.5);
+            let [out, up] = [[10.0 * cos, 10.0 * sin, 0.0], [0.0, 0.0, 1.0]];
+            let across = cross(up, out.map(|x| 0.2 * x));
+            let place = |p: Point| plus([far; 3], plus(out, p));
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend([place(across), place(up), place(across.map(|x| -x))]);
+            let [a, b, c] = [first, first + 1, first + 2];
+            mesh.faces.extend([[0, a, b], [0, b, c], [0, c, a], [a, c, b]]);
+        }
+        let repaired = mend(&mesh);
+        let tips = repaired.mesh.positions[mesh.positions.len()..].iter();
+        assert!(tips.clone().all(|p| norm(minus(*p, [far; 3])) < 0.55), "{far}: {tips:?}");
+        let shells = [&repaired.before, &repaired.after].map(|report| report.soundness.shells);
+        assert!(shells[1] == 12 || shells[0] == shells[1], "{far}: {shells:?}");
+    }
 }
 
 /// So small a gap that single precision rounds the first offsets to nothing.

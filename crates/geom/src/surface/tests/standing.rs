@@ -1,6 +1,6 @@
 //! Points that stand on edge on their base.
 
-use super::super::{BaseKind, Options, SurfaceFit, fit};
+use super::super::{BaseKind, Layout, Options, SurfaceFit, fit};
 use super::{scan, spans};
 use crate::num::random::Random;
 use crate::progress::Silent;
@@ -71,5 +71,40 @@ fn what_stands_on_edge_is_told() {
     for points in [lines, step] {
         let found = over_plane(&points);
         assert!(found.base.standing_share < 0.02 && found.base.tilted == 0.0, "{:?}", found.base);
+    }
+}
+
+/// A strip with waves steeper than 80 degrees, seen from above: most of it stands on edge, and so does the surface there.
+#[test]
+fn walls_that_the_surface_follows_are_no_doubt() {
+    let random = &mut Random::new(8);
+    let points: Vec<Point> = (0..20_000)
+        .map(|_| [60.0 * random.unit(), 3.0 * random.unit()])
+        .map(|[x, y]| [x, y, 40.0 * (x / 4.0).sin()])
+        .collect();
+    let options = Options { base: BaseKind::Xy, layout: Layout::Spans([80, 2]), ..Options::default() };
+    let found = fit(&points, &options, &Silent).unwrap();
+    assert!(found.base.standing_share < 0.05, "{:?}", found.base);
+    assert!(found.deviations.iter().all(|d| d.abs() < 0.05));
+}
+
+/// Ten rows of a scanner, whose points scatter: what is corrected stays between them where the first fit was.
+#[test]
+fn rows_of_a_scanner_are_joined_smoothly() {
+    let height = |x: f64, y: f64| 5.0 * (x / 15.0).sin() + y * y / 400.0;
+    for seed in [0, 3, 4] {
+        let random = &mut Random::new(seed);
+        let mut noise = || 0.02 * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
+        let place = |k: u32| [0.2 * f64::from(k % 500), 5.0 * f64::from(k / 500)];
+        let points: Vec<Point> = (0..5000).map(place).map(|[x, y]| [x, y, height(x, y) + noise()]).collect();
+        let options = Options { layout: Layout::Spans([16, 8]), ..Options::default() };
+        let found = fit(&points, &options, &Silent).unwrap();
+        let search =
+            crate::spline::surface::FootSearch::new(&[found.surface.clone().into()], &Silent).unwrap();
+        for k in 0..900 {
+            let (x, y) = (1.0 + 3.3 * f64::from(k % 30), 1.5 * f64::from(k / 30) + 0.7);
+            let off = search.nearest(&[x, y, height(x, y)]).foot.distance;
+            assert!(off < 0.1, "{seed}: {off} at {x} {y}");
+        }
     }
 }
