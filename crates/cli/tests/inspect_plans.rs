@@ -89,7 +89,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "units = \"mm\"",
         "units = \"furlong\"",
-        "line 2, column 9: there is no variant \"furlong\" (known: mm, cm, m, in, um)",
+        "line 2, column 9: there is no value \"furlong\" (known: mm, cm, m, in, um)",
     ),
     fault("units = \"mm\"", "unit = \"mm\"", "there is no field \"unit\"; did you mean \"units\"?"),
     fault(
@@ -126,7 +126,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "shape = \"cylinder\"",
         "shape = \"cilinder\"",
-        "line 21, column 9: there is no variant \"cilinder\"; did you mean \"cylinder\"?",
+        "line 21, column 9: there is no value \"cilinder\"; did you mean \"cylinder\"?",
     ),
     fault(
         "feature = \"A\"",
@@ -211,10 +211,10 @@ const FAULTS: &[Fault] = &[
     fault(
         "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1",
         "kind = \"size\"\nfeature = \"pin\"\nsize = \"XX\"\nnominal = 8\nupper = 0.1\nlower = -0.1",
-        "line 34, column 8: there is no variant \"XX\"",
+        "line 34, column 8: there is no value \"XX\"",
     ),
     fault("rule = \"simple\"", "rule = \"iso14253-1\"", "rule \"iso14253-1\" needs the expanded uncertainty"),
-    fault("rule = \"simple\"", "rule = \"iso\"", "there is no variant \"iso\""),
+    fault("rule = \"simple\"", "rule = \"iso\"", "there is no value \"iso\""),
     fault("[decision]", "[align]\nmethod = \"rps\"\n[decision]", "method \"rps\" needs `points`, a list of"),
     fault("[decision]", "[align]\nmethod = \"datum\"\n[decision]", "method \"datum\" needs `datums`"),
     fault(

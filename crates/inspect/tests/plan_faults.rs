@@ -95,7 +95,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "datums = [\"A\"]",
         "datums = [\"A\"]\nmaterial = \"R\"",
-        "line 35, column 12: there is no variant \"R\"",
+        "line 35, column 12: there is no value \"R\"",
     ),
     fault(
         "tolerance = 0.1",
