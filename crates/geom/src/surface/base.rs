@@ -39,8 +39,8 @@ pub struct Base {
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
-    /// Share of the points that stand on edge on the base, at 80° and more, and, where these are more than a tenth, that the fitted surface passes
-    /// by, at 45° and more: it follows the line that they stand on, and not what they are part of.
+    /// Share of the points that stand on edge on the base, at 80° and more, and, where these are more than a tenth and no control point lies far off, that the fitted
+    /// surface passes by, at 45° and more: it follows the line that they stand on, and not what they are part of.
     pub standing_share: f64,
     /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the second.
     pub stretch: Option<[f64; 2]>,

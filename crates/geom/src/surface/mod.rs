@@ -161,7 +161,8 @@ fn over(
         }
     };
     let mut found = nearest::told(points, found?, 0.0, progress)?;
-    if found.base.standing_share > STANDING {
+    // A surface that is not held goes along anything.
+    if found.base.standing_share > STANDING && found.far_control_points == 0 {
         let base = found.base;
         found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
     }
