@@ -16,6 +16,8 @@ use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
+use trueness_inspect::compare::RegionRule;
+use trueness_inspect::plan::regions_of_file;
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 
 /// A file of this run: what the document says of it, and what is in it.
@@ -167,6 +169,13 @@ fn opened_mesh(path: &Path, role: Role, opened: Opened) -> anyhow::Result<(Sourc
             path.display()
         ),
     }
+}
+
+/// The regions of a reference with tolerances of their own, of a file.
+pub fn regions(path: &Path) -> anyhow::Result<Vec<RegionRule>> {
+    let shown = path.display();
+    let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
+    regions_of_file(&text).with_context(|| shown.to_string())
 }
 
 /// Whether a coordinate has a size that no command measures with: not 0, and below what distances keep their digits of, or

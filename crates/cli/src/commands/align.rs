@@ -1,7 +1,6 @@
 //! `trueness align`: the motion that brings a measured part onto its reference.
 
 use crate::command::Run;
-use crate::commands::compare::references;
 use crate::console;
 use crate::exit::{Outcome, Usage};
 use crate::number::{POINTS, counted, fixed, scientific, signed, six_digits};
@@ -232,7 +231,7 @@ fn best_fit(
         }
         MethodArg::Zones => {
             let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), &stage)?;
-            let rules = args.regions.as_deref().map(references::regions).transpose()?.unwrap_or_default();
+            let rules = args.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default();
             let regions = Regions::new(&rules, reference, &tree, common.seed, &stage)
                 .map_err(|e| anyhow::anyhow!("{}: {e}", of_reference()))?;
             let elsewhere = args.tolerance.map(|t| t.0);

@@ -21,6 +21,7 @@
 
 mod alignment;
 mod best_fit;
+mod counting;
 mod error;
 mod features;
 mod field;

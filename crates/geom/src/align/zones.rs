@@ -4,7 +4,7 @@
 //! signs. A point near the border of two zones may change from one to the other as the part moves: the search is done again with the
 //! zones where it ended, until none changes.
 
-use super::minimax::{Counting, unsettled, weighted_mean};
+use super::counting::{Counting, unsettled, weighted_mean};
 use super::sample::Measured;
 use super::{AlignError, Alignment, BestFit, Target, field};
 use crate::deviation::surface::ReferenceSurface;

@@ -57,7 +57,7 @@ pub(super) fn standing(
 /// Share of the points that stand on edge and that the surface passes by: it has another direction there than they have, by 45° and more.
 /// Where it follows a steep wall they stand on edge, and it with them.
 ///
-/// Cost: as of [`standing`], and some thousand nearest places.
+/// Cost: as of [`standing`], and at most 1,024 nearest places.
 pub(super) fn passed_by(
     points: &[Point],
     up: impl Fn(Point) -> Vector,

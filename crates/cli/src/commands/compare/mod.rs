@@ -2,7 +2,7 @@
 
 mod measured;
 mod output;
-pub mod references;
+mod references;
 mod table;
 mod words;
 
@@ -172,7 +172,7 @@ impl CompareArgs {
             along: self.along.map(|rule| Lines::new(rule, vec![])),
             outliers: self.outliers,
             coverage: self.coverage,
-            regions: self.regions.as_deref().map(references::regions).transpose()?.unwrap_or_default(),
+            regions: self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default(),
             tolerance: self.tolerance.map(|t| t.0),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),

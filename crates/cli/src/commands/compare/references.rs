@@ -11,9 +11,8 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{FootError, FootSearch, Nurbs};
-use trueness_inspect::compare::{Method, Options, Reference, RegionRule};
+use trueness_inspect::compare::{Method, Options, Reference};
 use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::plan::regions_of_file;
 use trueness_inspect::results::{Bounds, InputRecord};
 
 /// A reference as it was read.
@@ -65,13 +64,6 @@ pub fn open(
         records.push(record);
     }
     Ok((all, records))
-}
-
-/// The regions of a file.
-pub fn regions(path: &Path) -> anyhow::Result<Vec<RegionRule>> {
-    let shown = path.display();
-    let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
-    regions_of_file(&text).with_context(|| shown.to_string())
 }
 
 /// Refuses what is asked of facets only.
