@@ -9,6 +9,7 @@
 //! step first changed something (`rounds`).
 
 mod change;
+mod crowded;
 mod degenerate;
 mod duplicates;
 mod edges;

@@ -5,6 +5,7 @@
 //! vertex. Each other fan gets a vertex of its own, moved a little into its own material: a copy at the very same place
 //! would be joined again by the next program that reads the file.
 
+use super::crowded::{Fan, Rims, meant_as_one};
 use super::degenerate::cut;
 use super::edges::{Edges, Side};
 use super::error::RepairError;
@@ -61,24 +62,27 @@ fn split(
     let known = work.known()?;
     let edges = Edges::of(work.mesh(), &known.topology);
     let pairs = pairs(work, &edges);
-    // Fans that lose their vertex: the vertex and the facets.
-    let mut lost: Vec<(u32, Vec<u32>)> = vec![];
+    let mut lost: Vec<Fan> = vec![];
+    let mut rims = Rims::new();
     for v in vertices {
         work.go_on()?;
         let mut fans = fans(work, &known.topology.facets_at_vertex(v), v, &edges, &pairs, open_together);
         let size = |fan: &Vec<u32>| fan.iter().map(|&f| area(work.corners(f))).sum::<f64>();
         fans.sort_by(|a, b| size(b).total_cmp(&size(a)).then(a[0].cmp(&b[0])));
-        lost.extend(fans.into_iter().skip(1).map(|fan| (v, fan)));
+        let mut fans =
+            fans.into_iter().map(|facets| Fan { rim: rim(work, &edges, &facets, v), at: v, facets });
+        rims.extend(fans.next().map(|keeps| (v, keeps.rim)));
+        lost.extend(fans);
     }
     let again = shared_twice(&edges, &pairs, &lost);
     if lost.is_empty() && again.is_empty() {
         return Ok(());
     }
     let first = work.mesh().positions.len() as u32;
-    let lost = apart(work, lost, &again, step)?;
+    let lost = apart(work, (lost, rims), &again, step)?;
     work.state.handover.kept_apart.extend(first..work.mesh().positions.len() as u32);
-    for (v, fan) in &lost {
-        work.log(step, "fan of facets given its own vertex", work.at(*v), fan.len(), 0.0);
+    for fan in &lost {
+        work.log(step, "fan of facets given its own vertex", work.at(fan.at), fan.facets.len(), 0.0);
     }
     for (ends, _) in &again {
         let [a, b] = ends.map(|v| work.at(v));
@@ -87,20 +91,26 @@ fn split(
     Ok(())
 }
 
+/// The other ends of the edges of one facet, of these, at `v`.
+fn rim(work: &Work, edges: &Edges, facets: &[u32], v: u32) -> Vec<u32> {
+    let corners = facets.iter().flat_map(|f| work.mesh().faces[*f as usize]);
+    corners.filter(|w| *w != v && edges.at(v, *w).len() == 1).collect()
+}
+
 /// Moves the fans and pairs apart, each by the first distance of [`OFFSETS`] at which it crosses nothing, and returns the fans
 /// that were moved.
 ///
 /// A fan at a vertex that crosses something at every distance stays where it is; at an edge it is moved all the same.
 fn apart(
     work: &mut Work,
-    mut lost: Vec<(u32, Vec<u32>)>,
+    (mut lost, mut rims): (Vec<Fan>, Rims),
     again: &[([u32; 2], [u32; 2])],
     step: &'static Step,
-) -> Result<Vec<(u32, Vec<u32>)>, RepairError> {
+) -> Result<Vec<Fan>, RepairError> {
     let before = work.shared();
     let changing: BTreeSet<u32> = lost
         .iter()
-        .flat_map(|(_, fan)| fan)
+        .flat_map(|fan| &fan.facets)
         .chain(again.iter().flat_map(|(_, pair)| pair))
         .copied()
         .collect();
@@ -109,7 +119,7 @@ fn apart(
     let crossing: Option<BTreeSet<u32>> = crossing.map(|pairs| pairs.into_iter().flatten().collect());
     let clean = |facets: &[u32]| crossing.as_ref().is_some_and(|c| !facets.iter().any(|f| c.contains(f)));
     let mut asked: Vec<bool> =
-        lost.iter().map(|(_, fan)| clean(fan)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
+        lost.iter().map(|fan| clean(&fan.facets)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut together = together(work, &lost);
     let mut ways = ways(work, &lost, &together);
@@ -129,8 +139,9 @@ fn apart(
                 corners.filter_map(|v| v.checked_sub(first)).map(|i| i as usize).collect()
             }
         };
-        bad.extend(as_one(work, &lost, first as usize));
+        bad.extend(meant_as_one(work, &lost, &rims, first as usize));
         bad.retain(|&i| asked[i]);
+        bad.extend((0..lost.len()).filter(|&i| distances[i].abs() > ways[i].most));
         let with: BTreeSet<u32> = bad.iter().filter_map(|i| together.get(*i)).copied().collect();
         bad.extend((0..lost.len()).filter(|i| with.contains(&together[*i])));
         bad.sort_unstable();
@@ -149,8 +160,11 @@ fn apart(
         work.restore(before.clone());
         more.iter().for_each(|&i| nth[i] += step_of(i));
         let moved = more.iter().map(|&i| first + (i - kept.partition_point(|k| *k < i)) as u32);
-        changed = Some(moved.chain(kept.iter().map(|&i| lost[i].0)).collect());
+        changed = Some(moved.chain(kept.iter().map(|&i| lost[i].at)).collect());
         if !kept.is_empty() {
+            for &i in &kept {
+                rims.entry(lost[i].at).or_default().append(&mut lost[i].rim);
+            }
             let stays = |i: usize| kept.binary_search(&i).is_err();
             retain(&mut lost, stays);
             retain(&mut together, stays);
@@ -175,11 +189,11 @@ fn retain<T>(all: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
 
 /// A number for each fan. Fans with the same number are moved together: they have common facets, at vertices within the gap
 /// of each other.
-fn together(work: &Work, lost: &[(u32, Vec<u32>)]) -> Vec<u32> {
+fn together(work: &Work, lost: &[Fan]) -> Vec<u32> {
     let sets = Sets::new(lost.len());
     let mut fans: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-    for (i, (v, fan)) in (0..).zip(lost) {
-        fans.extend(fan.iter().map(|f| ((*f, *v), i)));
+    for (i, fan) in (0..).zip(lost) {
+        fans.extend(fan.facets.iter().map(|f| ((*f, fan.at), i)));
     }
     for (&(f, v), &i) in &fans {
         for w in work.mesh().faces[f as usize] {
@@ -191,33 +205,17 @@ fn together(work: &Work, lost: &[(u32, Vec<u32>)]) -> Vec<u32> {
     (0..lost.len() as u32).map(|i| sets.root(i)).collect()
 }
 
-/// Fans whose new vertex lies so near to that of another one from the same place, or to that place, that the two might be meant
-/// as one. Of such fans the first may stay where it is.
-fn as_one(work: &Work, lost: &[(u32, Vec<u32>)], first: usize) -> Vec<usize> {
-    let new = |i: usize| work.mesh().positions[first + i];
-    let near = |a: Point, b: Point| norm(minus(a, b)) <= work.gap;
-    let crowded = |&i: &usize| {
-        let v = lost[i].0;
-        let earlier = (0..i).rev().take_while(|j| lost[*j].0 == v);
-        near(new(i), work.at(v)) || earlier.take(MANY).any(|j| near(new(i), new(j)))
-    };
-    (0..lost.len()).filter(crowded).collect()
-}
-
-/// Fans at one vertex that are compared with each other.
-const MANY: usize = 64;
-
 /// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
 fn set_off(
     work: &mut Work,
-    (lost, ways): (&[(u32, Vec<u32>)], &[Way]),
+    (lost, ways): (&[Fan], &[Way]),
     again: &[([u32; 2], [u32; 2])],
     distances: &[f64],
 ) {
     let mut renamed = BTreeMap::new();
-    for (((v, fan), way), distance) in lost.iter().zip(ways).zip(distances) {
-        let new = work.add(plus(work.at(*v), times(-distance, way.out)));
-        renamed.extend(fan.iter().map(|&f| ((f, *v), new)));
+    for ((fan, way), distance) in lost.iter().zip(ways).zip(distances) {
+        let new = work.add(plus(work.at(fan.at), times(-distance, way.out)));
+        renamed.extend(fan.facets.iter().map(|&f| ((f, fan.at), new)));
     }
     let (mut removed, mut added) = (vec![], vec![]);
     for ((ends, facets), distance) in again.iter().zip(&distances[lost.len()..]) {
@@ -246,16 +244,16 @@ struct Way {
 }
 
 /// The ways of the fans; those with the same number go the same way.
-fn ways(work: &Work, lost: &[(u32, Vec<u32>)], together: &[u32]) -> Vec<Way> {
+fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
     let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-    for ((_, fan), number) in lost.iter().zip(together) {
-        facets.entry(*number).or_default().extend(fan);
+    for (fan, number) in lost.iter().zip(together) {
+        facets.entry(*number).or_default().extend(&fan.facets);
     }
     let mut ways: BTreeMap<u32, Way> = BTreeMap::new();
-    let way = |((v, _), number): (&(u32, Vec<u32>), &u32)| {
+    let way = |(fan, number): (&Fan, &u32)| {
         *ways.entry(*number).or_insert_with(|| {
             let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
-            outwards(work, &facets, work.at(*v))
+            outwards(work, &facets, work.at(fan.at))
         })
     };
     lost.iter().zip(together).map(way).collect()
@@ -286,10 +284,10 @@ fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
 }
 
 /// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.
-fn shared_twice(edges: &Edges, pairs: &Pairs, lost: &[(u32, Vec<u32>)]) -> Vec<([u32; 2], [u32; 2])> {
+fn shared_twice(edges: &Edges, pairs: &Pairs, lost: &[Fan]) -> Vec<([u32; 2], [u32; 2])> {
     let mut moved: Vec<(u32, u32, usize)> = vec![];
-    for (i, (v, fan)) in lost.iter().enumerate() {
-        moved.extend(fan.iter().map(|&f| (f, *v, i + 1)));
+    for (i, fan) in lost.iter().enumerate() {
+        moved.extend(fan.facets.iter().map(|&f| (f, fan.at, i + 1)));
     }
     moved.sort_unstable();
     let fan_of =

@@ -356,3 +356,25 @@ fn what_cannot_be_united_as_it_is_becomes_one_in_single_precision() {
     let far = super::super::repair(&mesh, &Options::default(), &Silent).unwrap();
     assert_eq!(far.rounded.vertices, 0);
 }
+
+/// Flaps of an open cone: each is moved, and its tip then lies beside the boundary edges of its neighbors.
+#[test]
+fn flaps_at_one_vertex_are_parted_beyond_the_gap_of_their_neighbors() {
+    for (n, height) in [(8, 0.5), (24, 5.0), (100, 5.0), (300, 0.5)] {
+        let mut mesh = Mesh { positions: vec![[0.0; 3]], faces: vec![] };
+        for i in 0..n {
+            let corner = |side: f64| {
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * (f64::from(i) + side) / f64::from(n));
+                [10.0 * cos, 10.0 * sin, height]
+            };
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend([corner(-0.3), corner(0.3)]);
+            mesh.faces.push([0, first, first + 1]);
+        }
+        let repaired = mend(&mesh);
+        assert_eq!(repaired.after.soundness.non_manifold_vertices, 0, "{n}");
+
+        assert_eq!(repaired.after.count(check::T_JUNCTIONS), 0, "{n}");
+        assert_eq!(repaired.mesh.positions.len(), 3 * n as usize);
+    }
+}
