@@ -16,6 +16,7 @@
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
 //! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
 //! | `outline`, `raster`, `trimmed` | where the points end: the outline along which the surface is cut off, and facets within it |
+//! | `crossing` | whether lines in the plane cross |
 //! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
@@ -24,6 +25,7 @@
 
 mod base;
 mod coarser;
+mod crossing;
 mod energy;
 mod error;
 mod feet;

@@ -6,6 +6,7 @@
 //! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by 3.5 cells
 //! and then made of as few sides as lie within one cell of it, so that all points are within.
 
+use super::crossing::cross;
 use super::raster::{Raster, distances};
 use crate::progress::{Cancelled, Progress};
 
@@ -138,13 +139,16 @@ impl Outline {
         for (part, depth) in part.iter().zip(&depth).filter(|(part, _)| **part != u32::MAX) {
             deepest[*part as usize] = deepest[*part as usize].max(*depth);
         }
-        for (cell, line) in raster.contours(&depth, CELLS - OFF) {
-            let mut line: Vec<[f64; 2]> = line.into_iter().map(clamp).collect();
+        let (cells, mut lines): (Vec<usize>, Vec<Vec<[f64; 2]>>) =
+            raster.contours(&depth, CELLS - OFF).into_iter().unzip();
+        for line in &mut lines {
+            line.iter_mut().for_each(|p| *p = clamp(*p));
             line.dedup();
             while line.len() > 1 && line.first() == line.last() {
                 line.pop();
             }
-            let line = straightened(&line, domain, STRAIGHT * cell_size);
+        }
+        for (cell, line) in cells.into_iter().zip(made_straight(&lines, domain, cell_size)) {
             let region = &mut regions[part[cell] as usize].1;
             match area(&line) {
                 size if size > 0.0 => region.outer = line,
@@ -287,6 +291,23 @@ fn kept(regions: Vec<(usize, Region)>, reach: f64) -> Outline {
     Outline { reach, wanted: reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
 }
 
+/// The lines of as few sides as they can be without crossing each other or themselves, each within [`STRAIGHT`] cells. Where they touch
+/// as they are, at the rim of the domain, so do these.
+fn made_straight(lines: &[Vec<[f64; 2]>], domain: [(f64, f64); 2], cell_size: f64) -> Vec<Vec<[f64; 2]>> {
+    let within = |share: f64| -> Vec<Vec<[f64; 2]>> {
+        lines.iter().map(|line| straightened(line, domain, share * STRAIGHT * cell_size)).collect()
+    };
+    let is_simple = |lines: &Vec<Vec<[f64; 2]>>| {
+        let places: Vec<[f64; 2]> = lines.iter().flatten().copied().collect();
+        let mut number = 0..;
+        !cross(
+            &lines.iter().map(|line| number.by_ref().take(line.len()).collect()).collect::<Vec<_>>(),
+            &places,
+        )
+    };
+    [1.0, 0.5, 0.25].into_iter().map(within).find(is_simple).unwrap_or_else(|| within(1.0))
+}
+
 /// A closed line of as few sides as keep it within the distance of all its places (Douglas & Peucker 1973). Where it comes to the rim
 /// of the domain, goes around its corners and leaves it, its places stay: points may lie on the rim.
 fn straightened(line: &[[f64; 2]], domain: [(f64, f64); 2], distance: f64) -> Vec<[f64; 2]> {
@@ -321,7 +342,7 @@ fn straightened(line: &[[f64; 2]], domain: [(f64, f64); 2], distance: f64) -> Ve
 }
 
 /// Distance of a place from a segment.
-fn from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn from_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (along, way) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = along[0] * along[0] + along[1] * along[1];
     let t =

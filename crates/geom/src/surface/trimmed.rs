@@ -1,26 +1,28 @@
 //! Facets of a surface within an outline.
 
-use super::outline::Outline;
+use super::outline::{Outline, from_segment};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
 use crate::spline::surface::{Patches, Surface};
+use crate::topology::union::Sets;
+use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-/// Of the tolerance, for the rows and columns that facets are made of: at the outline a facet may reach over two of them in each
-/// direction, and its distance from the surface grows with the square.
-const FINER: f64 = 0.25;
-/// Vertices of rows and columns nearer to the outline than this share of the domain are left out: the outline has its own there.
-const APART: f64 = 1e-9;
+/// Of the tolerance, for the rows and columns that facets are made of: at the outline a facet may reach over a little more than two of
+/// them in each direction, and its distance from the surface grows with the square.
+const FINER: f64 = 0.2;
+/// Nothing is added nearer to a place or side of the outline than this share of a cell: between them facets would be needles.
+const APART: f64 = 0.2;
 
 /// A place in the parameters.
 type Place = Point2<f64>;
 
 /// Facets of the surface within the outline, within `tolerance` of it; `None` if that takes more than `most`.
 ///
-/// Vertices are those of [`Surface::tessellate`] that lie inside, and places of the outline where its rows and columns cross it; facets are
-/// those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's normal. Parts that
-/// do not hang together share no vertex. Cost: `n log n`.
+/// Vertices are those of [`Surface::tessellate`] that lie inside and not close to the outline, and places of the outline where its rows and
+/// columns cross it; facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's
+/// normal. Parts that do not hang together share no vertex. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -32,76 +34,135 @@ pub fn trimmed(
     progress: &dyn Progress,
 ) -> Result<Option<Mesh>, Cancelled> {
     let Some([us, vs]) = surface.grid(FINER * tolerance, most) else { return Ok(None) };
+    let grid = Grid { lines: [&us, &vs] };
     let (mut places, mut edges) = (vec![], vec![]);
+    let mut is_close = vec![false; us.len() * vs.len()];
     for corners in outline.regions.iter().flat_map(|region| region.loops()) {
         let first = places.len();
         let next = corners.iter().cycle().skip(1);
-        corners.iter().zip(next).for_each(|(a, b)| side(*a, *b, [&us, &vs], &mut places));
-        let last = places.len();
-        edges.extend((first..last).map(|k| [k, if k + 1 == last { first } else { k + 1 }]));
+        corners.iter().zip(next).for_each(|(a, b)| grid.side(*a, *b, &mut places));
+        for k in first..places.len() {
+            let next = if k + 1 == places.len() { first } else { k + 1 };
+            grid.close_to(places[k], places[next], |[i, j]| is_close[i * vs.len() + j] = true);
+            edges.push([k, next]);
+        }
     }
-    let of_outline = places.len();
-    let margin = [&us, &vs].map(|lines| APART * (lines[lines.len() - 1] - lines[0]));
-    for u in &us[1..us.len() - 1] {
-        let crossings = outline.crossings(*u);
-        let is_inside = |v: &&f64| {
-            let before = crossings.partition_point(|c| c < *v);
-            let near =
-                crossings[before.saturating_sub(1)..].iter().take(2).any(|c| (c - **v).abs() <= margin[1]);
-            !before.is_multiple_of(2) && !near
+    let mut places: Vec<Place> = places.into_iter().map(|[u, v]| Place::new(u, v)).collect();
+    for i in 1..us.len() - 1 {
+        let crossings = outline.crossings(us[i]);
+        let is_inside = |j: &usize| {
+            !crossings.partition_point(|c| *c < vs[*j]).is_multiple_of(2) && !is_close[i * vs.len() + j]
         };
-        places.extend(vs[1..vs.len() - 1].iter().filter(is_inside).map(|v| Place::new(*u, *v)));
+        places.extend((1..vs.len() - 1).filter(is_inside).map(|j| Place::new(us[i], vs[j])));
     }
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    // A part of the outline that crosses another one is left out; all coordinates are finite.
-    let made = ConstrainedDelaunayTriangulation::<Place>::try_bulk_load_cdt(places.clone(), edges, |_| {});
-    let Ok(made) = made else { return Ok(None) };
-    let rim: std::collections::HashSet<[u64; 2]> = places[..of_outline].iter().map(bits).collect();
+    let Some(made) = triangulation(places, edges) else { return Ok(None) };
     let patches = Patches::new(surface);
-    let mut mesh = Mesh::default();
-    mesh.positions.extend(made.vertices().map(|v| patches.at(v.position().x, v.position().y)));
+    let positions = made.vertices().map(|v| patches.at(v.position().x, v.position().y)).collect();
+    let is_inside = inside(&made, outline);
+    let kept = made.inner_faces().filter(|face| is_inside[face.fix().index()]);
+    let faces: Vec<[u32; 3]> = kept.map(|face| face.vertices().map(|v| v.fix().index() as u32)).collect();
+    Ok((faces.len() <= most).then_some(Mesh { positions, faces }))
+}
+
+/// The triangulation with these edges; where edges cross, with a vertex there. `None` if a coordinate is not finite.
+fn triangulation(
+    places: Vec<Place>,
+    edges: Vec<[usize; 2]>,
+) -> Option<ConstrainedDelaunayTriangulation<Place>> {
+    let mut crossing = vec![];
+    let mut made =
+        ConstrainedDelaunayTriangulation::try_bulk_load_cdt(places, edges, |edge| crossing.push(edge))
+            .ok()?;
+    for ends in crossing {
+        let [from, to] = ends.map(FixedVertexHandle::from_index);
+        made.add_constraint_and_split(from, to, |place| place);
+    }
+    Some(made)
+}
+
+/// For each face, by its number, whether it is inside. Faces that no edge of the outline parts are so together; the largest of them
+/// decides, for of a needle at the outline rounding would.
+fn inside(made: &ConstrainedDelaunayTriangulation<Place>, outline: &Outline) -> Vec<bool> {
+    let sets = Sets::new(made.num_all_faces());
+    for edge in made.undirected_edges().filter(|edge| !edge.is_constraint_edge()) {
+        let side = edge.as_directed();
+        sets.join(side.face().fix().index() as u32, side.rev().face().fix().index() as u32);
+    }
+    let mut largest = vec![(0.0, [0.0; 2]); made.num_all_faces()];
     for face in made.inner_faces() {
-        let corners = face.vertices();
-        let middle = || {
-            let sum =
-                corners.iter().fold([0.0; 2], |sum, v| [sum[0] + v.position().x, sum[1] + v.position().y]);
-            sum.map(|x| x / 3.0)
+        let of_all = &mut largest[sets.root(face.fix().index() as u32) as usize];
+        let area = face.area();
+        if area > of_all.0 {
+            let middle = face.center();
+            *of_all = (area, [middle.x, middle.y]);
+        }
+    }
+    // What hangs together with the outer face, of number 0, is outside.
+    let outer = sets.root(0);
+    let holds: Vec<bool> =
+        (0..).zip(&largest).map(|(i, (area, at))| i != outer && *area > 0.0 && outline.holds(*at)).collect();
+    (0..largest.len() as u32).map(|i| holds[sets.root(i) as usize]).collect()
+}
+
+/// Rows and columns of parameters, ascending.
+struct Grid<'a> {
+    lines: [&'a [f64]; 2],
+}
+
+impl Grid<'_> {
+    /// How far two places are from each other, in cells at the first.
+    fn cells(&self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+        std::array::from_fn(|k| {
+            let lines = self.lines[k];
+            let after = lines.partition_point(|x| *x <= a[k]).clamp(1, lines.len() - 1);
+            (b[k] - a[k]) / (lines[after] - lines[after - 1])
+        })
+    }
+
+    /// Adds the start of a side, and where lines of either direction cross it.
+    fn side(&self, a: [f64; 2], b: [f64; 2], places: &mut Vec<[f64; 2]>) {
+        let mut crossings: Vec<(f64, [f64; 2])> = vec![];
+        for k in 0..2 {
+            let (low, high) = (a[k].min(b[k]), a[k].max(b[k]));
+            let lines = self.lines[k];
+            let within = lines.partition_point(|x| *x <= low)..lines.partition_point(|x| *x < high);
+            for x in lines.get(within).into_iter().flatten() {
+                let share = (x - a[k]) / (b[k] - a[k]);
+                let mut place: [f64; 2] = std::array::from_fn(|j| a[j] + share * (b[j] - a[j]));
+                place[k] = *x;
+                crossings.push((share, place));
+            }
+        }
+        crossings.sort_by(|x, y| x.0.total_cmp(&y.0));
+        places.push(a);
+        let is_apart = |p: [f64; 2], q: [f64; 2]| self.cells(p, q).iter().any(|x| x.abs() > APART);
+        let mut last = a;
+        for (_, place) in crossings {
+            if is_apart(place, last) && is_apart(place, b) {
+                places.push(place);
+                last = place;
+            }
+        }
+    }
+
+    /// Names the nodes that are close to the side from `a` to `b`.
+    fn close_to(&self, a: [f64; 2], b: [f64; 2], mut take: impl FnMut([usize; 2])) {
+        let around = |k: usize| {
+            let (lines, low, high) = (self.lines[k], a[k].min(b[k]), a[k].max(b[k]));
+            lines.partition_point(|x| *x < low).saturating_sub(1)
+                ..(lines.partition_point(|x| *x <= high) + 1).min(lines.len())
         };
-        // A facet with a corner inside is inside: no facet crosses the outline.
-        if corners.iter().any(|v| !rim.contains(&bits(&v.position()))) || outline.holds(middle()) {
-            mesh.faces.push(corners.map(|v| v.fix().index() as u32));
-        }
-    }
-    Ok((mesh.faces.len() <= most).then_some(mesh))
-}
-
-fn bits(p: &Place) -> [u64; 2] {
-    [p.x, p.y].map(|x| (x + 0.0).to_bits())
-}
-
-/// Adds the start of a side, and where lines of either direction cross it.
-fn side(a: [f64; 2], b: [f64; 2], lines: [&[f64]; 2], places: &mut Vec<Place>) {
-    let mut crossings: Vec<(f64, [f64; 2])> = vec![];
-    for k in 0..2 {
-        let (low, high) = (a[k].min(b[k]), a[k].max(b[k]));
-        let within = lines[k].partition_point(|x| *x <= low)..lines[k].partition_point(|x| *x < high);
-        for x in lines[k].get(within).into_iter().flatten() {
-            let share = (x - a[k]) / (b[k] - a[k]);
-            let mut place: [f64; 2] = std::array::from_fn(|j| a[j] + share * (b[j] - a[j]));
-            place[k] = *x;
-            crossings.push((share, place));
-        }
-    }
-    crossings.sort_by(|x, y| x.0.total_cmp(&y.0));
-    places.push(Place::new(a[0], a[1]));
-    let mut last = 0.0;
-    for (share, [u, v]) in crossings {
-        // Where two lines cross on the side, one place stands for both.
-        if share - last > APART && share < 1.0 - APART {
-            places.push(Place::new(u, v));
-            last = share;
+        for i in around(0) {
+            for j in around(1) {
+                let node = [self.lines[0][i], self.lines[1][j]];
+                let [to_a, to_b] = [a, b].map(|p| self.cells(node, p));
+                if from_segment([0.0; 2], to_a, to_b) < APART {
+                    take([i, j]);
+                }
+            }
         }
     }
 }

@@ -4,7 +4,6 @@
 //! as they can be (`relax`): what can be unrolled is unrolled. Where the rim crosses itself then, as that of a spiral may, the mesh is left
 //! within the circle.
 
-mod crossing;
 mod disc;
 mod mean_value;
 pub(super) mod not_a_disc;
@@ -16,6 +15,7 @@ mod triangle;
 pub use not_a_disc::NotADisc;
 
 use super::SurfaceError;
+use super::crossing::cross;
 use crate::mesh::Mesh;
 use crate::num::predicates::side_of_line;
 use crate::parallel::prelude::*;
@@ -54,7 +54,7 @@ pub(super) fn flatten(mesh: &Mesh, progress: &dyn Progress) -> Result<Flat, Surf
     if folded_share == 0.0 {
         relax::relax(&disc, &triangles, &mut places, progress)?;
         folded_share = turned_over(&disc, &places);
-        round = folded_share > 0.0 || crossing::cross(&disc.rims, &places);
+        round = folded_share > 0.0 || cross(&disc.rims, &places);
         if round {
             (places, folded_share) = (circle, 0.0);
         }

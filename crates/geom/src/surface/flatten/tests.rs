@@ -144,7 +144,7 @@ fn no_facet_turns_over_within_the_circle() {
         let facets: f64 = disc.faces.iter().map(|f| area(f)).sum();
         let rims: f64 = disc.rims.iter().map(|r| area(r)).sum();
         assert!((facets - rims).abs() < 1e-9 * rims && facets > 0.0, "{case}: {facets} {rims}");
-        assert!(!crossing::cross(&disc.rims, &flat.places), "{case}");
+        assert!(!super::super::crossing::cross(&disc.rims, &flat.places), "{case}");
     }
 }
 
