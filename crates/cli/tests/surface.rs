@@ -446,6 +446,39 @@ fn a_pipe_is_fitted_over_its_facets() {
     );
 }
 
+/// A sock is laid flat with its toe crushed: the knots do not tell one place there from the next.
+#[test]
+fn a_mesh_that_is_crushed_as_it_is_laid_flat_leaves_the_surface_undecided() {
+    let folder = Folder::new();
+    let sock = |length: u32| {
+        let mut text = "v 0 0 -10\n".to_string();
+        let rows = 8 + length / 2;
+        for row in 1..=rows {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(row.min(8)) / 8.0;
+            let (radius, height) =
+                (10.0 * angle.sin(), -10.0 * angle.cos() + 2.0 * f64::from(row.max(8) - 8));
+            for k in 0..32 {
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 32.0).sin_cos();
+                text += &format!("v {} {} {height}\n", radius * cos, radius * sin);
+            }
+        }
+        for k in 0..32 {
+            let next = (k + 1) % 32;
+            text += &format!("f 1 {} {}\n", next + 2, k + 2);
+            for row in 0..rows - 1 {
+                let [a, b] = [k, next].map(|k| 2 + 32 * row + k);
+                text += &format!("f {a} {b} {}\nf {a} {} {}\n", b + 32, b + 32, a + 32);
+            }
+        }
+        folder.write(&format!("sock{length}.obj"), text)
+    };
+    for (length, is_crushed) in [(10, false), (30, false), (100, true), (200, true)] {
+        let o = trueness(["surface", sock(length).to_str().unwrap(), "--base", "mesh"]);
+        assert_eq!(status(&o), i32::from(is_crushed), "{length}: {}", stdout(&o));
+        assert_eq!(stdout(&o).contains("the surface may cross itself there"), is_crushed, "{}", stdout(&o));
+    }
+}
+
 /// A strip narrower than its ripples is fitted flat, and said to be; a fence stands on edge, whatever the plane.
 #[test]
 fn what_stands_on_edge_is_told() {

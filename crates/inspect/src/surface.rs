@@ -27,9 +27,17 @@ const FOLDED: f64 = 0.01;
 /// Factor by which lengths may grow or shrink as a mesh is laid flat.
 const STRETCHED: f64 = 2.0;
 
-/// Whether so many points lie in layers or stand on edge over the base that the surface is not theirs.
+/// Factor to which they may shrink: of what is laid flat more densely the knots tell one place from the next no more.
+const CRUSHED: f64 = 0.05;
+
+/// Whether so many points lie in layers or stand on edge over the base, or the mesh is crushed so much as it is laid flat, that the
+/// surface is not theirs.
 pub fn is_doubtful(base: &BaseRecord) -> bool {
-    base.folded_share > FOLDED || base.standing_share > STANDING
+    base.folded_share > FOLDED || base.standing_share > STANDING || base.stretch.is_some_and(is_crushed)
+}
+
+fn is_crushed([least, _]: [f64; 2]) -> bool {
+    least < CRUSHED
 }
 
 /// Sides of the rectangle of the points with a lesser ratio make a strip.
@@ -227,8 +235,13 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
     if let Some([least, most]) = fit.base.stretch
         && (least < 1.0 / STRETCHED || most > STRETCHED)
     {
+        let so = if is_crushed([least, most]) {
+            "what shrinks so much the knots do not tell apart, and the surface may cross itself there"
+        } else {
+            "where they grow the surface has few points for its knots, where they shrink it has few knots"
+        };
         all.push(format!(
-            "laid flat, lengths on the facets are {least:.3} to {most:.3} times what they are: where they grow the surface has few points for its knots, where they shrink it has few knots; take a part of the mesh that bends less"
+            "laid flat, lengths on the facets are {least:.3} to {most:.3} times what they are: {so}; take a part of the mesh that bends less"
         ));
     }
     if fit.base.round {
