@@ -35,8 +35,6 @@ pub enum ViewRole {
     Deviation,
     /// Marks: what is wrong.
     Defects,
-    /// Marks: the element's rim and lines.
-    Outline,
     /// Marks: points that hold an element.
     Touching,
     /// Marks: lines between regions.
