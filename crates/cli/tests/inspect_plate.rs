@@ -265,6 +265,16 @@ fn seeds_find_the_features_of_the_model() {
     assert_eq!(status(&o), 3);
     let says = "feature \"B\": the reference has a plane at the seed, not a cylinder";
     assert!(stderr(&o).contains(says), "{}", stderr(&o));
+    // A seed in another unit or frame, of a feature and of a region: how far off it is, and what is nearest.
+    let far = "the seed is 8.000 mm from the reference; give a place on it (the nearest is 60, 5, 0 mm)";
+    let wrong = plan.replace("seed = [60, 5, 0]", "seed = [60, 5, -8]");
+    let region =
+        "[deviation]\n[[deviation.region]]\nid = \"r\"\nseed = [60, 5, -8]\ntolerance = 1\n[[feature]]";
+    for wrong in [wrong, plan.replacen("[[feature]]", region, 1)] {
+        let wrong = folder.write("plan.toml", wrong);
+        let o = trueness(["inspect", wrong.to_str().unwrap()]);
+        assert!(status(&o) == 3 && stderr(&o).contains(far), "{}", stderr(&o));
+    }
 }
 
 /// A plan proposed from the model measures every feature of the scan, in whatever pose that is, and edges that the scanner

@@ -52,6 +52,79 @@ const fn fault(from: &'static str, to: &'static str, says: &'static str) -> Faul
 }
 
 const FAULTS: &[Fault] = &[
+    // Wrong types and slips of TOML, in words of plans.
+    fault(
+        "tolerance = 0.1",
+        "tolerance = \"0,1\"",
+        "line 28, column 13: `tolerance` is \"0,1\", not one number, the width or diameter of the zone; write 0.1 without quotes",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = [-0.1, 0.1]",
+        "line 28, column 13: `tolerance` is [-0.1, 0.1], not one number, the width or diameter",
+    ),
+    fault("tolerance = 0.1", "", "line 24, column 1: flatness needs `tolerance`"),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0,1",
+        "line 28, column 14: a decimal comma; numbers have a point, as in 0.05",
+    ),
+    fault("tolerance = 0.1", "tolerance = .1", "line 28, column 13: a number begins with a digit; write 0.1"),
+    fault("tolerance = 0.1", "tolerance = 0.1mm", "line 28, column 16: a number has no unit: \"mm\" must go"),
+    fault("tolerance = 0.1", "tolerance =", "line 28, column 12: there is no value behind `=`"),
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0.1\ntolerance = 0.2",
+        "line 29, column 1: `tolerance` is there twice; leave one out",
+    ),
+    fault(
+        "tolerance = 0.1",
+        "tolerence = 0.1",
+        "line 28, column 1: there is no field \"tolerence\"; did you mean \"tolerance\"?",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = \"A\"",
+        "line 34, column 10: `datums` is \"A\", not a list, as in [\"A\", \"B\"]",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\nbasic = { x = \"3\" }",
+        "line 35, column 15: `x` is \"3\", not a number; write 3 without quotes",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\noffset = true",
+        "line 35, column 10: `offset` is a length, or \"free\"",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\nmethod = 3",
+        "line 35, column 10: `method` is 3, not a word in quotes",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\ndiametral = \"yes\"",
+        "line 35, column 13: `diametral` is \"yes\", not true or false",
+    ),
+    fault(
+        "datums = [\"A\"]",
+        "datums = [\"A\"]\nintersection = [1, 2]",
+        "`intersection` is a list of 2, not three numbers, as in [0, 0, 1]",
+    ),
+    fault("id = \"1\"", "id = 1", "line 25, column 6: `id` is 1, not text in quotes; write \"1\""),
+    fault("id = \"1\"", "id = x", "line 25, column 6: text stands in quotes; write \"x\""),
+    fault("kind = \"flatness\"\n", "", "`kind` is missing; add it, as in kind = \"flatness\""),
+    fault(
+        "feature = \"A\"",
+        "feature = 3",
+        "line 27, column 11: `feature` is the id of a feature, or two of a size",
+    ),
+    fault(
+        "[[characteristic]]\nid = \"1\"",
+        "[characteristic]\nid = \"1\"",
+        "[characteristic] is one table; write [[characteristic]]",
+    ),
     fault(
         "tolerance = 0.1",
         "class = \"K\"",

@@ -61,7 +61,9 @@ impl Run for TrendArgs {
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
         let document = TrendDocument::new(inputs, &results).map_err(|e| match &e {
-            TrendError::Different { index, .. } => anyhow!("{}: {e}", self.results[*index].display()),
+            TrendError::Different { index, .. } | TrendError::Twice { index, .. } => {
+                anyhow!("{}: {e}", self.results[*index].display())
+            }
             TrendError::None => anyhow!("{e}"),
         })?;
         let page = self.map.as_ref().map(|path| (path, document.map_page()));

@@ -21,6 +21,9 @@ impl Characteristic for Angularity {
     fn keys(&self) -> &'static [&'static str] {
         &["tolerance", "datums", "datum_method", "diametral", "basic", "material"]
     }
+    fn diametral(&self, q: &Question, _: bool) -> bool {
+        orientation::of_cylinder(q, q.spec.basic.angle.unwrap_or(0.0))
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         let Some(angle) = q.spec.basic.angle else {
             return refuse("kind", "it needs the theoretically exact angle: basic = { angle = 60 }");

@@ -25,6 +25,9 @@ impl Characteristic for Coaxiality {
     fn keys(&self) -> &'static [&'static str] {
         &["tolerance", "datums", "datum_method"]
     }
+    fn diametral(&self, _: &Question, _: bool) -> bool {
+        true
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Line, Class::Cylinder, Class::Cone, Class::Circle, Class::Sphere, Class::Point])?;
         q.datum(&AXES).map(|_| ())
@@ -36,6 +39,6 @@ impl Characteristic for Coaxiality {
         let points = m.feature().zoned()?;
         let far = points.iter().map(|p| norm(cross(minus(*p, point), direction)));
         let (at, greatest) = super::value::greatest(far)?;
-        Ok(Value { value: 2.0 * greatest, diametral: true, witness: vec![points[at]], ..Value::default() })
+        Ok(Value { value: 2.0 * greatest, witness: vec![points[at]], ..Value::default() })
     }
 }

@@ -44,6 +44,11 @@ pub trait Characteristic: Sync + Debug {
         let _ = parameter;
         "mm"
     }
+    /// Whether its zone is a cylinder or a sphere (the sign ∅ on drawings); `planar`: the feature's points have two coordinates.
+    fn diametral(&self, question: &Question, planar: bool) -> bool {
+        let _ = (question, planar);
+        false
+    }
     /// Refuses what could not be evaluated whatever the measured data are.
     ///
     /// # Errors

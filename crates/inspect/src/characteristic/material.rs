@@ -150,14 +150,14 @@ pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
         false => (global.max(mating), global.max(mating) - boundary.size),
     };
     let parts = vec![("global_size", global), ("mating_size", mating)];
-    let value = Value { value: (mating - global).abs(), diametral: true, parts, ..Value::default() };
+    let value = Value { value: (mating - global).abs(), parts, ..Value::default() };
     Ok(with_bonus(value, spare, boundary, m))
 }
 
 /// The value and its bonus where the points came to lie.
 fn result_at(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> {
     let far = asked.points().get(found.max.1).copied();
-    let mut value = Value { diametral: true, witness: far.into_iter().collect(), ..Value::default() };
+    let mut value = Value { witness: far.into_iter().collect(), ..Value::default() };
     let Asked::Surface { boundary, .. } = asked else {
         value.value = 2.0 * found.half;
         return Ok(value);

@@ -39,6 +39,12 @@ fn diametral(given: Option<bool>, angle: f64, datum: Class) -> bool {
     given.unwrap_or(to_direction(angle, datum) == 0.0)
 }
 
+/// Whether the zone of a feature at `angle` to its first datum is a cylinder.
+pub(super) fn of_cylinder(q: &Question, angle: f64) -> bool {
+    let datum = q.datums().first().copied().unwrap_or(Class::Plane);
+    q.feature().is_ok_and(|f| f.class != Class::Plane) && diametral(q.spec.diametral, angle, datum)
+}
+
 pub(super) fn check(q: &Question, angle: f64) -> Result<(), Refusal> {
     const DIRECTED: [Class; 4] = [Class::Plane, Class::Line, Class::Cylinder, Class::Cone];
     let class = q.class(&DIRECTED)?;
@@ -101,7 +107,7 @@ pub(super) fn measure(m: &Measuring, angle: f64) -> Result<Value, Missing> {
         (to_direction, None) => tube_at_angle(&points, direction, to_direction)?,
     };
     value.witness = zone.touching.iter().map(|i| points[*i]).collect();
-    (value.value, value.diametral) = (zone.diameter, true);
+    value.value = zone.diameter;
     Ok(value)
 }
 

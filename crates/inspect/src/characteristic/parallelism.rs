@@ -21,6 +21,9 @@ impl Characteristic for Parallelism {
     fn keys(&self) -> &'static [&'static str] {
         &["tolerance", "datums", "datum_method", "diametral", "material"]
     }
+    fn diametral(&self, q: &Question, _: bool) -> bool {
+        orientation::of_cylinder(q, 0.0)
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         orientation::check(q, 0.0)
     }

@@ -25,6 +25,9 @@ impl Characteristic for Perpendicularity {
     fn class_table(&self) -> Option<Table> {
         Some(Table::Perpendicularity)
     }
+    fn diametral(&self, q: &Question, _: bool) -> bool {
+        orientation::of_cylinder(q, std::f64::consts::FRAC_PI_2)
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         orientation::check(q, std::f64::consts::FRAC_PI_2)
     }

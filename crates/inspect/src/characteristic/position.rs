@@ -33,6 +33,9 @@ impl Characteristic for Position {
     fn material_datums(&self) -> bool {
         true
     }
+    fn diametral(&self, q: &Question, _: bool) -> bool {
+        q.spec.basic.place.iter().flatten().count() > 1
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         let class = q.class(&[
             Class::Point,
@@ -89,7 +92,6 @@ impl Characteristic for Position {
         let found = placed(&points, &distance, &search, m.progress)?;
         let far = if found.max.0.abs() >= found.min.0.abs() { found.max.1 } else { found.min.1 };
         let mut value = Value { value: 2.0 * found.half, witness: vec![points[far]], ..Value::default() };
-        value.diametral = place.iter().flatten().count() > 1;
         if let [only] = points.as_slice() {
             let at = found.motion.point(*only);
             let names = ["x", "y", "z"];

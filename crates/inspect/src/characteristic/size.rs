@@ -81,7 +81,7 @@ impl Characteristic for Size {
             _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
         };
         let witness = feature.form(&fit).witness;
-        Ok(Value { value: 2.0 * radius, diametral: true, witness, ..Value::default() })
+        Ok(Value { value: 2.0 * radius, witness, ..Value::default() })
     }
 }
 
@@ -118,7 +118,6 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
         sizes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), t| (l.min(t.size), g.max(t.size)));
     Ok(Value {
         value: worst.size,
-        diametral: m.features.len() == 1,
         witness: worst.ends.to_vec(),
         parts: vec![("least", least), ("greatest", greatest), ("count", sizes.len() as f64)],
         ..Value::default()

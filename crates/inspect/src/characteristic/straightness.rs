@@ -33,6 +33,9 @@ impl Characteristic for Straightness {
     fn class_table(&self) -> Option<Table> {
         Some(Table::Form)
     }
+    fn diametral(&self, _: &Question, planar: bool) -> bool {
+        !planar
+    }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         if q.class(&[Class::Line, Class::Cylinder])? == Class::Line && q.spec.material.is_some() {
             return refuse("material", "a material requirement is evaluated for the axis of a cylinder");
@@ -81,8 +84,7 @@ fn of_axis(m: &Measuring) -> Result<Value, Missing> {
 }
 
 /// The value of a line, in space or in a plane.
-fn of_line(m: &Measuring, value: Value, planar: bool) -> Value {
-    let mut value = Value { diametral: !planar, ..value };
+fn of_line(m: &Measuring, mut value: Value, planar: bool) -> Value {
     // A least-squares line in space has no least cylinder: twice the greatest distance from it.
     if m.spec.form == Method::Gaussian && !planar {
         value.notes.push("twice the greatest distance from the least-squares line".into());

@@ -12,8 +12,6 @@ pub struct Value {
     pub value: f64,
     /// What a material requirement adds to the greatest allowed value; below 0 where the size is beyond its limit.
     pub bonus: f64,
-    /// Whether the zone is a cylinder or sphere.
-    pub diametral: bool,
     /// Places where the value is reached.
     pub witness: Vec<Point>,
     /// Further numbers, by name.

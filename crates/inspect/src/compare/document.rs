@@ -105,7 +105,7 @@ fn comparison(
         deviation: BySide::of(&c.summary),
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         outliers: c.outliers.map(|o| outliers(&o, c)),
-        coverage: c.map.as_ref().map(coverage),
+        coverage: c.map.as_ref().map(|map| coverage(map, c.between)),
         verdict: verdict(tolerance.as_ref(), &regions),
         tolerance,
         regions,
@@ -139,7 +139,7 @@ fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {
     }
 }
 
-fn coverage(map: &MapSurface) -> CoverageRecord {
+fn coverage(map: &MapSurface, between: u64) -> CoverageRecord {
     let share = (map.area > 0.0).then(|| map.uncovered / map.area);
     CoverageRecord {
         area: map.area,
@@ -148,6 +148,7 @@ fn coverage(map: &MapSurface) -> CoverageRecord {
         uncovered_share_reason: share.is_none().then(|| "the reference has no area".into()),
         reach: map.reach,
         spacing: map.spacing,
+        between,
     }
 }
 

@@ -25,10 +25,11 @@ pub use document::{Inputs, document};
 pub use excluded::Excluded;
 pub use facing::{Facing, facet_normals, vertex_normals};
 pub use found::Comparisons;
-pub use map::{MapSurface, PlaceMeans};
+pub use map::{Between, MapSurface, PlaceMeans};
 pub use options::{Coverage, Method, Options};
 pub use outliers::{NoLimits, OutlierLimits, OutlierRule};
 pub use reference::{Compared, Outliers, RegionFound, Values, WorstPlace};
+pub(crate) use region::far_seed;
 pub use region::{Extent, RegionError, RegionRule, Regions};
 pub use reverse::{ReverseError, reverse};
 pub use shown::ShownPoints;
@@ -149,8 +150,10 @@ pub fn run<S: PointStream + ?Sized, K>(
         }
     }
     let needed = [options.facing.as_ref().map(Facing::count), options.along.as_ref().and_then(Lines::count)];
-    if let Some(normals) = needed.into_iter().flatten().find(|n| *n as u64 != start) {
-        return Err(CompareError::Normals { normals, points: start });
+    let between = &options.between.points;
+    let points = start + between.len() as u64;
+    if let Some(normals) = needed.into_iter().flatten().find(|n| *n as u64 != points) {
+        return Err(CompareError::Normals { normals, points });
     }
     if let Some(rule) = options.outliers {
         for (i, r) in running.iter_mut().enumerate() {
@@ -162,6 +165,9 @@ pub fn run<S: PointStream + ?Sized, K>(
     }
     if out.count == 0 {
         return Err(CompareError::NoPoints);
+    }
+    for (r, reference) in running.iter_mut().zip(references) {
+        r.between(start, between, progress).map_err(|e| in_block(e, reference, start))?;
     }
     flag(&mut out, &running).map_err(|e| in_block(e, &references[0], 0))?;
     out.references =

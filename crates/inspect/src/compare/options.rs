@@ -2,6 +2,7 @@
 
 use super::along::Lines;
 use super::facing::Facing;
+use super::map::Between;
 use super::outliers::OutlierRule;
 use super::region::RegionRule;
 use crate::tolerance::Tolerance;
@@ -70,6 +71,9 @@ pub struct Options {
     pub outliers: Option<OutlierRule>,
     /// Which part of the references the points cover; with a report it is looked for in any case.
     pub coverage: Option<Coverage>,
+    /// Places of a measured mesh between its vertices, for the maps; the normals of [`Facing`] and [`Lines`], where there are such, are
+    /// those of the points and then those of these.
+    pub between: Between,
     /// Whether mean deviations are kept at places of the references that are the same for every part.
     pub places: bool,
     /// Parts of the references with tolerances of their own, the first that has a place counts.
@@ -98,6 +102,7 @@ impl Default for Options {
             facing: None,
             outliers: None,
             coverage: None,
+            between: Between::default(),
             places: false,
             regions: vec![],
             tolerance: None,

@@ -59,6 +59,8 @@ pub struct Compared {
     pub splines: Option<SplinesFound>,
     /// The reference colored by the points near each place, for a report and for what is not covered.
     pub map: Option<MapSurface>,
+    /// Places between the vertices of the measured mesh that count in the map.
+    pub between: u64,
     /// Mean deviations at places that are the same for every part, where they are asked for.
     pub places: Option<PlaceMeans>,
 }
@@ -152,6 +154,7 @@ pub struct Running<'a> {
     worst: WorstPlaces,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
+    between: u64,
 }
 
 impl<'a> Running<'a> {
@@ -197,6 +200,7 @@ impl<'a> Running<'a> {
             map: (options.shown > 0 || options.coverage.is_some() || options.places).then(|| {
                 PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
             }),
+            between: 0,
             regions,
             mesh,
             left_out: reference.left_out.0.to_vec(),
@@ -281,6 +285,29 @@ impl<'a> Running<'a> {
         measured
     }
 
+    /// Adds places of the measured mesh between its vertices, the first with number `start`, to the map and to nothing else. The paper's
+    /// method knows vertices only.
+    pub fn between(
+        &mut self,
+        start: u64,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<(), PaperError> {
+        let Some(map) = self.map.as_ref().filter(|_| self.paper.is_none() && !places.is_empty()) else {
+            return Ok(());
+        };
+        let asked = Asked { start, map: Some((map, self.mesh)), facing: self.facing.as_ref(), regions: None };
+        let found = self.target.measure(places, &asked, progress)?;
+        for (foot, deviation) in found.feet.into_iter().zip(found.deviations) {
+            let deviation = self.judged(deviation);
+            if let (Some(map), Some(foot)) = (&mut self.map, foot.filter(|_| deviation.is_finite())) {
+                map.add(foot, deviation);
+                self.between += 1;
+            }
+        }
+        Ok(())
+    }
+
     fn limits_of_outliers(&self) -> Option<OutlierLimits> {
         self.outliers.and_then(|o| o.limits.ok())
     }
@@ -361,6 +388,7 @@ impl<'a> Running<'a> {
             outliers: self.outliers,
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
             splines: self.splines,
+            between: self.between,
             map,
         })
     }

@@ -59,6 +59,19 @@ pub struct Regions {
     boxes: Vec<(u16, Point, Point)>,
 }
 
+/// A seed farther from the reference than this share of its diagonal is none of its places.
+const FAR: f64 = 0.02;
+
+/// What is said of a seed so far from its nearest place on the reference that it must be meant for another part, unit or frame.
+pub(crate) fn far_seed(distance: f64, nearest: Point, reference: &Mesh) -> Option<String> {
+    let [x, y, z] = nearest.map(|x| (1e3 * x).round() / 1e3);
+    (distance > FAR * reference.bounds().diagonal()).then(|| {
+        format!(
+            "the seed is {distance:.3} mm from the reference; give a place on it (the nearest is {x}, {y}, {z} mm)"
+        )
+    })
+}
+
 impl Regions {
     /// Finds them. `seed` is that of the segmentation's random choices, which is only made for seeds.
     ///
@@ -91,6 +104,9 @@ impl Regions {
                 Extent::Facets(facets) => facets.clone(),
                 Extent::Seed(place) => {
                     let hit = tree.closest(place, f64::INFINITY).map_err(|e| nowhere(rule, e.to_string()))?;
+                    if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, mesh)) {
+                        return Err(nowhere(rule, what));
+                    }
                     let labels = found.as_ref().map_or(&[][..], |f| &f.labels);
                     let label = hit.and_then(|hit| labels.get(hit.face as usize)).filter(|l| **l != u32::MAX);
                     let own =

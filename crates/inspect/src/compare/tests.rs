@@ -187,3 +187,42 @@ fn too_few_normals_are_refused() {
     let found = run(&mut stream, &references, &options, &Silent, |_| Ok::<(), Infallible>(()));
     assert!(matches!(found, Err(CompareError::Normals { normals: 1499, points: 1500 })));
 }
+
+/// Eight vertices with a sloping side between them: the map knows the side in between, by exact distances, the statistics do not.
+#[test]
+fn large_facets_of_a_measured_mesh_are_in_the_map() {
+    let (mesh, mut scan) = (cube(40.0), cube(40.0));
+    scan.positions.iter_mut().filter(|p| p[2] > 0.0).for_each(|p| p[2] += 0.01 * p[0]);
+    let between = Between::of(&scan);
+    let tree = Tree::build(&mesh).unwrap();
+    let distance = |p: &Point| tree.closest(p, f64::INFINITY).unwrap().unwrap().distance;
+    let sizes: Vec<u64> =
+        between.points.iter().chain(&scan.positions).map(|p| distance(p).to_bits()).collect();
+    let options = Options { shown: 100, ..Options::default() };
+    let (_, document, gray) = compared(&scan.positions, &mesh, &options);
+    let bare = document.comparisons[0].coverage.as_ref().unwrap();
+    assert!((bare.uncovered - gray).abs() < 1e-9 && bare.uncovered > 0.9 * bare.area && bare.between == 0);
+    let options = Options { between, ..options };
+    let (found, document, gray) = compared(&scan.positions, &mesh, &options);
+    let c = &document.comparisons[0];
+    assert_eq!((c.deviation.all.count, c.deviation.all.max), (8, Some(distance(&[40.0, 0.0, 40.4]))));
+    let coverage = c.coverage.as_ref().unwrap();
+    assert_eq!((gray, coverage.uncovered, coverage.between), (0.0, 0.0, options.between.points.len() as u64));
+    let map = found.references[0].map.as_ref().unwrap();
+    let drawn = map.mesh.as_ref().unwrap();
+    assert!(drawn.positions.len() > 5000 && map.reach < 3.0, "{} {}", drawn.positions.len(), map.reach);
+    for (p, value) in drawn.positions.iter().zip(&map.values) {
+        assert!(sizes.contains(&value.abs().to_bits()), "{value} is the distance of no place");
+        if p[2] > 39.9 && p[0] > 0.1 && p[0] < 39.9 && p[1] > 0.1 && p[1] < 39.9 {
+            assert!((value - 0.01 * p[0]).abs() <= 0.01 * map.reach, "{value} at {p:?}");
+        }
+    }
+    // What faces another way is left out here as it is of points, by the normals behind those of the points.
+    let normals = [vertex_normals(&scan), options.between.normals.clone()].concat();
+    let up = normals.iter().map(|n| [0.0, 0.0, n[2]]).collect();
+    let options = Options { facing: Some(Facing::new(0.1, up)), ..options };
+    let (_, document, _) = compared(&scan.positions, &mesh, &options);
+    let coverage = document.comparisons[0].coverage.as_ref().unwrap();
+    // Of the sides two of six are left, the upper and the lower one.
+    assert!((coverage.uncovered - 6400.0).abs() < 1e-6, "{coverage:?}");
+}

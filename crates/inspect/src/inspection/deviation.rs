@@ -3,7 +3,8 @@
 use super::data::{Data, Stop};
 use super::seed::Seeded;
 use crate::compare::{
-    self, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule, vertex_normals,
+    self, Between, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule,
+    vertex_normals,
 };
 use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
@@ -66,16 +67,24 @@ pub(super) fn deviations(
     let (Some(measured), Some(reference)) = (&data.measured, data.reference.take()) else {
         return Err(Stop::Deviation("one of them is not there".into()));
     };
-    let normals = match asked.needs_normals() {
+    let mut normals = match asked.needs_normals() {
         None => vec![],
         Some(_) if measured.faces.is_empty() => std::mem::take(&mut data.normals),
         Some(_) => vertex_normals(measured),
     };
+    let between = match data.shown > 0 || asked.coverage.is_some() || data.places {
+        true => Between::of(measured),
+        false => Between::default(),
+    };
+    if asked.needs_normals().is_some() {
+        normals.extend(&between.normals);
+    }
     let options = Options {
         facing: asked.facing.map(|angle| Facing::new(angle, normals.clone())),
         along: asked.along.map(|rule| Lines::new(rule, normals)),
         outliers: asked.outliers,
         coverage: asked.coverage,
+        between,
         surface: SurfaceOptions {
             max_distance: asked.max_distance,
             skip_boundary: asked.skip_boundary,

@@ -3,7 +3,7 @@
 use super::decision::{utilization, verdict};
 use super::left_out;
 use super::{Element, Found, Inspection, Taken, Uncertainty};
-use crate::characteristic::{Characteristic, Texture, Value};
+use crate::characteristic::{Characteristic, Question, Texture, Value};
 use crate::compare;
 use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
 use crate::results::align::{AlignNote, AlignNoteKind};
@@ -214,11 +214,13 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     };
     let limits = spec.limits.widened(measured.map_or(0.0, |v| v.bonus));
     let (lower, upper) = limits.range();
-    let zone = match (nominal, measured) {
-        (Some(_), _) => ZoneForm::Value,
-        _ if spec.kind.word() == Texture.word() => ZoneForm::Value,
-        (None, Some(v)) if v.diametral => ZoneForm::Diameter,
-        (None, _) => ZoneForm::Width,
+    let planar = spec.features.first().is_some_and(|n| found.features[*n].planar);
+    let diametral = spec.kind.diametral(&Question { spec, features: &plan.features }, planar);
+    let zone = match nominal {
+        Some(_) => ZoneForm::Value,
+        None if spec.kind.word() == Texture.word() => ZoneForm::Value,
+        None if diametral => ZoneForm::Diameter,
+        None => ZoneForm::Width,
     };
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());

@@ -1,6 +1,7 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
 use super::data::{Data, Stop};
+use crate::compare::far_seed;
 use crate::plan::region::{facets_of, nominal_of};
 use crate::plan::{Class, Plan, Source};
 use std::collections::BTreeMap;
@@ -42,6 +43,9 @@ pub(super) fn seeded(
             what: format!("feature \"{}\": {what}", feature.id),
         };
         let hit = tree.closest(&seed.value, f64::INFINITY).map_err(|e| wrong(e.to_string()))?;
+        if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, reference)) {
+            return Err(wrong(what));
+        }
         let label = hit.and_then(|hit| found.labels.get(hit.face as usize).copied());
         let region = label.and_then(|l| found.regions.get(l as usize).map(|r| (l, r)));
         let Some((label, region)) = region else {

@@ -1,4 +1,5 @@
-//! Points of a cloud that were left out of a feature as of other surfaces: counted, told, and never a false pass.
+//! Points of a cloud that were left out of a feature as of other surfaces: counted, told, and never a false pass. What a document says
+//! of what was not measured.
 
 use super::{Data, run};
 use crate::plan::Plan;
@@ -151,4 +152,68 @@ fn no_defect_is_dropped() {
             }
         }
     }
+}
+
+/// The sign ∅ is the drawing's: it does not go with the value.
+#[test]
+fn the_zone_of_what_was_not_measured_is_that_of_the_plan() {
+    let plan = Plan::parse(
+        r#"
+        schema = "trueness/plan/1"
+        measured = "part.xyz"
+        [[feature]]
+        id = "A"
+        shape = "plane"
+        nominal = { point = [0, 0, 0], normal = [0, 0, 1], boundary = [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]] }
+        [[feature]]
+        id = "B"
+        shape = "cylinder"
+        nominal = { point = [0, 0, -5], direction = [0, 0, 1], radius = 2, length = 5 }
+        [[characteristic]]
+        id = "1"
+        kind = "perpendicularity"
+        feature = "B"
+        datums = ["A"]
+        tolerance = 0.1
+        [[characteristic]]
+        id = "2"
+        kind = "perpendicularity"
+        feature = "B"
+        datums = ["A"]
+        tolerance = 0.1
+        diametral = true
+        [[characteristic]]
+        id = "3"
+        kind = "parallelism"
+        feature = "A"
+        datums = ["B"]
+        tolerance = 0.1
+        [[characteristic]]
+        id = "4"
+        kind = "straightness"
+        feature = "B"
+        tolerance = 0.1
+        [[characteristic]]
+        id = "5"
+        kind = "position"
+        feature = "B"
+        datums = ["A"]
+        basic = { x = 1, y = 2 }
+        tolerance = 0.1
+        [[characteristic]]
+        id = "6"
+        kind = "flatness"
+        feature = "A"
+        tolerance = 0.1
+        "#,
+    )
+    .unwrap();
+    let measured = Some(Mesh { positions: vec![[500.0, 0.0, 0.0]; 4], faces: vec![] });
+    let found = run(&plan, Data { measured, ..Data::default() }, &Silent).unwrap();
+    let record = PlanRecord { path: String::new(), sha256: None };
+    let document = InspectDocument::new(&plan, record, &found, vec![]);
+    let all = &document.characteristics;
+    assert!(all.iter().all(|c| c.verdict == Verdict::NotMeasured));
+    let zones: Vec<bool> = all.iter().map(CharacteristicRecord::diametral).collect();
+    assert_eq!(zones, [true, true, false, true, true, false]);
 }

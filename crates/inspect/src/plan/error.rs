@@ -29,6 +29,7 @@ impl PlanError {
 
     /// What the reader of the text found, with the nearest word where one of a list was expected.
     pub(super) fn of_reader(text: &str, error: &toml::de::Error) -> PlanError {
+        let span = error.span().unwrap_or(0..0);
         let message = error.message().trim_end_matches('\n').replace('\n', "; ");
         let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
         let what = match quoted.split_first() {
@@ -44,9 +45,110 @@ impl PlanError {
                 word,
                 known,
             ),
-            _ => message.clone(),
+            _ => said(text, &span, &message),
         };
-        PlanError::at(text, &error.span().unwrap_or(0..0), what)
+        PlanError::at(text, &span, what)
+    }
+}
+
+/// What the reader says of a value of the wrong type, a list of the wrong length, a missing key or a slip in TOML, in our words: the key,
+/// what stands there, what should, and how it is written. Its other messages are told as they are.
+fn said(text: &str, span: &Range<usize>, message: &str) -> String {
+    let quoted = |s: &str| s.split('`').nth(1).unwrap_or("").to_string();
+    let there = text.get(span.clone()).unwrap_or("").trim();
+    let before = text.get(..span.start).unwrap_or("");
+    let line = before.rsplit('\n').next().unwrap_or("");
+    let words = |c: char| !(c.is_alphanumeric() || c == '_' || c == '-');
+    // `key = value`, also within `{ … }`; an element of a list has the list's.
+    let key = line.rsplit_once('=').and_then(|(left, _)| left.trim().rsplit(words).next()).unwrap_or("");
+    let of = if key.is_empty() { String::new() } else { format!("`{key}` is ") };
+    if message.starts_with("missing field") {
+        let key = quoted(message);
+        return format!("`{key}` is missing; add it, as in {key} = {}", example(&key));
+    }
+    if let Some(slip) = slip(message, line, text.get(span.start..).unwrap_or("")) {
+        return slip;
+    }
+    let known = message.split_once(", expected ");
+    let Some((found, wanted)) =
+        known.or(message.strip_prefix("wanted string or table").map(|_| ("", "enum")))
+    else {
+        return message.into();
+    };
+    let wanted = match wanted {
+        "f64" if key == "tolerance" => "one number, the width or diameter of the zone",
+        "f64" => "a number",
+        "a string" => "text in quotes",
+        "a boolean" => "true or false",
+        "u32" | "u64" => "a whole number from 0",
+        "a sequence" if there.starts_with('[') && key.is_empty() => {
+            return format!("{there} is one table; write [{there}], as there may be several");
+        }
+        "a sequence" => "a list, as in [\"A\", \"B\"]",
+        "an array of length 2" => "two numbers, as in [-0.1, 0.1]",
+        "an array of length 3" => "three numbers, as in [0, 0, 1]",
+        w if w.starts_with("struct ") => "a table, as in { … }",
+        w if w.contains("enum") => "a word in quotes",
+        _ => return message.into(),
+    };
+    let number = there.trim_matches('"').replace(',', ".");
+    let remedy = match wanted {
+        _ if wanted.contains("number") && there.starts_with('"') && number.parse::<f64>().is_ok() => {
+            format!("; write {number} without quotes")
+        }
+        "text in quotes" if ["id", "title", "datums"].contains(&key) && there.parse::<f64>().is_ok() => {
+            format!("; write \"{there}\"")
+        }
+        _ => String::new(),
+    };
+    if let Some(length) = found.strip_prefix("invalid length ") {
+        return format!("{of}a list of {length}, not {wanted}");
+    }
+    // A table or a list of several lines says nothing here.
+    let short = !there.is_empty() && !there.contains('\n') && there.chars().count() <= 40;
+    let there = if short { there.to_string() } else { "something else".into() };
+    format!("{of}{there}, not {wanted}{remedy}")
+}
+
+/// Slips of people who do not write TOML every day; `line` is what stands before the place, `after` what follows.
+fn slip(message: &str, line: &str, after: &str) -> Option<String> {
+    let digit = |s: &str, c: fn(&str) -> Option<char>| c(s).is_some_and(|c| c.is_ascii_digit());
+    let next = after.split('\n').next().unwrap_or("").trim();
+    let told = match message.split(',').next().unwrap_or("") {
+        "unexpected key or value" if after.starts_with(',') && digit(line, |s| s.chars().last()) => {
+            "a decimal comma; numbers have a point, as in 0.05".into()
+        }
+        "invalid mantissa" if next.starts_with('.') => format!("a number begins with a digit; write 0{next}"),
+        "invalid float" | "invalid integer" if digit(line, |s| s.chars().last()) => {
+            format!("a number has no unit: \"{next}\" must go; lengths are in `units`, angles in degrees")
+        }
+        "string values must be quoted" if next.is_empty() => "there is no value behind `=`".into(),
+        "string values must be quoted" | "invalid boolean" => {
+            format!("text stands in quotes; write \"{next}\"")
+        }
+        "duplicate key" => {
+            let key = next.split('=').next().unwrap_or("").trim();
+            format!("`{key}` is there twice; leave one out")
+        }
+        _ => return None,
+    };
+    Some(told)
+}
+
+/// How a key that must be there is written.
+fn example(key: &str) -> &'static str {
+    match key {
+        "schema" => "\"trueness/plan/1\"",
+        "id" | "feature" => "\"A\"",
+        "shape" => "\"plane\"",
+        "kind" => "\"flatness\"",
+        "method" => "\"best-fit\"",
+        "rule" => "\"simple\"",
+        "tolerance" => "[-0.1, 0.1]",
+        "measured" | "nominal" | "origin" => "[0, 0, 0]",
+        "x" => "[1, 0, 0]",
+        "z" => "[0, 0, 1]",
+        _ => "…",
     }
 }
 

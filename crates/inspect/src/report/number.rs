@@ -1,6 +1,7 @@
 //! Numbers as a reader of some language writes them.
 
 use super::Language;
+use crate::scale::Scale;
 
 /// How numbers look on the page.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +58,17 @@ impl Style {
         let text = self.fixed(value, decimals);
         let zero = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
         if value > 0.0 && !zero { format!("+{text}") } else { text }
+    }
+}
+
+impl Style {
+    /// A value as the numbers beside a scale: with a sign where the scale goes below zero, none where it begins at zero.
+    pub fn on_scale(self, value: f64, scale: Option<&Scale>) -> String {
+        let decimals = scale.map_or(3, |s| s.decimals as usize);
+        match scale.is_some_and(|s| s.lower >= 0.0) {
+            true => self.fixed(value, decimals),
+            false => self.signed(value, decimals),
+        }
     }
 }
 

@@ -119,7 +119,7 @@ pub struct Comparison {
     /// The rule for outliers and what it gave here; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub outliers: Option<OutliersRecord>,
-    /// What part of the reference no measured point covers; with `--coverage` and with a report.
+    /// What part of the reference no measured point covers, nor a large facet of a measured mesh; with `--coverage` and with a report.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub coverage: Option<CoverageRecord>,
     /// Shares against the tolerance; absent without one.
@@ -210,6 +210,13 @@ pub struct CoverageRecord {
     pub reach: f64,
     /// How far the points' nearest places lie apart, millimeters.
     pub spacing: f64,
+    /// Places on large facets of the measured mesh, between its vertices, that count here and in the map, and nowhere else.
+    #[serde(skip_serializing_if = "none", default)]
+    pub between: u64,
+}
+
+fn none(count: &u64) -> bool {
+    *count == 0
 }
 
 /// Something that makes the deviations doubtful, although each is computed right.

@@ -57,7 +57,8 @@ pub struct MapQuantity {
     /// Counts of the values.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub histogram: Option<Histogram>,
-    /// Where the size is greatest; absent where no place has a value in every part.
+    /// Where the size is greatest, of the places with a facet whose corners all have a value in every part, as others are gray; absent where
+    /// there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub greatest: Option<MapPlace>,
     /// Its colors.
@@ -120,8 +121,13 @@ impl TrendMap {
             let of = |(n, v): (usize, &Option<f64>)| v.filter(|_| running[n].count == all).map(|v| (n, v));
             values.iter().enumerate().filter_map(of).collect()
         };
-        let means = MapQuantity::of(&complete(&mean), first, |p95| Scale::for_deviations(p95, tolerance));
-        let std_devs = MapQuantity::of(&complete(&std_dev), first, |p95| Scale {
+        // Gray facets hide their corners.
+        let whole = |f: &&[u32; 3]| f.iter().all(|v| running[*v as usize].count == all);
+        let mut seen = vec![false; count];
+        first.facets.iter().filter(whole).flatten().for_each(|v| seen[*v as usize] = true);
+        let means =
+            MapQuantity::of(&complete(&mean), (first, &seen), |p95| Scale::for_deviations(p95, tolerance));
+        let std_devs = MapQuantity::of(&complete(&std_dev), (first, &seen), |p95| Scale {
             lower: 0.0,
             ..Scale::for_deviations(p95, None)
         });
@@ -153,12 +159,17 @@ impl TrendMap {
 }
 
 impl MapQuantity {
-    /// Of values with the numbers of their places.
-    fn of(values: &[(usize, f64)], map: &PlaceMap, scale: impl Fn(f64) -> Scale) -> MapQuantity {
+    /// Of values with the numbers of their places, which are `seen` where a facet is drawn in their colors.
+    fn of(
+        values: &[(usize, f64)],
+        (map, seen): (&PlaceMap, &[bool]),
+        scale: impl Fn(f64) -> Scale,
+    ) -> MapQuantity {
         let numbers: Vec<f64> = values.iter().map(|v| v.1).collect();
         let summary = Summary::of(&numbers);
         let size = |v: &(usize, f64)| v.1.abs();
-        let greatest = values.iter().reduce(|best, v| if size(v) > size(best) { v } else { best });
+        let colored = values.iter().filter(|v| seen[v.0]);
+        let greatest = colored.reduce(|best, v| if size(v) > size(best) { v } else { best });
         MapQuantity {
             statistics: Statistics::of(&summary.all, summary.quantile_error),
             histogram: Histogram::counted(&summary.all, &numbers),
@@ -177,8 +188,9 @@ mod tests {
     use super::*;
 
     fn map(deviations: Vec<Option<f64>>) -> PlaceMap {
-        let places = (0..4).map(|k| [f64::from(k & 1), f64::from(k >> 1), 0.0]).collect();
-        PlaceMap { places, facets: vec![[0, 1, 2], [1, 3, 2]], deviations, points: vec![1; 4], reach: 0.5 }
+        let places = (0..5).map(|k| [f64::from(k & 1), f64::from(k >> 1), 0.0]).collect();
+        let facets = vec![[0, 1, 2], [1, 3, 2], [0, 4, 2], [0, 4, 1]];
+        PlaceMap { places, facets, deviations, points: vec![1; 5], reach: 0.5 }
     }
 
     /// Direct sums, far from zero, with a place that one part lacks and one that all lack.
@@ -188,10 +200,10 @@ mod tests {
             (3, 1) | (_, 3) => None,
             _ => Some(1e6 + f64::from((part * 7 + place * 3) % 11) * 0.01),
         };
-        let maps: Vec<PlaceMap> = (0..9).map(|part| map((0..4).map(|k| value(part, k)).collect())).collect();
+        let maps: Vec<PlaceMap> = (0..9).map(|part| map((0..5).map(|k| value(part, k)).collect())).collect();
         let found = TrendMap::of(&maps.iter().collect::<Vec<_>>(), None).unwrap().unwrap();
-        assert_eq!((found.complete, found.partial, found.without), (2, 1, 1));
-        assert_eq!(found.parts, [9, 8, 9, 0]);
+        assert_eq!((found.complete, found.partial, found.without), (3, 1, 1));
+        assert_eq!(found.parts, [9, 8, 9, 0, 9]);
         for place in 0..3u32 {
             let there: Vec<f64> = (0..9).filter_map(|part| value(part, place)).map(|v| v - 1e6).collect();
             let n = there.len() as f64;
@@ -203,8 +215,8 @@ mod tests {
         assert_eq!((found.mean[3], found.std_dev[3]), (None, None));
         // What is drawn and counted is of the places that every part has.
         let drawn = found.drawn(&found.mean);
-        assert_eq!(drawn.iter().map(|v| v.is_nan()).collect::<Vec<_>>(), [false, true, false, true]);
-        assert_eq!(found.means.statistics.count, 2);
+        assert_eq!(drawn.iter().map(|v| v.is_nan()).collect::<Vec<_>>(), [false, true, false, true, false]);
+        assert_eq!(found.means.statistics.count, 3);
         let most = found.std_devs.greatest.unwrap();
         assert_eq!(Some(most.value), found.std_dev[most.index as usize]);
         assert_eq!((found.std_devs.scale.lower, found.means.scale.lower < 0.0), (0.0, true));
@@ -212,7 +224,8 @@ mod tests {
 
     #[test]
     fn one_part_has_no_spread_and_other_places_are_refused() {
-        let one = map(vec![Some(0.1), Some(-0.2), None, Some(0.0)]);
+        // The greatest value of all stands where all facets are gray.
+        let one = map(vec![Some(0.1), Some(-0.2), None, Some(0.9), Some(0.0)]);
         let found = TrendMap::of(&[&one], Some([-0.1, 0.1])).unwrap().unwrap();
         assert_eq!((found.mean[1], found.std_dev[1], found.std_devs.greatest), (Some(-0.2), None, None));
         assert_eq!(found.means.greatest.map(|g| (g.index, g.value)), Some((1, -0.2)));

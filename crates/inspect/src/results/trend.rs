@@ -1,5 +1,6 @@
 //! `trueness/trend/1`: one plan over many parts.
 
+mod deviation;
 mod page;
 
 use super::inspect::{CharacteristicRecord, Counts, InspectDocument};
@@ -34,7 +35,8 @@ pub struct TrendDocument {
     pub warnings: Vec<String>,
     /// Confidence of the intervals: 0.95.
     pub confidence: f64,
-    /// The characteristics, in the plan's order.
+    /// The characteristics, in the plan's order; then, where deviations from the reference are judged, the shares of points within
+    /// tolerance, of kind `deviation` and in percent: of each region, then of all other points.
     pub characteristics: Vec<TrendRecord>,
     /// Mean and spread of the deviations over the part.
     pub map: Option<TrendMap>,
@@ -87,7 +89,7 @@ pub struct TrendRecord {
     pub feature: String,
     /// The datums.
     pub datums: Vec<String>,
-    /// Unit of the values: `mm`, `deg`, or `1`.
+    /// Unit of the values: `mm`, `deg`, `1` or `%`.
     pub unit: String,
     /// Nominal value of a dimension.
     pub nominal: Option<f64>,
@@ -227,6 +229,14 @@ pub enum TrendError {
     /// There are none.
     #[error("there are no results")]
     None,
+    /// A result is given twice.
+    #[error("it is the same as result {}, to the last byte; give each part once", first + 1)]
+    Twice {
+        /// Which result.
+        index: usize,
+        /// Which one it repeats.
+        first: usize,
+    },
     /// A result does not fit the first one.
     #[error("{what}; a trend is of results of one plan")]
     Different {
@@ -241,9 +251,15 @@ impl TrendDocument {
     /// The trend of results, in the order of their making; `inputs` are their files.
     ///
     /// # Errors
-    /// [`TrendError`]: no results, characteristics that are missing, or not the same as in the first result.
+    /// [`TrendError`]: no results, one given twice (by the SHA-256 of its file), characteristics that are missing, or not the same as in the first result.
     pub fn new(inputs: Vec<ResultInput>, results: &[InspectDocument]) -> Result<TrendDocument, TrendError> {
         let first = results.first().ok_or(TrendError::None)?;
+        for (index, input) in inputs.iter().enumerate() {
+            let same = |i: &ResultInput| i.sha256.is_some() && i.sha256 == input.sha256;
+            if let Some(first) = inputs[..index].iter().position(same) {
+                return Err(TrendError::Twice { index, first });
+            }
+        }
         for (index, other) in results.iter().enumerate().skip(1) {
             if let Some(what) = difference(first, other) {
                 return Err(TrendError::Different { index, what });
@@ -265,7 +281,7 @@ impl TrendDocument {
             let of: Vec<&CharacteristicRecord> = results.iter().map(|d| &d.characteristics[n]).collect();
             record(&of)
         });
-        let characteristics: Vec<TrendRecord> = records.collect();
+        let characteristics: Vec<TrendRecord> = records.chain(deviation::records(results)?).collect();
         Ok(TrendDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),

@@ -60,6 +60,11 @@ export class Words {
     return value > 0 && /[1-9]/.test(text) ? `+${text}` : text
   }
 
+  /** A value as the numbers beside a scale: with a sign where the scale goes below zero, none where it begins at zero. */
+  onScale(value: number, scale: { lower: number; decimals: number }, decimals = scale.decimals): string {
+    return scale.lower < 0 ? this.signed(value, decimals) : this.number(value, decimals)
+  }
+
   /** A share (0 to 1) in percent: all and none only where it is all or none. */
   percent(share: number, decimals: number): string {
     const unit = 10 ** -decimals

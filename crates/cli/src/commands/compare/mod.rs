@@ -24,7 +24,7 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{
-    self, AlongRule, Coverage, Facing, Inputs, Lines, Method, Options, OutlierRule, Reference, View,
+    self, AlongRule, Between, Coverage, Facing, Inputs, Lines, Method, Options, OutlierRule, Reference, View,
 };
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
@@ -234,7 +234,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         true => Some(aligned(args, &mut measured, opened[0].mesh(), &files[1].path, common)?),
         false => None,
     };
-    normals(args, &measured, &mut options)?;
+    beside_points(args, &measured, &mut options)?;
     let references: Vec<Reference> =
         files[1..].iter().zip(&opened).map(|(f, r)| r.reference(f.path.clone())).collect();
     let judged = tolerance.filter(|_| options.regions.is_empty());
@@ -246,7 +246,8 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         }
         None => None,
     };
-    let stage = Stage::new(common.progress, "comparing", "points", total(&measured, references.len()));
+    let stage =
+        Stage::new(common.progress, "comparing", "points", total(&measured, &options, references.len()));
     let (hashes, found) =
         rayon::join(
             || {
@@ -295,10 +296,16 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     })
 }
 
-/// Reads the measured normals for what asks for them.
-fn normals(args: &CompareArgs, measured: &Measured, options: &mut Options) -> anyhow::Result<()> {
-    let read =
-        |what: &str| measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what);
+/// What is asked of the measured beside its points: places on large facets for maps, normals where a rule needs them.
+fn beside_points(args: &CompareArgs, measured: &Measured, options: &mut Options) -> anyhow::Result<()> {
+    let mapped = options.shown > 0 || options.coverage.is_some();
+    let vertices = measured.mesh.as_ref().filter(|_| mapped && measured.kind == MeasuredKind::Vertices);
+    options.between = vertices.map(Between::of).unwrap_or_default();
+    let between = options.between.normals.clone();
+    let read = |what: &str| {
+        let own = measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what);
+        own.map(|own| [own, between.clone()].concat())
+    };
     if args.along == Some(AlongRule::Measured) {
         options.along = Some(Lines::new(AlongRule::Measured, read("--along measured")?));
     }
@@ -322,8 +329,9 @@ fn aligned(
 }
 
 /// Points times references, where the number of points is known.
-fn total(measured: &Measured, references: usize) -> Option<u64> {
-    measured.points.expected().map(|n| n * references as u64)
+fn total(measured: &Measured, options: &Options, references: usize) -> Option<u64> {
+    let between = options.between.points.len() as u64;
+    measured.points.expected().map(|n| (n + between) * references as u64)
 }
 
 /// A comparison that failed, with the file that it failed on.

@@ -136,7 +136,11 @@ pub fn outliers(o: &OutliersRecord) -> String {
 pub fn coverage(c: &CoverageRecord) -> String {
     let share = percent(c.uncovered_share);
     let (area, all, reach) = (number(c.uncovered), number(c.area), number(c.reach));
-    format!("{share} % of the reference ({area} of {all} mm²): no point within {reach} mm")
+    let between = match c.between {
+        0 => String::new(),
+        n => format!("; {} on large facets of the measured mesh counted", counted(n, ["place", "places"])),
+    };
+    format!("{share} % of the reference ({area} of {all} mm²): no point within {reach} mm{between}")
 }
 
 /// What is said of surfaces that are measured against themselves.

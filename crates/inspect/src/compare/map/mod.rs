@@ -4,8 +4,11 @@
 //! ([`bisection`]) about as large as the points lie densely. While the points pass by, each piece keeps the worst of those whose
 //! nearest place lies in it. In the end ([`surface`]) pieces are put together until they match the points' spacing ([`crate::spacing`]).
 //!
+//! Of a measured mesh with large facets places [`between`] its vertices count in it, too.
+//!
 //! Beside it, where asked for, stand mean deviations at [`places`] that are the same for every part.
 
+mod between;
 mod bisection;
 mod creases;
 mod facet;
@@ -14,6 +17,7 @@ mod places;
 mod point_map;
 mod surface;
 
+pub use between::Between;
 pub use places::PlaceMeans;
 pub use point_map::{Flagged, Foot, PointMap};
 pub use surface::MapSurface;

@@ -199,7 +199,7 @@ pub enum ZoneText {
 
 /// What is measured along.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "`along` is a direction, as in [0, 0, 1], or \"reference\" or \"measured\"")]
 pub enum AlongText {
     /// A direction, in the coordinates of the reference.
     Direction([f64; 3]),
@@ -209,7 +209,7 @@ pub enum AlongText {
 
 /// A reach along the reference.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "`coverage` is \"auto\" or a length")]
 pub enum CoverageText {
     /// A length.
     Reach(f64),
@@ -363,7 +363,10 @@ pub struct ExtractText {
 
 /// One feature or two.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "`feature` is the id of a feature, or two of a size, as in [\"A\", \"B\"]; ids are in quotes"
+)]
 pub enum OneOrTwo {
     /// One.
     One(String),

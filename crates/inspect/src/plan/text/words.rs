@@ -43,7 +43,7 @@ impl MaterialWord {
 
 /// Where the zone of a profile lies.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "`offset` is a length, or \"free\"")]
 pub enum OffsetText {
     /// About the offset by this length out of the material (UZ).
     Length(f64),

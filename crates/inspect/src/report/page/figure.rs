@@ -102,7 +102,7 @@ fn tick(s: Style, scale: &Scale, limit: f64, x: String, tolerance: bool, room: b
     html! {
         (leaf("line", &[("class", &class), ("x1", &x), ("x2", &x), ("y1", &top), ("y2", &foot)]))
         @if room {
-            text class=(class) x=(x) y=(foot + 13.0) { (s.signed(limit, scale.decimals as usize)) }
+            text class=(class) x=(x) y=(foot + 13.0) { (s.on_scale(limit, Some(scale))) }
         }
     }
 }

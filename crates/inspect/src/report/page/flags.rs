@@ -135,7 +135,7 @@ fn draw(s: Style, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&S
                 (around(flag, class))
                 text class=(class) x=(places(flag.left + 10.0)) y=(places(middle)) {
                     (flag.label) "\u{2002}"
-                    (s.signed(pick.value.unwrap_or(0.0), scale.map_or(3, |s| s.decimals as usize)))
+                    (s.on_scale(pick.value.unwrap_or(0.0), scale))
                     @if off { " " tspan data-t="flag.off" { (s.bare_word("flag.off")) } }
                 }
             }

@@ -164,7 +164,13 @@ fn quantities(s: Style, d: &CurvatureDocument) -> Markup {
         let found = CurvatureDocument::quantity(d, kind);
         let p = &found.statistics.percentiles;
         let digits = found.scale.decimals as usize;
-        Choice { key: words(kind)[0], values: [p.p2_5, p.p50, p.p97_5], digits, unit: kind.unit() }
+        Choice {
+            key: words(kind)[0],
+            values: [p.p2_5, p.p50, p.p97_5],
+            digits,
+            unit: kind.unit(),
+            signed: true,
+        }
     };
     choices(s, ["p2_5", "median", "p97_5"], CurvatureKind::ALL.into_iter().map(row))
 }
@@ -179,6 +185,8 @@ pub struct Choice {
     pub digits: usize,
     /// Their unit.
     pub unit: &'static str,
+    /// Whether they may be below zero.
+    pub signed: bool,
 }
 
 /// A table of quantities, of which one is shown, in the order of their maps; the columns by the keys of their words.
@@ -187,10 +195,12 @@ pub fn choices(s: Style, columns: [&str; 3], rows: impl Iterator<Item = Choice>)
         table.choose.quantities {
             thead { tr { th {} @for key in columns { th.r { (s.word(key)) } } } }
             tbody {
-                @for (map, Choice { key, values, digits, unit }) in rows.enumerate() {
+                @for (map, Choice { key, values, digits, unit, signed }) in rows.enumerate() {
                     tr data-choose=(map) aria-selected=(map == 0) {
                         td { (s.word(key)) " " span.unit { (unit) } }
-                        @for value in values { td.r { (s.optional(value, digits).signed()) } }
+                        @for value in values {
+                            td.r { @if signed { (s.optional(value, digits).signed()) } @else { (s.optional(value, digits)) } }
+                        }
                     }
                 }
             }

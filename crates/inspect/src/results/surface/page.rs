@@ -180,11 +180,18 @@ fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: CurvatureKind, map: &MapR
 /// Deviation and curvatures, each in a row that shows its map.
 fn quantities(s: Style, d: &SurfaceDocument) -> Markup {
     let (all, digits) = (&d.deviation, d.map.scale.decimals as usize);
-    let first = Choice { key: "deviation", values: [all.min, all.median, all.max], digits, unit: "mm" };
+    let first =
+        Choice { key: "deviation", values: [all.min, all.median, all.max], digits, unit: "mm", signed: true };
     let rest = curvatures(d).map(|(kind, map)| {
         let range = range(d, kind);
         let values = [range.map(|r| r.min), range.map(|r| r.median), range.map(|r| r.max)];
-        Choice { key: words(kind)[0], values, digits: map.scale.decimals as usize, unit: kind.unit() }
+        Choice {
+            key: words(kind)[0],
+            values,
+            digits: map.scale.decimals as usize,
+            unit: kind.unit(),
+            signed: true,
+        }
     });
     html! {
         (choices(s, ["min", "median", "max"], std::iter::once(first).chain(rest)))

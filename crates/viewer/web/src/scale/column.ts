@@ -37,7 +37,7 @@ export function scaleColumn(state: State, words: Words): void {
     ends.replaceChildren(...[lowEnd, highEnd].map((key) => el('span', {}, words.of(key))))
     only.replaceChildren()
     if (state.only) {
-      const [from, to] = state.only.map((v) => words.signed(v, state.scale.decimals))
+      const [from, to] = state.only.map((v) => words.onScale(v, state.scale))
       const found = state.share(...state.only)
       const share = found ? words.share(found) : ''
       only.append(el('span', {}, `${words.of('scale.only')} ${from} … ${to}: `), el('strong', {}, share))

@@ -101,7 +101,7 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
     if (isLimit) target.append(across(limit, far, end, 'limit'))
     if (written.some((w) => Math.abs(w - at(limit)) < (upright ? 12 : 84))) continue
     written.push(at(limit))
-    const label = words.signed(limit, scale.decimals)
+    const label = words.onScale(limit, scale)
     target.append(text(limit, upright ? strip - TICK - 3 : strip + STRIP + TICK + 14, label, isLimit ? 'tick bold' : 'tick'))
   }
   if (limits.length % 2 === 0 && limits[0] < 0 && limits[limits.length - 1] > 0) {

@@ -99,7 +99,7 @@ export class Flags {
     const { frame } = pick
     const value = pick.value ?? 0
     const label = frame?.id ?? String(n + 1)
-    const text = frame ? frameText(frame, this.words) : this.words.signed(value, this.state.scale.decimals)
+    const text = frame ? frameText(frame, this.words) : this.words.onScale(value, this.state.scale)
     const zone = this.state.scale.tolerance
     const out = zone ? value < zone[0] || value > zone[1] : false
     const kind = frame ? `flag frame ${frame.verdict}` : out ? 'flag out' : 'flag'

@@ -31,7 +31,7 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     const xyz = place.toArray().map((x) => words.number(x, 2))
     const valued = part?.hasMap === true && reading.missing === 0
     const decimals = digits(part?.step ?? 0, state.scale.decimals)
-    const value = valued ? `${words.signed(reading.value, decimals)} ${state.scale.unit}` : part?.hasMap ? words.of('no_value') : ''
+    const value = valued ? `${words.onScale(reading.value, state.scale, decimals)} ${state.scale.unit}` : part?.hasMap ? words.of('no_value') : ''
     const why = part?.hasMap && reading.missing > 0 ? words.of(`reason.${part.reason(reading.missing)}`) : ''
     const zone = state.scale.tolerance
     const inside = zone && reading.value >= zone[0] - part!.step / 2 && reading.value <= zone[1] + part!.step / 2

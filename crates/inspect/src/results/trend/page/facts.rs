@@ -67,7 +67,9 @@ pub fn index(s: Style, value: Option<IndexRecord>) -> Optional<'static, Number> 
 
 /// Key of the words for why some of the numbers are missing.
 fn reason(c: &TrendRecord) -> Option<&'static str> {
-    if c.measured == 0 {
+    if c.kind == "deviation" {
+        Some("chart.share")
+    } else if c.measured == 0 {
         Some("chart.none")
     } else if c.measured < 2 {
         Some("chart.few")

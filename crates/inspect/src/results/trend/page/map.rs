@@ -65,7 +65,13 @@ impl Subject for MapPage<'_> {
         let rows = self.quantities().map(|(words, of)| {
             let p = &of.statistics.percentiles;
             let digits = of.scale.decimals as usize;
-            Choice { key: words[0], values: [p.p2_5, p.p50, p.p97_5], digits, unit: "mm" }
+            Choice {
+                key: words[0],
+                values: [p.p2_5, p.p50, p.p97_5],
+                digits,
+                unit: "mm",
+                signed: of.scale.lower < 0.0,
+            }
         });
         html! {
             (section(s, "quantities", choices(s, ["p2_5", "median", "p97_5"], rows.into_iter())))
