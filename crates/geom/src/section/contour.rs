@@ -9,7 +9,7 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::polygon::{self, turn};
-use super::resolved::{Among, resolved};
+use super::resolved::{Among, misses, resolved};
 use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::{Clean, check_row, spacing};
 use super::search::Criterion;
@@ -176,7 +176,7 @@ fn in_order(
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
     }
-    let is_doubtful = free && is_cornered(&found.contour);
+    let is_doubtful = free && (is_cornered(&found.contour) || misses(&found.contour, 0.0));
     let other = if is_doubtful { resolved(&start, options, Among::Contours) } else { None };
     if let Some(other) = other.filter(|r| r.is_better_than(&found.contour)) {
         return Ok(other.whole(points.len()));
