@@ -22,7 +22,8 @@
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
-//! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
+//! | `plan`, `span`, `doubt` | corners, chains between them; corners that are none |
+//! | `contour`, `convert` | the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
@@ -36,6 +37,7 @@ mod crossings;
 mod cut;
 mod dimension;
 mod direction;
+mod doubt;
 mod edge_chain;
 mod exact;
 mod facets;
@@ -49,6 +51,7 @@ mod levels;
 mod link;
 mod nominal;
 mod paper;
+mod plan;
 mod polygon;
 mod profile;
 mod resolved;

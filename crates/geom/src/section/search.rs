@@ -42,10 +42,14 @@ impl Criterion {
         if pieces.len() > 1 && pieces.iter().any(meets_itself) {
             return f64::INFINITY;
         }
+        self.cost_of(state.sum, self.penalty(&state.chain))
+    }
+    /// What a sum of squares and so many unknowns cost.
+    pub fn cost_of(&self, sum: f64, unknowns: f64) -> f64 {
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
-        let sum = state.sum + self.degrees * self.noise * self.noise;
-        total * libm::log(sum / total + floor) + self.penalty(&state.chain) * libm::log(self.count)
+        let sum = sum + self.degrees * self.noise * self.noise;
+        total * libm::log(sum / total + floor) + unknowns * libm::log(self.count)
     }
     /// The sum of squares at which a chain would cost so much.
     fn sum_at(&self, cost: f64, chain: &Chain) -> f64 {
@@ -53,7 +57,8 @@ impl Criterion {
         let mean = libm::exp((cost - self.penalty(chain) * libm::log(self.count)) / total);
         (mean - self.resolution * self.resolution) * total - self.degrees * self.noise * self.noise
     }
-    fn penalty(&self, chain: &Chain) -> f64 {
+    /// Unknowns of a chain as the criterion counts them.
+    pub fn penalty(&self, chain: &Chain) -> f64 {
         let each = |p: &Piece| match p.kind {
             SegmentKind::Line => 0.0,
             SegmentKind::Arc => 1.0 + ARC,
