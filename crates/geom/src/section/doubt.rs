@@ -76,7 +76,9 @@ impl Plan<'_> {
         let criterion = task.criterion;
         let found = span.find(&parts, &task, progress)?;
         let cost = |founds: &[&Found]| cost(&criterion, founds);
-        let pays = !found.astray && (a.astray || b.astray || cost(&[&found]) < cost(&[a, b]));
+        let own = found.state.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
+        let is_loose = own.zip(found.pieces()).any(|(count, piece)| piece.is_loose(count));
+        let pays = !found.astray && !is_loose && (a.astray || b.astray || cost(&[&found]) < cost(&[a, b]));
         Ok(pays.then_some((found, parts)))
     }
 }
