@@ -8,7 +8,7 @@
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
-//! | `search`, `smooth` | number and kinds of pieces |
+//! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
@@ -29,10 +29,12 @@
 
 mod airfoil;
 mod assembly;
+mod base;
 mod chain;
 mod contour;
 mod convert;
 mod corner;
+mod criterion;
 mod crossings;
 mod cut;
 mod dimension;

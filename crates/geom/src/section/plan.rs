@@ -1,11 +1,11 @@
 //! The chains of a row between its corners, as a first partition tells them.
 
 use super::chain::SegmentKind;
+use super::criterion::Criterion;
 use super::levels::Start;
 use super::polygon::{self, turn};
 use super::result::{Continuity, Options, SectionError};
 use super::row::{Clean, spacing};
-use super::search::Criterion;
 use super::span::{Found, Span, Task, single};
 use super::start::{Part, shares};
 use crate::progress::Progress;
@@ -44,8 +44,6 @@ pub(super) struct Plan<'a> {
 /// Chains in the order of the row.
 pub(super) struct Chains {
     pub founds: Vec<Found>,
-    /// The parts that each was looked for from, numbered from its first point.
-    pub parts: Vec<Vec<Part>>,
     /// They join in corners, the last and the first too if the row is closed: one closed chain has none.
     pub cornered: bool,
 }
@@ -109,7 +107,7 @@ impl Plan<'_> {
                     open.noise = if self.given.is_some() { open.noise } else { open.scatter() };
                     found = if open.circle { open } else { found };
                 }
-                return Ok(Chains { founds: vec![found], parts: vec![parts.to_vec()], cornered: false });
+                return Ok(Chains { founds: vec![found], cornered: false });
             }
             if forced.is_some() {
                 return Err(SectionError::Astray);
@@ -142,7 +140,7 @@ impl Plan<'_> {
         let n = self.clean.points.len();
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let mut groups: VecDeque<Range<usize>> = starts.zip(&ends).map(|(from, to)| from..*to).collect();
-        let mut all = Chains { founds: vec![], parts: vec![], cornered: true };
+        let mut all = Chains { founds: vec![], cornered: true };
         while let Some(group) = groups.pop_front() {
             let own = &order[group.clone()];
             let start = (own[0].from + n - shift) % n;
@@ -169,7 +167,6 @@ impl Plan<'_> {
                 continue;
             }
             all.founds.push(found);
-            all.parts.push(local);
         }
         Ok(all)
     }
