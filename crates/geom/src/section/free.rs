@@ -2,7 +2,7 @@
 //!
 //! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1, so its
 //! heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by Gauss and
-//! Legendre's rule over panels, and quintic between the ends of panels. All is in the frame of the piece: it starts at 0
+//! Legendre's rule over panels, and quintic between the ends of panels; how they move with the unknowns is cubic there. All is in the frame of the piece: it starts at 0
 //! along the first axis.
 
 use crate::spline::basis::Knots;
@@ -126,6 +126,8 @@ pub(super) struct Table {
     panels: usize,
     length: f64,
     places: Vec<CurvePlace>,
+    /// Headings there.
+    headings: Vec<f64>,
     /// Sums over the coefficients, one for each entry of a column of the basis.
     sums: Vec<f64>,
     /// Heading at the end.
@@ -188,6 +190,8 @@ impl Table {
             self.places.push(place(k + 1, at));
             self.quintics.push(quintic(&self.places[k], &self.places[k + 1], length * step));
         }
+        self.headings.clear();
+        self.headings.extend(integrals.iter().map(|k| length * k));
         self.turn = length * integrals[basis.panels];
     }
 
@@ -263,19 +267,48 @@ impl Table {
         (at, slope, (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature)
     }
 
-    /// Motions at `t` with the length and with each coefficient, along `normal`.
+    /// Motions at `t` with the length and with each coefficient, along `normal`: cubic between the ends of panels, where they and their
+    /// rates are known; beyond the ends of the piece straight.
     #[inline]
     pub(super) fn motions_along(&self, t: f64, normal: [f64; 2], out: &mut [f64]) {
         let (k, f) = self.panel(t);
-        let f = f.clamp(-0.5, 1.5);
+        let basis = Basis::of(self.count);
         let width = self.count + 1;
         let (a, b) = self.motions[k * width..].split_at(width);
-        for ((o, a), b) in out.iter_mut().zip(a).zip(b) {
-            let x = a[0] + f * (b[0] - a[0]);
-            let y = a[1] + f * (b[1] - a[1]);
-            *o = x * normal[0] + y * normal[1];
+        let (from, to) = (&basis.integrals[k * self.count..], &basis.integrals[(k + 1) * self.count..]);
+        let (p, q) = (&self.places[k], &self.places[k + 1]);
+        let [u, v, m, n] = hermite(f);
+        let left = |p: &CurvePlace| p.along[0] * normal[1] - p.along[1] * normal[0];
+        let ahead = |p: &CurvePlace| p.along[0] * normal[0] + p.along[1] * normal[1];
+        // Rates over a panel: with the length the direction, and the heading to the left; with a coefficient the length's square and
+        // the integral of its function to the left.
+        let step = 1.0 / self.panels as f64;
+        let (m, n) = (m * step, n * step);
+        out[0] = u * (a[0][0] * normal[0] + a[0][1] * normal[1])
+            + v * (b[0][0] * normal[0] + b[0][1] * normal[1])
+            + m * (ahead(p) + self.headings[k] * left(p))
+            + n * (ahead(q) + self.headings[k + 1] * left(q));
+        let (m, n) = (m * self.length * self.length * left(p), n * self.length * self.length * left(q));
+        let both = a[1..].iter().zip(b[1..].iter()).zip(from.iter().zip(to));
+        for (o, ((a, b), (i, j))) in out[1..].iter_mut().zip(both) {
+            let x = u * a[0] + v * b[0];
+            let y = u * a[1] + v * b[1];
+            *o = x * normal[0] + y * normal[1] + (m * i + n * j);
         }
     }
+}
+
+/// Weights of the values at the ends of a panel, and of the rates there, in a cubic over it; beyond, in the straight line that it goes on as.
+fn hermite(f: f64) -> [f64; 4] {
+    let (g, beyond) = (f.clamp(0.0, 1.0), f - f.clamp(0.0, 1.0));
+    let h = 1.0 - g;
+    let rise = 6.0 * g * h;
+    [
+        h * h * (1.0 + 2.0 * g) - beyond * rise,
+        g * g * (1.0 + 2.0 * h) + beyond * rise,
+        g * h * h + beyond * h * (1.0 - 3.0 * g),
+        -g * g * h + beyond * g * (1.0 - 3.0 * h),
+    ]
 }
 
 /// The quintic between two places that has their directions and curvatures; `h` is the length between them.
@@ -294,4 +327,50 @@ fn quintic(a: &CurvePlace, b: &CurvePlace, h: f64) -> [[f64; 2]; 6] {
         q[5][k] = 6.0 * d - 3.0 * v0 - 3.0 * v1 - 0.5 * a0 + 0.5 * a1;
     }
     q
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Motions are the differences of places, within the piece and beyond its ends by a share of a panel.
+    #[test]
+    fn motions_are_differences_of_places() {
+        let (coefficients, length) = ([0.3, -0.4, 0.9, 0.2, -0.7, 0.5], 4.0);
+        let table = |coefficients: &[f64], length: f64| {
+            let mut table = Table::default();
+            table.fill(coefficients, length);
+            table
+        };
+        let (own, step) = (table(&coefficients, length), 1e-5);
+        for i in 0..=1000 {
+            let t = f64::from(i) / 1000.0;
+            let normal = [0.6, 0.8];
+            let mut motions = [0.0; 7];
+            own.motions_along(t, normal, &mut motions);
+            for (k, motion) in motions.iter().enumerate() {
+                let moved = |step: f64| {
+                    let mut coefficients = coefficients;
+                    if k > 0 {
+                        coefficients[k - 1] += step;
+                    }
+                    let at = table(&coefficients, if k == 0 { length + step } else { length }).place(t).at;
+                    at[0] * normal[0] + at[1] * normal[1]
+                };
+                let difference = (moved(step) - moved(-step)) / (2.0 * step);
+                assert!((motion - difference).abs() < 1e-4, "{t} {k}: {motion} {difference}");
+            }
+        }
+        // Straight beyond an end.
+        let at = |t: f64| {
+            let mut motions = [0.0; 7];
+            own.motions_along(t, [0.6, 0.8], &mut motions);
+            motions
+        };
+        let (inside, end, beyond) = (at(1.0 - 1e-7), at(1.0), at(1.02));
+        for k in 0..7 {
+            let slope = (end[k] - inside[k]) / 1e-7;
+            assert!((beyond[k] - end[k] - 0.02 * slope).abs() < 1e-5, "{k}");
+        }
+    }
 }

@@ -44,6 +44,8 @@ const GROWTH: f64 = 4.0;
 const EACH: usize = 12;
 /// Distances below this share of the size of all are none.
 const LEAST: f64 = 1e-6;
+/// A contour misses the points that scatter about it so many times as much as about one that keeps to them.
+const MISSED: f64 = 5.0;
 
 /// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
 /// where the points are too few for the curve.
@@ -116,11 +118,11 @@ pub(super) struct Resolved {
 }
 
 impl Resolved {
-    /// Whether it is to be taken in place of a contour of segments that do not run along their points, or with corners where the
-    /// points tell none.
+    /// Whether it is to be taken in place of a contour of segments that do not run along their points, or miss them, or with corners
+    /// where the points tell none.
     pub fn is_better_than(&self, other: &Contour) -> bool {
         let corners = other.joins.iter().filter(|j| j.continuity == Continuity::G0).count();
-        !other.astray.is_empty() || corners > self.contour.joins.len()
+        !other.astray.is_empty() || corners > self.contour.joins.len() || misses(other, self.contour.noise)
     }
 
     /// The contour of the row given, of so many points.
@@ -129,6 +131,11 @@ impl Resolved {
         all.finish(&self.clean, self.turned, count, vec![]);
         all.contour
     }
+}
+
+/// Whether the points of a row of this noise scatter about its contour for other reasons.
+pub(super) fn misses(contour: &Contour, noise: f64) -> bool {
+    contour.noise > MISSED * (noise + NONE[0] * contour.spacing)
 }
 
 /// Whether the points of a part lie on a line, or an arc, no farther off than so much: a quarter at either end may lie beside it.
