@@ -1,6 +1,5 @@
 //! The contour of a row, put together from the chains between its corners.
 
-use super::chain::SegmentKind;
 use super::convert::Parts;
 use super::result::{Contour, Segment};
 use super::row::Clean;
@@ -34,11 +33,8 @@ impl Joined {
                 contour.stations[number] = self.length + parts.before + found.stations[i % n];
             }
         }
-        // A free curve of as many unknowns as points is any curve through them: its coefficients, and where it starts and heads.
-        let free = |k: usize, s: &Segment| {
-            s.geometry.kind() == SegmentKind::Spline && found.pieces()[k].coefficients.len() + 2 >= s.count
-        };
-        let strays = |(k, s): &(usize, &Segment)| found.astray || s.strays() || free(*k, s);
+        let strays =
+            |(k, s): &(usize, &Segment)| found.astray || s.strays() || found.pieces()[*k].is_loose(s.count);
         let astray = parts.segments.iter().enumerate().filter(strays);
         contour.astray.extend(astray.map(|(k, _)| first + k));
         self.length += parts.length;

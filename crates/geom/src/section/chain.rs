@@ -43,6 +43,10 @@ impl Piece {
     pub fn arc(length: f64, curvature: f64) -> Piece {
         Piece { kind: SegmentKind::Arc, length, coefficients: vec![curvature] }
     }
+    /// Whether so many points let a free piece be any curve through them: its unknowns are its coefficients, where it starts and heads.
+    pub fn is_loose(&self, points: usize) -> bool {
+        self.kind == SegmentKind::Spline && self.coefficients.len() + 2 >= points
+    }
     /// Curvature at the share `t` of its length.
     pub fn curvature(&self, t: f64) -> f64 {
         match self.kind {

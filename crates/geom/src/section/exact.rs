@@ -5,12 +5,13 @@
 //! another arc of the same radius, proves it.
 
 use super::chain::{Chain, Piece, SegmentKind};
+use super::criterion::Model;
 use super::facets::{angle, length};
 use super::least::State;
 use super::polygon::CORNER;
 use super::result::Contour;
 use super::row::{Clean, size};
-use super::search::{Model, Search};
+use super::search::Search;
 use super::start::Part;
 
 /// Longer rows tell their segments themselves.

@@ -8,7 +8,7 @@
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
-//! | `search`, `smooth` | number and kinds of pieces |
+//! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
@@ -22,20 +22,24 @@
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
-//! | `span`, `contour`, `convert` | corners, chains between them, the contour as lines, arcs and B-splines |
+//! | `plan`, `span`, `doubt` | corners, chains between them; corners that are none |
+//! | `contour`, `convert` | the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
 mod airfoil;
 mod assembly;
+mod base;
 mod chain;
 mod contour;
 mod convert;
 mod corner;
+mod criterion;
 mod crossings;
 mod cut;
 mod dimension;
 mod direction;
+mod doubt;
 mod edge_chain;
 mod exact;
 mod facets;
@@ -49,6 +53,7 @@ mod levels;
 mod link;
 mod nominal;
 mod paper;
+mod plan;
 mod polygon;
 mod profile;
 mod resolved;

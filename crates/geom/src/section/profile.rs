@@ -1,8 +1,9 @@
 //! Where a join may lie: the likelihood as a function of its place, everything else fitted anew.
 
 use super::chain::Pose;
+use super::criterion::Model;
 use super::least::{Held, STIFF, State, Stop};
-use super::search::{Model, Search};
+use super::search::Search;
 use crate::num::special::student_quantile;
 
 /// The places that the data allow for a join.

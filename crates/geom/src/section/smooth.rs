@@ -1,8 +1,9 @@
 //! Smooth rows, of which the first partition makes many lines and arcs.
 
 use super::chain::SegmentKind;
+use super::criterion::{Model, Plan};
 use super::free;
-use super::search::{Base, Model, Plan, Search};
+use super::search::Search;
 use crate::progress::{Cancelled, Progress};
 
 /// From so many lines and arcs on, one free piece of one of these numbers of coefficients is tried in their place.
@@ -55,7 +56,7 @@ impl Search<'_> {
     /// One of the lines and arcs between two free pieces, where that is cheapest: the longest and those that turn most are tried. An
     /// arc that free pieces run into takes all their coefficients where they stand for it, too.
     fn held(&mut self, first: &Model, bar: f64) -> Option<Model> {
-        let base = Base::new(self, first.clone());
+        let base = self.base(first.clone());
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
         let pieces = &first.state.chain.pieces;
         let turn = |k: &usize| (pieces[*k].length * pieces[*k].curvature(0.0)).abs();
@@ -93,7 +94,7 @@ impl Search<'_> {
 
     /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that is cheaper.
     fn smooth(&mut self, first: &Model) -> Option<Model> {
-        let base = Base::new(self, first.clone());
+        let base = self.base(first.clone());
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
         if base.plans.len() < MANY || !self.kinds[1] {
             return None;

@@ -1,9 +1,12 @@
 //! A part of a row between two corners, or a whole closed row without any: one chain.
 
+use super::base::Base;
 use super::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
+use super::criterion::{Criterion, Model};
+use super::facets::angle;
 use super::least::{Row, Spread, State, Work};
 use super::profile::Interval;
-use super::search::{Criterion, Model, Search};
+use super::search::Search;
 use super::start::{Part, shares};
 use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
@@ -130,6 +133,38 @@ impl Span {
         let found = settle(&mut search, best, task, progress)?;
         let astray = self.is_astray(&found.0, task);
         Ok(Found { astray, ..self.found(found) })
+    }
+
+    /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than `bar`: this span
+    /// has the points of all.
+    pub fn over(
+        self,
+        founds: &[&Found],
+        bar: f64,
+        task: &Task,
+        progress: &dyn Progress,
+    ) -> Result<Option<Found>, Cancelled> {
+        let mut search = self.search(task);
+        let model = match founds {
+            [a, b] => {
+                let turn = angle(a.beyond(true, 0.0).along, b.beyond(false, 0.0).along);
+                let both = [a, b].map(|f| (&f.state, f.stations.clone()));
+                let base = Base::of_both(both, turn, task.spacing);
+                search.over(&base, a.pieces().len() - 1, bar, progress)?
+            }
+            [one] => {
+                // From the chain's end to its start, whose pieces end where these do.
+                let gap = task.spacing + one.last_foot() - one.first_foot();
+                search.closing(&one.state, gap, bar, progress)?
+            }
+            _ => None,
+        };
+        let Some(model) = model else { return Ok(None) };
+        let found = settle(&mut search, model, task, progress)?;
+        let own = found.0.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
+        let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
+        let astray = is_loose || self.is_astray(&found.0, task);
+        Ok((!astray).then(|| self.found(found)))
     }
 
     /// Whether a chain does not run along its points.

@@ -94,3 +94,19 @@ fn without_a_line_there_is_no_join() {
     let found = contour(&ring, &Options::default(), &Silent).unwrap();
     assert_eq!(line_and_curve(&ring, &found, None, &Silent).unwrap_err(), SectionError::NoLine);
 }
+
+/// A curve of few points whose curvature changes fast is a few arcs to a first partition, which do not meet with a common tangent: it has
+/// no corners all the same.
+#[test]
+fn the_example_is_a_line_and_a_curve() {
+    for (noise, fewest) in [(0.0005, 18), (0.002, 18), (0.01, 18)] {
+        let right = |seed: &u64| {
+            let found = contour(&example(noise, *seed), &Options::default(), &Silent).unwrap();
+            let kinds: Vec<SegmentKind> = found.segments.iter().map(|s| s.geometry.kind()).collect();
+            let near = || far(found.joins[0].point, [5.0, 1.0]) < 0.25 && found.joins[0].turn == 0.0;
+            kinds == [SegmentKind::Line, SegmentKind::Spline] && near()
+        };
+        let count = (0..20).filter(right).count();
+        assert!(count >= fewest, "{noise}: {count} of 20");
+    }
+}

@@ -1,0 +1,246 @@
+//! What models are built on: a model with its points along it, or two that follow each other; and the models one step from it.
+
+use super::chain::{Chain, SegmentKind};
+use super::criterion::{Model, Plan};
+use super::free;
+use super::least::State;
+
+/// Fewest points to a coefficient of a free piece over two.
+const LEAST: usize = 2;
+/// A model with the places of its joins and points along it.
+pub(super) struct Base {
+    pub model: Model,
+    pub stations: Vec<f64>,
+    /// Lengths to the points, in the order of the chain.
+    pub order: Vec<f64>,
+    pub plans: Vec<Plan>,
+    /// Where two chains follow each other, and how far the row turns there.
+    seam: Option<(f64, f64)>,
+}
+
+impl Base {
+    /// Of a model and the lengths from its start to the feet of all points.
+    pub fn new(model: Model, all: &[f64]) -> Base {
+        let n = all.len();
+        let first = model.state.breaks[0];
+        let mut order: Vec<f64> = (0..n).map(|i| all[(first + i) % n]).collect();
+        rising(&mut order);
+        let stations = model.state.chain.stations();
+        let plans = plans(&model.state.chain, &stations);
+        Base { model, stations, order, plans, seam: None }
+    }
+
+    /// Two chains of a row as one, whose order along each is given, with a `turn` and a `gap` from one to the next. It is none that runs along the
+    /// points: models are to be built on it.
+    pub fn of_both([a, b]: [(&State, Vec<f64>); 2], turn: f64, gap: f64) -> Base {
+        let ((first, mut order), (second, after)) = (a, b);
+        let mut pieces = first.chain.pieces.clone();
+        let (n, last) = (first.feet.len(), pieces.len() - 1);
+        let mut lengths = [order.last(), after.first()].map(|s| s.copied().unwrap_or(0.0));
+        let before: f64 = pieces[..last].iter().map(|p| p.length).sum();
+        // Both end in the middle between their points.
+        lengths = [lengths[0] + 0.5 * gap, lengths[1] - 0.5 * gap];
+        let whole = lengths[0].max(before + gap);
+        pieces[last].length = whole - before;
+        order.extend(after.iter().map(|s| s - lengths[1] + whole));
+        pieces.extend(second.chain.pieces.iter().cloned());
+        pieces[last + 1].length = (pieces[last + 1].length - lengths[1]).max(gap);
+        rising(&mut order);
+        let chain = Chain { pieces, ..first.chain.clone() };
+        let feet = first.feet.iter().chain(&second.feet).copied().collect();
+        let breaks = first.breaks.iter().copied().chain(second.breaks[1..].iter().map(|b| b + n)).collect();
+        let stations = chain.stations();
+        let plans = plans(&chain, &stations);
+        let state = State { chain, breaks, feet, sum: 0.0 };
+        Base {
+            model: Model { state, cost: f64::INFINITY },
+            stations,
+            order,
+            plans,
+            seam: Some((whole, turn)),
+        }
+    }
+
+    pub fn coefficients(&self, plan: &Plan) -> Vec<f64> {
+        let chain = &self.model.state.chain;
+        let width = (plan.to - plan.from) / (2.0 * plan.count as f64);
+        let at: Vec<f64> =
+            free::places(plan.count).iter().map(|t| plan.from + t * (plan.to - plan.from)).collect();
+        let around = |s: &f64| ((s - width).max(plan.from), (s + width).min(plan.to));
+        let mean = |s: &f64| {
+            let (a, b) = around(s);
+            chain.mean_curvature(&self.stations, a, b)
+        };
+        let mut all: Vec<f64> = at.iter().map(mean).collect();
+        let inside = |seam: &(f64, f64)| plan.from < seam.0 && seam.0 < plan.to;
+        if let Some((seam, turn)) = self.seam.filter(inside) {
+            let off = |k: &usize| (at[*k] - seam).abs();
+            let nearest = (0..at.len()).min_by(|j, k| off(j).total_cmp(&off(k))).unwrap_or(0);
+            let (a, b) = around(&at[nearest]);
+            all[nearest] += turn / (b - a);
+        }
+        all
+    }
+
+    /// The chains as they are, tangent to each other; with a line or an arc beside the corner, which a free piece around it may hide; and
+    /// with one free piece where they meet.
+    pub fn joined(&self, first: usize) -> Vec<Vec<Plan>> {
+        use SegmentKind::{Arc, Line, Spline};
+        let [a, b] = [self.plans[first], self.plans[first + 1]];
+        let most = (a.count + b.count).clamp(2, free::MOST);
+        let with = |new: &[Plan]| [&self.plans[..first], new, &self.plans[first + 2..]].concat();
+        let one = |count: usize| with(&[Plan { kind: Spline, count, from: a.from, to: b.to }]);
+        let plain = [(Line, 0), (Arc, 1)];
+        let before = plain.map(|(kind, count)| with(&[Plan { kind, count, ..a }, b]));
+        let after = plain.map(|(kind, count)| with(&[a, Plan { kind, count, ..b }]));
+        let own = self.model.state.breaks[first + 2] - self.model.state.breaks[first];
+        let counts = [3, 4, 6, 8, 12, most].into_iter().filter(|count| LEAST * count <= own);
+        std::iter::once(self.plans.clone()).chain(before).chain(after).chain(counts.map(one)).collect()
+    }
+
+    /// Every model one step away: as lists of plans.
+    pub fn changes(&self, kinds: [bool; 2], spacing: f64) -> Vec<Vec<Plan>> {
+        let plans = &self.plans[..];
+        let mut all = vec![];
+        let n = plans.len();
+        let replace = |i: usize, j: usize, new: &[Plan]| [&plans[..i], new, &plans[j + 1..]].concat();
+        let [arcs, splines] = kinds;
+        let allowed = |kind: SegmentKind| match kind {
+            SegmentKind::Line => true,
+            SegmentKind::Arc => arcs,
+            SegmentKind::Spline => splines,
+        };
+        let mut one = |i: usize, j: usize, kind: SegmentKind, count: usize| {
+            let plan = Plan { kind, count, from: plans[i].from, to: plans[j].to };
+            if allowed(kind) {
+                all.push(replace(i, j, &[plan]));
+            }
+        };
+        for i in 0..n {
+            match plans[i].kind {
+                SegmentKind::Line => one(i, i, SegmentKind::Arc, 1),
+                SegmentKind::Arc => one(i, i, SegmentKind::Line, 0),
+                SegmentKind::Spline => {
+                    one(i, i, SegmentKind::Line, 0);
+                    one(i, i, SegmentKind::Arc, 1);
+                }
+            }
+            if plans[i].kind == SegmentKind::Spline {
+                let count = plans[i].count;
+                for more in [count.wrapping_sub(1), count + 1, count + 2, count + count / 2 + 1] {
+                    if (2..=free::MOST).contains(&more) {
+                        one(i, i, SegmentKind::Spline, more);
+                    }
+                }
+            } else {
+                [2, 3, 4, 5, 6].into_iter().for_each(|count| one(i, i, SegmentKind::Spline, count));
+            }
+            if i + 1 < n {
+                one(i, i + 1, SegmentKind::Line, 0);
+                one(i, i + 1, SegmentKind::Arc, 1);
+                [3, 4, 6, 8].into_iter().for_each(|count| one(i, i + 1, SegmentKind::Spline, count));
+                let most = plans[i].count.max(plans[i + 1].count);
+                let both = plans[i].count + plans[i + 1].count;
+                if most > 1 {
+                    [most + 2, both]
+                        .into_iter()
+                        .filter(|c| *c <= free::MOST)
+                        .for_each(|c| one(i, i + 1, SegmentKind::Spline, c));
+                }
+            }
+        }
+        for (i, j) in runs(plans) {
+            if j > i + 1 {
+                let longest = (j - i + 3).min(free::MOST);
+                [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, SegmentKind::Spline, count));
+                if longest > 10 {
+                    one(i, j, SegmentKind::Spline, longest);
+                }
+            }
+        }
+        for i in 0..n {
+            splits(i, plans, kinds[0], spacing, &mut all);
+        }
+        all
+    }
+}
+
+/// A piece cut in two.
+fn splits(i: usize, plans: &[Plan], arcs: bool, spacing: f64, all: &mut Vec<Vec<Plan>>) {
+    use SegmentKind::{Arc, Line, Spline};
+    let plan = plans[i];
+    let width = plan.to - plan.from;
+    if width < 8.0 * spacing {
+        return;
+    }
+    let ways: &[(SegmentKind, SegmentKind, f64)] = match plan.kind {
+        Spline => &[
+            (Line, Spline, 0.12),
+            (Line, Spline, 0.25),
+            (Line, Spline, 0.4),
+            (Spline, Line, 0.88),
+            (Spline, Line, 0.75),
+            (Spline, Line, 0.6),
+            (Arc, Spline, 0.3),
+            (Spline, Arc, 0.7),
+            (Line, Arc, 0.3),
+            (Line, Arc, 0.5),
+            (Arc, Line, 0.5),
+            (Arc, Line, 0.7),
+        ],
+        Arc => &[(Line, Arc, 0.3), (Line, Arc, 0.5), (Arc, Line, 0.5), (Arc, Line, 0.7), (Arc, Arc, 0.5)],
+        Line => &[(Line, Arc, 0.5), (Line, Arc, 0.75), (Arc, Line, 0.25), (Arc, Line, 0.5)],
+    };
+    for (a, b, share) in ways {
+        let at = plan.from + share * width;
+        if [*a, *b].contains(&Arc) && !arcs {
+            continue;
+        }
+        // A free piece that lost a part needs fewer coefficients.
+        let fewer = (plan.count > 4 && [*a, *b].contains(&Spline)).then_some(plan.count / 2 + 1);
+        for free in std::iter::once(plan.count.max(2)).chain(fewer) {
+            let count = |kind: SegmentKind| match kind {
+                Line => 0,
+                Arc => 1,
+                Spline => free,
+            };
+            let first = Plan { kind: *a, count: count(*a), from: plan.from, to: at };
+            let second = Plan { kind: *b, count: count(*b), from: at, to: plan.to };
+            all.push([&plans[..i], &[first, second], &plans[i + 1..]].concat());
+        }
+    }
+}
+
+/// The plans of a chain's own pieces.
+fn plans(chain: &Chain, stations: &[f64]) -> Vec<Plan> {
+    let each = chain.pieces.iter().zip(stations.windows(2));
+    each.map(|(p, w)| Plan { kind: p.kind, count: p.coefficients.len(), from: w[0], to: w[1] }).collect()
+}
+
+/// Noise may swap neighbors; the order of the row stands.
+fn rising(order: &mut [f64]) {
+    let mut greatest = f64::NEG_INFINITY;
+    for s in order {
+        greatest = greatest.max(*s);
+        *s = greatest;
+    }
+}
+
+/// First and last of each run of pieces that are no lines.
+fn runs(plans: &[Plan]) -> Vec<(usize, usize)> {
+    let mut all = vec![];
+    let mut start = None;
+    for (i, plan) in plans.iter().enumerate() {
+        match (plan.kind, start) {
+            (SegmentKind::Line, Some(from)) => {
+                all.push((from, i - 1));
+                start = None;
+            }
+            (SegmentKind::Line, None) => {}
+            (_, None) => start = Some(i),
+            _ => {}
+        }
+    }
+    all.extend(start.map(|from| (from, plans.len() - 1)));
+    all
+}
