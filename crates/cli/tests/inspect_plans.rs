@@ -84,7 +84,11 @@ const FAULTS: &[Fault] = &[
         "schema = \"trueness/plan/2\"",
         "line 1, column 10: the schema is \"trueness/plan/2\"; this program reads \"trueness/plan/1\"",
     ),
-    fault("schema = \"trueness/plan/1\"\n", "", "missing field `schema`"),
+    fault(
+        "schema = \"trueness/plan/1\"\n",
+        "",
+        "`schema` is missing; add it, as in schema = \"trueness/plan/1\"",
+    ),
     fault("id = \"A\"", "id = \"A", "line 5, column"),
     fault(
         "units = \"mm\"",

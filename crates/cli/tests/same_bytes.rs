@@ -55,7 +55,8 @@ const RUNS: &[(&str, &str)] = &[
     ),
     ("curvature", "curvature zipper_res3.ply --json ….json --out ….npz"),
     ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml --qif ….qif"),
-    ("trend", "trend inspect.json inspect.json --json ….json --csv ….csv --html ….html"),
+    ("inspect_nominal", "inspect plate.toml --measured nominal.stl --json ….json"),
+    ("trend", "trend inspect.json inspect_nominal.json --json ….json --csv ….csv --html ….html"),
 ];
 
 /// All that is written, by file: its hash.

@@ -126,6 +126,10 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
         "string values must be quoted" | "invalid boolean" => {
             format!("text stands in quotes; write \"{next}\"")
         }
+        "duplicate key" if line.ends_with("[[") => {
+            let name = next.trim_end_matches(']');
+            format!("[{name}] is one table; write [[{name}]], as there may be several")
+        }
         "duplicate key" => {
             let key = next.split('=').next().unwrap_or("").trim();
             format!("`{key}` is there twice; leave one out")

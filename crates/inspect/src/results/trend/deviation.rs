@@ -1,6 +1,6 @@
 //! The course of the deviations from the reference: the share of the points within tolerance, of each region and of all others.
 
-use super::{TrendError, TrendRecord};
+use super::record::{TrendError, TrendRecord};
 use crate::results::Verdict;
 use crate::results::compare::ToleranceShares;
 use crate::results::inspect::{Counts, InspectDocument};
