@@ -104,7 +104,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "tolerance = 0.1",
         "tolerance = \"0.1\"",
-        "line 28, column 13: invalid type: string \"0.1\", expected f64",
+        "line 28, column 13: `tolerance` is \"0.1\", not one number, the width or diameter of the zone; write 0.1 without quotes",
     ),
     fault(
         "tolerance = 0.1",

@@ -283,17 +283,18 @@ fn mean_and_spread_are_told_over_the_part() {
             continue;
         }
         top += 1;
-        // Each place has the value of the vertex of the scan nearest to it, half a facet away at most.
+        // Each place has the value of the place of the scan nearest to it, half a facet away at most: a vertex, or one between vertices, which
+        // are not the same in every part.
         let (mean, sigma) = (map["mean"][n].as_f64().unwrap(), map["std_dev"][n].as_f64().unwrap());
         match map["parts"][n].as_u64().unwrap() {
             3 => {
                 assert!((mean - 0.03 * x).abs() < 0.03, "{mean} at {x}");
-                assert!((sigma - mean).abs() < 1e-6, "the spread of 0, r, 2 r is r: {sigma}, {mean}");
+                assert!((sigma - mean).abs() < 0.01, "the spread of 0, r, 2 r is r: {sigma}, {mean}");
             }
             2 => {
                 lacking += 1;
                 assert!(y > 5.0 && (mean - 0.015 * x).abs() < 0.015, "{mean} at {x}, {y}");
-                assert!((sigma - mean * 2.0f64.sqrt()).abs() < 1e-6, "{sigma}, {mean}");
+                assert!((sigma - mean * 2.0f64.sqrt()).abs() < 0.01, "{sigma}, {mean}");
             }
             other => panic!("{other} parts at {x}, {y}"),
         }
@@ -311,6 +312,7 @@ fn mean_and_spread_are_told_over_the_part() {
     // The deviations are all that the plan judges: their course has a chart, with the share that is allowed.
     let mut second: Value = serde_json::from_str(&std::fs::read_to_string(&parts[1]).unwrap()).unwrap();
     second["deviation"]["tolerance"]["inside"] = 0.925.into();
+    second["verdict"] = "fail".into();
     let second = folder.write("second.json", second.to_string()).to_str().unwrap().to_string();
     let o = trueness(["trend", &parts[0], &second, &parts[2], "--json", &json, "--html", &page]);
     assert!(status(&o) == 1 && stdout(&o).contains("deviation"), "{}{}", stdout(&o), stderr(&o));
