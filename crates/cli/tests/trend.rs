@@ -247,6 +247,25 @@ fn block(rise: f64, hole: bool) -> String {
     text + "endsolid block\n"
 }
 
+/// The deviations are all that the plan judges: their course has a chart, with the share that is allowed.
+fn the_course_of_deviations_is_told(folder: &Folder, parts: &[String], [json, page]: [&str; 2]) {
+    let mut second: Value = serde_json::from_str(&std::fs::read_to_string(&parts[1]).unwrap()).unwrap();
+    second["deviation"]["tolerance"]["inside"] = 0.925.into();
+    second["verdict"] = "fail".into();
+    let second = folder.write("second.json", second.to_string()).to_str().unwrap().to_string();
+    let o = trueness(["trend", &parts[0], &second, &parts[2], "--json", json, "--html", page]);
+    assert!(status(&o) == 1 && stdout(&o).contains("deviation"), "{}{}", stdout(&o), stderr(&o));
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(json).unwrap()).unwrap();
+    let [c] = &document["characteristics"].as_array().unwrap()[..] else { panic!("{document}") };
+    assert_eq!((c["id"].as_str(), c["unit"].as_str()), (Some("deviation"), Some("%")));
+    assert_eq!(c["values"], serde_json::json!([100.0, 92.5, 100.0]));
+    assert_eq!(c["verdicts"], serde_json::json!(["pass", "fail", "pass"]));
+    assert_eq!((c["lower"].as_f64(), c["mean"].as_f64()), (Some(100.0), Some(97.5)));
+    assert!(c["control"].is_null() && c["ppk"].is_null(), "{c}");
+    let charts = std::fs::read_to_string(page).unwrap();
+    assert_eq!(charts.matches("<figure class=\"chart\"").count(), 1);
+}
+
 /// Mean and spread over the part against the closed form: the top of three parts rises by 0, 0.3 and 0.6 mm along x.
 #[test]
 fn mean_and_spread_are_told_over_the_part() {
@@ -309,22 +328,7 @@ fn mean_and_spread_are_told_over_the_part() {
     let manifest: Value = serde_json::from_str(manifest).unwrap();
     assert_eq!(manifest["maps"].as_array().unwrap().len(), 2);
     assert_eq!(manifest["maps"][1]["scale"]["lower"], 0.0);
-    // The deviations are all that the plan judges: their course has a chart, with the share that is allowed.
-    let mut second: Value = serde_json::from_str(&std::fs::read_to_string(&parts[1]).unwrap()).unwrap();
-    second["deviation"]["tolerance"]["inside"] = 0.925.into();
-    second["verdict"] = "fail".into();
-    let second = folder.write("second.json", second.to_string()).to_str().unwrap().to_string();
-    let o = trueness(["trend", &parts[0], &second, &parts[2], "--json", &json, "--html", &page]);
-    assert!(status(&o) == 1 && stdout(&o).contains("deviation"), "{}{}", stdout(&o), stderr(&o));
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
-    let [c] = &document["characteristics"].as_array().unwrap()[..] else { panic!("{document}") };
-    assert_eq!((c["id"].as_str(), c["unit"].as_str()), (Some("deviation"), Some("%")));
-    assert_eq!(c["values"], serde_json::json!([100.0, 92.5, 100.0]));
-    assert_eq!(c["verdicts"], serde_json::json!(["pass", "fail", "pass"]));
-    assert_eq!((c["lower"].as_f64(), c["mean"].as_f64()), (Some(100.0), Some(97.5)));
-    assert!(c["control"].is_null() && c["ppk"].is_null(), "{c}");
-    let charts = std::fs::read_to_string(&page).unwrap();
-    assert_eq!(charts.matches("<figure class=\"chart\"").count(), 1);
+    the_course_of_deviations_is_told(&folder, &parts, [&json, &page]);
     // A result without places: why there is no map.
     let bare = inspect(7, block(0.1, false), false);
     let o = trueness(["trend", &parts[0], &bare, "--map", &page]);

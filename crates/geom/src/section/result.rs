@@ -301,6 +301,12 @@ pub enum SectionError {
         /// Median distance of neighbors in the row over that of nearest points.
         ratio: f64,
     },
+    /// The row comes to the same places again.
+    #[error(
+        "most points lie where others do that do not follow them in the row: it runs along the contour more than once; give each place \
+         once"
+    )]
+    PlacesAgain,
     /// Joins were to be tangent throughout, and no such curve runs along the points.
     #[error(
         "no curve whose joins are all tangent runs along the points: they have corners; leave --continuity out"

@@ -83,6 +83,9 @@ impl Passed {
     }
 }
 
+/// A row passes places again from which most of its points are this many times nearer to another than to the next.
+const AGAIN: f64 = 1e9;
+
 impl Clean {
     /// Cleans a row whose coordinates are numbers.
     pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
@@ -99,6 +102,9 @@ impl Clean {
         let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
         let spacing = median(steps.clone());
         let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
+        if ratio > AGAIN && all.len() > 8 {
+            return Err(SectionError::PlacesAgain);
+        }
         if ratio > UNORDERED && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }

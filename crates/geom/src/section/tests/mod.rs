@@ -190,6 +190,8 @@ fn wrong_rows_are_refused_and_odd_ones_answered() {
     let mut random = Random::new(2);
     (0..150).rev().for_each(|i| points.swap(i, random.below(i as u64 + 1) as usize));
     assert!(matches!(refused(&points), SectionError::Unordered { .. }));
+    // Run through twice.
+    assert_eq!(refused(&[bends(90, 0.01, 1), bends(90, 0.01, 1)].concat()), SectionError::PlacesAgain);
     let noise = Options { noise: Some(-1.0), ..options };
     assert!(matches!(contour(&bends(90, 0.01, 1), &noise, &Silent), Err(SectionError::WrongOption { .. })));
     // Points doubled, one far off: left out, listed, and the joins stay where they are.
