@@ -43,8 +43,8 @@ impl Joined {
     }
 
     /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
-    /// do, are astray too. Distances below `resolution` are not told from 0.
-    pub(super) fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize, resolution: f64) {
+    /// do, are astray too.
+    pub(super) fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
         const BEYOND: f64 = 3.0;
         /// So many distances between points, and standard deviations, beyond an end of a line or arc.
@@ -57,7 +57,7 @@ impl Joined {
         }
         let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
         let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
-            *off > contour.segments[*k].max + BEYOND * contour.noise.max(resolution) || *ahead > most
+            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
         };
         let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
         self.astray(astray);

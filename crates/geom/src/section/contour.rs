@@ -243,7 +243,7 @@ impl Plan<'_> {
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
-        all.misdrawn(&self.clean.points, self.weights, self.step, self.resolution());
+        all.misdrawn(&self.clean.points, self.weights, self.step);
         all.contour.end_lengths();
         Ok(all)
     }

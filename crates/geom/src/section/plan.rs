@@ -205,7 +205,7 @@ impl Plan<'_> {
     fn is_corner(&self, before: &Part, after: &Part) -> bool {
         let points = &self.clean.points;
         let (a, b) = (points[before.to - 1], points[after.from % points.len()]);
-        let (a, b) = (heading(before, a), heading(after, b));
+        let (a, b) = (before.heading(a), after.heading(b));
         let turn = turn(a, b).abs();
         let spread = |part: &Part| {
             let count = (part.to - part.from) as f64;
@@ -240,16 +240,4 @@ impl Plan<'_> {
         let tangent = sum(both, &local);
         count * libm::log((tangent + floor) / (apart + floor)) > 3.0 * libm::log(count)
     }
-}
-
-/// Direction of a part's line or arc at a point.
-fn heading(part: &Part, at: [f64; 2]) -> [f64; 2] {
-    if part.kind == SegmentKind::Line {
-        return part.along;
-    }
-    let radius = 1.0 / part.curvature;
-    let center = [part.center[0] - radius * part.along[1], part.center[1] + radius * part.along[0]];
-    let out = [at[0] - center[0], at[1] - center[1]];
-    let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE) * part.curvature.signum();
-    [-out[1] / length, out[0] / length]
 }

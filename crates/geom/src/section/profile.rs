@@ -1,6 +1,6 @@
 //! Where a join may lie: the likelihood as a function of its place, everything else fitted anew.
 
-use super::chain::Pose;
+use super::chain::{Layout, Pose};
 use super::criterion::Model;
 use super::least::{Held, STIFF, State, Stop};
 use super::search::Search;
@@ -16,6 +16,15 @@ pub struct Interval {
     pub uncertainty: f64,
     /// The end is that of a neighboring segment, or the interval was not followed farther: the data allow more.
     pub open: [bool; 2],
+}
+
+impl Interval {
+    /// Whether a place is between the ends, or no farther beside or beyond them than half their distance.
+    fn holds(&self, at: [f64; 2]) -> bool {
+        let [a, b] = self.ends;
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        libm::hypot(at[0] - middle[0], at[1] - middle[1]) <= libm::hypot(b[0] - a[0], b[1] - a[1])
+    }
 }
 
 /// Farthest that an interval is followed to either side, in distances between points.
@@ -67,6 +76,21 @@ impl Search<'_> {
             all.push(interval);
         }
         (all, better)
+    }
+
+    /// Takes the model's own interval of each join that is not between the ends of that of a looser one: joins of free pieces may be
+    /// elsewhere there.
+    pub fn around(&mut self, intervals: &mut [Interval], model: &Model, level: f64) {
+        let first = usize::from(!model.state.chain.closed);
+        let mut layout = Layout::default();
+        layout.fill(&model.state.chain);
+        let astray: Vec<usize> = (0..intervals.len())
+            .filter(|k| layout.poses.get(first + k).is_some_and(|pose| !intervals[*k].holds(pose.at)))
+            .collect();
+        if !astray.is_empty() {
+            let own = self.intervals(model, level).0;
+            astray.into_iter().filter(|k| *k < own.len()).for_each(|k| intervals[k] = own[k]);
+        }
     }
 
     /// A better model where a join is held at an end of the interval that the second derivative of the likelihood tells.

@@ -4,6 +4,7 @@ use super::chain::SegmentKind;
 use super::criterion::{Model, Plan};
 use super::free;
 use super::search::Search;
+use super::start::Part;
 use crate::progress::{Cancelled, Progress};
 
 /// From so many lines and arcs on, one free piece of one of these numbers of coefficients is tried in their place.
@@ -17,12 +18,24 @@ const COUNTS: [usize; 7] = [6, 8, 12, 16, 24, 34, free::MOST];
 /// What is found from there is good enough where its points are no farther off than this many times the noise that local fits
 /// tell, or this many times what is not told from 0.
 const KNOWN: f64 = 1.1;
+/// Lines and arcs are searched that cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
+const FAR: f64 = 20.0;
+/// Fewer points to a line or arc do not tell it from a curve.
+const ENOUGH: usize = 10;
 const FINE: f64 = 4.0;
+/// and nearly so up to this many times.
+const NEARLY: f64 = 1.3;
 
 impl Search<'_> {
-    /// The cheapest model reachable from the first, or from one free piece where many lines and arcs stand for a smooth curve.
+    /// The cheapest model reachable from that of the parts, or from one free piece where many lines and arcs stand for a smooth curve.
     /// Merging them one by one takes as many rounds as there are pieces, each of as many models.
-    pub fn best(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
+    pub fn best(
+        &mut self,
+        parts: &[Part],
+        closed: bool,
+        progress: &dyn Progress,
+    ) -> Result<Model, Cancelled> {
+        let first = self.first(parts, closed);
         let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first);
         let Some(smooth) = self.smooth(&first) else {
             return if self.gives_up(lost) { Ok(first) } else { self.run(first, progress) };
@@ -37,6 +50,19 @@ impl Search<'_> {
             let other = self.run(held, progress)?;
             if other.cost < found.cost {
                 return Ok(other);
+            }
+        }
+        // Free pieces that nearly follow the points may stand for lines and arcs that the first model has lost.
+        if self.is_within(&found, NEARLY)
+            && !self.is_near(&first)
+            && self.row.points.len() >= ENOUGH * parts.len()
+        {
+            let other = self.turned(parts, closed);
+            if other.cost < found.cost + FAR {
+                let other = self.run(other, progress)?;
+                if other.cost < found.cost {
+                    return Ok(other);
+                }
             }
         }
         if self.is_near(&found) || self.gives_up(lost) {
@@ -88,8 +114,13 @@ impl Search<'_> {
 
     /// Whether the points are no farther off than local fits tell.
     fn is_near(&self, model: &Model) -> bool {
+        self.is_within(model, KNOWN)
+    }
+
+    /// Whether the points are no farther off than so many times what local fits tell.
+    fn is_within(&self, model: &Model, times: f64) -> bool {
         let off = (model.state.sum / self.criterion.count).sqrt();
-        off <= (KNOWN * self.criterion.noise).max(FINE * self.criterion.resolution)
+        off <= (times * self.criterion.noise).max(FINE * self.criterion.resolution)
     }
 
     /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that is cheaper.

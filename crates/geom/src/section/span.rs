@@ -221,8 +221,7 @@ impl Span {
         if task.known {
             return Ok(search.known(parts, task.closed));
         }
-        let first = search.first(parts, task.closed);
-        search.best(first, progress)
+        search.best(parts, task.closed, progress)
     }
 
     /// The pieces by every `step`-th point alone, then refined by all.
@@ -244,8 +243,7 @@ impl Span {
         let own = Span::new(&self.points, &self.weights, numbers);
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
         let mut search = own.search(&thinned);
-        let first = search.first(&kept, task.closed);
-        let found = search.best(first, progress)?.state;
+        let found = search.best(&kept, task.closed, progress)?.state;
         let n = self.points.len();
         let few = own.points.len();
         // Round and round a closed row, the place of a point among all.
@@ -304,6 +302,9 @@ fn settle(
             let (found, lower) = search.intervals(&looser, task.level);
             intervals = found;
             better = lower.filter(|_| own);
+            if !own {
+                search.around(&mut intervals, &best, task.level);
+            }
         }
         let Some(state) = better.filter(|_| !last) else { break };
         best = search.settle(&Model { state, cost: 0.0 });

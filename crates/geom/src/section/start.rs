@@ -8,10 +8,11 @@ const HALF: usize = 4;
 /// Standard deviation of the noise across the row, and the step at which its points are followed: the least power of 2 at
 /// which neighbors are four times as far apart as they scatter.
 ///
-/// From local cubics through nine points each, by their median, so that corners and outliers do not count. 0 for rows of
-/// fewer than nine points.
+/// From local cubics through nine points each, by their median, so that corners and outliers do not count. At greater steps most of
+/// them may hold a corner: of all steps at which neighbors are as far apart as they scatter the least noise counts. 0 for rows of fewer
+/// than nine points.
 pub(super) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
-    let mut step = 1;
+    let (mut step, mut least) = (1, f64::INFINITY);
     loop {
         let few: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
         let found = noise_of(&few, closed);
@@ -19,8 +20,15 @@ pub(super) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
         let mut steps: Vec<f64> = few.windows(2).map(far).collect();
         let middle = steps.len() / 2;
         let apart = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let found = found.min(least);
         if 4.0 * found <= apart || few.len() < 60 {
             return (found, step);
+        }
+        // Noise makes neighbors farther apart than they are; ends of a local fit far less.
+        let mut chords: Vec<f64> = few.windows(2 * HALF + 1).map(|w| far(&[w[0], w[2 * HALF]])).collect();
+        let middle = chords.len() / 2;
+        if found <= *chords.select_nth_unstable_by(middle, f64::total_cmp).1 / (2 * HALF) as f64 {
+            least = found;
         }
         step *= 2;
     }
@@ -104,6 +112,20 @@ pub(super) struct Part {
     pub along: [f64; 2],
     /// Middle of its points.
     pub center: [f64; 2],
+}
+
+impl Part {
+    /// Direction of the line or arc at a point.
+    pub fn heading(&self, at: [f64; 2]) -> [f64; 2] {
+        if self.kind == SegmentKind::Line {
+            return self.along;
+        }
+        let radius = 1.0 / self.curvature;
+        let center = [self.center[0] - radius * self.along[1], self.center[1] + radius * self.along[0]];
+        let out = [at[0] - center[0], at[1] - center[1]];
+        let length = libm::hypot(out[0], out[1]).max(f64::MIN_POSITIVE) * self.curvature.signum();
+        [-out[1] / length, out[0] / length]
+    }
 }
 
 /// Costs of the parts, in units of the noise's variance.

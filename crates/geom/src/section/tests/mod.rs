@@ -3,6 +3,7 @@
 mod astray;
 mod direction;
 mod levels;
+mod outlines;
 mod resolved;
 mod scattered;
 mod smooth;
