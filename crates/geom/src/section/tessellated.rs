@@ -67,7 +67,14 @@ pub fn chain_contour(
     let kept = if independent.len() < 3 * FEW { (0..points.len()).collect() } else { independent };
     let row: Vec<[f64; 2]> = kept.iter().map(|i| points[*i]).collect();
     let own = Options { closed: Some(closed), ordered: true, ..*options };
-    Ok(spread(contour(&row, &own, progress)?, &kept, &points, Taken::Scan))
+    match contour(&row, &own, progress) {
+        // What is too short for a row, as a loop around one vertex, is its lines, whatever the options.
+        Err(SectionError::TooFewPoints { .. }) if polygon.at.len() >= 2 => {
+            let items = polygon.items(rounding);
+            Sheet { points: &points, polygon, rounding, options }.contour(&items, progress)
+        }
+        found => Ok(spread(found?, &kept, &points, Taken::Scan)),
+    }
 }
 
 fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f64) -> bool {

@@ -337,6 +337,13 @@ fn few_points_and_wrong_options() {
     let two = chain(vec![[0.0; 3], [2.0, 0.0, 0.0]]);
     let line = chain_contour(&two, &frame, 1e-6, &options, &Silent).unwrap();
     assert!(line.segments.len() == 1 && line.joins.is_empty() && !line.closed);
+    // A noise or continuity asked for is that of rows: what is too short for one is its lines all the same.
+    for asked in
+        [Options { noise: Some(0.1), ..options }, Options { continuity: Some(Continuity::G1), ..options }]
+    {
+        let short = chain_contour(&two, &frame, 1e-6, &asked, &Silent).unwrap();
+        assert_eq!((short.segments.len(), short.length()), (1, 2.0));
+    }
     let one = chain(vec![[0.0; 3]]);
     assert!(matches!(
         chain_contour(&one, &frame, 1e-6, &options, &Silent),
