@@ -132,6 +132,7 @@ impl Clean {
             for i in (0..n).filter(|i| !before[*i]) {
                 let near = self.around(i, step, &before);
                 let Some((own, rest)) = off_parabola(&near, self.points[i]) else { continue };
+                let limit = limit + bend(&near);
                 let agreed = 3.0 * noise;
                 let alone =
                     own > limit && (rest < agreed || without_two(&near, self.points[i], limit, agreed));
@@ -173,6 +174,20 @@ impl Clean {
         near.extend(side(true));
         near
     }
+}
+
+/// How far a curve may be from the chord between a point's two neighbors, where it turns there by as much as the neighbors on either side
+/// differ in heading: a quarter of the chord's length times that angle. Beside gaps in a bend no parabola tells where it runs.
+fn bend(near: &[[f64; 2]]) -> f64 {
+    let (left, right) = near.split_at(near.len() / 2);
+    let heading = |part: &[[f64; 2]]| {
+        let (a, b) = (part.first()?, part.last()?);
+        Some([b[0] - a[0], b[1] - a[1]])
+    };
+    let Some((u, v)) = heading(left).zip(heading(right)) else { return 0.0 };
+    let turn = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
+    let gap = left.last().zip(right.first()).map_or(0.0, |(a, b)| distance(*a, *b));
+    0.25 * turn.abs() * gap
 }
 
 /// Whether a point lies farther than `limit` off its neighbors where one or two of these, outliers themselves, are left out:
