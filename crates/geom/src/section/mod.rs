@@ -30,6 +30,7 @@
 mod airfoil;
 mod assembly;
 mod base;
+mod begin;
 mod chain;
 mod contour;
 mod convert;

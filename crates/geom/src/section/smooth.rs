@@ -52,20 +52,12 @@ impl Search<'_> {
                 return Ok(other);
             }
         }
-        // Free pieces that nearly follow the points may stand for lines and arcs that the first model has lost.
-        if self.is_within(&found, NEARLY)
+        // Free pieces that nearly follow the points may stand for lines and arcs that are not far from the first model.
+        let hopeful = self.is_within(&found, NEARLY)
             && !self.is_near(&first)
             && self.row.points.len() >= ENOUGH * parts.len()
-        {
-            let other = self.turned(parts, closed);
-            if other.cost < found.cost + FAR {
-                let other = self.run(other, progress)?;
-                if other.cost < found.cost {
-                    return Ok(other);
-                }
-            }
-        }
-        if self.is_near(&found) || self.gives_up(lost) {
+            && first.cost < found.cost + FAR;
+        if !hopeful && (self.is_near(&found) || self.gives_up(lost)) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
