@@ -17,11 +17,22 @@ impl Search<'_> {
     /// where the headings of many add up to one far off, and parts are lost on the way back, turning from one to the next as they do
     /// by themselves; and from join to join as lines and arcs by themselves tell these.
     pub fn first(&mut self, parts: &[Part], closed: bool) -> Model {
+        let plain = self.plain(parts, closed);
+        self.cheapest(plain, parts, closed)
+    }
+
+    /// The model of the parts with the curvatures and lengths that they have by themselves.
+    pub fn plain(&mut self, parts: &[Part], closed: bool) -> Model {
         let lengths = self.lengths(parts, closed);
         let part = &parts[0];
         let heading = libm::atan2(part.along[1], part.along[0]) - 0.5 * part.curvature * lengths[0];
         let own: Vec<f64> = parts.iter().map(|p| p.curvature).collect();
-        let mut best = self.first_of(parts, &lengths, &own, heading, closed);
+        self.first_of(parts, &lengths, &own, heading, closed)
+    }
+
+    /// That one, or a cheaper one of the same parts.
+    pub fn cheapest(&mut self, plain: Model, parts: &[Part], closed: bool) -> Model {
+        let mut best = plain;
         if parts.len() < SEVERAL {
             return best;
         }
@@ -49,7 +60,8 @@ impl Search<'_> {
             let ends = [points[(a.to - 1) % n], points[b.from % n]];
             let near = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
             let at = touching(a, b, near)?;
-            let reach = NEAR * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
+            let reach =
+                NEAR * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
             (libm::hypot(at[0] - near[0], at[1] - near[1]) <= reach).then_some(at)
         };
         let (first, last) = (points[parts[0].from % n], points[(parts[m - 1].to - 1) % n]);

@@ -22,8 +22,8 @@ const FREE: f64 = 1.5;
 impl Criterion {
     /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
     /// for each unknown; a join counts twice, as its place was chosen among many. Where the points are few for the unknowns, these take
-    /// up noise, and the variance left is less than that of the noise: the penalty grows without bound as the unknowns become as many as the
-    /// points (McQuarrie, A small-sample correction for the Schwarz SIC model selection criterion, Statistics and Probability Letters
+    /// up noise, and the variance left is less than that of the noise: the penalty grows, up to twice, as the unknowns become as many as
+    /// the points (McQuarrie, A small-sample correction for the Schwarz SIC model selection criterion, Statistics and Probability Letters
     /// 44, 1999).
     pub fn cost(&self, state: &State) -> f64 {
         // A piece without points is made up.
@@ -55,12 +55,15 @@ impl Criterion {
     }
     fn penalty(&self, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
-        let spare = (total - unknowns.number - 2.0).max(SPARE);
-        unknowns.weight * libm::log(self.count) * total / spare
+        let spare = (total - unknowns.number - 2.0).max(SPARE * total);
+        let few = if total < SHORT { 1.0 } else { total / spare };
+        unknowns.weight * libm::log(self.count) * few
     }
 }
 
-/// Degrees of freedom that are left at least, so that costs of rows of few points are numbers.
+/// Share of the degrees of freedom that counts as left at least; in rows of fewer points than this all: there any curve along the points
+/// takes most of them, and is better all the same than one that passes them by.
+const SHORT: f64 = 24.0;
 const SPARE: f64 = 0.5;
 
 /// The unknowns of a chain.
