@@ -244,6 +244,7 @@ impl Plan<'_> {
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
         all.misdrawn(&self.clean.points, self.weights, self.step);
+        all.leaving(self.weights);
         all.contour.end_lengths();
         Ok(all)
     }
