@@ -39,7 +39,7 @@ impl Search<'_> {
         let bent = without_bends(parts);
         let fewer = (bent.len() < parts.len()).then_some(&bent[..]);
         for parts in std::iter::once(parts).chain(fewer) {
-            for lengths in [Some(self.lengths(parts, closed)), self.from_join_to_join(parts, closed)] {
+            for lengths in [Some(self.lengths(parts, closed)), self.lengths_between_joins(parts, closed)] {
                 let Some(lengths) = lengths else { continue };
                 let (heading, turning) = self.turning(parts, &lengths);
                 let other = self.first_of(parts, &lengths, &turning, heading, closed);
@@ -52,7 +52,7 @@ impl Search<'_> {
     }
 
     /// Lengths of parts between the places where they touch each other; `None` where two do not near the row.
-    fn from_join_to_join(&self, parts: &[Part], closed: bool) -> Option<Vec<f64>> {
+    fn lengths_between_joins(&self, parts: &[Part], closed: bool) -> Option<Vec<f64>> {
         let (points, m) = (self.row.points, parts.len());
         let n = points.len();
         let join = |k: usize| {
