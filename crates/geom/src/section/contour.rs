@@ -97,7 +97,7 @@ fn is_doubtful(found: &Contour, points: &[[f64; 2]], options: &Options) -> bool 
 }
 
 /// Root mean square distance of the points from a contour, outliers left out.
-fn rms(found: &Contour) -> f64 {
+pub(super) fn rms(found: &Contour) -> f64 {
     let kept = found.residuals.iter().enumerate().filter(|(i, _)| found.outliers.binary_search(i).is_err());
     let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
     (sum / f64::max(count, 1.0)).sqrt()

@@ -47,6 +47,11 @@ impl Outline {
         self.segments.iter().flat_map(of).collect()
     }
 
+    /// What a closed one encloses, above 0 where it runs counter-clockwise; of arcs and splines by chords.
+    pub(super) fn area(&self) -> f64 {
+        area(&self.places())
+    }
+
     fn reversed(self) -> Outline {
         let segments = self.segments.into_iter().rev().map(Segment::reversed).collect();
         Outline { segments, ..self }

@@ -6,9 +6,10 @@
 //! linked over gaps that uneven points have by chance. (After Lee, Curve reconstruction from unorganized points, Computer Aided
 //! Geometric Design 17, 2000; cells in place of moving least squares.)
 
-use super::contour::contour;
+use super::contour::{contour, rms};
 use super::cut::{Plane, PlaneFrame};
 use super::link::{Limits, Linked, Way, gap_to_close, link, longest_by_chance};
+use super::nominal::Outline;
 use super::result::{Contour, Options, SectionError};
 use super::untangle::untangle;
 use crate::progress::{Cancelled, Progress};
@@ -62,7 +63,8 @@ const LONGEST: f64 = 2.0;
 /// The contour of points in order that were found among `points` in the plane.
 ///
 /// Points that cover an area, as of a slab that is thick for how obliquely it cuts, follow no curve: where the segments are
-/// more than twice as long as the way along which the points were put in order, all of them are [`Contour::astray`].
+/// more than twice as long as the way along which the points were put in order, or where points scatter from one side of the
+/// contour to the other, all of them are [`Contour::astray`].
 ///
 /// # Errors
 /// As [`contour`].
@@ -76,10 +78,17 @@ pub fn ordered_contour(
     let closed = options.closed.unwrap_or(row.closed);
     let options = Options { closed: Some(closed), ordered: true, ..*options };
     let mut found = contour(&own, &options, progress)?;
-    if found.length() > LONGEST * row.way {
+    if found.length() > LONGEST * row.way || scatters_across(&found) {
         found.astray = (0..found.segments.len()).collect();
     }
     Ok(found)
+}
+
+/// Whether the band of two standard deviations on either side of a contour is wider than what a closed one encloses is in the mean, or
+/// than half of an open one is long: then nothing tells which points are of which side.
+fn scatters_across(found: &Contour) -> bool {
+    let (band, length) = (4.0 * rms(found), found.length());
+    if found.closed { band * length > 2.0 * Outline::of(found).area().abs() } else { 2.0 * band > length }
 }
 
 /// Share of branching cells up to which a tree follows a contour.
@@ -439,6 +448,32 @@ mod tests {
         };
         assert!(astray(30, 0.1));
         assert!(!astray(3, 0.02));
+    }
+
+    /// A ring whose points scatter by more than a quarter of its radius is a disk, and a row that does so by more than an eighth of its
+    /// length is one of no direction.
+    #[test]
+    fn scatter_from_side_to_side_is_no_contour() {
+        let contour = |sigma: f64, closed: bool| {
+            let (random, count) = (&mut Random::new(7), if closed { 400 } else { 40 });
+            let points: Vec<[f64; 2]> = (0..count)
+                .map(|i| {
+                    let off = sigma * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
+                    let (s, c) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(count));
+                    if closed { [(10.0 + off) * c, (10.0 + off) * s] } else { [f64::from(i), off] }
+                })
+                .collect();
+            let row = Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY };
+            let options = Options { noise: Some(sigma), ..Options::default() };
+            let found = ordered_contour(&points, &row, &options, &Silent).unwrap();
+            (found.astray.len() == found.segments.len(), rms(&found), found.length())
+        };
+        for (sigma, closed, want) in
+            [(1.0, true, false), (3.5, true, true), (1.0, false, false), (8.0, false, true)]
+        {
+            let (across, rms, length) = contour(sigma, closed);
+            assert_eq!(across, want, "{sigma} {closed}: {rms} {length}");
+        }
     }
 
     #[test]
