@@ -4,19 +4,24 @@
 //! the elements, the alignment, the datums, and the evaluation. What the points of a feature are stays as it was found.
 //!
 //! What the farthest points decide, a form, a run-out, the largest cylinder in a bore, noise does not only scatter: it makes the one
-//! wider and the other smaller, each time. How much is found from features of perfect form, their elements, with the same noise (parametric
-//! bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). That is the most of it: a form deviation is a seminorm of
-//! the distances, so that with noise it is at most the sum of both, and a form of the part's own leaves less. The value stays what the
-//! standard defines; the interval of its uncertainty reaches farther to that side (JCGM 100:2008, F.2.4.5).
+//! wider and the other smaller, each time. How much depends on the form that is there: most where it is perfect, half of it and less where
+//! few places are the farthest. So the points are first brought to the form that they have below the noise ([`super::denoised`]), and what the
+//! noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The mean of what it
+//! adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value less the bias, as
+//! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
+//! - Downward by half of what the noise adds at most, times the share of noise that is left in the waves of the form: those stand out too far.
+//! - Upward, where the form does not show by as much as the noise adds, by the share of the bias that it does not explain: below the
+//!   noise a form may hide, and then the value is its own.
 
 use super::Alignment;
 use super::data::{Data, Stop};
+use super::denoised::denoised;
 use super::measure::measured;
 use super::noise_field::Field;
 use super::pose_noise::PoseNoise;
 use super::take::again;
 use crate::characteristic::{Element, Taken, Value};
-use crate::plan::{Noise, Plan, Spec};
+use crate::plan::{Limits, Noise, Plan, Spec};
 use trueness_geom::num::random::Random;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
@@ -28,30 +33,31 @@ const K: f64 = 2.0;
 const ENOUGH: f64 = 0.9;
 /// Draws of perfect features at most: their mean is then known to an eighth of the standard deviation.
 const PERFECT: u32 = 64;
-/// Standard errors of that mean beyond which it tells of more than chance.
+/// Standard errors of a mean beyond which it tells of more than chance.
 const CLEAR: f64 = 3.0;
+/// Share of the greatest bias by which noise that is left in the form moves the least value: waves of noise have lower peaks than the
+/// noise of single points.
+const OF_WAVES: f64 = 0.5;
 
 /// The expanded uncertainty of a value (k = 2), and where it comes from. Millimeters, or degrees for an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// Half of the interval about the value that holds the true one: `spread` and the magnitude of `bias`.
+    /// The value less and plus this hold the true one: the longer of both sides.
     pub expanded: f64,
     /// By what scatters.
     pub spread: f64,
-    /// What noise adds to the value on the average, at most; 0 where it adds nothing.
+    /// What noise adds to the value on the average; 0 where it adds nothing.
     pub bias: f64,
+    /// How far the true value may lie below and above the measured one: negative where it lies on the other side.
+    pub sides: [f64; 2],
     /// `plan`, `noise`, or `plan and noise`.
     pub source: &'static str,
 }
 
 impl Uncertainty {
-    fn new(spread: f64, bias: f64, source: &'static str) -> Uncertainty {
-        Uncertainty { expanded: spread + bias.abs(), spread, bias, source }
-    }
-
-    /// How far the true value may lie below and above the measured one: farther on the side that noise leads away from.
-    pub fn sides(&self) -> [f64; 2] {
-        [self.spread + self.bias.max(0.0), self.spread + (-self.bias).max(0.0)]
+    fn new(spread: f64, bias: f64, unknown: [f64; 2], source: &'static str) -> Uncertainty {
+        let sides = [spread + bias + unknown[0], spread - bias + unknown[1]];
+        Uncertainty { expanded: sides[0].max(sides[1]), spread, bias, sides, source }
     }
 }
 
@@ -64,27 +70,60 @@ pub(super) fn found(
     progress: &dyn Progress,
 ) -> Result<Vec<Option<Uncertainty>>, Stop> {
     let Some(noise) = &plan.decision.noise else {
-        let stated = |spec: &Spec| Some(Uncertainty::new(spec.uncertainty?, 0.0, "plan"));
+        let stated = |spec: &Spec| Some(Uncertainty::new(spec.uncertainty?, 0.0, [0.0; 2], "plan"));
         return Ok(plan.specs.iter().map(stated).collect());
     };
     let pose = PoseNoise::new(plan, noise, aligned, features, progress)?;
     let seed = aligned.0.seed;
     let draws = Draws { plan, noise, pose: &pose, seed, progress };
-    let spread = draws.of(features, noise.draws)?;
     let perfect = perfect(plan, features, progress)?;
-    let exact = draws.values(&perfect, None)?;
-    let with_noise = draws.of(&perfect, noise.draws.min(PERFECT))?;
+    let (formed, left) = denoised(plan, noise, seed, features, progress)?;
+    let of = |features: &[Taken], count: u32| -> Result<Added, Stop> {
+        Ok(Added { without: draws.values(features, None)?, with: draws.of(features, count)? })
+    };
+    let perfect = of(&perfect, noise.draws.min(PERFECT))?;
+    let formed = of(&formed, noise.draws)?;
     let one = |n: usize| {
-        let found = K * spread[n]?.deviation;
-        let bias = with_noise[n].zip(exact[n]).map(|(noisy, exact)| (noisy.mean - exact, noisy.error));
-        let bias = bias.filter(|(bias, error)| bias.abs() > CLEAR * error).map_or(0.0, |b| b.0);
-        let (spread, source) = match plan.specs[n].uncertainty {
+        let spec = &plan.specs[n];
+        let found = K * formed.with[n]?.deviation;
+        let bias = formed.bias(n);
+        let (spread, source) = match spec.uncertainty {
             None => (found, "noise"),
             Some(stated) => (libm::hypot(stated, found), "plan and noise"),
         };
-        Some(Uncertainty::new(spread, bias, source)).filter(|u| u.expanded.is_finite())
+        let left = spec.features.iter().map(|f| left[*f]).fold(0.0, f64::max);
+        let waves = OF_WAVES * left * perfect.bias(n);
+        let shown = match spec.limits {
+            // A zone has the whole value from what is there.
+            Limits::Greatest(_) => formed.without[n],
+            Limits::Between { .. } => formed.without[n].zip(perfect.without[n]).map(|(form, none)| form - none),
+        };
+        let hidden = bias * (1.0 - shown.map_or(0.0, |s| (s / bias).abs().min(1.0)));
+        // To the side that noise leads away from, and to the other.
+        let unknown = if bias > 0.0 {
+            [waves.max(0.0), hidden]
+        } else if bias < 0.0 {
+            [-hidden, (-waves).max(0.0)]
+        } else {
+            [0.0; 2]
+        };
+        Some(Uncertainty::new(spread, bias, unknown, source)).filter(|u| u.expanded.is_finite())
     };
     Ok((0..plan.specs.len()).map(one).collect())
+}
+
+/// The values of features without noise and with it.
+struct Added {
+    without: Vec<Option<f64>>,
+    with: Vec<Option<Scatter>>,
+}
+
+impl Added {
+    /// What the noise adds on the average; 0 where that may be chance.
+    fn bias(&self, n: usize) -> f64 {
+        let added = self.with[n].zip(self.without[n]).map(|(with, without)| (with.mean - without, with.error));
+        added.filter(|(bias, error)| bias.abs() > CLEAR * error).map_or(0.0, |b| b.0)
+    }
 }
 
 /// The features as their elements have them: every point where it would be if the form were perfect.
@@ -192,10 +231,10 @@ mod tests {
     }
 
     #[test]
-    fn the_interval_reaches_farther_to_the_side_of_the_bias() {
-        let wide = Uncertainty::new(1.0, 3.0, "noise");
-        assert_eq!((wide.sides(), wide.expanded), ([4.0, 1.0], 4.0));
-        let small = Uncertainty::new(1.0, -3.0, "noise");
-        assert_eq!((small.sides(), small.expanded), ([1.0, 4.0], 4.0));
+    fn the_interval_lies_about_the_value_less_the_bias() {
+        let of = |bias, unknown| Uncertainty::new(1.0, bias, unknown, "noise");
+        assert_eq!((of(3.0, [0.0; 2]).sides, of(3.0, [0.0; 2]).expanded), ([4.0, -2.0], 4.0));
+        assert_eq!((of(-3.0, [0.0; 2]).sides, of(-3.0, [0.0; 2]).expanded), ([-2.0, 4.0], 4.0));
+        assert_eq!(of(3.0, [0.5, 3.0]).sides, [4.5, 1.0]);
     }
 }
