@@ -7,6 +7,7 @@
 //! Arnoldi, SIAM Review 63, 2021), so no shape has parameters of its own here. Then single places that no wave and no noise explains. What is
 //! left, if it is larger than noise, is a rough form: it is kept in the size that its variance tells.
 
+use crate::num::random::Random;
 use crate::space::{Aabb, Point};
 
 /// Functions at most.
@@ -25,6 +26,8 @@ const SINGLE: f64 = 0.7;
 const OF_PLACES: usize = 20;
 /// Rounds in which waves and single places are parted.
 const ROUNDS: usize = 6;
+/// Draws that tell a mean range, to about 3 %.
+const RANGES: usize = 16;
 /// Standard errors of a variance beyond which it is larger than that of the noise.
 const CLEAR: f64 = 3.0;
 
@@ -33,7 +36,7 @@ const CLEAR: f64 = 3.0;
 pub struct Smooth {
     /// As many heights as were given, millimeters.
     pub heights: Vec<f64>,
-    /// Standard deviation of the noise that is left in its waves over that of the points, 0 to 1.
+    /// Range of the noise that is left in its waves over the range of the noise of the points, 0 to 1: how far its extremes stand out too far.
     pub noise_left: f64,
 }
 
@@ -89,7 +92,7 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let rough = if squares > clear * expected { (1.0 - expected / squares).sqrt() } else { 0.0 };
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
-        noise_left: (waves.left / of_noise).sqrt().min(1.0),
+        noise_left: basis.left(waves.degrees, &variances, noise, drawn),
     }
 }
 
@@ -103,9 +106,10 @@ struct Basis {
 /// Waves found in heights.
 struct Waves {
     heights: Vec<f64>,
-    /// Sum of squares of the noise in the functions that are used, and in all of the degrees among which they were chosen.
+    /// Sum of squares of the noise in the functions that are used.
     taken: f64,
-    left: f64,
+    /// Functions of the degrees among which they were chosen.
+    degrees: usize,
 }
 
 impl Basis {
@@ -116,7 +120,8 @@ impl Basis {
         let bounds = Aabb::of(places);
         let half = 0.5 * bounds.diagonal();
         let coordinate = |k: usize| -> Option<Vec<f64>> {
-            let (middle, reach) = (0.5 * (bounds.min[k] + bounds.max[k]), 0.5 * (bounds.max[k] - bounds.min[k]));
+            let (middle, reach) =
+                (0.5 * (bounds.min[k] + bounds.max[k]), 0.5 * (bounds.max[k] - bounds.min[k]));
             (reach > NEW * half).then(|| places.iter().map(|p| (p[k] - middle) / reach).collect())
         };
         let coordinates: Vec<Vec<f64>> = (0..3).filter_map(coordinate).collect();
@@ -125,7 +130,8 @@ impl Basis {
         let mut first = 0;
         loop {
             let end = functions.len();
-            for (last, axis) in (first..end).flat_map(|last| coordinates.iter().map(move |axis| (last, axis))) {
+            for (last, axis) in (first..end).flat_map(|last| coordinates.iter().map(move |axis| (last, axis)))
+            {
                 if functions.len() > most {
                     break;
                 }
@@ -146,9 +152,8 @@ impl Basis {
         if drawn.is_empty() {
             return vec![noise * noise; self.functions.len()];
         }
-        let of = |f: &Vec<f64>| {
-            drawn.iter().map(|d| dot(f, d)).map(|c| c * c).sum::<f64>() / drawn.len() as f64
-        };
+        let of =
+            |f: &Vec<f64>| drawn.iter().map(|d| dot(f, d)).map(|c| c * c).sum::<f64>() / drawn.len() as f64;
         self.functions.iter().map(of).collect()
     }
 
@@ -173,7 +178,27 @@ impl Basis {
                 waves.iter_mut().zip(&self.functions[j]).for_each(|(w, f)| *w += c * f);
             }
         }
-        Waves { heights: waves, taken, left: variances[..degrees].iter().sum() }
+        Waves { heights: waves, taken, degrees }
+    }
+
+    /// The mean range of noise in the first `degrees` functions over that of the noise itself.
+    fn left(&self, degrees: usize, variances: &[f64], noise: f64, drawn: &[Vec<f64>]) -> f64 {
+        let random = &mut Random::new(0);
+        let n = self.functions[0].len();
+        let (mut left, mut whole) = (0.0, 0.0);
+        for draw in 0..RANGES {
+            let mut waves = vec![0.0; n];
+            for (f, v) in self.functions[..degrees].iter().zip(variances) {
+                let c = v.sqrt() * normal(random);
+                waves.iter_mut().zip(f).for_each(|(w, f)| *w += c * f);
+            }
+            left += range(&waves);
+            whole += match drawn.get(draw) {
+                Some(drawn) => range(drawn),
+                None => noise * range(&(0..n).map(|_| normal(random)).collect::<Vec<_>>()),
+            };
+        }
+        if whole > 0.0 { (left / whole).min(1.0) } else { 0.0 }
     }
 }
 
@@ -195,6 +220,16 @@ fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     Some(function)
 }
 
+fn range(heights: &[f64]) -> f64 {
+    let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
+    heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least
+}
+
+/// Normal enough up to three deviations: a sum of twelve uniform numbers.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
+}
+
 /// By eight sums side by side.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
@@ -208,7 +243,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::random::Random;
     use std::f64::consts::TAU;
 
     /// Places about a cylinder, 20 around, 20 along.
@@ -220,15 +254,14 @@ mod tests {
         (0..400).map(at).collect()
     }
 
-    fn normal(random: &mut Random) -> f64 {
-        (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
-    }
-
     #[test]
     fn functions_are_those_of_the_surface() {
         let sizes = |places: &[Point]| Basis::new(places).ends;
         // Polynomials of two coordinates: 1, 3, 6, …; around a cylinder and along it, and on a sphere, squares; on a line one a degree.
-        let tilted: Vec<Point> = (0..400).map(|i| (f64::from(i % 20), f64::from(i / 20))).map(|(x, y)| [x, y, 0.3 * x - y]).collect();
+        let tilted: Vec<Point> = (0..400)
+            .map(|i| (f64::from(i % 20), f64::from(i / 20)))
+            .map(|(x, y)| [x, y, 0.3 * x - y])
+            .collect();
         assert_eq!(sizes(&tilted)[..5], [1, 3, 6, 10, 15]);
         assert_eq!(sizes(&cylinder())[..5], [1, 4, 9, 16, 25]);
         let ball = |p: &Point| {
@@ -257,7 +290,13 @@ mod tests {
                 let random = &mut Random::new(seed);
                 let heights: Vec<f64> = places.iter().map(|p| size * lobe(p) + normal(random)).collect();
                 let form = smooth(&places, &heights, 1.0, &[]);
-                off += places.iter().zip(&form.heights).map(|(p, h)| h - size * lobe(p)).map(|d| d * d).sum::<f64>() / 400.0;
+                off += places
+                    .iter()
+                    .zip(&form.heights)
+                    .map(|(p, h)| h - size * lobe(p))
+                    .map(|d| d * d)
+                    .sum::<f64>()
+                    / 400.0;
                 copies += 1;
             }
             // Sixteen waves have 0.04 of the variance of the noise.

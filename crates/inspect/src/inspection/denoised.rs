@@ -74,7 +74,11 @@ fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>,
         let of_noise = |d: &Vec<Vector>| d.iter().enumerate().map(|(i, e)| dot(*e, along(i))).collect();
         let drawn: Vec<Vec<f64>> = drawn.iter().map(of_noise).collect();
         let Smooth { heights, noise_left } = smooth(&feet, &heights, noise.deviation, &drawn);
-        points.iter_mut().zip(&heights).enumerate().for_each(|(i, (p, h))| *p = plus(*p, times(*h, along(i))));
+        points
+            .iter_mut()
+            .zip(&heights)
+            .enumerate()
+            .for_each(|(i, (p, h))| *p = plus(*p, times(*h, along(i))));
         left = left.max(noise_left);
     };
     if shape.kind().sides() == Sides::None {

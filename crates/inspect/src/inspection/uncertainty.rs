@@ -9,7 +9,7 @@
 //! noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The mean of what it
 //! adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value less the bias, as
 //! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
-//! - Downward by half of what the noise adds at most, times the share of noise that is left in the waves of the form: those stand out too far.
+//! - Downward for the noise that is left in the waves of the form, whose extremes stand out too far by up to its range.
 //! - Upward, where the form does not show by as much as the noise adds, by the share of the bias that it does not explain: below the
 //!   noise a form may hide, and then the value is its own.
 
@@ -35,9 +35,9 @@ const ENOUGH: f64 = 0.9;
 const PERFECT: u32 = 64;
 /// Standard errors of a mean beyond which it tells of more than chance.
 const CLEAR: f64 = 3.0;
-/// Share of the greatest bias by which noise that is left in the form moves the least value: waves of noise have lower peaks than the
-/// noise of single points.
-const OF_WAVES: f64 = 0.5;
+/// Share of the range of the noise left in the waves by which they stand out too far: between 0, where the form is far beyond it, and 1, where
+/// it is far below. With 0.6 of 200 copies of planes, cylinders and spheres of 400 points, forms of 0, 5 and 20 deviations, 93 to 98 % were covered.
+const OF_WAVES: f64 = 0.6;
 
 /// The expanded uncertainty of a value (k = 2), and where it comes from. Millimeters, or degrees for an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,9 @@ pub(super) fn found(
         let shown = match spec.limits {
             // A zone has the whole value from what is there.
             Limits::Greatest(_) => formed.without[n],
-            Limits::Between { .. } => formed.without[n].zip(perfect.without[n]).map(|(form, none)| form - none),
+            Limits::Between { .. } => {
+                formed.without[n].zip(perfect.without[n]).map(|(form, none)| form - none)
+            }
         };
         let hidden = bias * (1.0 - shown.map_or(0.0, |s| (s / bias).abs().min(1.0)));
         // To the side that noise leads away from, and to the other.
@@ -121,7 +123,8 @@ struct Added {
 impl Added {
     /// What the noise adds on the average; 0 where that may be chance.
     fn bias(&self, n: usize) -> f64 {
-        let added = self.with[n].zip(self.without[n]).map(|(with, without)| (with.mean - without, with.error));
+        let added =
+            self.with[n].zip(self.without[n]).map(|(with, without)| (with.mean - without, with.error));
         added.filter(|(bias, error)| bias.abs() > CLEAR * error).map_or(0.0, |b| b.0)
     }
 }

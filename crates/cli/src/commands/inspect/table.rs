@@ -124,7 +124,9 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
     let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
     let value = match (c.uncertainty, c.interval, c.noise_bias) {
         // Noise adds to it: the true value lies to one side.
-        (Some(_), Some([from, to]), Some(_)) => format!("{value} ({} to {})", six_digits(from), six_digits(to)),
+        (Some(_), Some([from, to]), Some(_)) => {
+            format!("{value} ({} to {})", six_digits(from), six_digits(to))
+        }
         (Some(u), _, _) if c.value.is_some() => format!("{value} ± {}", six_digits(u)),
         _ => value,
     };
