@@ -38,6 +38,8 @@ pub struct Smooth {
     pub heights: Vec<f64>,
     /// Range of the noise that is left in its waves over the range of the noise of the points, 0 to 1: how far its extremes stand out too far.
     pub noise_left: f64,
+    /// Share of the rest beside waves and single places that is kept as a rough form, 0 to 1: its places are not known one by one.
+    pub rough: f64,
 }
 
 /// The form that `heights` (millimeters, signed, over the `places` of an element) have below noise of standard deviation `noise`.
@@ -56,7 +58,7 @@ pub struct Smooth {
 /// assert!(places.iter().zip(&form.heights).all(|(p, h)| (h - wave(p)).abs() < 0.003));
 /// ```
 pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>]) -> Smooth {
-    let as_it_is = Smooth { heights: heights.to_vec(), noise_left: 1.0 };
+    let as_it_is = Smooth { heights: heights.to_vec(), noise_left: 1.0, rough: 0.0 };
     let finite = places.iter().flatten().chain(heights).all(|x| x.is_finite());
     if !finite || !noise.is_finite() || noise <= 0.0 || heights.len() < 2 || places.len() != heights.len() {
         return as_it_is;
@@ -93,6 +95,7 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
         noise_left: basis.left(waves.degrees, &variances, noise, drawn),
+        rough,
     }
 }
 
@@ -318,6 +321,7 @@ mod tests {
         let form = smooth(&places, &heights, 1.0, &[]);
         let variance = form.heights.iter().map(|h| h * h).sum::<f64>() / 400.0;
         assert!((3.2..4.8).contains(&variance), "{variance}");
+        assert!((0.8..0.95).contains(&form.rough), "{}", form.rough);
     }
 
     /// Noise that moves all places together is no wave.

@@ -21,20 +21,34 @@ const DRAWS: u64 = 32;
 /// Sets their stream apart from those of the values' draws.
 const STREAM: u64 = 1 << 40;
 
-/// The features with their forms below the noise, and of each the share of noise that is left in it.
+/// What is not known of a form below the noise, see [`Smooth`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unknown {
+    pub noise_left: f64,
+    pub rough: f64,
+}
+
+impl Unknown {
+    /// The greater of both.
+    pub fn most(self, other: Unknown) -> Unknown {
+        Unknown { noise_left: self.noise_left.max(other.noise_left), rough: self.rough.max(other.rough) }
+    }
+}
+
+/// The features with their forms below the noise, and what is not known of each.
 pub(super) fn denoised(
     plan: &Plan,
     noise: &Noise,
     seed: u64,
     features: &[Taken],
     progress: &dyn Progress,
-) -> Result<(Vec<Taken>, Vec<f64>), Stop> {
+) -> Result<(Vec<Taken>, Vec<Unknown>), Stop> {
     let form = |taken: &Taken| match &taken.element {
         Ok(Element::Fit(fit)) if !progress.cancelled() => Some(below(taken, &fit.shape, noise, seed)),
         _ => None,
     };
-    let forms: Vec<Option<(Vec<Point>, f64)>> = features.par_iter().map(form).collect();
-    let left = forms.iter().map(|f| f.as_ref().map_or(0.0, |f| f.1)).collect();
+    let forms: Vec<Option<(Vec<Point>, Unknown)>> = features.par_iter().map(form).collect();
+    let unknown = forms.iter().map(|f| f.as_ref().map_or(Unknown::default(), |f| f.1)).collect();
     let mut points: BTreeMap<&str, Vec<Point>> = BTreeMap::new();
     for (taken, form) in features.iter().zip(forms) {
         points.extend(form.map(|(points, _)| (taken.id.as_str(), points)));
@@ -46,11 +60,11 @@ pub(super) fn denoised(
         }
         None => false,
     };
-    Ok((again(plan, features, onto, progress)?, left))
+    Ok((again(plan, features, onto, progress)?, unknown))
 }
 
-/// The points of a feature as its form below the noise has them, and the share of noise left.
-fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>, f64) {
+/// The points of a feature as its form below the noise has them.
+fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>, Unknown) {
     // Where there are many nearest places a point has no height.
     let out: Vec<Vector> =
         taken.points.iter().map(|p| unit(shape.normal(*p)).map_or([0.0; 3], |n| n.0)).collect();
@@ -67,19 +81,19 @@ fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>,
             .collect(),
     };
     let mut points = feet.clone();
-    let mut left: f64 = 0.0;
+    let mut unknown = Unknown::default();
     let mut add = |along: &dyn Fn(usize) -> Vector| {
         let height = |(i, p): (usize, &Point)| dot(minus(*p, feet[i]), along(i));
         let heights: Vec<f64> = taken.points.iter().enumerate().map(height).collect();
         let of_noise = |d: &Vec<Vector>| d.iter().enumerate().map(|(i, e)| dot(*e, along(i))).collect();
         let drawn: Vec<Vec<f64>> = drawn.iter().map(of_noise).collect();
-        let Smooth { heights, noise_left } = smooth(&feet, &heights, noise.deviation, &drawn);
+        let Smooth { heights, noise_left, rough } = smooth(&feet, &heights, noise.deviation, &drawn);
         points
             .iter_mut()
             .zip(&heights)
             .enumerate()
             .for_each(|(i, (p, h))| *p = plus(*p, times(*h, along(i))));
-        left = left.max(noise_left);
+        unknown = unknown.most(Unknown { noise_left, rough });
     };
     if shape.kind().sides() == Sides::None {
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
@@ -88,5 +102,5 @@ fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>,
     } else {
         add(&|i| out[i]);
     }
-    (points, left)
+    (points, unknown)
 }

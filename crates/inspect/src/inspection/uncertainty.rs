@@ -11,11 +11,11 @@
 //! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
 //! - Downward for the noise that is left in the waves of the form, whose extremes stand out too far by up to its range.
 //! - Upward, where the form does not show by as much as the noise adds, by the share of the bias that it does not explain: below the
-//!   noise a form may hide, and then the value is its own.
+//!   noise a form may hide, and then the value is its own. As much by the share of a rough form, whose places are not known one by one.
 
 use super::Alignment;
 use super::data::{Data, Stop};
-use super::denoised::denoised;
+use super::denoised::{Unknown, denoised};
 use super::measure::measured;
 use super::noise_field::Field;
 use super::pose_noise::PoseNoise;
@@ -77,7 +77,7 @@ pub(super) fn found(
     let seed = aligned.0.seed;
     let draws = Draws { plan, noise, pose: &pose, seed, progress };
     let perfect = perfect(plan, features, progress)?;
-    let (formed, left) = denoised(plan, noise, seed, features, progress)?;
+    let (formed, unknown) = denoised(plan, noise, seed, features, progress)?;
     let of = |features: &[Taken], count: u32| -> Result<Added, Stop> {
         Ok(Added { without: draws.values(features, None)?, with: draws.of(features, count)? })
     };
@@ -91,8 +91,8 @@ pub(super) fn found(
             None => (found, "noise"),
             Some(stated) => (libm::hypot(stated, found), "plan and noise"),
         };
-        let left = spec.features.iter().map(|f| left[*f]).fold(0.0, f64::max);
-        let waves = OF_WAVES * left * perfect.bias(n);
+        let of_form = spec.features.iter().fold(Unknown::default(), |most, f| most.most(unknown[*f]));
+        let waves = OF_WAVES * of_form.noise_left * perfect.bias(n);
         let shown = match spec.limits {
             // A zone has the whole value from what is there.
             Limits::Greatest(_) => formed.without[n],
@@ -100,7 +100,8 @@ pub(super) fn found(
                 formed.without[n].zip(perfect.without[n]).map(|(form, none)| form - none)
             }
         };
-        let hidden = bias * (1.0 - shown.map_or(0.0, |s| (s / bias).abs().min(1.0)));
+        let share = shown.map_or(0.0, |s| (s / bias).abs().min(1.0)) * (1.0 - of_form.rough);
+        let hidden = bias * (1.0 - share);
         // To the side that noise leads away from, and to the other.
         let unknown = if bias > 0.0 {
             [waves.max(0.0), hidden]
