@@ -174,12 +174,12 @@ rule = "simple"
 }
 
 /// Of noisy copies with a form of so many standard deviations of the noise: how often the interval of each value lies above the true one,
-/// below it, and its mean width in these deviations.
-fn counted(form: f64, copies: u64, draws: u32) -> [[f64; 3]; 3] {
+/// below it, its mean width in these deviations, and so what noise adds and what scatters.
+fn counted(form: f64, copies: u64, draws: u32) -> [[f64; 5]; 3] {
     const NOISE: f64 = 0.01;
     let sets = [bent_square(form * NOISE), lobed_bore(form * NOISE)];
     let true_values = formed(sets.clone(), "", 0);
-    let mut counts = [[0.0; 3]; 3];
+    let mut counts = [[0.0; 5]; 3];
     for copy in 0..copies {
         let mut random = Random::new(1000 + copy);
         let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
@@ -193,6 +193,8 @@ fn counted(form: f64, copies: u64, draws: u32) -> [[f64; 3]; 3] {
             count[0] += f64::from(u8::from(truth < ends[0] - 1e-9));
             count[1] += f64::from(u8::from(truth > ends[1] + 1e-9));
             count[2] += (ends[1] - ends[0]) / NOISE;
+            count[3] += u.bias.abs() / NOISE;
+            count[4] += u.spread / NOISE;
             assert!(if n < 2 { u.bias >= 0.0 } else { u.bias <= 0.0 }, "{n}: {u:?}");
         }
     }
@@ -204,15 +206,18 @@ fn value_of(found: &Inspection, n: usize) -> f64 {
 }
 
 /// What the farthest points decide: of noisy copies of a perfect form and of lobes of five times the noise the interval misses the true
-/// value seldom, and where there are lobes it is shorter than what the noise adds to a perfect form would make it.
+/// value seldom, and where there are lobes it is shorter by a third and more than what the noise adds to a perfect form would make it.
 #[test]
 fn forms_of_noisy_copies_are_covered() {
-    for form in [0.0, 5.0] {
-        for (n, [above, below, width]) in counted(form, 40, 60).into_iter().enumerate() {
-            // Of 40 copies with a share of 5 % more than six are missed once in a hundred times.
-            assert!(above + below <= 0.15, "{form} {n}: {above} {below}");
-            assert!(form == 0.0 || width < 5.0, "{form} {n}: {width}");
+    let counts = [0.0, 5.0].map(|form| counted(form, 40, 60));
+    println!("{counts:?}");
+    for (n, [perfect, lobes]) in (0..3).map(|n| (n, counts.map(|c| c[n]))) {
+        // Of 40 copies with a share of 5 % more than six are missed once in a hundred times.
+        for [above, below, ..] in [perfect, lobes] {
+            assert!(above + below <= 0.15, "{n}: {above} {below}");
         }
+        let about_perfect = perfect[3] + 2.0 * lobes[4];
+        assert!(lobes[2] < 0.67 * about_perfect, "{n}: {} {about_perfect}", lobes[2]);
     }
 }
 
@@ -221,8 +226,9 @@ fn forms_of_noisy_copies_are_covered() {
 #[ignore = "takes minutes"]
 fn forms_of_many_noisy_copies_are_covered() {
     for form in [0.0, 2.0, 5.0, 20.0] {
-        let counts = counted(form, 200, 200);
-        for (n, [above, below, width]) in counts.into_iter().enumerate() {
+        let counts = counted(form, 200, 60);
+        println!("{form}: {counts:?}");
+        for (n, [above, below, width, ..]) in counts.into_iter().enumerate() {
             let greatest = if form < 5.0 { 1.0 } else { 0.985 };
             let covered = 1.0 - above - below;
             assert!((0.915..=greatest).contains(&covered), "{form} {n}: {covered} {width}: {counts:?}");

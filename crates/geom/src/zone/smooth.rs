@@ -36,7 +36,8 @@ const CLEAR: f64 = 3.0;
 pub struct Smooth {
     /// As many heights as were given, millimeters.
     pub heights: Vec<f64>,
-    /// Range of the noise that is left in its waves over the range of the noise of the points, 0 to 1: how far its extremes stand out too far.
+    /// Range of the noise that is left in its waves and single places over the range of the noise of the points, 0 to 1: how far its extremes
+    /// stand out too far.
     pub noise_left: f64,
     /// Share of the rest beside waves and single places that is kept as a rough form, 0 to 1: its places are not known one by one.
     pub rough: f64,
@@ -94,7 +95,7 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let rough = if squares > clear * expected { (1.0 - expected / squares).sqrt() } else { 0.0 };
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
-        noise_left: basis.left(waves.degrees, &variances, noise, drawn),
+        noise_left: basis.left(waves.degrees, &single, (&variances, noise, drawn)),
         rough,
     }
 }
@@ -184,8 +185,13 @@ impl Basis {
         Waves { heights: waves, taken, degrees }
     }
 
-    /// The mean range of noise in the first `degrees` functions over that of the noise itself.
-    fn left(&self, degrees: usize, variances: &[f64], noise: f64, drawn: &[Vec<f64>]) -> f64 {
+    /// The mean range of noise in the first `degrees` functions and at single places, which keep theirs, over that of the noise itself.
+    fn left(
+        &self,
+        degrees: usize,
+        single: &[f64],
+        (variances, noise, drawn): (&[f64], f64, &[Vec<f64>]),
+    ) -> f64 {
         let random = &mut Random::new(0);
         let n = self.functions[0].len();
         let (mut left, mut whole) = (0.0, 0.0);
@@ -195,6 +201,11 @@ impl Basis {
                 let c = v.sqrt() * normal(random);
                 waves.iter_mut().zip(f).for_each(|(w, f)| *w += c * f);
             }
+            waves
+                .iter_mut()
+                .zip(single)
+                .filter(|s| *s.1 != 0.0)
+                .for_each(|(w, _)| *w = noise * normal(random));
             left += range(&waves);
             whole += match drawn.get(draw) {
                 Some(drawn) => range(drawn),
@@ -316,6 +327,8 @@ mod tests {
         let form = smooth(&places, &heights, 1.0, &[]);
         assert!((form.heights[77] - heights[77]).abs() < 1.0, "{}", form.heights[77]);
         assert!(form.heights.iter().enumerate().all(|(i, h)| i == 77 || h.abs() < 1.0));
+        // The noise of that place stays: its mean size is 0.8 deviations, of a range of 5.9.
+        assert!((0.08..0.3).contains(&form.noise_left), "{}", form.noise_left);
         // Of a rough form of twice the noise about that variance.
         let heights: Vec<f64> = places.iter().map(|_| 2.0 * normal(random) + normal(random)).collect();
         let form = smooth(&places, &heights, 1.0, &[]);

@@ -11,10 +11,10 @@
 //! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
 //! - Downward, as a form found may be made by the noise in part, and noise adds more to a smaller one. The end is where the smallest form of
 //!   its kind lies to which the noise of the value may belong (inversion of a test), see [`smaller`]; and some farther for the noise that is left
-//!   in the waves of the form, which gives it more of extremes than there are.
+//!   in the form, which makes its extremes stand out too far.
 //! - Upward, where the form does not show by as much as the noise adds, by the share of the bias that it does not explain: below the
 //!   noise a form may hide, and then the value is its own. As much by the share of a rough form, whose places are not known one by one; and at
-//!   least by some of the noise left in the waves, which may stand out too little too.
+//!   least by some of the noise left in the form, whose extremes may stand out too little too.
 
 use super::Alignment;
 use super::data::{Data, Stop};
@@ -25,6 +25,7 @@ use super::pose_noise::PoseNoise;
 use super::take::again;
 use crate::characteristic::{Element, Taken, Value};
 use crate::plan::{Limits, Noise, Plan, Spec};
+use std::collections::BTreeMap;
 use trueness_geom::num::random::Random;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
@@ -34,15 +35,17 @@ use trueness_geom::space::{minus, times, unit};
 const K: f64 = 2.0;
 /// Share of the draws that must give a value.
 const ENOUGH: f64 = 0.9;
-/// Draws of perfect features at most: their mean is then known to an eighth of the standard deviation.
+/// Draws of features of perfect and of half the form at most: their mean is then known to an eighth of the standard deviation.
 const PERFECT: u32 = 64;
 /// Standard errors of a mean beyond which it tells of more than chance.
 const CLEAR: f64 = 3.0;
-/// Shares of the range of the noise left in the waves by which the extremes of the form found stand out too far, beside what [`smaller`] tells,
-/// and by which they may stand out too little. Counted, 200 to 300 copies each of planes, cylinders and spheres of 100 and 400 points with
-/// waves, corners, steps, single and rough points of 1 to 40 deviations: at least 93 % are covered so. With 0 for the first 91 % of corners and 67 %
-/// of single points, with 0 for the second 90 % of waves of 10 deviations on 100 points.
-const OF_WAVES: [f64; 2] = [0.3, 0.1];
+/// Share of the range of the noise left in a form by which its extremes stand out too far, beside what [`smaller`] tells; twice of it where the form
+/// is rough, as the places are not known then. Counted, 200 copies each
+/// of planes, cylinders and spheres of 100 to 400 points with waves, corners, steps, single and rough points of 1 to 20 deviations: 92 % and more are
+/// covered, with 0.2 83 % of single points.
+const LEFT_BELOW: f64 = 0.35;
+/// Share by which they may stand out too little: without it 90 % of waves of 10 deviations on 100 points were covered.
+const LEFT_ABOVE: f64 = 0.1;
 
 /// The expanded uncertainty of a value (k = 2), and where it comes from. Millimeters, or degrees for an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,12 +84,13 @@ pub(super) fn found(
     let pose = PoseNoise::new(plan, noise, aligned, features, progress)?;
     let seed = aligned.0.seed;
     let draws = Draws { plan, noise, pose: &pose, seed, progress };
-    let perfect = perfect(plan, features, progress)?;
+    let none = perfect(plan, features, progress)?;
     let (formed, unknown) = denoised(plan, noise, seed, features, progress)?;
     let of = |features: &[Taken], count: u32| -> Result<Added, Stop> {
         Ok(Added { without: draws.values(features, None)?, with: draws.of(features, count)? })
     };
-    let perfect = of(&perfect, noise.draws.min(PERFECT))?;
+    let half = of(&between(plan, &none, &formed, progress)?, noise.draws.min(PERFECT))?;
+    let perfect = of(&none, noise.draws.min(PERFECT))?;
     let formed = of(&formed, noise.draws)?;
     let values = draws.values(features, None)?;
     let one = |n: usize| {
@@ -99,15 +103,16 @@ pub(super) fn found(
         let of_form = spec.features.iter().fold(Unknown::default(), |most, f| most.most(unknown[*f]));
         let bias = formed.bias(n);
         // To the side that noise leads away from, and to the other.
-        let led = if bias == 0.0 { perfect.bias(n) } else { bias };
-        let in_waves = (of_form.noise_left * perfect.bias(n) * led.signum()).max(0.0);
-        let waves = OF_WAVES.map(|share| share * in_waves);
-        let away = waves[0] + smaller(values[n], spread, led.signum(), [&perfect, &formed].map(|a| a.at(n)));
+        let led = Some(if bias == 0.0 { perfect.bias(n) } else { bias }).filter(|b| *b != 0.0);
+        let led = led.map_or(0.0, f64::signum);
+        let left = (of_form.noise_left * perfect.bias(n) * led).max(0.0);
+        let smaller = smaller(values[n], spread, led, [&perfect, &half, &formed].map(|a| a.at(n)));
+        let away = smaller + LEFT_BELOW * (1.0 + of_form.rough) * left;
         let zone = matches!(spec.limits, Limits::Greatest(_));
         // A zone has the whole value from what is there.
         let shown = formed.without[n].zip(if zone { Some(0.0) } else { perfect.without[n] });
         let share = shown.map_or(0.0, |(form, none)| ((form - none) / bias).abs().min(1.0));
-        let hidden = (bias * (1.0 - share * (1.0 - of_form.rough))).abs().max(waves[1]);
+        let hidden = (bias * (1.0 - share * (1.0 - of_form.rough))).abs().max(LEFT_ABOVE * left);
         let unknown = if led > 0.0 { [away, hidden] } else { [hidden, away] };
         Some(Uncertainty::new(spread, bias, unknown, source)).filter(|u| u.expanded.is_finite())
     };
@@ -115,17 +120,22 @@ pub(super) fn found(
 }
 
 /// By how much more noise leads away from the true value (`side` 1: above it) where the form is smaller than the one found, but may have given
-/// `value` all the same. Of the features of perfect form and of the form found: value without noise, and what noise adds.
+/// `value` all the same. Of the features of perfect form, of half the form found and of all of it: value without noise, and what noise adds.
 ///
-/// Between both, with the form found in a share of its size, what noise makes of it is a convex function of the share: a range is, and so is the
-/// least range over all elements. So it is at most the straight line from the one to the other. The smallest share at which that line comes to the
-/// value less its spread is the form that is looked for; by the line it is too small rather than too large. At the share 1 nothing is more, at
-/// 0 it is what noise adds to a perfect form.
-fn smaller(value: Option<f64>, spread: f64, side: f64, [perfect, formed]: [Option<[f64; 2]>; 2]) -> f64 {
-    let (Some(value), Some(perfect), Some(formed)) = (value, perfect, formed) else { return 0.0 };
-    let [from, to] = [perfect, formed].map(|[without, added]| side * (without + added));
-    let share = if to > from { ((side * value - spread - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-    ((1.0 - share) * side * (perfect[1] - formed[1])).max(0.0)
+/// With the form found in a share of its size, what noise makes of it is a convex function of the share: a range is, and so is the least range
+/// over all elements. So it is at most the straight lines from one of the three to the next. The smallest share at which these come to the value less
+/// its spread is the form that is looked for; by the lines it is too small rather than too large. At the share 1 nothing is more, at 0 it is what
+/// noise adds to a perfect form.
+fn smaller(value: Option<f64>, spread: f64, side: f64, shares: [Option<[f64; 2]>; 3]) -> f64 {
+    let (Some(value), [Some(perfect), Some(half), Some(whole)]) = (value, shares) else { return 0.0 };
+    let shares = [perfect, half, whole].map(|[without, added]| [side * (without + added), side * added]);
+    let least = side * value - spread;
+    let within = |[from, to]: [[f64; 2]; 2]| {
+        let way = if least > from[0] { (least - from[0]) / (to[0] - from[0]) } else { 0.0 };
+        (least < to[0]).then_some(from[1] + way * (to[1] - from[1]))
+    };
+    let added = within([shares[0], shares[1]]).or_else(|| within([shares[1], shares[2]]));
+    added.map_or(0.0, |added| (added - shares[2][1]).max(0.0))
 }
 
 /// The values of features without noise and with it.
@@ -161,6 +171,24 @@ fn perfect(plan: &Plan, features: &[Taken], progress: &dyn Progress) -> Result<V
         true
     };
     again(plan, features, onto, progress)
+}
+
+/// The features halfway between two forms of them.
+fn between(
+    plan: &Plan,
+    none: &[Taken],
+    formed: &[Taken],
+    progress: &dyn Progress,
+) -> Result<Vec<Taken>, Stop> {
+    let formed: BTreeMap<&str, &Taken> = formed.iter().map(|taken| (taken.id.as_str(), taken)).collect();
+    let onto = |taken: &mut Taken| {
+        let Some(whole) = formed.get(taken.id.as_str()) else { return false };
+        for (p, q) in taken.points.iter_mut().zip(&whole.points) {
+            *p = [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
+        }
+        true
+    };
+    again(plan, none, onto, progress)
 }
 
 /// What is drawn.
@@ -260,17 +288,19 @@ mod tests {
         assert_eq!(of(3.0, [0.5, 3.0]).sides, [4.5, 1.0]);
     }
 
-    /// A perfect form to which noise adds 6, and one of 4 to which it adds 3.
+    /// A perfect form to which noise adds 6, half a form of 4 to which it adds 4.25, and the whole to which it adds 3.
     #[test]
     fn of_a_smaller_form_noise_adds_more() {
-        let of = |value| smaller(Some(value), 1.0, 1.0, [Some([0.0, 6.0]), Some([4.0, 3.0])]);
-        // 7 less 1 is what a perfect form gives, 8 less 1 the form found; half of it gives 6.5 at most, with 4.5 of noise.
-        assert_eq!([6.0, 7.0, 7.5, 8.0, 9.0].map(of), [3.0, 3.0, 1.5, 0.0, 0.0]);
-        let mirrored = smaller(Some(492.5), 1.0, -1.0, [Some([500.0, -6.0]), Some([496.0, -3.0])]);
-        assert_eq!(mirrored, 1.5);
-        assert_eq!(smaller(Some(9.0), 1.0, 1.0, [None, Some([4.0, 3.0])]), 0.0);
+        let of = |value, half, whole| smaller(Some(value), 1.0, 1.0, [Some([0.0, 6.0]), half, whole]);
+        let (half, whole) = (Some([2.0, 4.25]), Some([4.0, 3.0]));
+        // 7 less 1 is what a perfect form gives, 7.25 less 1 half the form and 8 less 1 the whole.
+        let found = [6.0, 7.0, 7.125, 7.25, 7.625, 8.0, 9.0].map(|value| of(value, half, whole));
+        assert_eq!(found, [3.0, 3.0, 2.125, 1.25, 0.625, 0.0, 0.0]);
+        let mirrored = [Some([500.0, -6.0]), Some([498.0, -4.25]), Some([496.0, -3.0])];
+        assert_eq!(smaller(Some(492.375), 1.0, -1.0, mirrored), 0.625);
+        assert_eq!((of(7.0, None, whole), of(7.0, half, None)), (0.0, 0.0));
         // Noise that adds more to the form found, and forms that cannot be told apart.
-        assert_eq!(smaller(Some(7.0), 1.0, 1.0, [Some([0.0, 3.0]), Some([4.0, 6.0])]), 0.0);
-        assert_eq!(smaller(Some(7.0), 1.0, 1.0, [Some([0.0, 6.0]), Some([1.0, 5.0])]), 1.0);
+        assert_eq!(of(7.0, Some([2.0, 7.0]), Some([4.0, 8.0])), 0.0);
+        assert_eq!(of(6.5, Some([0.5, 5.5]), Some([1.0, 5.0])), 1.0);
     }
 }
