@@ -118,20 +118,32 @@ fn stated_uncertainties_cover_the_truth() {
     }
 }
 
-/// What noise leads to one side: a form, the largest cylinder in a bore. The true values of perfect features, 0 and 10, lie within the
-/// uncertainty, which the scatter alone would not reach, and the value is not made smaller by it.
-#[test]
-fn what_noise_leads_to_one_side_is_covered_too() {
-    let [plane, _] = squares();
-    let (copies, mut covered, mut by_scatter) = (60, [0, 0], [0, 0]);
-    for copy in 0..copies {
-        let mut random = Random::new(1000 + copy);
-        let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
-        let mut noisy =
-            |set: &[Point]| set.iter().map(|p| p.map(|x| x + 0.01 * normal())).collect::<Vec<_>>();
-        let text = r#"
+/// A bore of 10 mm with lobes of `form` mm from greatest to least, two along and three around.
+fn lobed_bore(form: f64) -> Vec<Point> {
+    let lobed = |p: &Point| {
+        let (x, y) = (p[0] - 30.0, p[1]);
+        let wave = libm::cos(3.0 * libm::atan2(y, x)) * libm::cos(0.45 * p[2]);
+        let out = 1.0 + 0.5 * form * wave / 5.0;
+        [30.0 + out * x, out * y, p[2]]
+    };
+    bore().iter().map(lobed).collect()
+}
+
+/// A square of 10 mm with 256 points, bent by `form` mm from its lowest to its highest place.
+fn bent_square(form: f64) -> Vec<Point> {
+    let at = |k: i32| {
+        let (u, v) = (f64::from(k % 16) / 7.5 - 1.0, f64::from(k / 16) / 7.5 - 1.0);
+        [5.0 * u, 5.0 * v, form * (u * u - 0.5 * v * v) / 1.5]
+    };
+    (0..256).map(at).collect()
+}
+
+/// A flatness, a cylindricity and the largest cylinder in a bore, of points with this noise of the plan.
+fn formed(points: [Vec<Point>; 2], noise: &str, seed: u64) -> Inspection {
+    let text = format!(
+        r#"
 schema = "trueness/plan/1"
-feature = [{ id = "A", shape = "plane", points = "a" }, { id = "C", shape = "cylinder", points = "c" }]
+feature = [{{ id = "A", shape = "plane", points = "a" }}, {{ id = "C", shape = "cylinder", points = "c" }}]
 [[characteristic]]
 id = "1"
 kind = "flatness"
@@ -139,6 +151,11 @@ feature = "A"
 tolerance = 1
 [[characteristic]]
 id = "2"
+kind = "cylindricity"
+feature = "C"
+tolerance = 1
+[[characteristic]]
+id = "3"
 kind = "size"
 feature = "C"
 size = "GX"
@@ -146,25 +163,77 @@ nominal = 10
 upper = 1
 lower = -1
 [decision]
-rule = "iso14253-1"
-noise = 0.01
-draws = 40
-"#;
-        let plan = Plan::parse(text).unwrap_or_else(|e| panic!("{e}"));
-        let own = [noisy(&plane), noisy(&bore())].map(|points| OwnPoints { points, planar: false });
-        let points: BTreeMap<usize, OwnPoints> = own.into_iter().enumerate().collect();
-        let found = run(&plan, Data { points, seed: copy, ..Data::default() }, &Silent).unwrap();
-        for (n, truth) in [0.0, 10.0].into_iter().enumerate() {
-            let (value, u) = (found.values[n].as_ref().unwrap().value, found.uncertainties[n].unwrap());
-            let [below, above] = u.sides();
-            covered[n] += u32::from(value - below <= truth && truth <= value + above);
-            by_scatter[n] += u32::from((value - truth).abs() <= u.spread);
-            assert!(if n == 0 { u.bias > 0.0 } else { u.bias < 0.0 }, "{n}: {u:?}");
+rule = "simple"
+{noise}
+"#
+    );
+    let plan = Plan::parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    let own = points.map(|points| OwnPoints { points, planar: false });
+    let points: BTreeMap<usize, OwnPoints> = own.into_iter().enumerate().collect();
+    run(&plan, Data { points, seed, ..Data::default() }, &Silent).unwrap()
+}
+
+/// Of noisy copies with a form of so many standard deviations of the noise: how often the interval of each value lies above the true one,
+/// below it, its mean width in these deviations, and so what noise adds and what scatters.
+fn counted(form: f64, copies: u64, draws: u32) -> [[f64; 5]; 3] {
+    const NOISE: f64 = 0.01;
+    let sets = [bent_square(form * NOISE), lobed_bore(form * NOISE)];
+    let true_values = formed(sets.clone(), "", 0);
+    let mut counts = [[0.0; 5]; 3];
+    for copy in 0..copies {
+        let mut random = Random::new(1000 + copy);
+        let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
+        let noisy = sets.clone().map(|set| set.iter().map(|p| p.map(|x| x + NOISE * normal())).collect());
+        let found = formed(noisy, &format!("noise = {NOISE}\ndraws = {draws}"), copy);
+        for (n, count) in counts.iter_mut().enumerate() {
+            let (value, u) = (value_of(&found, n), found.uncertainties[n].unwrap());
+            let least = if n < 2 { 0.0 } else { f64::NEG_INFINITY };
+            let ends = [value - u.sides[0], value + u.sides[1]].map(|end| end.max(least));
+            let truth = value_of(&true_values, n);
+            count[0] += f64::from(u8::from(truth < ends[0] - 1e-9));
+            count[1] += f64::from(u8::from(truth > ends[1] + 1e-9));
+            count[2] += (ends[1] - ends[0]) / NOISE;
+            count[3] += u.bias.abs() / NOISE;
+            count[4] += u.spread / NOISE;
+            assert!(if n < 2 { u.bias >= 0.0 } else { u.bias <= 0.0 }, "{n}: {u:?}");
         }
     }
-    // Of perfect features what noise adds is told as it is, so the share is that of one side: 97.7 %, known to 2 %.
-    assert!(covered.iter().all(|c| *c >= 55), "{covered:?}");
-    assert!(by_scatter.iter().all(|c| *c <= 20), "{by_scatter:?}");
+    counts.map(|count| count.map(|c| c / copies as f64))
+}
+
+fn value_of(found: &Inspection, n: usize) -> f64 {
+    found.values[n].as_ref().unwrap().value
+}
+
+/// What the farthest points decide: of noisy copies of a perfect form and of lobes of five times the noise the interval misses the true
+/// value seldom, and where there are lobes it is shorter by a third and more than what the noise adds to a perfect form would make it.
+#[test]
+fn forms_of_noisy_copies_are_covered() {
+    let counts = [0.0, 5.0].map(|form| counted(form, 40, 60));
+    println!("{counts:?}");
+    for (n, [perfect, lobes]) in (0..3).map(|n| (n, counts.map(|c| c[n]))) {
+        // Of 40 copies with a share of 5 % more than six are missed once in a hundred times.
+        for [above, below, ..] in [perfect, lobes] {
+            assert!(above + below <= 0.15, "{n}: {above} {below}");
+        }
+        let about_perfect = perfect[3] + 2.0 * lobes[4];
+        assert!(lobes[2] < 0.67 * about_perfect, "{n}: {} {about_perfect}", lobes[2]);
+    }
+}
+
+/// The same of 200 copies: 93 to 100 % where the form is below the noise, 92 to 98 % where it is beyond it.
+#[test]
+#[ignore = "takes minutes"]
+fn forms_of_many_noisy_copies_are_covered() {
+    for form in [0.0, 2.0, 5.0, 20.0] {
+        let counts = counted(form, 200, 60);
+        println!("{form}: {counts:?}");
+        for (n, [above, below, width, ..]) in counts.into_iter().enumerate() {
+            let greatest = if form < 5.0 { 1.0 } else { 0.985 };
+            let covered = 1.0 - above - below;
+            assert!((0.915..=greatest).contains(&covered), "{form} {n}: {covered} {width}: {counts:?}");
+        }
+    }
 }
 
 /// Two levels of four points: noise far beyond their distance leaves no place opposite in many draws.

@@ -13,6 +13,7 @@
 //! | global sizes of two opposite planes | [`opposite_planes`] |
 //! | the centers of a cylinder's sections | [`median_line`] |
 //! | points by sections across a direction | [`sections`] |
+//! | the form below noise | [`smooth`] |
 //! | two-point sizes | [`two_point_diameters`], [`two_point_distances`] |
 
 mod azimuth;
@@ -25,6 +26,7 @@ pub mod motion;
 mod opposite;
 mod planes;
 mod sections;
+mod smooth;
 pub mod texture;
 mod tubes;
 
@@ -34,4 +36,5 @@ pub use median_line::{MedianLine, median_line};
 pub use opposite::{Opposite, opposite_planes};
 pub use planes::{Slab, parallel_planes, slab, slab_at_angle};
 pub use sections::sections;
+pub use smooth::{Smooth, smooth};
 pub use tubes::{Tube, tube, tube_at_angle};

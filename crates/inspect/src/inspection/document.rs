@@ -227,7 +227,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let uncertainty = found.uncertainties[n];
     let judged = |value: &Result<Value, String>| {
         value.as_ref().map_or(Verdict::NotMeasured, |v| {
-            verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides()))
+            verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides))
         })
     };
     let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
@@ -274,9 +274,9 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
 
 /// Where the true value lies; no zone is narrower than none.
 fn interval(value: f64, u: Uncertainty, zone: ZoneForm) -> [f64; 2] {
-    let [below, above] = u.sides();
+    let [below, above] = u.sides;
     let least = if zone == ZoneForm::Value { f64::NEG_INFINITY } else { 0.0 };
-    [(value - below).max(least), value + above]
+    [value - below, value + above].map(|end| end.max(least))
 }
 
 /// What modifies a characteristic, as words.

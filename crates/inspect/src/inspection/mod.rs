@@ -4,6 +4,7 @@ mod align;
 mod belonging;
 mod data;
 pub mod decision;
+mod denoised;
 mod deviation;
 mod document;
 mod found;

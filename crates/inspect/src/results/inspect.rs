@@ -202,12 +202,12 @@ pub struct CharacteristicRecord {
     pub uncertainty: Option<f64>,
     /// Where it comes from: `plan`, `noise`, or `plan and noise`.
     pub uncertainty_source: Option<String>,
-    /// What noise adds to the value on the average, at most, where it leads away from the true one to one side: part of the uncertainty,
-    /// and not taken off the value. Absent where it does not.
+    /// What noise adds to the value on the average, where it leads away from the true one to one side: the interval lies about the value
+    /// less this. It is not taken off the value. Absent where noise adds nothing.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub noise_bias: Option<f64>,
-    /// From and to where the true value lies: the uncertainty without `noise_bias` to either side, and with it to the one that noise
-    /// leads away from. What `iso14253-1` decides by. Absent where there is no uncertainty.
+    /// From and to where the true value lies: about the value less `noise_bias`, longer where little is known of the form below the noise.
+    /// What `iso14253-1` decides by. Absent where there is no uncertainty.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub interval: Option<[f64; 2]>,
     /// How the verdict was reached.

@@ -295,7 +295,8 @@ fn research(r: &Research) -> String {
     };
     let rows = [
         line("95 % interval of the mean", &r.bootstrap, |b| interval(b.mean)),
-        line("95 % interval of σ", &r.bootstrap, |b| interval(b.std_dev)),
+        // A deviation has no sign.
+        line("95 % interval of σ", &r.bootstrap, |b| b.std_dev.map(number).join(" … ")),
         line("… of the mean, correlated in space", &r.block_mean, |b| {
             format!("{} (as {} independent points)", interval(b.interval), number(b.effective_count.round()))
         }),

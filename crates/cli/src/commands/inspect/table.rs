@@ -122,14 +122,12 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
         },
     };
     let value = c.value.map_or_else(|| "–".into(), |v| fixed(v, if c.unit == "1" { 3 } else { 6 }));
-    let value = match (c.value, c.uncertainty, c.noise_bias) {
-        // The other side is the narrower one by what noise adds.
-        (Some(_), Some(u), Some(bias)) => {
-            let narrow = u - bias.abs();
-            let [below, above] = if bias > 0.0 { [u, narrow] } else { [narrow, u] };
-            format!("{value} -{}/+{}", six_digits(below), six_digits(above))
+    let value = match (c.uncertainty, c.interval, c.noise_bias) {
+        // Noise adds to it: the true value lies to one side.
+        (Some(_), Some([from, to]), Some(_)) => {
+            format!("{value} ({} to {})", six_digits(from), six_digits(to))
         }
-        (Some(_), Some(u), None) => format!("{value} ± {}", six_digits(u)),
+        (Some(u), _, _) if c.value.is_some() => format!("{value} ± {}", six_digits(u)),
         _ => value,
     };
     let used = c.utilization.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
