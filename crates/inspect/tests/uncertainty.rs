@@ -206,18 +206,20 @@ fn value_of(found: &Inspection, n: usize) -> f64 {
 }
 
 /// What the farthest points decide: of noisy copies of a perfect form and of lobes of five times the noise the interval misses the true
-/// value seldom, and where there are lobes it is shorter by a third and more than what the noise adds to a perfect form would make it.
+/// value seldom, and where there are lobes it is shorter by a fifth and more (that of a bend by half) than what the noise adds to a perfect
+/// form would make it.
 #[test]
 fn forms_of_noisy_copies_are_covered() {
     let counts = [0.0, 5.0].map(|form| counted(form, 40, 60));
     println!("{counts:?}");
-    for (n, [perfect, lobes]) in (0..3).map(|n| (n, counts.map(|c| c[n]))) {
+    for (n, share) in [0.5, 0.8, 0.8].into_iter().enumerate() {
+        let [perfect, lobes] = counts.map(|c| c[n]);
         // Of 40 copies with a share of 5 % more than six are missed once in a hundred times.
         for [above, below, ..] in [perfect, lobes] {
             assert!(above + below <= 0.15, "{n}: {above} {below}");
         }
         let about_perfect = perfect[3] + 2.0 * lobes[4];
-        assert!(lobes[2] < 0.67 * about_perfect, "{n}: {} {about_perfect}", lobes[2]);
+        assert!(lobes[2] < share * about_perfect, "{n}: {} {about_perfect}", lobes[2]);
     }
 }
 
