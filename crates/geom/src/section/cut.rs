@@ -225,6 +225,9 @@ fn place(mesh: &Mesh, plane: &Plane, edge: Edge) -> Point {
 }
 
 /// Area inside closed chains, holes taken off, seen against the normal of the frame.
+///
+/// Each chain counts by the way it runs round: what several enclose, as where shells overlap or are doubled, counts as often, and chains of
+/// shells turned inside out count below 0. Open chains do not count.
 pub fn area(chains: &[Chain], frame: &PlaneFrame) -> f64 {
     let twice = |chain: &Chain| -> f64 {
         let flat: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
