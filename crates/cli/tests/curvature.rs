@@ -4,7 +4,7 @@
 mod common;
 
 use common::{CUBE, Folder, document, status, stderr, stdout, trueness};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// A torus of radii 10 and 4, facets outward.
 fn torus() -> String {
@@ -141,20 +141,23 @@ fn what_has_no_curvature_is_counted_or_refused_by_name() {
     let cube = folder.write("cube.off", CUBE);
     let line: String = (0..50).map(|k| format!("{k} {} {}\n", 2 * k, 3 * k)).collect();
     let (line, flat) = (folder.write("line.xyz", line), folder.write("flat.xy", "0 0\n1 0\n0 1\n1 1\n"));
-    let [cube, line, flat] = [&cube, &line, &flat].map(|p| p.to_str().unwrap());
+    let ball = folder.write("ball.off", ball());
+    let [cube, line, flat, ball] = [&cube, &line, &flat, &ball].map(|p| p.to_str().unwrap());
     for (words, want, reason) in [
         (vec![cube], 3, "cube.off: no place has a curvature (8 few neighbors); give a smaller --degree"),
         (vec![line], 3, "line.xyz: no place has a curvature (50 undetermined); they lie on lines"),
+        (vec![line], 3, "points of a single line have no curvature"),
+        (
+            vec![ball, "--radius", "100"],
+            3,
+            "folded); within the radius the surface turns back: give a smaller --radius",
+        ),
         (vec![flat], 2, "flat.xy: it has two columns; curvatures need x, y and z"),
         (vec![sheet, "--degree", "7"], 2, "degree 7: it must be from 2 to 6"),
         (vec![sheet, "--neighbors", "4"], 2, "4 neighbors: a jet of degree 3 needs from 10 to 10000"),
         (vec![sheet, "--radius", "-1"], 2, "radius -1: it must be a length above 0"),
         (vec![sheet, "--radius", "1", "--neighbors", "20"], 2, "cannot be used with"),
-        (
-            vec![sheet, "--radius", "0.1"],
-            3,
-            "few neighbors); give a smaller --degree or --neighbors, or a larger --radius",
-        ),
+        (vec![sheet, "--radius", "0.1"], 3, "few neighbors); give a larger --radius, or a smaller --degree"),
         (vec![sheet, "--out", "k.stl"], 2, ".ply .csv"),
         (vec![sheet, "--out", sheet], 2, ".ply .csv"),
     ] {
@@ -164,4 +167,23 @@ fn what_has_no_curvature_is_counted_or_refused_by_name() {
         assert!(text.contains(reason), "{words:?}: {text}");
         assert!(stdout(&o).is_empty(), "{words:?}");
     }
+}
+
+/// A sphere of radius 10 mm of 12 meridians and 8 parallels.
+fn ball() -> String {
+    let mut text = String::from("OFF\n98 192 0\n0 0 10\n0 0 -10\n");
+    for k in 0..96 {
+        let (up, around) = (f64::from(k / 12 + 1) * PI / 9.0, f64::from(k % 12) * PI / 6.0);
+        let r = 10.0 * up.sin();
+        text += &format!("{} {} {}\n", r * around.cos(), r * around.sin(), 10.0 * up.cos());
+    }
+    for k in 0..12 {
+        let next = (k + 1) % 12;
+        text += &format!("3 0 {} {}\n3 1 {} {}\n", 2 + k, 2 + next, 86 + next, 86 + k);
+        for row in 0..7 {
+            let [a, b] = [k, next].map(|k| 2 + 12 * row + k);
+            text += &format!("3 {a} {} {b}\n3 {b} {} {}\n", a + 12, a + 12, b + 12);
+        }
+    }
+    text
 }

@@ -63,6 +63,24 @@ impl Joined {
         self.astray(astray);
     }
 
+    /// Segments that leave their points for a while are astray too, at an end for the most part: so many of these after another lie
+    /// farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one of 10^15.
+    pub(super) fn leaving(&mut self, weights: &[f64]) {
+        const RUN: usize = 4;
+        const BEYOND: f64 = 4.0;
+        /// What is below this share of the distance between points leaves nothing.
+        const NOTHING: f64 = 0.005;
+        let contour = &self.contour;
+        let counted: Vec<usize> = (0..weights.len()).filter(|i| weights[*i] > 0.0).collect();
+        let most = BEYOND * contour.noise.max(NOTHING * contour.spacing / BEYOND);
+        let leaves = |w: &&[usize]| {
+            let mean = w.iter().map(|i| contour.residuals[*i]).sum::<f64>() / RUN as f64;
+            w.iter().all(|i| contour.labels[*i] == contour.labels[w[0]]) && mean.abs() > most
+        };
+        let astray = counted.windows(RUN).filter(leaves).map(|w| contour.labels[w[0]] as usize).collect();
+        self.astray(astray);
+    }
+
     /// These segments are astray too.
     pub(super) fn astray(&mut self, segments: Vec<usize>) {
         let all = &mut self.contour.astray;
@@ -102,5 +120,31 @@ impl Joined {
         contour.outliers = outliers.into_iter().map(|i| clean.numbers[i]).collect();
         (contour.repeated, contour.gaps) = (clean.repeated.clone(), clean.gaps.clone());
         contour.shift(clean.middle);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run of points to one side of a segment is no chance; a single one farther off may be, and points on either side are.
+    #[test]
+    fn segments_that_leave_their_points_are_astray() {
+        let row = |off: &[f64]| {
+            let mut all = Joined::default();
+            let residuals: Vec<f64> = (0..40).map(|i| if i % 2 == 0 { 0.01 } else { -0.01 }).collect();
+            all.contour.labels = (0..40).map(|i| u32::from(i >= 20)).collect();
+            (all.contour.noise, all.contour.spacing, all.contour.residuals) = (0.01, 0.5, residuals);
+            all.contour.residuals[16..16 + off.len()].copy_from_slice(off);
+            all.leaving(&[1.0; 40]);
+            all.contour.astray
+        };
+        assert_eq!(row(&[0.05, 0.045, 0.05, 0.055]), [0]);
+        assert_eq!(row(&[-0.05, -0.045, -0.05, -0.055]), [0]);
+        assert_eq!(row(&[0.05, -0.05, 0.05, -0.05]), [0; 0]);
+        assert_eq!(row(&[0.01, 0.11, 0.02, 0.01]), [0; 0]);
+        // Of two segments neither leaves its points for so long.
+        assert_eq!(row(&[0.01, -0.01, 0.05, 0.05, 0.05, 0.05]), [0; 0]);
+        assert_eq!(row(&[0.03; 8]), [0; 0]);
     }
 }

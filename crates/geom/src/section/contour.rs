@@ -153,11 +153,11 @@ fn in_order(
             finer.push_front(tangent);
         }
         let gain = bar - other.cost(&found.founds);
-        if gain.abs() < SAME {
+        if gain.abs() < SAME && !other.tangent {
             // The search leads back to where it was.
             break;
         }
-        let margin = if other.is_tangent() { 0.0 } else { MARGIN };
+        let margin = if other.tangent { 0.0 } else { MARGIN };
         if gain > margin {
             (start, chains) = (other, found);
         }
@@ -245,6 +245,7 @@ impl Plan<'_> {
         all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
         all.misdrawn(&self.clean.points, self.weights, self.step);
+        all.leaving(self.weights);
         all.contour.end_lengths();
         Ok(all)
     }

@@ -18,9 +18,13 @@ pub(super) struct Criterion {
 /// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones.
 const ARC: f64 = 1.0;
 const FREE: f64 = 1.5;
+
 impl Criterion {
     /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
-    /// for each unknown; a join counts twice, as its place was chosen among many.
+    /// for each unknown; a join counts twice, as its place was chosen among many. Where the points are few for the unknowns, these take
+    /// up noise, and the variance left is less than that of the noise: the penalty grows, up to twice, as the unknowns become as many as
+    /// the points (McQuarrie, A small-sample correction for the Schwarz SIC model selection criterion, Statistics and Probability Letters
+    /// 44, 1999).
     pub fn cost(&self, state: &State) -> f64 {
         // A piece without points is made up.
         if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
@@ -34,29 +38,60 @@ impl Criterion {
         if pieces.len() > 1 && pieces.iter().any(meets_itself) {
             return f64::INFINITY;
         }
-        self.cost_of(state.sum, self.penalty(&state.chain))
+        self.cost_of(state.sum, Unknowns::of(&state.chain))
     }
     /// What a sum of squares and so many unknowns cost.
-    pub fn cost_of(&self, sum: f64, unknowns: f64) -> f64 {
+    pub fn cost_of(&self, sum: f64, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
         let sum = sum + self.degrees * self.noise * self.noise;
-        total * libm::log(sum / total + floor) + unknowns * libm::log(self.count)
+        total * libm::log(sum / total + floor) + self.penalty(unknowns)
     }
     /// The sum of squares at which a chain would cost so much.
     pub fn sum_at(&self, cost: f64, chain: &Chain) -> f64 {
         let total = self.count + self.degrees;
-        let mean = libm::exp((cost - self.penalty(chain) * libm::log(self.count)) / total);
+        let mean = libm::exp((cost - self.penalty(Unknowns::of(chain))) / total);
         (mean - self.resolution * self.resolution) * total - self.degrees * self.noise * self.noise
     }
-    /// Unknowns of a chain as the criterion counts them.
-    pub fn penalty(&self, chain: &Chain) -> f64 {
-        let each = |p: &Piece| match p.kind {
+    fn penalty(&self, unknowns: Unknowns) -> f64 {
+        let total = self.count + self.degrees;
+        let spare = (total - unknowns.number - 2.0).max(SPARE * total);
+        let few = if total < SHORT { 1.0 } else { total / spare };
+        unknowns.weight * libm::log(self.count) * few
+    }
+}
+
+/// Share of the degrees of freedom that counts as left at least; in rows of fewer points than this all: there any curve along the points
+/// takes most of them, and is better all the same than one that passes them by.
+const SHORT: f64 = 24.0;
+const SPARE: f64 = 0.5;
+
+/// The unknowns of a chain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unknowns {
+    /// How many there are.
+    pub number: f64,
+    /// How many the criterion counts.
+    pub weight: f64,
+}
+
+impl Unknowns {
+    pub fn of(chain: &Chain) -> Unknowns {
+        let joins = chain.joins() as f64;
+        let number = |p: &Piece| p.coefficients.len() as f64;
+        let weight = |p: &Piece| match p.kind {
             SegmentKind::Line => 0.0,
             SegmentKind::Arc => 1.0 + ARC,
             SegmentKind::Spline => p.coefficients.len() as f64 + FREE,
         };
-        2.0 + 2.0 * chain.joins() as f64 + chain.pieces.iter().map(each).sum::<f64>()
+        Unknowns {
+            number: 2.0 + joins + chain.pieces.iter().map(number).sum::<f64>(),
+            weight: 2.0 + 2.0 * joins + chain.pieces.iter().map(weight).sum::<f64>(),
+        }
+    }
+    /// Those of two chains.
+    pub fn and(self, other: Unknowns) -> Unknowns {
+        Unknowns { number: self.number + other.number, weight: self.weight + other.weight }
     }
 }
 

@@ -66,7 +66,7 @@ const STEPS: usize = 48;
 
 /// The dimensions between the segments of contours in one plane: all angles between a line and the next of its contour, all
 /// widths and distances of centers, and the gap between each contour and the nearest other. Each list in the order of the
-/// segments.
+/// segments. Of segments that do not run along their points there is none.
 ///
 /// Lines of exact facets are parallel as far as the joins at their ends tell. Widths and centers are of pairs: where there are
 /// more than a thousand lines, or arcs, they are those of the thousand longest.
@@ -83,10 +83,13 @@ const STEPS: usize = 48;
 /// assert!((all[0].value - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && (all[2].value - 10.0).abs() < 1e-9);
 /// ```
 pub fn dimensions(contours: &[Contour]) -> Vec<Dimension> {
-    let lines = known(contours, |c, k| Line::of(&contours[c], k).map(|l| (l.length, ([c, k], l))));
+    let sound = |c: usize, k: usize| !contours[c].astray.contains(&k);
+    let lines = known(contours, |c, k| {
+        Line::of(&contours[c], k).filter(|_| sound(c, k)).map(|l| (l.length, ([c, k], l)))
+    });
     let arcs = known(contours, |c, k| {
         let segment = &contours[c].segments[k];
-        Arc::of(segment).map(|a| (segment.length, ([c, k], a)))
+        Arc::of(segment).filter(|_| sound(c, k)).map(|a| (segment.length, ([c, k], a)))
     });
     let mut all = vec![];
     for (c, contour) in contours.iter().enumerate() {
@@ -94,7 +97,9 @@ pub fn dimensions(contours: &[Contour]) -> Vec<Dimension> {
         let own: Vec<([usize; 2], Line)> = (0..contour.segments.len()).filter_map(of).collect();
         let over = contour.closed && own.len() > 2;
         for i in 0..(own.len() + usize::from(over)).saturating_sub(1) {
-            all.extend(enclosed(&own[i], &own[(i + 1) % own.len()]));
+            let pair = [&own[i], &own[(i + 1) % own.len()]];
+            let angle = if pair.iter().all(|l| sound(c, l.0[1])) { enclosed(pair[0], pair[1]) } else { None };
+            all.extend(angle);
         }
     }
     for (i, a) in lines.iter().enumerate() {
@@ -269,7 +274,8 @@ fn gaps(contours: &[Contour]) -> Vec<Dimension> {
             let found = gap([c, d], [&contours[c], &contours[d]], best.map_or(f64::INFINITY, |b| b.value));
             best = found.or(best);
         }
-        let new = best.filter(|b| all.iter().all(|a| a.of.map(|o| o[0]) != b.of.map(|o| o[0])));
+        let sound = |b: &Dimension| b.of.iter().all(|[c, k]| !contours[*c].astray.contains(k));
+        let new = best.filter(sound).filter(|b| all.iter().all(|a| a.of.map(|o| o[0]) != b.of.map(|o| o[0])));
         all.extend(new);
     }
     all

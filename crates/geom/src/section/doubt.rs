@@ -4,6 +4,7 @@
 //! meet with a common tangent, however tangent the curve is. So each blunt corner is doubted: one chain is looked for over both
 //! sides, and where it costs less than two chains and the corner, there is none.
 
+use super::criterion::Unknowns;
 use super::facets::angle;
 use super::plan::{Chains, Plan, SHARP};
 use super::result::SectionError;
@@ -13,8 +14,8 @@ use crate::progress::Progress;
 
 /// Corners that are doubted: of more, those that turn least. Each takes a search.
 const DOUBTED: usize = 12;
-/// Cost of a corner in unknowns, beyond those of the chains on both sides: its place among the points was chosen among many.
-const CORNER: f64 = 3.0;
+/// A corner in unknowns, beyond those of the chains on both sides: its place among the points was chosen among many.
+const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0 };
 
 /// Chains of more points are left: they have points enough for the parts of a first partition to tell a corner.
 const MOST: usize = 1500;
@@ -64,8 +65,8 @@ impl Plan<'_> {
         let count = numbers.len();
         let task = self.task(founds.len() == 1, count == self.clean.points.len(), count);
         let criterion = task.criterion;
-        let unknowns: f64 = founds.iter().map(|f| criterion.penalty(&f.state.chain)).sum();
-        let bar = criterion.cost_of(founds.iter().map(|f| f.state.sum).sum(), unknowns + CORNER);
+        let unknowns = founds.iter().map(|f| Unknowns::of(&f.state.chain)).fold(CORNER, Unknowns::and);
+        let bar = criterion.cost_of(founds.iter().map(|f| f.state.sum).sum(), unknowns);
         let span = Span::new(&self.clean.points, self.weights, numbers);
         Ok(span.over(founds, bar, &task, progress)?)
     }

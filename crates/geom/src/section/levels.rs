@@ -36,6 +36,8 @@ const MOST: usize = 400;
 /// longer ones of `n` points where they tell less than e^(−this / √n) of it, as they hardly do by chance.
 const SPARSE: usize = 100;
 const FINER: f64 = 6.0;
+/// In rows of up to so many points parts may have so few that tangent joins look like corners.
+const CORNERED: usize = 3000;
 /// So many partitions at finer levels are searched.
 const TRIED: usize = 4;
 /// Finer levels are tried, each this share of the one before, down to this share of what short fits tell: the lower quartile of few
@@ -61,6 +63,8 @@ pub(super) struct Start {
     /// Arcs are tangent to the lines beside them.
     pub known: bool,
     pub step: usize,
+    /// They are taken to be: corners are between lines alone.
+    pub tangent: bool,
     /// The continuity that all joins have, where it is not left to the data.
     pub forced: Option<Continuity>,
     /// Standard deviation of the noise that the partition was made with, and of local fits.
@@ -99,6 +103,7 @@ impl Start {
             exact: exact.is_some(),
             known,
             step,
+            tangent: false,
             forced: options.continuity,
             sigma,
             own,
@@ -153,10 +158,10 @@ impl Start {
     pub fn finer(&self, options: &Options, fine: Option<f64>, founds: &[Found]) -> VecDeque<Start> {
         let n = self.clean.points.len();
         let share = if n <= SPARSE { 1.0 } else { libm::exp(-FINER / (n as f64).sqrt()) };
-        let free = |_: &f64| options.continuity.is_none();
-        let Some(fine) = fine.filter(free) else { return VecDeque::new() };
         // Few points to a segment look like corners where there are none.
-        let own = if n <= SPARSE && founds.len() > 1 { self.tangent() } else { None };
+        let own = if founds.len() > 1 && n <= CORNERED { self.tangent() } else { None };
+        let free = |_: &f64| options.continuity.is_none();
+        let Some(fine) = fine.filter(free) else { return own.into_iter().collect() };
         if fine >= share * self.noise(founds) {
             return own.into_iter().collect();
         }
@@ -181,11 +186,11 @@ impl Start {
         own.into_iter().chain(all.into_iter().map(|(_, start)| start)).collect()
     }
 
-    /// The same parts as chains without corners, where there are arcs that may be tangent to what is beside them: a join that the
-    /// partition put a few points off looks like a corner.
+    /// The same parts as chains with corners between lines alone, where there are arcs that may be tangent to what is beside them: a join
+    /// that the partition put a few points off looks like a corner.
     pub fn tangent(&self) -> Option<Start> {
         let arcs = self.parts.iter().filter(|p| p.kind == SegmentKind::Arc).count();
-        (arcs > 1 && self.forced.is_none()).then(|| Start { forced: Some(Continuity::G1), ..self.clone() })
+        (arcs > 0 && !self.tangent && self.forced.is_none()).then(|| Start { tangent: true, ..self.clone() })
     }
 
     /// What chains of the parts may cost at best: as if each followed the part before with a common tangent, and scattered no more
@@ -195,11 +200,6 @@ impl Start {
         let unknowns = 2.0 + self.parts.iter().map(each).sum::<f64>();
         let spare = self.weights.iter().sum::<f64>() - unknowns;
         self.cost_of(scatter * scatter * spare.max(0.0), unknowns)
-    }
-
-    /// Whether all joins are to be tangent.
-    pub fn is_tangent(&self) -> bool {
-        self.forced == Some(Continuity::G1)
     }
 
     /// Where parts begin in the row as it came, and their kinds.

@@ -5,6 +5,7 @@
 //! | `row` | rows as they come: what is wrong with them |
 //! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
+//! | `begin` | models that the search begins with: lines and arcs with a common tangent |
 //! | `start` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
@@ -31,6 +32,7 @@
 mod airfoil;
 mod assembly;
 mod base;
+mod begin;
 mod bent;
 mod chain;
 mod contour;

@@ -35,6 +35,8 @@ pub(super) struct Plan<'a> {
     pub forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
     pub known: bool,
+    /// Arcs are taken for tangent to what is beside them.
+    pub tangent: bool,
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
     /// As of the search.
@@ -62,6 +64,7 @@ impl Start {
             own: self.own,
             forced: self.forced,
             known: self.known,
+            tangent: self.tangent,
             draft: false,
             hasty: None,
         }
@@ -77,7 +80,7 @@ impl Plan<'_> {
         let corner = |k: usize| match forced {
             Some(Continuity::G0) => true,
             Some(_) => false,
-            None if self.known => {
+            None if self.known || self.tangent => {
                 parts[k].kind == SegmentKind::Line && parts[(k + 1) % parts.len()].kind == SegmentKind::Line
             }
             None => self.is_corner(&parts[k], &parts[(k + 1) % parts.len()]),

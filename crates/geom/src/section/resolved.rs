@@ -98,7 +98,7 @@ pub(super) fn resolved(start: &Start, options: &Options, among: Among) -> Option
     }
     let least = (LEAST * size(&clean.points)).max(options.resolution.unwrap_or(0.0)).max(own);
     let contour = drawn(&clean, &corners, least, options.level)?;
-    Some(Resolved { contour, clean, turned })
+    Some(Resolved { contour, clean, turned, noise })
 }
 
 /// What such a contour is looked for among.
@@ -115,7 +115,12 @@ pub(super) struct Resolved {
     contour: Contour,
     clean: Clean,
     turned: usize,
+    /// Standard deviation of the points about local polynomials.
+    noise: f64,
 }
+
+/// Points to a control point of a curve, at least, where what is left between them tells their noise.
+const TELLING: usize = 2;
 
 impl Resolved {
     /// Whether it is to be taken in place of a contour of segments that do not run along their points, or miss them, or with corners
@@ -127,7 +132,16 @@ impl Resolved {
 
     /// The contour of the row given, of so many points.
     pub fn whole(self, count: usize) -> Contour {
-        let mut all = Joined::of(self.contour);
+        let mut contour = self.contour;
+        let runs_through = |s: &Segment| match &s.geometry {
+            Geometry::Spline { curve, .. } => TELLING * curve.points().len() > s.count,
+            _ => false,
+        };
+        // A curve with nearly as many control points runs through its points, whatever their noise: local polynomials tell more of it.
+        if contour.segments.iter().any(runs_through) {
+            contour.noise = contour.noise.max(self.noise);
+        }
+        let mut all = Joined::of(contour);
         all.finish(&self.clean, self.turned, count, vec![]);
         all.contour
     }

@@ -6,7 +6,6 @@ use super::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::{Criterion, Model, Plan};
 use super::free;
 use super::least::{Row, SOFT, STIFF, State, Stop, Work};
-use super::start::Part;
 use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
 
@@ -31,119 +30,11 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn stop(&self, steps: usize, gain: f64) -> Stop {
+    pub fn stop(&self, steps: usize, gain: f64) -> Stop {
         Stop { steps, gain, shortest: self.shortest * self.spacing, stiff: SOFT, target: f64::INFINITY }
     }
 
-    /// The model of the parts that dynamic programming found.
-    pub fn first(&mut self, parts: &[Part], closed: bool) -> Model {
-        let lengths = self.lengths(parts, closed);
-        let part = &parts[0];
-        let heading = libm::atan2(part.along[1], part.along[0]) - 0.5 * part.curvature * lengths[0];
-        let own: Vec<f64> = parts.iter().map(|p| p.curvature).collect();
-        self.first_of(parts, &lengths, &own, heading, closed)
-    }
-
-    /// The model of parts that turn from one to the next as they do by themselves, the cheapest without and with lines that follow a
-    /// line; for where the headings of many parts add up to one far off, and parts are lost on the way back.
-    pub fn turned(&mut self, parts: &[Part], closed: bool) -> Model {
-        let mut of = |parts: &[Part]| {
-            let lengths = self.lengths(parts, closed);
-            let (heading, turning) = self.turning(parts, &lengths);
-            self.first_of(parts, &lengths, &turning, heading, closed)
-        };
-        let (bent, model) = (without_bends(parts), of(parts));
-        if bent.len() == parts.len() {
-            return model;
-        }
-        let other = of(&bent);
-        if other.cost < model.cost { other } else { model }
-    }
-
-    /// Lengths of parts: chords of a smoothed row, as noise makes the row itself longer.
-    fn lengths(&self, parts: &[Part], closed: bool) -> Vec<f64> {
-        let points = self.row.points;
-        let n = points.len();
-        let chord = |i: usize, j: usize| {
-            libm::hypot(points[j % n][0] - points[i % n][0], points[j % n][1] - points[i % n][1])
-        };
-        let length = |(g, part): (usize, &Part)| {
-            let (from, to) = (part.from, part.to + usize::from(g + 1 < parts.len() || closed));
-            let stride = ((to - from) / 6).max(1);
-            let (mut i, mut length) = (from, 0.0);
-            while i < to - 1 {
-                let j = (i + stride).min(to - 1);
-                let flat = chord(i, j);
-                let bend = (0.5 * part.curvature.abs() * flat).min(0.999);
-                length += if bend > 1e-6 { 2.0 * libm::asin(bend) / part.curvature.abs() } else { flat };
-                i = j;
-            }
-            length.max(2.0 * self.spacing)
-        };
-        parts.iter().enumerate().map(length).collect()
-    }
-
-    /// The heading at the start, and curvatures with which parts of these lengths turn from one to the next as the parts by themselves
-    /// do, whatever their own ones: lines tell where the arcs beside them begin and end.
-    fn turning(&self, parts: &[Part], lengths: &[f64]) -> (f64, Vec<f64>) {
-        let points = self.row.points;
-        let (n, last) = (points.len(), parts.len() - 1);
-        let angle = |part: &Part, i: usize| {
-            let [x, y] = part.heading(points[i % n]);
-            libm::atan2(y, x)
-        };
-        let heading = angle(&parts[0], parts[0].from);
-        let mut before = heading;
-        let mut turned = |g: usize| {
-            let part = &parts[g];
-            let own = part.curvature * lengths[g];
-            let end = angle(part, part.to - 1);
-            let after = match (part.kind, parts.get(g + 1)) {
-                (SegmentKind::Line, _) => angle(part, part.from),
-                (_, Some(next)) if next.kind == SegmentKind::Line => angle(next, next.from),
-                (_, Some(next)) => end + 0.5 * wrapped(angle(next, next.from) - end),
-                (_, None) => end,
-            };
-            let turn = own + wrapped(after - before - own);
-            before = after;
-            if part.kind == SegmentKind::Line { 0.0 } else { turn / lengths[g] }
-        };
-        (heading, (0..=last).map(&mut turned).collect())
-    }
-
-    /// The model of parts of these lengths and curvatures.
-    fn first_of(
-        &mut self,
-        parts: &[Part],
-        lengths: &[f64],
-        curvatures: &[f64],
-        heading: f64,
-        closed: bool,
-    ) -> Model {
-        let points = self.row.points;
-        let n = points.len();
-        let piece = |((part, length), curvature): ((&Part, &f64), &f64)| match part.kind {
-            SegmentKind::Line => Piece::line(*length),
-            _ => Piece::arc(*length, *curvature),
-        };
-        let pieces = parts.iter().zip(lengths).zip(curvatures).map(piece).collect();
-        let mut breaks: Vec<usize> = parts.iter().map(|p| p.from).collect();
-        breaks.push(breaks[0] + n);
-        let chain = Chain { start: points[parts[0].from % n], heading, pieces, closed: false, even: false };
-        let feet = vec![0.5; n];
-        let mut state = State { chain, breaks, feet, sum: 0.0 };
-        let stop = self.stop(60, 1e-6);
-        self.work.improve(&self.row, &mut state, None, &stop);
-        if closed || self.even {
-            // Nearly closed by the points alone, it is closed by force.
-            (state.chain.closed, state.chain.even) = (closed, self.even);
-            state.breaks.iter_mut().for_each(|b| *b += if closed { n } else { 0 });
-            self.work.improve(&self.row, &mut state, None, &stop);
-        }
-        self.model(state)
-    }
-
-    fn model(&mut self, state: State) -> Model {
+    pub fn model(&mut self, state: State) -> Model {
         let cost = self.criterion.cost(&state);
         Model { cost: if cost.is_nan() { f64::INFINITY } else { cost }, state }
     }
@@ -327,34 +218,6 @@ impl Search<'_> {
         }
         best
     }
-}
-
-/// The parts without lines that follow a line: of two, the shorter belongs to its other neighbor, or to the longer.
-fn without_bends(parts: &[Part]) -> Vec<Part> {
-    let mut all: Vec<Part> = parts.to_vec();
-    let is_line = |part: Option<&Part>| part.is_some_and(|p| p.kind == SegmentKind::Line);
-    while let Some(k) = (1..all.len()).find(|k| is_line(all.get(*k)) && is_line(all.get(k - 1))) {
-        let count = |k: usize| all[k].to - all[k].from;
-        if count(k - 1) < count(k) {
-            let gone = all.remove(k - 1);
-            match k.checked_sub(2) {
-                Some(before) => all[before].to = gone.to,
-                None => all[0].from = gone.from,
-            }
-        } else {
-            let gone = all.remove(k);
-            match all.get_mut(k) {
-                Some(after) => after.from = gone.from,
-                None => all[k - 1].to = gone.to,
-            }
-        }
-    }
-    all
-}
-
-/// An angle from −π to π.
-fn wrapped(angle: f64) -> f64 {
-    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
 /// A closed state that starts `by` pieces later.

@@ -35,9 +35,10 @@ impl Search<'_> {
         closed: bool,
         progress: &dyn Progress,
     ) -> Result<Model, Cancelled> {
-        let first = self.first(parts, closed);
+        let plain = self.plain(parts, closed);
+        let first = self.cheapest(plain.clone(), parts, closed);
         let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first);
-        let Some(smooth) = self.smooth(&first) else {
+        let Some(smooth) = self.smooth(&plain, first.cost) else {
             return if self.gives_up(lost) { Ok(first) } else { self.run(first, progress) };
         };
         let found = self.run(smooth, progress)?;
@@ -45,27 +46,19 @@ impl Search<'_> {
         // told from 0: then costs tell rounding, and no kinds.
         let off = (found.state.sum / self.criterion.count).sqrt();
         if (found.state.chain.pieces.len() > 1 || off > FINE * self.criterion.resolution)
-            && let Some(held) = self.held(&first, found.cost)
+            && let Some(held) = self.held(&plain, found.cost)
         {
             let other = self.run(held, progress)?;
             if other.cost < found.cost {
                 return Ok(other);
             }
         }
-        // Free pieces that nearly follow the points may stand for lines and arcs that the first model has lost.
-        if self.is_within(&found, NEARLY)
+        // Free pieces that nearly follow the points may stand for lines and arcs that are not far from the first model.
+        let hopeful = self.is_within(&found, NEARLY)
             && !self.is_near(&first)
             && self.row.points.len() >= ENOUGH * parts.len()
-        {
-            let other = self.turned(parts, closed);
-            if other.cost < found.cost + FAR {
-                let other = self.run(other, progress)?;
-                if other.cost < found.cost {
-                    return Ok(other);
-                }
-            }
-        }
-        if self.is_near(&found) || self.gives_up(lost) {
+            && first.cost < found.cost + FAR;
+        if !hopeful && (self.is_near(&found) || self.gives_up(lost)) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
@@ -123,8 +116,8 @@ impl Search<'_> {
         off <= (times * self.criterion.noise).max(FINE * self.criterion.resolution)
     }
 
-    /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that is cheaper.
-    fn smooth(&mut self, first: &Model) -> Option<Model> {
+    /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that costs less than `bar`.
+    fn smooth(&mut self, first: &Model, bar: f64) -> Option<Model> {
         let base = self.base(first.clone());
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
         if base.plans.len() < MANY || !self.kinds[1] {
@@ -141,7 +134,7 @@ impl Search<'_> {
                 let plans: Vec<Plan> = (0..pieces).map(plan).collect();
                 let built = self.build(&base, &plans, f64::INFINITY);
                 let mut model = self.settle(&built);
-                let least = best.as_ref().map_or(first.cost, |b| b.cost);
+                let least = best.as_ref().map_or(bar, |b| b.cost);
                 if model.cost < least && self.follows(&mut model.state) {
                     (best, better) = (Some(model), true);
                 }

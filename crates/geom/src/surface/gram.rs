@@ -153,8 +153,37 @@ impl Binned {
         Ok(self.sums_of(None, progress, |k, _, _| value(self.order[k]))?.right)
     }
 
+    /// The equations of the points in some of the cells, for what the `surface` (of points less the center) leaves of them.
+    pub(super) fn part(
+        &self,
+        surface: &Patches,
+        cells: impl Fn(u32) -> bool,
+        progress: &dyn Progress,
+    ) -> Result<(Stencil, Sums), Cancelled> {
+        let mut normal = Stencil::new(self.counts, [self.spans[0].degree(), self.spans[1].degree()]);
+        let mut items = self.items();
+        items.retain(|item| cells(item.0));
+        let left = |k: usize, cell: usize, [s, t]: [f64; 2]| {
+            let place = surface.value(cell, s, t);
+            std::array::from_fn(|d| self.points[k][d] - place[d])
+        };
+        let sums = self.sums_over(&items, Some(&mut normal), progress, left)?;
+        Ok((normal, sums))
+    }
+
     fn sums_of(
         &self,
+        normal: Option<&mut Stencil>,
+        progress: &dyn Progress,
+        value: impl Fn(usize, usize, [f64; 2]) -> Point + Sync,
+    ) -> Result<Sums, Cancelled> {
+        self.sums_over(&self.items(), normal, progress, value)
+    }
+
+    /// The sums over these pieces of work.
+    fn sums_over(
+        &self,
+        items: &[(u32, u32, u32)],
         mut normal: Option<&mut Stencil>,
         progress: &dyn Progress,
         value: impl Fn(usize, usize, [f64; 2]) -> Point + Sync,
@@ -164,7 +193,6 @@ impl Binned {
         let products = [Products::new(&self.spans[0]), Products::new(&self.spans[1])];
         let moments = if normal.is_some() { (2 * p + 1) * (2 * q + 1) } else { 0 };
         let size = moments + 3 * (p + 1) * (q + 1) + 1;
-        let items = self.items();
         let mut cell = vec![0.0; size];
         let mut current = items.first().map_or(0, |i| i.0);
         for batch in items.chunks(WAITING) {

@@ -11,6 +11,7 @@
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
 //! | `hold` | what holds the control points where points are few |
+//! | `gaps` | gaps between rows of points, and the least weight of the thin-plate term that they ask for |
 //! | `solve` | control points; the weight of the thin-plate term |
 //! | `pass` | one fit after the other: parameter correction, weights against outliers |
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
@@ -32,6 +33,7 @@ mod feet;
 mod flatten;
 mod fold;
 mod found;
+mod gaps;
 mod grain;
 mod gram;
 mod hold;

@@ -1,6 +1,7 @@
 //! Control points from the normal equations, and the weight of the thin-plate term.
 
 use super::energy::thin_plate;
+use super::gaps::Folds;
 use super::gram::{Binned, Sums};
 use super::hold::{self, Ground, Hold};
 use super::stencil::{Order, Stencil};
@@ -111,6 +112,11 @@ const PROBES: usize = 12;
 /// How many times a degree of freedom counts: plain cross-validation takes noise for shape now and then.
 const COUNTED: f64 = 1.4;
 
+/// Exponent of the greatest weight that is tried.
+const STIFFEST: i32 = 4;
+/// Times its least that the sum of squares at blocks left out may be.
+const TRUSTED: f64 = 2.0;
+
 impl System<'_> {
     /// The weight of what holds control points where points are few.
     fn held_by(&self) -> f64 {
@@ -132,9 +138,19 @@ impl System<'_> {
     }
 
     fn factor(&self, weight: f64, progress: &dyn Progress) -> Result<Factor, SurfaceError> {
+        self.factor_of(&self.normal, weight, progress)
+    }
+
+    /// The factor with another matrix of the points.
+    fn factor_of(
+        &self,
+        normal: &Stencil,
+        weight: f64,
+        progress: &dyn Progress,
+    ) -> Result<Factor, SurfaceError> {
         let mut terms = vec![(weight, &self.energy)];
         terms.extend(self.hold.iter().map(|hold| (self.held_by(), &hold.stencil)));
-        self.normal.with(&terms).factor(progress).map_err(|e| match e {
+        normal.with(&terms).factor(progress).map_err(|e| match e {
             BandedError::Cancelled(e) => e.into(),
             BandedError::NotDefinite { .. } => SurfaceError::Undetermined {
                 total: self.support.control_points,
@@ -244,7 +260,8 @@ impl System<'_> {
             let free = count - COUNTED * dof;
             Ok((if free > 0.0 { left / (free * free) } else { f64::INFINITY }, dof))
         };
-        let mut best = (f64::INFINITY, f64::from(4), 0.0);
+        let from = self.trusted(&base, &bent, (unit, start), progress)?;
+        let mut best = (f64::INFINITY, f64::from(STIFFEST), 0.0);
         let try_at = |exponent: f64, best: &mut (f64, f64, f64)| -> Result<(), SurfaceError> {
             let (value, dof) = score(unit * power(exponent))?;
             if value < best.0 {
@@ -252,22 +269,64 @@ impl System<'_> {
             }
             Ok(())
         };
-        for k in start..=4 {
-            try_at(f64::from(k), &mut best)?;
+        for k in start..=STIFFEST {
+            if f64::from(k) >= from {
+                try_at(f64::from(k), &mut best)?;
+            }
         }
         if best.0.is_infinite() {
             // No weight leaves freedom enough: the stiffest one.
-            return Ok((unit * power(4.0), score(unit * power(4.0))?.1));
+            let stiffest = unit * power(f64::from(STIFFEST));
+            return Ok((stiffest, score(stiffest)?.1));
         }
         for step in [0.5, 0.25] {
             let middle = best.1;
             for side in [-step, step] {
-                if middle + side >= f64::from(start) {
+                if middle + side >= from {
                     try_at(middle + side, &mut best)?;
                 }
             }
         }
         Ok((unit * power(best.1), best.2))
+    }
+
+    /// The least exponent of the weight with which the surface can be relied upon between rows of points: from it on, what it is off
+    /// where blocks are left out is no more than twice the least of all weights.
+    fn trusted(
+        &self,
+        base: &[Point],
+        bent: &[Point],
+        (unit, start): (f64, i32),
+        progress: &dyn Progress,
+    ) -> Result<f64, SurfaceError> {
+        let surface = Patches::of(self.data.spans.clone(), base, self.data.counts[1]);
+        let Some(folds) = Folds::of(self.data, &surface, progress)? else { return Ok(f64::from(start)) };
+        let mut pulled = vec![[0.0; 3]; base.len()];
+        self.pull(&mut pulled, base, 0.0);
+        let off = |exponent: f64| -> Result<f64, SurfaceError> {
+            let weight = unit * power(exponent);
+            let mut sum = 0.0;
+            for fold in [0, 1] {
+                let (normal, gradient) = folds.kept(fold);
+                let right: Vec<Point> = (0..base.len())
+                    .map(|k| std::array::from_fn(|d| gradient[k][d] + pulled[k][d] - weight * bent[k][d]))
+                    .collect();
+                match self.factor_of(normal, weight, progress) {
+                    Ok(factor) => sum += folds.left(fold, &self.solved(&factor, &right)),
+                    Err(SurfaceError::Undetermined { .. }) => return Ok(f64::INFINITY),
+                    Err(e) => return Err(e),
+                }
+            }
+            Ok(sum)
+        };
+        let exponents: Vec<f64> = (start..=STIFFEST).map(f64::from).collect();
+        let off = exponents.iter().map(|e| off(*e)).collect::<Result<Vec<f64>, SurfaceError>>()?;
+        let mut at = (0..off.len()).min_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
+        let most = TRUSTED * off[at];
+        while at > 0 && off[at - 1] <= most {
+            at -= 1;
+        }
+        Ok(exponents[at])
     }
 
     /// What the trace is told by: unit vectors of all control points, or the sums of random signs of the points.

@@ -33,6 +33,11 @@ impl Stencil {
         self.entries[k * (self.reach[0] + 1) * wide + self.reach[1]]
     }
 
+    /// Adds another matrix over the same net.
+    pub(super) fn add(&mut self, other: &Stencil) {
+        self.entries.iter_mut().zip(&other.entries).for_each(|(a, b)| *a += b);
+    }
+
     pub(super) fn trace(&self) -> f64 {
         (0..self.counts[0] * self.counts[1]).map(|k| self.diagonal(k)).sum()
     }

@@ -5,6 +5,7 @@ mod holes;
 mod nearest;
 mod outline;
 mod references;
+mod rows;
 mod standing;
 
 use super::*;

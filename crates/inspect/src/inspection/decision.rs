@@ -7,13 +7,14 @@ use crate::results::Verdict;
 ///
 /// `simple`: the limits belong to what is allowed, the uncertainty is not looked at. `iso14253-1` (ISO 14253-1:2017, 5):
 /// conformity is proven where all of that interval lies within the limits, non-conformity where all of it lies beyond
-/// one; between them nothing is decided, nor is anything where `u` is not known.
+/// one; between them nothing is decided, nor is anything where `u` is not known. Where the interval does not hold the value (`u` is
+/// negative to one side), the value must be on the same side of the limits: no value beyond a limit passes, and none within them fails.
 pub fn verdict(value: f64, limits: &Limits, rule: Rule, u: Option<[f64; 2]>) -> Verdict {
     let (lower, upper) = limits.range();
     let [from_lower, to_upper] = [lower.map_or(f64::INFINITY, |l| value - l), upper - value];
     let [below, above] = match rule {
         Rule::Simple => [0.0; 2],
-        Rule::Iso14253 => u.unwrap_or([f64::INFINITY; 2]),
+        Rule::Iso14253 => u.map_or([f64::INFINITY; 2], |sides| sides.map(|s| s.max(0.0))),
     };
     if from_lower >= below && to_upper >= above {
         Verdict::Pass
@@ -84,6 +85,9 @@ mod tests {
         use Verdict::{Fail, Pass, Undecided};
         let form = |v| verdict(v, &Limits::Greatest(1.0), Rule::Iso14253, Some([0.5, 0.125]));
         assert_eq!([form(0.875), form(0.9), form(1.5), form(1.51)], [Pass, Undecided, Undecided, Fail]);
+        // The true value is known to lie below the measured one: that one has to keep the limit as well.
+        let below = |v| verdict(v, &Limits::Greatest(1.0), Rule::Iso14253, Some([0.5, -0.25]));
+        assert_eq!([below(0.99), below(1.0), below(1.2), below(1.51)], [Pass, Pass, Undecided, Fail]);
         let limits = Limits::Between { nominal: 10.0, lower: -1.0, upper: 1.0 };
         let bore = |v| verdict(v, &limits, Rule::Iso14253, Some([0.125, 0.5]));
         assert_eq!([bore(10.5), bore(10.6), bore(11.125), bore(11.2)], [Pass, Undecided, Undecided, Fail]);

@@ -138,7 +138,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
     let Some(document) = document(&found, &mesh.positions, of_mesh, &options, vec![record]) else {
-        bail!("{shown}: {}", nothing(&found, of_mesh));
+        bail!("{shown}: {}", nothing(&found, of_mesh, options.reach));
     };
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &mesh, &found);
@@ -153,16 +153,21 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
 }
 
 /// Why there is not a single value, and what to do.
-fn nothing(found: &Curvatures, of_mesh: bool) -> String {
+fn nothing(found: &Curvatures, of_mesh: bool, reach: Reach) -> String {
     let reasons = without(found);
     let Some((most, _)) = reasons.iter().max_by_key(|(_, count)| **count) else {
         return "it holds nothing that could have a curvature".into();
     };
+    let wide = matches!(reach, Reach::Radius(_));
     let remedy = match **most {
         NoCurvature::Boundary => "--boundary gives them values from one side",
-        NoCurvature::FewNeighbors => "give a smaller --degree or --neighbors, or a larger --radius",
+        NoCurvature::FewNeighbors if wide => "give a larger --radius, or a smaller --degree",
+        NoCurvature::FewNeighbors => "give a smaller --degree or --neighbors",
         NoCurvature::Undetermined if !of_mesh => {
-            "they lie on lines or at one place; give a larger --radius or more --neighbors"
+            "they lie on lines or at one place: a larger --radius or more --neighbors reach the next line; points of a single line have no curvature"
+        }
+        NoCurvature::Folded if wide => {
+            "within the radius the surface turns back: give a smaller --radius, or see what `trueness check` tells of the mesh"
         }
         NoCurvature::Undetermined
         | NoCurvature::NotFinite

@@ -49,6 +49,32 @@ fn a_slot_has_a_width_and_two_centers() {
     assert!((p[0] - q[0]).abs() < 0.01 && p[0].abs() < 0.1 && (length(p, q) - width.value).abs() < 1e-12);
 }
 
+/// A segment that does not run along its points is measured by none: neither widths nor centers, angles or gaps.
+#[test]
+fn segments_astray_have_no_dimensions() {
+    let sound = found(&noisy(slot(), 0.001, 3), true);
+    for k in 0..sound.segments.len() {
+        let contour = Contour { astray: vec![k], ..sound.clone() };
+        let kinds: Vec<&str> = dimensions(&[contour]).iter().map(|d| d.kind.name()).collect();
+        let line = sound.segments[k].geometry.kind() == SegmentKind::Line;
+        assert_eq!(kinds, if line { ["centers"] } else { ["width"] }, "{k}");
+    }
+    let square = |x: f64| {
+        let side = move |k: usize, t: f64| [[t, 0.0], [5.0, t], [5.0 - t, 5.0], [0.0, 5.0 - t]][k];
+        let at = move |i: usize| side(i / 20, (i % 20) as f64 * 0.25);
+        (0..80).map(at).map(move |p| [p[0] + x, p[1]])
+    };
+    let of_two = [found(&noisy(square(0.0), 0.001, 4), true), found(&noisy(square(9.0), 0.001, 5), true)];
+    let count = |all: &[Dimension], kind| of(all, kind).len();
+    let all = dimensions(&of_two);
+    assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (8, 1));
+    let mut of_two = of_two;
+    of_two[0].astray = (0..4).collect();
+    let all = dimensions(&of_two);
+    assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (4, 0));
+    assert!(all.iter().all(|d| d.of.iter().all(|[c, _]| *c == 1)), "{all:?}");
+}
+
 /// Errors over their uncertainties have the mean square 1 over fresh noise, where kinds and joins are found as they are: of 120
 /// draws that is uncertain by 0.13. Uncertainties do not say how likely another model is.
 #[test]

@@ -139,3 +139,21 @@ fn a_step_has_two_corners() {
     assert!(far(contour.joins[0].point, points[199]) < 1e-9);
     assert!(far(contour.joins[1].point, points[200]) < 1e-9);
 }
+
+/// A curve with nearly as many control points as there are points runs through these, whatever their noise: what is told is not what is
+/// left between them.
+#[test]
+fn a_curve_through_noise_does_not_hide_it() {
+    for seed in 0..4 {
+        let random = &mut Random::new(11 + seed);
+        let points: Vec<[f64; 2]> = (0..300)
+            .map(|i| f64::from(i) / 299.0)
+            .map(|t| {
+                let (sin, cos) = libm::sincos(60.0 * t);
+                [(1.0 + 50.0 * t) * cos, (1.0 + 50.0 * t) * sin].map(|x| x + 0.01 * normal(random))
+            })
+            .collect();
+        let contour = found(&points);
+        assert!(contour.noise > 0.005 || !contour.astray.is_empty(), "{seed}: {}", contour.noise);
+    }
+}
