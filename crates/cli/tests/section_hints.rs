@@ -36,7 +36,8 @@ fn a_slab_across_which_the_surface_bends_is_told() {
         (0..4000)
             .map(|i| {
                 let (turn, z) = (TAU * even(i, 0.618_033_99), 2.0 * even(i, 0.414_213_56) - 1.0);
-                let radius = if ball { (100.0 - z * z).sqrt() } else { 10.0 } + scatter(i, 0.002);
+                let radius = if ball { (100.0 - z * z).sqrt() } else { 10.0 }
+                    + scatter(i, if ball { 0.002 } else { 0.015 });
                 format!("{} {} {z}\n", radius * turn.cos(), radius * turn.sin())
             })
             .collect()
@@ -44,7 +45,7 @@ fn a_slab_across_which_the_surface_bends_is_told() {
     for ball in [true, false] {
         let file = folder.write("cloud.xyz", cloud(ball));
         let words =
-            ["section", file.to_str().unwrap(), "--plane", "0,0,1,0", "--thickness", "2", "--noise", "0.01"];
+            ["section", file.to_str().unwrap(), "--plane", "0,0,1,0", "--thickness", "2", "--noise", "0.015"];
         let all = hints(&words);
         let want = usize::from(ball);
         assert_eq!(all.len(), want, "{all:?}");

@@ -10,6 +10,7 @@ use super::contour::contour;
 use super::cut::{Plane, PlaneFrame};
 use super::link::{Limits, Linked, Way, gap_to_close, link, longest_by_chance};
 use super::result::{Contour, Options, SectionError};
+use super::row::size;
 use super::untangle::untangle;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, dot, norm};
@@ -58,11 +59,15 @@ pub struct Order {
 
 /// A contour that is so many times as long as the way along its points goes to and fro between them.
 const LONGEST: f64 = 2.0;
+/// One about which points scatter by more than this share of the diagonal of the box around them covers an area: of a disk it is 0.083, of
+/// a square 0.1.
+const WIDEST: f64 = 0.05;
 
 /// The contour of points in order that were found among `points` in the plane.
 ///
 /// Points that cover an area, as of a slab that is thick for how obliquely it cuts, follow no curve: where the segments are
-/// more than twice as long as the way along which the points were put in order, all of them are [`Contour::astray`].
+/// more than twice as long as the way along which the points were put in order, or the points scatter about them by more than a
+/// twentieth of the diagonal of their box, all of them are [`Contour::astray`].
 ///
 /// # Errors
 /// As [`contour`].
@@ -76,7 +81,8 @@ pub fn ordered_contour(
     let closed = options.closed.unwrap_or(row.closed);
     let options = Options { closed: Some(closed), ordered: true, ..*options };
     let mut found = contour(&own, &options, progress)?;
-    if found.length() > LONGEST * row.way {
+    let scatter = found.residuals.iter().map(|r| r * r).sum::<f64>() / own.len().max(1) as f64;
+    if found.length() > LONGEST * row.way || scatter.sqrt() > WIDEST * size(&own) {
         found.astray = (0..found.segments.len()).collect();
     }
     Ok(found)
