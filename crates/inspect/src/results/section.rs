@@ -366,15 +366,9 @@ fn hint(section: &Section) -> Option<String> {
         "{open} of {} contours are open and end near each other: points are missing over more than the gap of {}; \
          --gap {} lets most of them go on, a thicker slab (--thickness) brings points nearer together",
         section.contours.len(),
-        digits(gap),
-        digits(wider? * 1.05)
+        hints::digits(gap),
+        hints::digits(wider? * 1.05)
     ))
-}
-
-/// A length with two digits, for words.
-fn digits(x: f64) -> String {
-    let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
-    format!("{x:.places$}")
 }
 
 fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourRecord {

@@ -1,6 +1,6 @@
 //! What to heed about a contour, each with what may help.
 
-use super::{Section, digits};
+use super::Section;
 use trueness_geom::section::{Bent, Contour, Geometry, Options};
 
 /// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
@@ -79,4 +79,10 @@ fn slab(section: &Section, found: &Contour, bent: &[Bent]) -> Option<String> {
         if worst.bias < 0.0 { "small" } else { "large" },
         digits(enough)
     ))
+}
+
+/// A length with two digits, for words.
+pub(super) fn digits(x: f64) -> String {
+    let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
+    format!("{x:.places$}")
 }
