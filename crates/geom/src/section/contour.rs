@@ -83,6 +83,7 @@ pub fn contour(
     }
     let found = found?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
+    found.keep_gaps(points);
     found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }

@@ -55,6 +55,25 @@ impl Contour {
         self
     }
 
+    /// Passes over wide steps that do not lead on along the contour: scatter and outliers make such, and leave no gap.
+    pub(super) fn keep_gaps(&mut self, points: &[[f64; 2]]) {
+        /// Share of a step that leads on along the contour where it is a gap.
+        const ALONG: f64 = 0.5;
+        if !self.astray.is_empty() {
+            return;
+        }
+        let whole = self.length();
+        let (stations, repeated) = (&self.stations, &self.repeated);
+        self.gaps.retain(|gap| {
+            let next = (gap + 1..points.len()).find(|i| repeated.binary_search(i).is_err());
+            next.is_none_or(|next| {
+                let along = (stations[next] - stations[*gap]).abs();
+                let along = if self.closed { along.min(whole - along) } else { along };
+                along >= ALONG * super::row::distance(points[*gap], points[next])
+            })
+        });
+    }
+
     /// Lets a closed contour begin with this segment.
     pub(super) fn begin_with(&mut self, first: usize) {
         let count = self.segments.len();

@@ -15,6 +15,7 @@
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
+//! | `bent` | slabs across which a surface bends |
 //! | `cut`, `stack` | where a plane cuts a mesh; which facets each of many planes may cut |
 //! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
 //! | `foot` | where on a segment the foot of a point is |
@@ -32,6 +33,7 @@ mod airfoil;
 mod assembly;
 mod base;
 mod begin;
+mod bent;
 mod chain;
 mod contour;
 mod convert;
@@ -73,6 +75,7 @@ mod tests;
 mod untangle;
 
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
+pub use bent::{Bent, bent_across};
 pub use chain::SegmentKind;
 pub use contour::contour;
 pub use crossings::crossings;

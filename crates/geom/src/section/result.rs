@@ -229,7 +229,8 @@ pub struct Contour {
     pub segments: Vec<Segment>,
     /// The joins: number `i` between segments `i` and `i + 1`; of a closed contour the last between the last and the first.
     pub joins: Vec<Join>,
-    /// Standard deviation of the points about the contour.
+    /// Standard deviation of the points about the contour; of exact facets, which carry no noise, the root mean square of their distances
+    /// from it.
     pub noise: f64,
     /// Number of unknowns that were found from the points; 0 of exact facets.
     pub unknowns: f64,

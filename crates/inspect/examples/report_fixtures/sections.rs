@@ -61,6 +61,8 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
             area: Err("points have no facets"),
             loose: 0,
             gap: None,
+            thickness: None,
+            bent: vec![],
             contours: rows.iter().map(|r| contour(r, &wish, &Silent).unwrap()).collect(),
         })
         .collect();

@@ -3,6 +3,7 @@
 mod airfoil;
 mod dimension;
 mod found;
+mod hints;
 mod near_arc;
 mod nominal;
 mod page;
@@ -112,7 +113,8 @@ pub struct PlaneRecord {
     pub frame: FrameRecord,
     /// Contours found in it.
     pub contours: u64,
-    /// Area inside closed contours of a mesh, holes taken off, of the facets themselves.
+    /// Area inside closed contours of a mesh, holes taken off, of the facets themselves. What shells share counts once for each of them, and
+    /// shells turned inside out count below 0.
     pub area: Option<f64>,
     /// Why there is no area.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -137,7 +139,7 @@ pub struct ContourRecord {
     pub closed: bool,
     /// Length of all segments.
     pub length: f64,
-    /// Standard deviation of the points about it.
+    /// Standard deviation of the points about it; of `facets`, which carry no noise, the root mean square of their distances from it.
     pub noise: f64,
     /// Mean distance between neighboring points.
     pub spacing: f64,
@@ -163,6 +165,10 @@ pub struct ContourRecord {
     /// status is 1.
     #[serde(default)]
     pub astray: Vec<u64>,
+    /// What to heed about it, each with what may help: points of a row off their plane, a noise given that they contradict, radii that the
+    /// thickness of a slab moves.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub hints: Vec<String>,
     /// Signed distance of each point from the contour, positive to the left.
     pub residuals: Vec<f64>,
     /// Number of the segment of each point.
@@ -191,7 +197,8 @@ pub struct SegmentRecord {
     pub max: f64,
     /// Curvature at its start and end, positive where it turns to the left.
     pub curvature: [f64; 2],
-    /// Of a spline that is nearly an arc, that arc: within a thousandth of its length. Absent for others.
+    /// Of a spline that is nearly an arc, that arc: within a thousandth of its length, and the length half of the radius at least: a flatter
+    /// curve is near to many arcs. Absent for others, and for those of `facets`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub near_arc: Option<NearArc>,
     /// Standard uncertainty of its angle, or of its center and radius, from the scatter of the points.
@@ -283,7 +290,13 @@ impl SectionDocument {
         let none = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
         let contours = sections.iter().enumerate().flat_map(|(n, section)| {
             let number = section.plane.map(|_| n as u64);
-            section.contours.iter().map(move |c| contour(c, &section.frame, number))
+            section.contours.iter().enumerate().map(move |(k, c)| {
+                let bent = section.bent.get(k).map_or(&[][..], |bent| bent);
+                ContourRecord {
+                    hints: hints::hints(section, c, bent, options),
+                    ..contour(c, &section.frame, number)
+                }
+            })
         });
         SectionDocument {
             schema: SCHEMA.into(),
@@ -353,15 +366,9 @@ fn hint(section: &Section) -> Option<String> {
         "{open} of {} contours are open and end near each other: points are missing over more than the gap of {}; \
          --gap {} lets most of them go on, a thicker slab (--thickness) brings points nearer together",
         section.contours.len(),
-        digits(gap),
-        digits(wider? * 1.05)
+        hints::digits(gap),
+        hints::digits(wider? * 1.05)
     ))
-}
-
-/// A length with two digits, for words.
-fn digits(x: f64) -> String {
-    let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
-    format!("{x:.places$}")
 }
 
 fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourRecord {
@@ -404,6 +411,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         gaps: numbers(&found.gaps),
         crossings: found.crossings.clone(),
         astray: numbers(&found.astray),
+        hints: vec![],
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),
         stations: found.stations.clone(),

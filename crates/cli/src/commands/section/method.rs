@@ -80,7 +80,8 @@ impl MethodArgs {
         }
         let table = methods.into_iter().map(|m| (kept - m.on_line, m));
         let table = table.map(|(on_curve, m)| (m, on_curve)).collect();
-        let name = if profile { "profile" } else { "paper" };
+        // Where the likelihood found no join, the paper's rule stands in.
+        let name = if interval.is_some() { "profile" } else { "paper" };
         Ok(((sections, rows), Some((chosen, name, table))))
     }
 }

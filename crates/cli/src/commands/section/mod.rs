@@ -199,5 +199,17 @@ fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Foun
     let contours = vec![section::contour(&flat, options, stage)?];
     let area = Err("points in order have no facets");
     let frame = described(&frame, flatness);
-    Ok((vec![Section { frame, plane: None, area, loose: 0, gap: None, contours }], vec![flat]))
+    Ok((
+        vec![Section {
+            frame,
+            plane: None,
+            area,
+            loose: 0,
+            gap: None,
+            thickness: None,
+            bent: vec![],
+            contours,
+        }],
+        vec![flat],
+    ))
 }

@@ -6,8 +6,10 @@ use crate::progress::Stage;
 use clap::Args;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::section::{self, Chain, Contour, Options, Order, Plane, PlaneFrame, SectionError};
-use trueness_geom::space::Point;
+use trueness_geom::section::{
+    self, Chain, Contour, Options, Order, Ordered, Plane, PlaneFrame, SectionError,
+};
+use trueness_geom::space::{Point, dot};
 use trueness_inspect::results::InputRecord;
 use trueness_inspect::results::section::{PlaneRecord, Section};
 
@@ -164,10 +166,15 @@ pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, s
         let contours = (rows.par_iter())
             .map(|row| section::ordered_contour(&flat, row, options, stage))
             .collect::<Result<Vec<Contour>, SectionError>>()?;
+        let height = |i: &usize| dot(cut.plane.normal, points[numbers[*i]]) - cut.plane.offset;
+        let heights = |row: &Ordered| row.numbers.iter().map(height).collect::<Vec<f64>>();
+        let bent =
+            rows.iter().zip(&contours).map(|(row, c)| section::bent_across(c, &heights(row))).collect();
         let own = rows.iter().map(|row| row.numbers.iter().map(|i| flat[*i]).collect()).collect();
         let loose = numbers.len() - rows.iter().map(|r| r.numbers.len()).sum::<usize>();
         let area = Err("points have no facets");
-        Ok((Section { area, loose, gap: Some((gap, wider)), ..cut.section(contours) }, own))
+        let (gap, thickness) = (Some((gap, wider)), Some(slab.thickness));
+        Ok((Section { area, loose, gap, thickness, bent, ..cut.section(contours) }, own))
     };
     gather(planes.par_iter().map(of).collect())
 }
@@ -195,7 +202,7 @@ impl Cut {
     fn section(&self, contours: Vec<Contour>) -> Section {
         let plane = Some((self.plane.normal, self.plane.offset));
         let (frame, area) = (described(&self.frame, 0.0), Err("not asked"));
-        Section { frame, plane, area, loose: 0, gap: None, contours }
+        Section { frame, plane, area, loose: 0, gap: None, thickness: None, bent: vec![], contours }
     }
 }
 

@@ -27,13 +27,16 @@ pub fn table(document: &SectionDocument) -> String {
         let closed = if contour.closed { "closed" } else { "open" };
         let _ = writeln!(
             out,
-            "contour {}   {closed}   {}{} points   length {}   noise {}   mm and degrees",
+            "contour {}   {closed}   {}{} points   length {}   {} {}   mm and degrees",
             n + 1,
             if *contour.taken == Taken::Row { String::new() } else { format!("{}   ", contour.taken.name()) },
             grouped(contour.points),
             fixed(contour.length, 6),
+            // Facets of a drawing carry no noise.
+            if *contour.taken == Taken::Facets { "rms" } else { "noise" },
             scientific(contour.noise, 2)
         );
+        contour.hints.iter().for_each(|hint| _ = writeln!(out, "! {hint}"));
         if !contour.astray.is_empty() {
             out.push_str(&astray(contour));
         }

@@ -132,32 +132,8 @@ impl Work {
         self.matrix.resize(k * k, 0.0);
         self.right.clear();
         self.right.resize(k, 0.0);
-        let mut effects = Vec::with_capacity(k);
-        let mut product = vec![];
-        for g in 0..chain.pieces.len() {
-            effects.clear();
-            // Unknowns of what follows do nothing here.
-            effects.extend((0..k).map(|v| self.effect(chain, self.variables[v], g)).enumerate());
-            effects.retain(|(_, (m, own))| own.is_some() || *m != [0.0; 3]);
-            let block = &self.blocks[g];
-            let n = block.size;
-            let entry = |i: usize, j: usize| block.products[i.max(j) * n + i.min(j)];
-            for (at, (v, (motion, own))) in effects.iter().enumerate() {
-                product.clear();
-                product.extend((0..n).map(|i| {
-                    let own = own.map_or(0.0, |(index, factor)| factor * entry(i, index));
-                    own + motion[0] * entry(i, 0) + motion[1] * entry(i, 1) + motion[2] * entry(i, 2)
-                }));
-                let value = |list: &[f64], (m, own): &([f64; 3], Option<(usize, f64)>)| {
-                    let own = own.map_or(0.0, |(index, factor)| factor * list[index]);
-                    own + m[0] * list[0] + m[1] * list[1] + m[2] * list[2]
-                };
-                self.right[*v] += value(&block.right, &(*motion, *own));
-                for (u, effect) in &effects[..=at] {
-                    self.matrix[v * k + u] += value(&product, effect);
-                }
-            }
-        }
+        self.add_where_they_act(chain);
+        self.add_beyond(chain);
         self.scale.clear();
         self.scale.extend((0..k).map(|v| self.matrix[v * k + v]));
         for (row, off) in self.conditions(chain, held).iter().zip(self.off(chain, held)) {
@@ -166,6 +142,70 @@ impl Work {
                 for u in 0..=v {
                     self.matrix[v * k + u] += self.stiff * row[v] * row[u];
                 }
+            }
+        }
+    }
+
+    /// Adds to the normal equations what the points of each piece say of the unknowns that act within it, and of those with all others.
+    fn add_where_they_act(&mut self, chain: &Chain) {
+        let k = self.variables.len();
+        let mut product = vec![];
+        let mut effects = Vec::with_capacity(k);
+        for g in 0..chain.pieces.len() {
+            effects.clear();
+            // Unknowns of what follows do nothing here.
+            effects.extend((0..k).map(|v| self.effect(chain, self.variables[v], g)).enumerate());
+            effects.retain(|(_, (m, own))| own.is_some() || *m != [0.0; 3]);
+            let block = &self.blocks[g];
+            let n = block.size;
+            let entry = |i: usize, j: usize| block.products[i.max(j) * n + i.min(j)];
+            let value = |list: &[f64], (m, own): &([f64; 3], Option<(usize, f64)>)| {
+                let own = own.map_or(0.0, |(index, factor)| factor * list[index]);
+                own + m[0] * list[0] + m[1] * list[1] + m[2] * list[2]
+            };
+            let acts = |v: usize| self.variables[v].last().is_some_and(|last| last >= g);
+            for (v, (motion, own)) in effects.iter().filter(|(v, _)| acts(*v)) {
+                product.clear();
+                product.extend((0..n).map(|i| {
+                    let own = own.map_or(0.0, |(index, factor)| factor * entry(i, index));
+                    own + motion[0] * entry(i, 0) + motion[1] * entry(i, 1) + motion[2] * entry(i, 2)
+                }));
+                self.right[*v] += value(&block.right, &(*motion, *own));
+                // Of two that both act here, the pair is seen from the later one.
+                for (u, effect) in effects.iter().filter(|(u, _)| u <= v || !acts(*u)) {
+                    self.matrix[(*v).max(*u) * k + (*v).min(*u)] += value(&product, effect);
+                }
+            }
+        }
+    }
+
+    /// Adds what the points say beyond the pieces in which unknowns act: there each moves all as a rigid body, always the same, so that sums
+    /// over all points that follow serve for every pair. So the time grows with the square of the number of unknowns, not with the cube.
+    fn add_beyond(&mut self, chain: &Chain) {
+        let (k, n) = (self.variables.len(), chain.pieces.len());
+        // Of the points from each piece on: the products of the three motions, lower triangle, and with the distances.
+        let mut sums = vec![[0.0; 9]; n + 1];
+        for g in (0..n).rev() {
+            let (block, size) = (&self.blocks[g], self.blocks[g].size);
+            let own = |i: usize, j: usize| block.products[i * size + j];
+            let r = &block.right;
+            let all = [own(0, 0), own(1, 0), own(1, 1), own(2, 0), own(2, 1), own(2, 2), r[0], r[1], r[2]];
+            sums[g] = std::array::from_fn(|i| sums[g + 1][i] + all[i]);
+        }
+        let far: Vec<([f64; 3], usize)> = (self.variables.iter())
+            .map(|v| (self.effect(chain, *v, n).0, v.last().map_or(0, |last| last + 1)))
+            .collect();
+        for (v, (m, from)) in far.iter().enumerate() {
+            let s = &sums[(*from).min(n)];
+            self.right[v] += m[0] * s[6] + m[1] * s[7] + m[2] * s[8];
+            for (u, (o, other)) in far[..=v].iter().enumerate() {
+                let s = &sums[(*from).max(*other).min(n)];
+                let product = [
+                    m[0] * s[0] + m[1] * s[1] + m[2] * s[3],
+                    m[0] * s[1] + m[1] * s[2] + m[2] * s[4],
+                    m[0] * s[3] + m[1] * s[4] + m[2] * s[5],
+                ];
+                self.matrix[v * k + u] += product[0] * o[0] + product[1] * o[1] + product[2] * o[2];
             }
         }
     }

@@ -31,6 +31,17 @@ pub(super) enum Variable {
     },
 }
 
+impl Variable {
+    /// The last piece within which it acts: all beyond it moves as a rigid body. `None` where all does.
+    pub(super) fn last(self) -> Option<usize> {
+        match self {
+            Variable::Left | Variable::Forward | Variable::Turn => None,
+            Variable::Join { before, after } => Some(after.unwrap_or(before)),
+            Variable::Coefficient { piece, .. } => Some(piece),
+        }
+    }
+}
+
 /// Sums of products over the points of a piece: the lower triangle, and with the distances.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PieceSums {

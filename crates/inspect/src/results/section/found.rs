@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::Contour;
+use trueness_geom::section::{Bent, Contour};
 
 /// The plane of a section: a place of it and the directions of its two axes.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
@@ -38,6 +38,10 @@ pub struct Section {
     /// Over what gaps contours of a cloud go on; where they are suspiciously many, also over what gap most of their ends would
     /// meet others.
     pub gap: Option<(f64, Option<f64>)>,
+    /// How thick the slab of a cloud is.
+    pub thickness: Option<f64>,
     /// The contours.
     pub contours: Vec<Contour>,
+    /// The arcs of each contour whose radii the slab of a cloud moves; of others nothing.
+    pub bent: Vec<Vec<Bent>>,
 }

@@ -16,6 +16,7 @@ use crate::report::subject::{Drawn, Head, Pick, Subject};
 use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
 use maud::{Markup, html};
 use serde_json::Value;
+use trueness_geom::section::Taken;
 
 /// Bytes that a measured point takes in the drawing.
 const DOT: usize = 26;
@@ -54,7 +55,8 @@ impl Subject for SectionDocument {
                     (key_number(s, key, class, s.count(n)))
                 }
                 @if let [one] = &self.contours[..] {
-                    (key_number(s, "noise", "", html! { (s.small(one.noise)) "\u{a0}mm" }))
+                    @let scatter = if *one.taken == Taken::Facets { "rms" } else { "noise" };
+                    (key_number(s, scatter, "", html! { (s.small(one.noise)) "\u{a0}mm" }))
                 }
             }
         }

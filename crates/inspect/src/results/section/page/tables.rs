@@ -10,7 +10,7 @@ use crate::results::section::{
     SectionDocument, SegmentRecord, UncertaintyRecord,
 };
 use maud::{Markup, html};
-use trueness_geom::section::DimensionKind;
+use trueness_geom::section::{DimensionKind, Taken};
 
 /// Contours that are listed open.
 const OPEN: usize = 3;
@@ -32,6 +32,9 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                     strong { (s.len(&contour.segments)) }
                 }
                 (facts(s, contour))
+                @for hint in &contour.hints {
+                    p.note { strong.warning { "⚠" } " " (Text(hint)) }
+                }
                 @if !contour.astray.is_empty() {
                     p.note { strong.warning { "⚠" } " " (s.word("contour.astray")) " " (listed(&contour.astray)) }
                 }
@@ -62,7 +65,8 @@ fn facts(s: Style, contour: &ContourRecord) -> Markup {
             (fact(s, "taken", s.word(format!("taken.{}", contour.taken.name()))))
             (fact(s, "points", s.count(contour.points)))
             (fact(s, "length.title", html! { (s.number(contour.length, 3)) "\u{a0}mm" }))
-            (fact(s, "noise", html! { (s.small(contour.noise)) "\u{a0}mm" }))
+            @let scatter = if *contour.taken == Taken::Facets { "rms" } else { "noise" };
+            (fact(s, scatter, html! { (s.small(contour.noise)) "\u{a0}mm" }))
             (fact(s, "spacing", html! { (s.small(contour.spacing)) "\u{a0}mm" }))
             @for (key, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
                 (fact(s, key, s.len(list)))

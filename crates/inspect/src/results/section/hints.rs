@@ -1,0 +1,88 @@
+//! What to heed about a contour, each with what may help.
+
+use super::Section;
+use trueness_geom::section::{Bent, Contour, Geometry, Options};
+
+/// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
+/// its length.
+const FLAT: (f64, f64) = (8.0, 1e-4);
+/// Scatter of so many times the noise given, or of this share of it, contradicts it, unless chance makes it so ...
+const MORE: f64 = 1.5;
+const LESS: f64 = 0.25;
+/// ... once in many thousand rows: so many standard deviations of the logarithm of a standard deviation, which is `1 / √2n` of `n` degrees
+/// of freedom.
+const CHANCE: f64 = 4.0;
+
+/// What there is to say about a contour of a section; `bent` are its arcs whose radii the slab moves.
+pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: &Options) -> Vec<String> {
+    let flat = off_plane(section, found);
+    flat.into_iter().chain(noise(found, options)).chain(slab(section, found, bent)).collect()
+}
+
+/// A row in space that lies in no plane.
+fn off_plane(section: &Section, found: &Contour) -> Option<String> {
+    let off = section.frame.flatness;
+    let most = (FLAT.0 * found.noise).max(FLAT.1 * found.length());
+    (section.plane.is_none() && off > most).then(|| {
+        format!(
+            "the points lie up to {} off the plane nearest to them and were projected into it: lengths, radii and angles are those of \
+             their projection; check the columns, or cut a mesh or a cloud with --plane",
+            digits(off)
+        )
+    })
+}
+
+/// A noise given that the points contradict.
+fn noise(found: &Contour, options: &Options) -> Option<String> {
+    let given = options.noise?;
+    let left_out =
+        |i: &usize| found.outliers.binary_search(i).is_ok() || found.repeated.binary_search(i).is_ok();
+    let kept: Vec<f64> =
+        (0..found.residuals.len()).filter(|i| !left_out(i)).map(|i| found.residuals[i]).collect();
+    let degrees = kept.len() as f64 - found.unknowns;
+    if degrees < 4.0 {
+        return None;
+    }
+    let own = (kept.iter().map(|r| r * r).sum::<f64>() / degrees).sqrt();
+    let ratio = own / given;
+    let far = libm::log(ratio).abs() > CHANCE / (2.0 * degrees).sqrt();
+    let (word, consequence) = match ratio {
+        r if r > MORE => {
+            ("more", "intervals and uncertainties are too small, and segments may follow scatter")
+        }
+        r if r < LESS => ("less", "intervals and uncertainties are too large, and form may pass for scatter"),
+        _ => return None,
+    };
+    far.then(|| {
+        format!(
+            "the points scatter by {} about the contour, {word} than the --noise {given} given: {consequence}; leave --noise out, or \
+             give what repeated measurements show",
+            digits(own)
+        )
+    })
+}
+
+/// The arc whose radius a slab moves most, of those that it moves by more than their uncertainty.
+fn slab(section: &Section, found: &Contour, bent: &[Bent]) -> Option<String> {
+    let worst = bent
+        .iter()
+        .max_by(|a, b| (a.bias.abs() / a.uncertainty).total_cmp(&(b.bias.abs() / b.uncertainty)))?;
+    let Geometry::Arc { radius, .. } = found.segments.get(worst.segment)?.geometry else { return None };
+    let thickness = section.thickness?;
+    // It grows with the square of the thickness.
+    let enough = thickness * (worst.uncertainty / worst.bias.abs()).sqrt();
+    Some(format!(
+        "the surface bends across the slab: the radius {radius:.4} of segment {} is {} too {}, more than its uncertainty; a \
+         --thickness of {} is thin enough",
+        worst.segment + 1,
+        digits(worst.bias.abs()),
+        if worst.bias < 0.0 { "small" } else { "large" },
+        digits(enough)
+    ))
+}
+
+/// A length with two digits, for words.
+pub(super) fn digits(x: f64) -> String {
+    let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
+    format!("{x:.places$}")
+}
