@@ -1,7 +1,7 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
 use super::result::{Contour, Join, Segment};
-use super::row::{Passed, distance};
+use super::row::{GAP, Passed, distance};
 
 /// Steps that differ by less than this share are taken for equal: rounding of a motion does not turn a row round.
 const EQUAL: f64 = 1e-9;
@@ -55,7 +55,7 @@ impl Contour {
         self
     }
 
-    /// Passes over wide steps that do not lead on along the contour: scatter and outliers make such, and leave no gap.
+    /// Passes over wide steps that do not lead on along the contour, and those to outliers: these and scatter leave no gap.
     pub(super) fn keep_gaps(&mut self, points: &[[f64; 2]]) {
         /// Share of a step that leads on along the contour where it is a gap.
         const ALONG: f64 = 0.5;
@@ -63,15 +63,19 @@ impl Contour {
             return;
         }
         let whole = self.length();
-        let (stations, repeated) = (&self.stations, &self.repeated);
-        self.gaps.retain(|gap| {
-            let next = (gap + 1..points.len()).find(|i| repeated.binary_search(i).is_err());
-            next.is_none_or(|next| {
-                let along = (stations[next] - stations[*gap]).abs();
-                let along = if self.closed { along.min(whole - along) } else { along };
-                along >= ALONG * super::row::distance(points[*gap], points[next])
-            })
-        });
+        let passed_over = |list: &[usize], i: &usize| list.binary_search(i).is_ok();
+        let counts = |i: &usize| !passed_over(&self.repeated, i) && !passed_over(&self.outliers, i);
+        let beside = |gap: &usize| {
+            let before = (0..=*gap).rev().find(counts)?;
+            let next = (gap + 1..points.len()).find(counts)?;
+            let along = (self.stations[next] - self.stations[before]).abs();
+            let along = if self.closed { along.min(whole - along) } else { along };
+            let step = distance(points[before], points[next]);
+            (step > GAP * self.spacing && along >= ALONG * step).then_some(before)
+        };
+        let mut kept: Vec<usize> = self.gaps.iter().filter_map(beside).collect();
+        kept.dedup();
+        self.gaps = kept;
     }
 
     /// Lets a closed contour begin with this segment.

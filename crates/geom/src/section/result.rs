@@ -246,7 +246,8 @@ pub struct Contour {
     pub outliers: Vec<usize>,
     /// Points that repeat the one before, by their numbers; they were left out.
     pub repeated: Vec<usize>,
-    /// Gaps between neighboring points of more than five times the median distance: the number of the point before.
+    /// Gaps along the contour between neighboring points of more than five times the median distance, outliers passed over: the number
+    /// of the point before.
     pub gaps: Vec<usize>,
     /// Where the contour crosses itself: at most a hundred places. A closed one that does has no inside.
     pub crossings: Vec<[f64; 2]>,

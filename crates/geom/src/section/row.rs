@@ -22,7 +22,7 @@ pub(super) struct Clean {
 /// Median step over median distance of nearest points from which on a row is no row.
 const UNORDERED: f64 = 12.0;
 /// Steps of so many medians are gaps.
-const GAP: f64 = 5.0;
+pub(super) const GAP: f64 = 5.0;
 /// A contour closes over a gap of so many medians.
 const CLOSING: f64 = 3.0;
 
