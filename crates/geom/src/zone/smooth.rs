@@ -7,6 +7,7 @@
 //! Arnoldi, SIAM Review 63, 2021), so no shape has parameters of its own here. Then single places that no wave and no noise explains. What is
 //! left, if it is larger than noise, is a rough form: it is kept in the size that its variance tells.
 
+use crate::num::banded::dot;
 use crate::num::random::Random;
 use crate::space::{Aabb, Point};
 
@@ -242,16 +243,6 @@ fn range(heights: &[f64]) -> f64 {
 /// Normal enough up to three deviations: a sum of twelve uniform numbers.
 fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
-}
-
-/// By eight sums side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (a, b) = (a.chunks(8), b.chunks(8));
-    for (a, b) in a.zip(b) {
-        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (x, y))| *sum += x * y);
-    }
-    sums.iter().sum()
 }
 
 #[cfg(test)]
