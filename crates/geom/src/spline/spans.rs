@@ -70,9 +70,20 @@ impl Spans {
     pub fn locate(&self, t: f64) -> (usize, f64) {
         self.locate_among(t, 0, self.first.len() - 1)
     }
-    /// The same among the spans from `first` to `last`: at their ends seen from within.
+    /// The span of a parameter; outside of the domain that of the nearer end.
+    #[inline]
+    pub fn span_of(&self, t: f64) -> usize {
+        self.span_among(t, 0, self.first.len() - 1)
+    }
+    /// The span of a parameter and its coordinate there, among the spans from `first` to `last`: at their ends seen from within.
     #[inline]
     pub(super) fn locate_among(&self, t: f64, first: usize, last: usize) -> (usize, f64) {
+        let k = self.span_among(t, first, last);
+        let (from, to) = self.limits(k);
+        (k, ((2.0 * t - from - to) / (to - from)).clamp(-1.0, 1.0))
+    }
+    #[inline]
+    fn span_among(&self, t: f64, first: usize, last: usize) -> usize {
         let mut k = ((t - self.limits[0]) * self.rate).clamp(first as f64, last as f64) as usize;
         while k > first && t < self.limits[k] {
             k -= 1;
@@ -80,7 +91,6 @@ impl Spans {
         while k < last && t >= self.limits[k + 1] {
             k += 1;
         }
-        let (from, to) = self.limits(k);
-        (k, ((2.0 * t - from - to) / (to - from)).clamp(-1.0, 1.0))
+        k
     }
 }

@@ -149,7 +149,7 @@ pub(super) fn parameters(
 
 /// Refuses places on one line.
 fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
-    let [u, v] = [range(places, 0), range(places, 1)];
+    let [u, v] = ranges(places.iter().copied());
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
     // Also what lies aslant on one line.
     if short <= LINE * long || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
@@ -180,8 +180,7 @@ pub(super) fn laid_flat(mesh: &Mesh, progress: &dyn Progress) -> Result<(Base, V
 
 /// Share of the points that lie in layers.
 fn folded_share(seen: &[Seen]) -> f64 {
-    let parameters: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
-    fold::share(seen, [range(&parameters, 0), range(&parameters, 1)])
+    fold::share(seen, ranges(seen.iter().map(|s| s.0)))
 }
 
 /// The least-squares plane; where the points lie in layers or stand on edge over it, the plane over which the surface is least steep, if
@@ -264,11 +263,8 @@ pub(super) fn turned(points: &[Point], base: &Base, direction: [f64; 2]) -> (Bas
     let [a, b] = direction;
     let mut axes = [along([a, b]), along([-b, a])];
     let mut parameters = seen(axes);
-    let side = |parameters: &[[f64; 2]], k: usize| {
-        let (low, high) = range(parameters, k);
-        high - low
-    };
-    if side(&parameters, 1) > side(&parameters, 0) {
+    let [along, across] = ranges(parameters.iter().copied()).map(|(low, high)| high - low);
+    if across > along {
         axes = [axes[1], times(-1.0, axes[0])];
     }
     let largest = axes[0].into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
@@ -276,7 +272,7 @@ pub(super) fn turned(points: &[Point], base: &Base, direction: [f64; 2]) -> (Bas
         axes = axes.map(|a| times(-1.0, a));
     }
     parameters = seen(axes);
-    let low = [0, 1].map(|k| range(&parameters, k).0);
+    let low = ranges(parameters.iter().copied()).map(|r| r.0);
     parameters.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= low[k]));
     let origin = plus(base.origin, plus(times(low[0], axes[0]), times(low[1], axes[1])));
     let angle = base.turned + libm::atan2(dot(axes[0], v), dot(axes[0], u));
@@ -309,8 +305,7 @@ fn unrolled(angles: &mut [f64]) -> (f64, bool) {
 
 /// The longer direction as the first parameter, with the same side outside.
 fn longer_first(seen: &mut [Seen], angle: f64) -> Course {
-    let parameters: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
-    let [u, v] = [range(&parameters, 0), range(&parameters, 1)];
+    let [u, v] = ranges(seen.iter().map(|s| s.0));
     let turned = v.1 - v.0 > u.1 - u.0;
     for ([a, b], _) in seen {
         let own = [*a - u.0, *b - v.0];
@@ -357,8 +352,11 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
     )
 }
 
-/// Least and greatest of a parameter.
-pub(super) fn range(parameters: &[[f64; 2]], k: usize) -> (f64, f64) {
-    let both = (f64::INFINITY, f64::NEG_INFINITY);
-    parameters.iter().fold(both, |(low, high), p| (low.min(p[k]), high.max(p[k])))
+/// Least and greatest of both parameters.
+pub(super) fn ranges(parameters: impl Iterator<Item = [f64; 2]>) -> [(f64, f64); 2] {
+    let none = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    parameters.fold(none, |both, p| {
+        let wider = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));
+        [wider(both[0], p[0]), wider(both[1], p[1])]
+    })
 }

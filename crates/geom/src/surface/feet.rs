@@ -65,7 +65,7 @@ struct Group {
 ///
 /// Cost: four evaluations a point, about 0.1 µs.
 pub(super) fn feet(
-    data: &Binned,
+    data: Binned,
     found: &Found,
     points: &[Point],
     progress: &dyn Progress,
@@ -121,23 +121,27 @@ pub(super) fn feet(
         Ok(out)
     };
     let items = data.items();
-    let count = points.len();
-    let mut all = Feet { deviations: vec![0.0; count], feet: vec![[0.0; 2]; count], ..Feet::default() };
+    let mut all = Feet {
+        deviations: Vec::with_capacity(points.len()),
+        feet: Vec::with_capacity(points.len()),
+        ..Feet::default()
+    };
     // A batch at a time: what its pieces hold is held twice.
     for batch in items.chunks(BATCH) {
         let parts: Result<Vec<Feet>, Cancelled> = batch.par_iter().map(one).collect();
-        for ((_, from, _), part) in batch.iter().zip(parts?) {
-            let numbers = &data.order[*from as usize..][..part.feet.len()];
-            for (number, (deviation, foot)) in numbers.iter().zip(part.deviations.iter().zip(&part.feet)) {
-                all.deviations[*number as usize] = *deviation;
-                all.feet[*number as usize] = *foot;
-            }
+        for part in parts? {
+            all.deviations.extend(part.deviations);
+            all.feet.extend(part.feet);
             all.doubtful.extend(part.doubtful);
             all.unsettled += part.unsettled;
             all.sum_of_squares += part.sum_of_squares;
             all.max_residual = all.max_residual.max(part.max_residual);
         }
     }
+    // From the order of the cells to that of the points, with no more in memory than before.
+    let Binned { rank, .. } = data;
+    all.deviations = rank.par_iter().map(|at| all.deviations[*at as usize]).collect();
+    all.feet = rank.par_iter().map(|at| all.feet[*at as usize]).collect();
     all.doubtful.sort_unstable();
     all.max_residual = all.max_residual.sqrt();
     Ok(all)
@@ -342,7 +346,7 @@ mod tests {
             let data = Binned::new(&knots, &points, &parameters, None, center);
             let centered = Patches::of(data.spans.clone(), &centered, counts[1]);
             let found = Found { surface: &patches, centered: &centered };
-            let feet = feet(&data, &found, &points, &Silent).unwrap();
+            let feet = feet(data, &found, &points, &Silent).unwrap();
             let mut square = 0.0;
             for (i, point) in points.iter().enumerate() {
                 let alone = patches.foot_from(*point, parameters[i]);

@@ -13,18 +13,26 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let sides = domain.map(|d| d.1 - d.0);
     let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
     let counts = sides.map(|s| (s / cell).ceil().clamp(1.0, 4096.0) as usize);
+    let rates = [0, 1].map(|k| counts[k] as f64 / sides[k]);
     let cell_of = |p: [f64; 2]| {
-        let at =
-            |k: usize| (((p[k] - domain[k].0) / sides[k] * counts[k] as f64) as usize).min(counts[k] - 1);
+        let at = |k: usize| (((p[k] - domain[k].0) * rates[k]) as usize).min(counts[k] - 1);
         (at(0) * counts[1] + at(1)) as u32
     };
-    // Points sorted by cell, in their order.
     let cells: Vec<u32> = seen.par_iter().map(|s| cell_of(s.0)).collect();
-    let mut starts = vec![0u32; counts[0] * counts[1] + 1];
-    cells.iter().for_each(|cell| starts[*cell as usize + 1] += 1);
+    let mut heights = vec![(f64::INFINITY, f64::NEG_INFINITY); counts[0] * counts[1]];
+    for (cell, (_, height)) in cells.iter().zip(seen) {
+        let (low, high) = &mut heights[*cell as usize];
+        (*low, *high) = (low.min(*height), high.max(*height));
+    }
+    // No gap is wider than all of it: most cells need no look at their points.
+    let tall: Vec<bool> = heights.iter().map(|(low, high)| high - low > cell).collect();
+    let tall_points = || (0..).zip(&cells).filter(|(_, cell)| tall[**cell as usize]);
+    // Their points sorted by cell, in their order.
+    let mut starts = vec![0u32; tall.len() + 1];
+    tall_points().for_each(|(_, cell): (u32, _)| starts[*cell as usize + 1] += 1);
     (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
-    let (mut next, mut order) = (starts.clone(), vec![0u32; seen.len()]);
-    for (i, cell) in (0..).zip(&cells) {
+    let (mut next, mut order) = (starts.clone(), vec![0u32; starts[tall.len()] as usize]);
+    for (i, cell) in tall_points() {
         let at = &mut next[*cell as usize];
         order[*at as usize] = i;
         *at += 1;
@@ -35,14 +43,11 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
         let count = own.len();
         if layered(own, cell) { count } else { 0 }
     };
-    (0..starts.len() - 1).into_par_iter().map(folded).sum::<usize>() as f64 / seen.len() as f64
+    (0..tall.len()).into_par_iter().map(folded).sum::<usize>() as f64 / seen.len() as f64
 }
 
 fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> bool {
-    let both = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = own.iter().fold(both, |(low, high), p| (low.min(p.1), high.max(p.1)));
-    // No gap is wider than all of it.
-    if own.len() < 4 || high - low <= cell {
+    if own.len() < 4 {
         return false;
     }
     own.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));

@@ -31,6 +31,8 @@ pub(super) struct Binned {
     starts: Vec<u32>,
     /// Numbers of the points.
     pub order: Vec<u32>,
+    /// The place of each point in that order.
+    pub rank: Vec<u32>,
     /// Coordinates in the cell, from −1 to 1.
     pub local: Vec<[f64; 2]>,
     /// The points less the center.
@@ -61,30 +63,42 @@ impl Binned {
     ) -> Binned {
         let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
         let columns = spans[1].count();
-        let place = |p: &[f64; 2]| {
-            let ((i, s), (j, t)) = (spans[0].locate(p[0]), spans[1].locate(p[1]));
-            ((i * columns + j) as u32, [s, t])
-        };
-        let places: Vec<(u32, [f64; 2])> = parameters.par_iter().map(place).collect();
+        let cell = |p: &[f64; 2]| (spans[0].span_of(p[0]) * columns + spans[1].span_of(p[1])) as u32;
+        let mut rank: Vec<u32> = parameters.par_iter().map(cell).collect();
         let mut starts = vec![0u32; spans[0].count() * columns + 1];
-        places.iter().for_each(|(cell, _)| starts[*cell as usize + 1] += 1);
+        rank.iter().for_each(|cell| starts[*cell as usize + 1] += 1);
         for k in 1..starts.len() {
             starts[k] += starts[k - 1];
         }
         let mut next = starts.clone();
-        let mut order = vec![0u32; points.len()];
-        for (i, (cell, _)) in places.iter().enumerate() {
-            let at = &mut next[*cell as usize];
-            order[*at as usize] = i as u32;
-            *at += 1;
+        for at in &mut rank {
+            let place = &mut next[*at as usize];
+            *at = *place;
+            *place += 1;
         }
-        let local = order.par_iter().map(|i| places[*i as usize].1).collect();
-        drop(places);
-        let own = |i: &u32| std::array::from_fn(|d| points[*i as usize][d] - center[d]);
-        let sorted = order.par_iter().map(own).collect();
+        let count = points.len();
+        let mut order = vec![0u32; count];
+        let mut local = vec![[0.0; 2]; count];
+        let mut sorted = vec![[0.0; 3]; count];
+        // A thread has places side by side and looks for the points that belong there. Those of a cell are written one after the
+        // other, so that the lines of memory being written are few.
+        let part = count.div_ceil(rayon::current_num_threads()).max(1);
+        let parts =
+            order.par_chunks_mut(part).zip(local.par_chunks_mut(part)).zip(sorted.par_chunks_mut(part));
+        parts.enumerate().for_each(|(n, ((order, local), sorted))| {
+            let first = n * part;
+            for (i, at) in rank.iter().enumerate() {
+                let at = (*at as usize).wrapping_sub(first);
+                if at < order.len() {
+                    order[at] = i as u32;
+                    local[at] = [0, 1].map(|k| spans[k].locate(parameters[i][k]).1);
+                    sorted[at] = std::array::from_fn(|d| points[i][d] - center[d]);
+                }
+            }
+        });
         let weights = weights.map(|w| order.iter().map(|i| w[*i as usize]).collect());
         let counts = [knots[0].count(), knots[1].count()];
-        Binned { spans, counts, starts, order, local, points: sorted, weights }
+        Binned { spans, counts, starts, order, rank, local, points: sorted, weights }
     }
 
     /// Number of points.

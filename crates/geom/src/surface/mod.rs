@@ -143,10 +143,10 @@ fn over(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
-    let domain = [0, 1].map(|k| match &options.layout {
-        Layout::Knots(knots) => knots[k].domain(),
-        _ => base::range(&parameters, k),
-    });
+    let domain = match &options.layout {
+        Layout::Knots(knots) => knots.each_ref().map(Knots::domain),
+        _ => base::ranges(parameters.iter().copied()),
+    };
     for (k, domain) in domain.into_iter().enumerate() {
         let outside = |p: &[f64; 2]| p[k] < domain.0 || p[k] > domain.1;
         if let Some(index) = parameters.iter().position(outside) {

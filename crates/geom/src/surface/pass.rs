@@ -135,7 +135,7 @@ fn once(
     let patches = Patches::new(&surface);
     let both = Found { surface: &patches, centered: &centered };
     let Feet { deviations, feet, doubtful, unsettled, sum_of_squares, max_residual } =
-        feet(&data, &both, points, progress)?;
+        feet(data, &both, points, progress)?;
     let far = far(&base, points, 0.5 * hull.diagonal());
     Ok(SurfaceFit {
         far_control_points: surface.points().iter().filter(|p| far(p)).count(),

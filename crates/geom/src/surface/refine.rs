@@ -89,7 +89,7 @@ pub(super) enum Round {
 
 impl<'a> Rounds<'a> {
     pub(super) fn new(task: Task<'a>, halved: Halved, base: Base, parameters: Vec<[f64; 2]>) -> Rounds<'a> {
-        let domain = [0, 1].map(|k| base::range(&parameters, k));
+        let domain = base::ranges(parameters.iter().copied());
         let (spans, degree) = (first_spans(domain), task.options.degree);
         let knots = [0, 1].map(|k| Knots::uniform(degree[k], spans[k], domain[k].0, domain[k].1));
         Rounds { task, halved, base, parameters, knots, best: None, idle: 0, done: 0 }

@@ -84,7 +84,7 @@ fn a_tolerance_is_judged_by_the_nearest_places() {
         let options = Options { corrections: 2, ..Options::default() };
         // The first surface on the way to any tolerance.
         let (base, parameters) = base::parameters(&points, options.base, &Silent).unwrap();
-        let domain = [0, 1].map(|k| base::range(&parameters, k));
+        let domain = base::ranges(parameters.iter().copied());
         let spans = refine::first_spans(domain);
         let knots = [0, 1].map(|k| Knots::uniform(3, spans[k], domain[k].0, domain[k].1));
         let local = pass::corrected(&points, parameters.clone(), base, knots, &options, &Silent).unwrap();
