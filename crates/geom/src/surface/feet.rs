@@ -121,11 +121,8 @@ pub(super) fn feet(
         Ok(out)
     };
     let items = data.items();
-    let mut all = Feet {
-        deviations: Vec::with_capacity(points.len()),
-        feet: Vec::with_capacity(points.len()),
-        ..Feet::default()
-    };
+    let (deviations, feet) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
+    let mut all = Feet { deviations, feet, ..Feet::default() };
     // A batch at a time: what its pieces hold is held twice.
     for batch in items.chunks(BATCH) {
         let parts: Result<Vec<Feet>, Cancelled> = batch.par_iter().map(one).collect();
@@ -138,13 +135,18 @@ pub(super) fn feet(
             all.max_residual = all.max_residual.max(part.max_residual);
         }
     }
-    // From the order of the cells to that of the points, with no more in memory than before.
+    // With no more in memory than before.
     let Binned { rank, .. } = data;
-    all.deviations = rank.par_iter().map(|at| all.deviations[*at as usize]).collect();
-    all.feet = rank.par_iter().map(|at| all.feet[*at as usize]).collect();
+    all.deviations = in_order(&rank, &all.deviations);
+    all.feet = in_order(&rank, &all.feet);
     all.doubtful.sort_unstable();
     all.max_residual = all.max_residual.sqrt();
     Ok(all)
+}
+
+/// From the order of the cells to that of the points.
+fn in_order<T: Copy + Send + Sync>(rank: &[u32], sorted: &[T]) -> Vec<T> {
+    rank.par_iter().map(|at| sorted[*at as usize]).collect()
 }
 
 widest! {
