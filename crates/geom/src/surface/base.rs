@@ -106,6 +106,10 @@ pub const STANDING: f64 = 0.1;
 /// Share of the points that may lie in layers where a plane is taken over which no more stand on edge.
 const FEW: f64 = 0.01;
 
+/// Share of the points that may stand on edge over a plane over which there are hardly any layers: steep ground has one height everywhere,
+/// and a surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
+const STEEP: f64 = 0.4;
+
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
 const LINE: f64 = 1e-6;
 
@@ -197,19 +201,22 @@ fn upright(
     if folded == 0.0 && on_edge <= STANDING {
         return Ok(flat);
     }
-    let Some(direction) = upright::direction(points, normal, progress)? else { return Ok(flat) };
-    // As that of the least-squares plane: to the side of its largest coordinate.
-    let largest = direction.into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
-    let direction = times(largest.signum(), direction);
-    let (base, seen) = plane(points, point, direction)?;
-    let (layers, edges) = (folded_share(&seen), standing(&base)?);
-    let fewer_layers = folded > 0.0 && 2.0 * layers <= folded && edges <= on_edge.max(STANDING);
-    let upright = on_edge > STANDING && edges <= STANDING && layers <= FEW;
-    if !fewer_layers && !upright {
-        return Ok(flat);
+    for (n, direction) in upright::directions(points, normal, progress)?.into_iter().enumerate() {
+        // As that of the least-squares plane: to the side of its largest coordinate.
+        let largest = direction.into_iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { x } else { m });
+        let direction = times(largest.signum(), direction);
+        let (base, seen) = plane(points, point, direction)?;
+        let (layers, edges) = (folded_share(&seen), standing(&base)?);
+        let steep = if layers <= FEW { STEEP } else { STANDING };
+        let fewer_layers = folded > 0.0 && 2.0 * layers <= folded && edges <= on_edge.max(steep);
+        // Normals of noise are upright in some direction of several.
+        let upright = n == 0 && on_edge > STANDING && edges <= STANDING && layers <= FEW;
+        if fewer_layers || upright {
+            let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
+            return Ok((Base { tilted, ..base }, seen));
+        }
     }
-    let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
-    Ok((Base { tilted, ..base }, seen))
+    Ok(flat)
 }
 
 fn xy() -> Base {

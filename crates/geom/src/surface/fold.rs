@@ -8,7 +8,8 @@ const PER_CELL: f64 = 16.0;
 /// Share of the points in cells where two layers lie over one another.
 ///
 /// The points of a cell fall into two groups at the widest gap of their heights. Where it is wider than the cell, and the groups
-/// cannot be told apart by where they lie in the cell, as those of a step can, there are two layers.
+/// cannot be told apart by where they lie in the cell, as those of a step can, there are two layers. Of groups of very different size the
+/// smaller one counts alone: outliers are no layer.
 pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let sides = domain.map(|d| d.1 - d.0);
     let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
@@ -40,25 +41,25 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let folded = |k: usize| {
         let own = &order[starts[k] as usize..starts[k + 1] as usize];
         let own: Vec<([f64; 2], f64)> = own.iter().map(|i| seen[*i as usize]).collect();
-        let count = own.len();
-        if layered(own, cell) { count } else { 0 }
+        layered(own, cell)
     };
     (0..tall.len()).into_par_iter().map(folded).sum::<usize>() as f64 / seen.len() as f64
 }
 
-fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> bool {
+/// How many of the points of a cell lie in layers: all, or where one of two layers has less than a quarter of them, those of that one.
+fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> usize {
     if own.len() < 4 {
-        return false;
+        return 0;
     }
     own.sort_unstable_by(|a, b| a.1.total_cmp(&b.1));
     let gap = |i: &usize| own[*i].1 - own[*i - 1].1;
-    let Some(at) = (1..own.len()).max_by(|a, b| gap(a).total_cmp(&gap(b))) else { return false };
+    let Some(at) = (1..own.len()).max_by(|a, b| gap(a).total_cmp(&gap(b))) else { return 0 };
     if gap(&at) <= cell {
-        return false;
+        return 0;
     }
     let (low, high) = own.split_at(at);
     if low.len().min(high.len()) < 2 {
-        return false;
+        return 0;
     }
     let middle = |part: &[([f64; 2], f64)]| {
         let n = part.len() as f64;
@@ -80,5 +81,14 @@ fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> bool {
     let half = along(&[0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
     let wrong_low = low.iter().filter(|p| along(&p.0) > half).count();
     let wrong_high = high.iter().filter(|p| along(&p.0) < half).count();
-    10 * (wrong_low + wrong_high) > own.len() && wrong_low.min(wrong_high) > 0
+    let apart = 10 * (wrong_low + wrong_high) <= own.len() || wrong_low.min(wrong_high) == 0;
+    let fewer = low.len().min(high.len());
+    if apart {
+        0
+    } else if 4 * fewer < own.len() {
+        // A few points far off are outliers, and the layer of all others is one.
+        fewer
+    } else {
+        own.len()
+    }
 }

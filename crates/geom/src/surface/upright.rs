@@ -33,6 +33,9 @@ const EDGE: f64 = 0.17;
 const APART: f64 = 0.02;
 /// First angle between directions that are tried, radians.
 const COARSE: f64 = 0.1;
+/// Directions that are told, at most, and the cosine of the angle between two of them, 20°.
+const PEAKS: usize = 6;
+const NEAR: f64 = 0.94;
 /// Times that the angle is halved.
 const HALVED: u32 = 8;
 
@@ -103,21 +106,22 @@ fn normals(
     Ok((asked.par_iter().filter_map(of).collect(), asked.len()))
 }
 
-/// The direction, to the side of `normal`, for which the least cosine of the angle to a normal of the surface is greatest; 2 % of
-/// the normals do not count. Normals are those of planes through 16 neighbors. `None` where no points have a plane.
+/// Directions, to the side of `normal`, along which the surface may have heights, the best first: the least cosine of the angle to a
+/// normal of the surface is great for them; 2 % of the normals do not count. The first has the greatest, each other one the greatest of those 20°
+/// and more from all before. Normals are those of planes through 16 neighbors, and to which side they look is not known: a direction
+/// over which the surface folds with steep sides alone may come before one over which it does not. None where no points have a plane.
 ///
 /// Cost: a search among at most 65,536 points, which are every `k`-th.
-pub(super) fn direction(
+pub(super) fn directions(
     points: &[Point],
     normal: Vector,
     progress: &dyn Progress,
-) -> Result<Option<Vector>, Cancelled> {
+) -> Result<Vec<Vector>, Cancelled> {
     let normals: Vec<Vector> =
         normals(points, [POINTS, ASKED], progress)?.0.into_iter().map(|(_, normal)| normal).collect();
-    if normals.is_empty() {
-        return Ok(None);
-    }
-    let Some((u, _)) = unit(cross(normal, least_axis(normal))) else { return Ok(None) };
+    let Some((u, _)) = unit(cross(normal, least_axis(normal))).filter(|_| !normals.is_empty()) else {
+        return Ok(vec![]);
+    };
     let v = cross(normal, u);
     let at = |tilt: f64, turn: f64| {
         let across = plus(times(libm::cos(turn), u), times(libm::sin(turn), v));
@@ -130,15 +134,25 @@ pub(super) fn direction(
         (0..count).map(move |k| (tilt, TAU * k as f64 / count as f64))
     };
     let tried: Vec<Vector> = (0..=rings).flat_map(ring).map(|(tilt, turn)| at(tilt, turn)).collect();
-    let mut scores: Vec<f64> = tried.par_iter().map(|d| score(&normals, *d)).collect();
+    let scores: Vec<f64> = tried.par_iter().map(|d| score(&normals, *d)).collect();
     // Of equal ones the first, which is nearest to the normal.
-    let first = (0..scores.len()).max_by(|a, b| scores[*a].total_cmp(&scores[*b]).then(b.cmp(a)));
-    let Some(first) = first else { return Ok(None) };
-    let (mut best, mut most) = (tried[first], scores.swap_remove(first));
-    for k in 1..=HALVED {
-        if progress.cancelled() {
-            return Err(Cancelled);
+    let mut by_score: Vec<usize> = (0..scores.len()).collect();
+    by_score.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
+    let mut coarse: Vec<usize> = vec![];
+    for k in by_score {
+        if coarse.len() < PEAKS && coarse.iter().all(|c| dot(tried[*c], tried[k]).abs() < NEAR) {
+            coarse.push(k);
         }
+    }
+    if progress.cancelled() {
+        return Err(Cancelled);
+    }
+    Ok(coarse.par_iter().map(|k| climbed(&normals, tried[*k], scores[*k])).collect())
+}
+
+/// The direction near this one of the greatest score.
+fn climbed(normals: &[Vector], mut best: Vector, mut most: f64) -> Vector {
+    for k in 1..=HALVED {
         let angle = COARSE / f64::from(1u32 << k);
         let Some((x, _)) = unit(cross(best, least_axis(best))) else { break };
         let y = cross(best, x);
@@ -148,13 +162,13 @@ pub(super) fn direction(
             unit(plus(best, times(angle, across))).map(|(d, _)| d)
         });
         for tried in around.collect::<Vec<_>>() {
-            let score = score(&normals, tried);
+            let score = score(normals, tried);
             if score > most {
                 (best, most) = (tried, score);
             }
         }
     }
-    Ok(Some(best))
+    best
 }
 
 /// The cosine of the angle to a normal that all but few have at least.

@@ -1,7 +1,7 @@
 //! Points that stand on edge on their base.
 
-use super::super::{BaseKind, Layout, Options, SurfaceFit, fit};
-use super::{scan, spans};
+use super::super::{BaseKind, Layout, Options, STANDING, SurfaceFit, fit};
+use super::{pass, scan, spans};
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::space::Point;
@@ -107,4 +107,34 @@ fn rows_of_a_scanner_are_joined_smoothly() {
             assert!(off < 0.1, "{seed}: {off} at {x} {y}");
         }
     }
+}
+
+/// Franke's function 300 mm high over 100 mm: an eighth of it is steeper than 80°, and it has one height everywhere.
+#[test]
+fn the_steepest_ground_is_seen_from_above() {
+    let points: Vec<Point> = scan(20_000, 0.0, 3).iter().map(|p| [p[0], p[1], 30.0 * p[2]]).collect();
+    let found = fit(&points, &Options { base: BaseKind::Plane, ..spans(30) }, &Silent).unwrap();
+    assert!(found.base.folded_share == 0.0 && found.base.axes[2][2] > 0.99, "{:?}", found.base);
+    assert!(found.far_control_points == 0 && found.base.standing_share <= STANDING);
+    let rms = pass::rms(&found.deviations);
+    assert!(rms < 0.1, "{rms}");
+}
+
+/// A few points far off are no layer, a thin second layer is one.
+#[test]
+fn outliers_are_no_layer() {
+    let random = &mut Random::new(8);
+    let mut off = |share: f64, high: f64, spread: f64| -> f64 {
+        let mut points = scan(20_000, 0.01, 4);
+        for p in &mut points {
+            if random.unit() < share {
+                p[2] += high + spread * (random.unit() - 0.5);
+            }
+        }
+        over_plane(&points).base.folded_share
+    };
+    let [outliers, spikes] = [off(0.05, 0.0, 100.0), off(0.02, 20.0, 0.0)];
+    assert!(outliers < 0.01 && spikes < 0.01, "{outliers} {spikes}");
+    let [half, thin] = [off(0.5, 20.0, 0.0), off(0.1, 20.0, 0.0)];
+    assert!(half > 0.85 && thin > 0.02, "{half} {thin}");
 }
