@@ -1,14 +1,17 @@
 //! Models that a search begins with: the lines and arcs of a first partition, joined with a common tangent.
 
-use super::chain::{Chain, Piece, SegmentKind};
+use super::chain::{Chain, Ends, Piece, SegmentKind};
 use super::criterion::Model;
 use super::facets::angle;
 use super::least::State;
+use super::near::{is_long, mended};
 use super::search::Search;
 use super::start::Part;
 
 /// Fewest parts whose headings may add up to one far off.
 const SEVERAL: usize = 3;
+/// Times that long chains are mended, of which pieces have lost their points.
+const EMPTIED: usize = 6;
 /// Two parts touch each other no farther from the middle between their points than so many times the distance of these.
 const NEAR: f64 = 4.0;
 
@@ -151,11 +154,23 @@ impl Search<'_> {
         let pieces = parts.iter().zip(lengths).zip(curvatures).map(piece).collect();
         let mut breaks: Vec<usize> = parts.iter().map(|p| p.from).collect();
         breaks.push(breaks[0] + n);
-        let chain = Chain { start: points[parts[0].from % n], heading, pieces, closed: false, even: false };
+        let start = points[parts[0].from % n];
+        let chain = Chain { start, heading, pieces, closed: false, even: false, ends: Ends::default() };
         let feet = vec![0.5; n];
         let mut state = State { chain, breaks, feet, sum: 0.0 };
         let stop = self.stop(60, 1e-6);
+        if is_long(&state.chain) {
+            state = self.grown(&state);
+        }
         self.work.improve(&self.row, &mut state, None, &stop);
+        for _ in 0..EMPTIED {
+            let sound = mended(&state);
+            if !is_long(&sound.chain) || sound.chain == state.chain {
+                break;
+            }
+            state = sound;
+            self.work.improve(&self.row, &mut state, None, &stop);
+        }
         if closed || self.even {
             // Nearly closed by the points alone, it is closed by force.
             (state.chain.closed, state.chain.even) = (closed, self.even);

@@ -103,6 +103,17 @@ pub(super) struct Chain {
     pub closed: bool,
     /// At joins of free pieces the curvature does not jump.
     pub even: bool,
+    /// Of a part of a longer chain, what stays as it is at its ends.
+    pub ends: Ends,
+}
+
+/// What stays as it is at the ends of a chain: by itself nothing does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Ends {
+    /// The pose of the start does not move.
+    pub start: bool,
+    /// The pose in which it has to end.
+    pub end: Option<Pose>,
 }
 
 impl Chain {

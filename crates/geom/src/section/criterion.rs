@@ -13,6 +13,15 @@ pub(super) struct Criterion {
     pub resolution: f64,
     /// Points that count.
     pub count: f64,
+    /// What else there is of a chain of which models are a part.
+    pub rest: Option<Rest>,
+}
+
+/// What the other pieces of a chain have: their sum of squares, and their unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    pub sum: f64,
+    pub unknowns: Unknowns,
 }
 
 /// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones.
@@ -38,7 +47,11 @@ impl Criterion {
         if pieces.len() > 1 && pieces.iter().any(meets_itself) {
             return f64::INFINITY;
         }
-        self.cost_of(state.sum, Unknowns::of(&state.chain))
+        let own = Unknowns::of(&state.chain);
+        match self.rest {
+            None => self.cost_of(state.sum, own),
+            Some(rest) => self.cost_of(state.sum + rest.sum, own.and(rest.unknowns)),
+        }
     }
     /// What a sum of squares and so many unknowns cost.
     pub fn cost_of(&self, sum: f64, unknowns: Unknowns) -> f64 {
@@ -50,8 +63,10 @@ impl Criterion {
     /// The sum of squares at which a chain would cost so much.
     pub fn sum_at(&self, cost: f64, chain: &Chain) -> f64 {
         let total = self.count + self.degrees;
-        let mean = libm::exp((cost - self.penalty(Unknowns::of(chain))) / total);
-        (mean - self.resolution * self.resolution) * total - self.degrees * self.noise * self.noise
+        let own = Unknowns::of(chain);
+        let (sum, unknowns) = self.rest.map_or((0.0, own), |rest| (rest.sum, own.and(rest.unknowns)));
+        let mean = libm::exp((cost - self.penalty(unknowns)) / total);
+        (mean - self.resolution * self.resolution) * total - self.degrees * self.noise * self.noise - sum
     }
     fn penalty(&self, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
@@ -89,6 +104,10 @@ impl Unknowns {
             weight: 2.0 + 2.0 * joins + chain.pieces.iter().map(weight).sum::<f64>(),
         }
     }
+    /// Those of a chain without those of a part of it.
+    pub fn less(self, other: Unknowns) -> Unknowns {
+        Unknowns { number: self.number - other.number, weight: self.weight - other.weight }
+    }
     /// Those of two chains.
     pub fn and(self, other: Unknowns) -> Unknowns {
         Unknowns { number: self.number + other.number, weight: self.weight + other.weight }
@@ -104,7 +123,7 @@ pub(super) struct Model {
 
 /// A piece to be made: its kind, the number of its coefficients if it is free, and where it begins and ends on the model it
 /// comes from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Plan {
     pub kind: SegmentKind,
     pub count: usize,

@@ -4,7 +4,7 @@
 //! and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius: a second point of it, or
 //! another arc of the same radius, proves it.
 
-use super::chain::{Chain, Piece, SegmentKind};
+use super::chain::{Chain, Ends, Piece, SegmentKind};
 use super::criterion::Model;
 use super::facets::{angle, length};
 use super::least::State;
@@ -217,7 +217,7 @@ impl Search<'_> {
         };
         let pieces = parts.iter().enumerate().map(piece).collect();
         let heading = libm::atan2(parts[0].along[1], parts[0].along[0]);
-        let chain = Chain { start: start(0), heading, pieces, closed, even: false };
+        let chain = Chain { start: start(0), heading, pieces, closed, even: false, ends: Ends::default() };
         let shift = if closed { n } else { 0 };
         let breaks = parts.iter().map(|p| p.from + shift).chain([parts[0].from + n + shift]).collect();
         let model = Model { state: State { chain, breaks, feet: vec![0.5; n], sum: 0.0 }, cost: 0.0 };

@@ -9,7 +9,7 @@ mod work;
 
 pub(super) use work::{Held, Work};
 
-use super::chain::{Chain, Layout, Pose, SegmentKind, arc_end, arc_to};
+use super::chain::{Chain, Ends, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
 use crate::num::cholesky::Cholesky;
 use normal::end_coefficient;
@@ -59,6 +59,9 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused: rounding is what refuses it, and
 /// the unknowns are within a hundredth of their uncertainty.
 const SETTLED: f64 = 1e-4;
+
+/// Products in the time of one distance.
+const DISTANCE: usize = 40;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -149,6 +152,8 @@ impl Work {
             let table = &self.layout.tables[g];
             let mut products = [0.0; 64];
             let size = block.size;
+            // A distance takes about as long as so many products.
+            self.effort += (to.saturating_sub(from) * (DISTANCE + if full { size * size / 2 } else { 0 })) as f64;
             let mut next = from % count;
             for _ in from..to {
                 let i = next;
@@ -363,6 +368,12 @@ fn copy(to: &mut State, from: &State) {
 
 impl Chain {
     /// Stands in while the chain is elsewhere.
-    const EMPTY: Chain =
-        Chain { start: [0.0; 2], heading: 0.0, pieces: Vec::new(), closed: false, even: false };
+    const EMPTY: Chain = Chain {
+        start: [0.0; 2],
+        heading: 0.0,
+        pieces: Vec::new(),
+        closed: false,
+        even: false,
+        ends: Ends { start: false, end: None },
+    };
 }

@@ -10,6 +10,7 @@
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
 //! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
+//! | `near` | long chains by pieces near each other |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
@@ -55,6 +56,7 @@ mod kept;
 mod least;
 mod levels;
 mod link;
+mod near;
 mod nominal;
 mod paper;
 mod plan;

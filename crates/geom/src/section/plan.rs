@@ -188,7 +188,8 @@ impl Plan<'_> {
         };
         let noise = self.given.unwrap_or(self.own);
         let even = self.options.continuity == Some(Continuity::G2);
-        let criterion = Criterion { noise, degrees, resolution: self.resolution(), count: count as f64 };
+        let (resolution, count) = (self.resolution(), count as f64);
+        let criterion = Criterion { noise, degrees, resolution, count, rest: None };
         let closed = closed && whole;
         Task {
             criterion,

@@ -3,6 +3,7 @@
 use super::chain::{Layout, Pose};
 use super::criterion::Model;
 use super::least::{Held, STIFF, State, Stop};
+use super::near::{Near, is_long, spliced};
 use super::search::Search;
 use crate::num::special::student_quantile;
 
@@ -66,16 +67,58 @@ impl Search<'_> {
                 all.push(interval);
                 continue;
             }
-            for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-                let (end, open, lower) = self.follow(&model.state, &Seek { sign, ..seek });
-                (interval.ends[side], interval.open[side]) = (end, open);
-                better = least(better, lower, &model.state);
-            }
+            let lower = match is_long(&model.state.chain) {
+                true => self.nearby(model, &seek, |search, best, seek| search.both(best, seek, &mut interval)),
+                false => self.both(&model.state, &seek, &mut interval),
+            };
+            better = least(better, lower, &model.state);
             let [a, b] = interval.ends;
             interval.uncertainty = libm::hypot(b[0] - a[0], b[1] - a[1]) / (2.0 * quantile);
             all.push(interval);
         }
         (all, better)
+    }
+
+    /// Follows a join to both ends of its interval; a lower state found on the way.
+    fn both(&mut self, best: &State, seek: &Seek, interval: &mut Interval) -> Option<State> {
+        let mut better = None;
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let (end, open, lower) = self.follow(best, &Seek { sign, ..*seek });
+            (interval.ends[side], interval.open[side]) = (end, open);
+            better = least(better, lower, best);
+        }
+        better
+    }
+
+    /// What `look` finds about a join of a long chain with the pieces near it alone: a lower state of these is one of all.
+    fn nearby(
+        &mut self,
+        model: &Model,
+        seek: &Seek,
+        look: impl FnOnce(&mut Search, &State, &Seek) -> Option<State>,
+    ) -> Option<State> {
+        let mut layout = Layout::default();
+        layout.fill(&model.state.chain);
+        let near = Near::at_join(&self.row, &model.state, &layout, seek.join);
+        if near.is_empty() {
+            return None;
+        }
+        let mut search = near.search(self, &model.state, 0.0);
+        let best = search.settle(&Model { state: near.state.clone(), cost: 0.0 }).state;
+        let join = near.core.start + 1;
+        let pose = search.pose_of(&best, join);
+        let lower = look(&mut search, &best, &Seek { join, pose, ..*seek })?;
+        // Pieces around the seam of a closed chain stay as they are.
+        let whole = near.pieces.end <= model.state.chain.pieces.len();
+        whole.then(|| self.with(model, &near, lower)).flatten()
+    }
+
+    /// The state of a long chain with these pieces changed, where its sum of squares is lower for it.
+    fn with(&mut self, model: &Model, near: &Near, lower: State) -> Option<State> {
+        let row = self.row;
+        let mut state = spliced(&model.state, &[(near.pieces.clone(), lower)], row.points.len());
+        self.work.improve(&row, &mut state, None, &self.stop(30, 1e-6));
+        Some(state).filter(|s| s.sum < lower_than(&model.state))
     }
 
     /// Takes the model's own interval of each join that is not between the ends of that of a looser one: joins of free pieces may be
@@ -100,11 +143,22 @@ impl Search<'_> {
         }
         let mut better = None;
         for seek in self.seeks(model, level).1 {
-            for sign in [-1.0, 1.0] {
-                let seek = Seek { sign, ..seek };
-                let held = self.hold(&model.state, &seek, seek.first.min(FARTHEST * self.spacing));
-                better = least(better, held.filter(|h| h.sum < lower_than(&model.state)), &model.state);
-            }
+            let lower = match is_long(&model.state.chain) {
+                true => self.nearby(model, &seek, |search, best, seek| search.lower(best, seek)),
+                false => self.lower(&model.state, &seek),
+            };
+            better = least(better, lower, &model.state);
+        }
+        better
+    }
+
+    /// A lower state where the join is held at either end.
+    fn lower(&mut self, best: &State, seek: &Seek) -> Option<State> {
+        let mut better = None;
+        for sign in [-1.0, 1.0] {
+            let seek = Seek { sign, ..*seek };
+            let held = self.hold(best, &seek, seek.first.min(FARTHEST * self.spacing));
+            better = least(better, held.filter(|h| h.sum < lower_than(best)), best);
         }
         better
     }
@@ -214,8 +268,12 @@ impl Search<'_> {
 
     /// Where the join is.
     fn place_of(&mut self, state: &State, seek: &Seek) -> [f64; 2] {
+        self.pose_of(state, seek.join).at
+    }
+
+    fn pose_of(&mut self, state: &State, join: usize) -> Pose {
         self.work.layout.fill(&state.chain);
-        self.work.layout.poses[seek.join].at
+        self.work.layout.poses[join]
     }
 }
 

@@ -6,11 +6,16 @@ use super::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::{Criterion, Model, Plan};
 use super::free;
 use super::least::{Row, SOFT, STIFF, State, Stop, Work};
+use super::near::is_long;
 use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
 
 /// A model that is dearer than the best by this much after four steps is not refined.
 const HOPELESS: f64 = 30.0;
+
+/// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
+/// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
+const MOST: f64 = 3e9;
 
 /// The search over the models of one row.
 pub(super) struct Search<'a> {
@@ -54,7 +59,7 @@ impl Search<'_> {
         let mut state = model.state.clone();
         let stop = self.stop(60, 1e-11);
         self.work.improve(&self.row, &mut state, None, &stop);
-        if state.chain.closed || state.chain.even {
+        if state.chain.closed || state.chain.even || state.chain.ends.end.is_some() {
             self.work.improve(&self.row, &mut state, None, &Stop { stiff: STIFF, ..stop });
         }
         let mut before = model.state.clone();
@@ -106,16 +111,25 @@ impl Search<'_> {
         self.model(state)
     }
 
-    /// The cheapest model reachable from the first.
+    /// The cheapest model reachable from the first, as far as the search may go.
     pub fn run(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let mut best = first;
         let mut idle = 0;
+        let mut unchanged = vec![];
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
+            if self.work.effort > MOST {
+                break;
+            }
             let base = self.base(best.clone());
-            let found = self.round(&base);
+            let found = if is_long(&best.state.chain) {
+                self.round_nearby(&base, &mut unchanged)
+            } else {
+                unchanged.clear();
+                self.round(&base)
+            };
             match found.filter(|f| f.cost < best.cost - 1e-6) {
                 Some(found) => {
                     idle = 0;
@@ -131,6 +145,9 @@ impl Search<'_> {
             } else {
                 // The seam goes to another join, so that the pair over it is seen too.
                 best.state = rotated(&best.state, pieces / 2, self.row.points.len());
+                if unchanged.len() == pieces {
+                    unchanged.rotate_left(pieces / 2);
+                }
             }
         }
         Ok(self.settle(&best))
@@ -208,8 +225,16 @@ impl Search<'_> {
 
     /// The best of all models one step away.
     fn round(&mut self, base: &Base) -> Option<Model> {
+        self.round_of(base, |_| true)
+    }
+
+    /// The best of those models one step away that are asked for.
+    pub fn round_of(&mut self, base: &Base, is_asked: impl Fn(&[Plan]) -> bool) -> Option<Model> {
         let mut best: Option<Model> = None;
         for change in base.changes(self.kinds, self.spacing) {
+            if !is_asked(&change) || self.work.effort > MOST {
+                continue;
+            }
             let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));
             let mut model = self.build(base, &change, bar);
             if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.follows(&mut model.state) {

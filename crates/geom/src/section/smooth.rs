@@ -23,6 +23,9 @@ const FAR: f64 = 20.0;
 /// Fewer points to a line or arc do not tell it from a curve.
 const ENOUGH: usize = 10;
 const FINE: f64 = 4.0;
+/// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
+/// then 1.65 times as far off.
+const HOPELESS: f64 = 1.0;
 /// and nearly so up to this many times.
 const NEARLY: f64 = 1.3;
 
@@ -133,8 +136,11 @@ impl Search<'_> {
                 let plan = |k: usize| Plan { kind: SegmentKind::Spline, count, from: at(k), to: at(k + 1) };
                 let plans: Vec<Plan> = (0..pieces).map(plan).collect();
                 let built = self.build(&base, &plans, f64::INFINITY);
-                let mut model = self.settle(&built);
                 let least = best.as_ref().map_or(bar, |b| b.cost);
+                if built.cost > least + HOPELESS * self.criterion.count {
+                    continue;
+                }
+                let mut model = self.settle(&built);
                 if model.cost < least && self.follows(&mut model.state) {
                     (best, better) = (Some(model), true);
                 }

@@ -42,14 +42,16 @@ impl Work {
     fn list(&mut self, chain: &Chain) {
         let last = chain.pieces.len() - 1;
         self.variables.clear();
-        self.variables.push(Variable::Left);
-        self.variables.push(Variable::Turn);
+        if !chain.ends.start {
+            self.variables.push(Variable::Left);
+            self.variables.push(Variable::Turn);
+        }
         if chain.closed {
             self.variables.push(Variable::Forward);
         }
         for (piece, p) in chain.pieces.iter().enumerate() {
-            if chain.closed || piece < last {
-                let after = (!chain.closed).then_some(piece + 1);
+            if chain.closed || piece < last || chain.ends.end.is_some() {
+                let after = (!chain.closed && piece < last).then_some(piece + 1);
                 self.variables.push(Variable::Join { before: piece, after });
             }
             self.variables
@@ -219,6 +221,11 @@ impl Work {
             let whole = std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
             all.extend([start.at[0] - end.at[0], start.at[1] - end.at[1], size(chain) * (whole - turn)]);
         }
+        if let Some(to) = chain.ends.end {
+            let end = self.layout.poses[chain.pieces.len()];
+            let turn = size(chain) * (to.heading - end.heading);
+            all.extend([to.at[0] - end.at[0], to.at[1] - end.at[1], turn]);
+        }
         all.extend(bends(chain).map(|(before, after, scale)| {
             scale
                 * (before.map_or(0.0, |(g, i)| chain.pieces[g].coefficients[i])
@@ -250,6 +257,12 @@ impl Work {
                 all.push(free(of(chain.pieces.len(), &|m| moved(m, end.at)[k])));
             }
             all.push(free(of(chain.pieces.len(), &|m| size(chain) * m[2])));
+        }
+        if chain.ends.end.is_some() {
+            let n = chain.pieces.len();
+            let end = self.layout.poses[n];
+            all.extend((0..2).map(|k| of(n, &|m| moved(m, end.at)[k])));
+            all.push(of(n, &|m| size(chain) * m[2]));
         }
         for (before, after, scale) in bends(chain) {
             let is = |v: &Variable, end: Option<(usize, usize)>| {

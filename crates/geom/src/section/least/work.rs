@@ -108,4 +108,6 @@ pub(in crate::section) struct Work {
     /// Signed distances of the points last measured.
     pub(super) distances: Vec<f64>,
     pub(super) stiff: f64,
+    /// Products summed so far.
+    pub effort: f64,
 }
