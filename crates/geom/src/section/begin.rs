@@ -3,8 +3,8 @@
 use super::chain::{Chain, Ends, Piece, SegmentKind};
 use super::criterion::Model;
 use super::facets::angle;
-use super::least::State;
-use super::near::{is_long, mended};
+use super::least::{State, Stop};
+use super::near::mended;
 use super::search::Search;
 use super::start::Part;
 
@@ -159,17 +159,14 @@ impl Search<'_> {
         let feet = vec![0.5; n];
         let mut state = State { chain, breaks, feet, sum: 0.0 };
         let stop = self.stop(60, 1e-6);
-        if is_long(&state.chain) {
-            state = self.grown(&state);
-        }
-        self.work.improve(&self.row, &mut state, None, &stop);
-        for _ in 0..EMPTIED {
-            let sound = mended(&state);
-            if !is_long(&sound.chain) || sound.chain == state.chain {
-                break;
+        let start = state.clone();
+        self.improved(&mut state, &stop);
+        if start.chain.is_long() && !self.is_near(&state) {
+            let mut grown = self.grown(&start);
+            self.improved(&mut grown, &stop);
+            if self.criterion.cost(&grown) < self.criterion.cost(&state) {
+                state = grown;
             }
-            state = sound;
-            self.work.improve(&self.row, &mut state, None, &stop);
         }
         if closed || self.even {
             // Nearly closed by the points alone, it is closed by force.
@@ -178,6 +175,21 @@ impl Search<'_> {
             self.work.improve(&self.row, &mut state, None, &stop);
         }
         self.model(state)
+    }
+}
+
+impl Search<'_> {
+    /// Improves a state; a long one is mended where pieces have lost their points.
+    fn improved(&mut self, state: &mut State, stop: &Stop) {
+        self.work.improve(&self.row, state, None, stop);
+        for _ in 0..EMPTIED {
+            let sound = mended(state);
+            if !sound.chain.is_long() || sound.chain == state.chain {
+                break;
+            }
+            *state = sound;
+            self.work.improve(&self.row, state, None, stop);
+        }
     }
 }
 

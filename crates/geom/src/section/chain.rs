@@ -93,6 +93,9 @@ impl Pose {
     }
 }
 
+/// Chains of more pieces are searched by pieces near each other.
+const MANY: usize = 16;
+
 /// A chain of pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chain {
@@ -126,6 +129,10 @@ impl Chain {
             all.push(sum);
         }
         all
+    }
+    /// Whether it is searched by pieces near each other.
+    pub fn is_long(&self) -> bool {
+        self.pieces.len() > MANY
     }
     /// Number of joins.
     pub fn joins(&self) -> usize {

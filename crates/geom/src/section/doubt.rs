@@ -8,8 +8,9 @@ use super::criterion::Unknowns;
 use super::facets::angle;
 use super::plan::{Chains, Plan, SHARP};
 use super::result::SectionError;
-use super::span::{Found, Span};
+use super::span::Found;
 use super::start::Part;
+use super::task::Span;
 use crate::progress::Progress;
 
 /// Corners that are doubted: of more, those that turn least. Each takes a search.

@@ -153,7 +153,8 @@ impl Work {
             let mut products = [0.0; 64];
             let size = block.size;
             // A distance takes about as long as so many products.
-            self.effort += (to.saturating_sub(from) * (DISTANCE + if full { size * size / 2 } else { 0 })) as f64;
+            self.effort +=
+                (to.saturating_sub(from) * (DISTANCE + if full { size * size / 2 } else { 0 })) as f64;
             let mut next = from % count;
             for _ in from..to {
                 let i = next;

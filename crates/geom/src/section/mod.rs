@@ -10,7 +10,7 @@
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
 //! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
-//! | `near` | long chains by pieces near each other |
+//! | `near`, `blocks` | long chains by pieces near each other; long rows by blocks of points |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
@@ -25,7 +25,7 @@
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
-//! | `plan`, `span`, `doubt` | corners, chains between them; corners that are none |
+//! | `plan`, `task`, `span`, `doubt` | corners, chains between them; corners that are none |
 //! | `contour`, `convert` | the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -35,6 +35,7 @@ mod assembly;
 mod base;
 mod begin;
 mod bent;
+mod blocks;
 mod chain;
 mod contour;
 mod convert;
@@ -71,6 +72,7 @@ mod smooth;
 mod span;
 mod stack;
 mod start;
+mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;

@@ -12,8 +12,6 @@ use super::search::Search;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Chains of more pieces are searched by pieces near each other.
-const MANY: usize = 16;
 /// Pieces on either side that are fitted anew with what is looked at: while models are compared, and while a join is profiled. Of chains of
 /// arcs, ends of intervals are then those of a fit of all pieces to a hundredth.
 const BESIDE: usize = 3;
@@ -31,11 +29,6 @@ pub(super) struct Near {
     points: Vec<[f64; 2]>,
     weights: Vec<f64>,
     pub state: State,
-}
-
-/// Whether a chain is searched by pieces near each other.
-pub(super) fn is_long(chain: &Chain) -> bool {
-    chain.pieces.len() > MANY
 }
 
 impl Near {
@@ -113,7 +106,14 @@ impl Near {
         let (all_unknowns, unknowns) = (Unknowns::of(&all.chain), Unknowns::of(&self.state.chain));
         let rest = Rest { sum: (all.sum - own).max(0.0), unknowns: all_unknowns.less(unknowns) };
         let criterion = super::criterion::Criterion { rest: Some(rest), ..whole.criterion };
-        Search { row: self.row(), criterion, work: Work::default(), hasty: None, ..*whole }
+        Search {
+            row: self.row(),
+            criterion,
+            work: Work::default(),
+            hasty: None,
+            until: f64::INFINITY,
+            ..*whole
+        }
     }
 }
 
@@ -224,15 +224,18 @@ impl Search<'_> {
         let mut layout = Layout::default();
         let stop = self.stop(30, 1e-4);
         for next in 0..count {
-            layout.fill(&grown.chain);
-            let near = Near::of(&row, &grown, &layout, next.saturating_sub(BESIDE_JOIN)..next + 1);
-            if near.is_empty() {
-                continue;
+            // By itself first, with its join: that brings it to its points.
+            for before in [1, BESIDE_JOIN] {
+                layout.fill(&grown.chain);
+                let near = Near::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
+                if near.is_empty() {
+                    continue;
+                }
+                let mut state = near.state.clone();
+                self.work.improve(&near.row(), &mut state, None, &stop);
+                state.chain.ends = Ends::default();
+                grown = spliced(&grown, &[(near.pieces, state)], row.points.len());
             }
-            let mut state = near.state.clone();
-            self.work.improve(&near.row(), &mut state, None, &stop);
-            state.chain.ends = Ends::default();
-            grown = spliced(&grown, &[(near.pieces, state)], row.points.len());
         }
         grown
     }

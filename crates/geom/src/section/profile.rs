@@ -3,7 +3,7 @@
 use super::chain::{Layout, Pose};
 use super::criterion::Model;
 use super::least::{Held, STIFF, State, Stop};
-use super::near::{Near, is_long, spliced};
+use super::near::{Near, spliced};
 use super::search::Search;
 use crate::num::special::student_quantile;
 
@@ -67,8 +67,10 @@ impl Search<'_> {
                 all.push(interval);
                 continue;
             }
-            let lower = match is_long(&model.state.chain) {
-                true => self.nearby(model, &seek, |search, best, seek| search.both(best, seek, &mut interval)),
+            let lower = match model.state.chain.is_long() {
+                true => {
+                    self.nearby(model, &seek, |search, best, seek| search.both(best, seek, &mut interval))
+                }
                 false => self.both(&model.state, &seek, &mut interval),
             };
             better = least(better, lower, &model.state);
@@ -143,7 +145,7 @@ impl Search<'_> {
         }
         let mut better = None;
         for seek in self.seeks(model, level).1 {
-            let lower = match is_long(&model.state.chain) {
+            let lower = match model.state.chain.is_long() {
                 true => self.nearby(model, &seek, |search, best, seek| search.lower(best, seek)),
                 false => self.lower(&model.state, &seek),
             };
@@ -305,4 +307,75 @@ fn lower_than(best: &State) -> f64 {
 fn least(better: Option<State>, lower: Option<State>, best: &State) -> Option<State> {
     let sum = better.as_ref().map_or(best.sum, |b| b.sum);
     lower.filter(|l| l.sum < sum * (1.0 - 1e-6)).or(better)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::chain::{Chain, Ends, Piece};
+    use super::super::criterion::Criterion;
+    use super::super::least::{Row, Work};
+    use super::*;
+    use crate::num::random::Random;
+
+    /// Intervals by the pieces near a join are those by all pieces of a chain.
+    #[test]
+    fn intervals_nearby_are_those_of_the_whole_chain() {
+        let random = &mut Random::new(4);
+        let pieces: Vec<Piece> = (0..24)
+            .map(|k| match k % 4 {
+                0 | 2 => Piece::line(3.0),
+                1 => Piece::arc(2.0, 0.5),
+                _ => Piece::arc(2.5, -0.4),
+            })
+            .collect();
+        let chain = Chain {
+            start: [0.0; 2],
+            heading: 0.3,
+            pieces,
+            closed: false,
+            even: false,
+            ends: Ends::default(),
+        };
+        let mut layout = Layout::default();
+        layout.fill(&chain);
+        let (mut points, mut breaks) = (vec![], vec![0]);
+        for (g, piece) in chain.pieces.iter().enumerate() {
+            for i in 0..20 {
+                let length = piece.length * (f64::from(i) + 0.5) / 20.0;
+                let turn = length * piece.curvature(0.0);
+                let p = layout.poses[g].place(super::super::chain::arc_end(length, turn));
+                points.push(p.map(|x| x + 0.01 * (random.unit() - 0.5)));
+            }
+            breaks.push(points.len());
+        }
+        let weights = vec![1.0; points.len()];
+        let count = points.len() as f64;
+        let mut search = Search {
+            row: Row { points: &points, weights: &weights },
+            criterion: Criterion { noise: 0.003, degrees: 0.0, resolution: 1e-9, count, rest: None },
+            work: Work::default(),
+            spacing: 0.13,
+            kinds: [true; 2],
+            even: false,
+            hasty: None,
+            shortest: 1.0,
+            until: f64::INFINITY,
+        };
+        let state = State { chain, breaks, feet: vec![0.5; points.len()], sum: 0.0 };
+        let model = search.settle(&Model { state, cost: 0.0 });
+        let none = Interval { ends: [[0.0; 2]; 2], uncertainty: 0.0, open: [false; 2] };
+        let seeks = search.seeks(&model, 0.95).1;
+        assert_eq!(seeks.len(), 23);
+        for seek in seeks {
+            let (mut near, mut whole) = (none, none);
+            search.both(&model.state, &seek, &mut whole);
+            search.nearby(&model, &seek, |search, best, seek| search.both(best, seek, &mut near));
+            let size = libm::hypot(whole.ends[1][0] - whole.ends[0][0], whole.ends[1][1] - whole.ends[0][1]);
+            for (a, b) in near.ends.iter().zip(whole.ends) {
+                let off = libm::hypot(a[0] - b[0], a[1] - b[1]);
+                assert!(off < 0.03 * size, "join {}: {near:?} {whole:?}", seek.join);
+            }
+        }
+    }
 }

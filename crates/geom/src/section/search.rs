@@ -6,7 +6,6 @@ use super::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::{Criterion, Model, Plan};
 use super::free;
 use super::least::{Row, SOFT, STIFF, State, Stop, Work};
-use super::near::is_long;
 use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
 
@@ -15,7 +14,7 @@ const HOPELESS: f64 = 30.0;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
 /// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
-const MOST: f64 = 3e9;
+const MOST: f64 = 1e10;
 
 /// The search over the models of one row.
 pub(super) struct Search<'a> {
@@ -32,6 +31,8 @@ pub(super) struct Search<'a> {
     pub hasty: Option<&'a Cell<bool>>,
     /// Least length of a piece, in distances between points.
     pub shortest: f64,
+    /// Products after which a search ends.
+    pub until: f64,
 }
 
 impl Search<'_> {
@@ -56,8 +57,13 @@ impl Search<'_> {
 
     /// Converged; as it was where that runs into a loop.
     pub fn settle(&mut self, model: &Model) -> Model {
+        self.settled(model, 60)
+    }
+
+    /// The same within so many steps.
+    pub fn settled(&mut self, model: &Model, steps: usize) -> Model {
         let mut state = model.state.clone();
-        let stop = self.stop(60, 1e-11);
+        let stop = self.stop(steps, 1e-11);
         self.work.improve(&self.row, &mut state, None, &stop);
         if state.chain.closed || state.chain.even || state.chain.ends.end.is_some() {
             self.work.improve(&self.row, &mut state, None, &Stop { stiff: STIFF, ..stop });
@@ -111,20 +117,36 @@ impl Search<'_> {
         self.model(state)
     }
 
-    /// The cheapest model reachable from the first, as far as the search may go.
+    /// The cheapest model reachable from the first, as far as the search may go. Of a long one steps are looked for by pieces near each other;
+    /// where that does not lead to the points, by all pieces.
     pub fn run(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
+        let long = first.state.chain.is_long();
+        let start = long.then(|| first.clone());
+        let mut found = self.rounds(first, long, progress)?;
+        if let Some(start) = start.filter(|_| !self.is_near(&found.state)) {
+            let other = self.rounds(start, false, progress)?;
+            if other.cost < found.cost {
+                found = other;
+            }
+        }
+        Ok(self.settle(&found))
+    }
+
+    /// Rounds of the search.
+    fn rounds(&mut self, first: Model, nearby: bool, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
+        self.until = self.work.effort + MOST;
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            if self.work.effort > MOST {
+            if self.work.effort > self.until {
                 break;
             }
             let base = self.base(best.clone());
-            let found = if is_long(&best.state.chain) {
+            let found = if nearby && best.state.chain.is_long() {
                 self.round_nearby(&base, &mut unchanged)
             } else {
                 unchanged.clear();
@@ -150,7 +172,7 @@ impl Search<'_> {
                 }
             }
         }
-        Ok(self.settle(&best))
+        Ok(best)
     }
 
     /// The cheapest model over two chains, where one costs less than `bar`.
@@ -232,7 +254,7 @@ impl Search<'_> {
     pub fn round_of(&mut self, base: &Base, is_asked: impl Fn(&[Plan]) -> bool) -> Option<Model> {
         let mut best: Option<Model> = None;
         for change in base.changes(self.kinds, self.spacing) {
-            if !is_asked(&change) || self.work.effort > MOST {
+            if !is_asked(&change) || self.work.effort > self.until {
                 continue;
             }
             let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));

@@ -3,6 +3,7 @@
 use super::chain::SegmentKind;
 use super::criterion::{Model, Plan};
 use super::free;
+use super::least::State;
 use super::search::Search;
 use super::start::Part;
 use crate::progress::{Cancelled, Progress};
@@ -40,7 +41,7 @@ impl Search<'_> {
     ) -> Result<Model, Cancelled> {
         let plain = self.plain(parts, closed);
         let first = self.cheapest(plain.clone(), parts, closed);
-        let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first);
+        let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first.state);
         let Some(smooth) = self.smooth(&plain, first.cost) else {
             return if self.gives_up(lost) { Ok(first) } else { self.run(first, progress) };
         };
@@ -57,11 +58,11 @@ impl Search<'_> {
             }
         }
         // Free pieces that nearly follow the points may stand for lines and arcs that are not far from the first model.
-        let hopeful = self.is_within(&found, NEARLY)
-            && !self.is_near(&first)
+        let hopeful = self.is_within(&found.state, NEARLY)
+            && !self.is_near(&first.state)
             && self.row.points.len() >= ENOUGH * parts.len()
             && first.cost < found.cost + FAR;
-        if !hopeful && (self.is_near(&found) || self.gives_up(lost)) {
+        if !hopeful && (self.is_near(&found.state) || self.gives_up(lost)) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
@@ -109,13 +110,13 @@ impl Search<'_> {
     }
 
     /// Whether the points are no farther off than local fits tell.
-    fn is_near(&self, model: &Model) -> bool {
-        self.is_within(model, KNOWN)
+    pub fn is_near(&self, state: &State) -> bool {
+        self.is_within(state, KNOWN)
     }
 
     /// Whether the points are no farther off than so many times what local fits tell.
-    fn is_within(&self, model: &Model, times: f64) -> bool {
-        let off = (model.state.sum / self.criterion.count).sqrt();
+    fn is_within(&self, state: &State, times: f64) -> bool {
+        let off = (state.sum / self.criterion.count).sqrt();
         off <= (times * self.criterion.noise).max(FINE * self.criterion.resolution)
     }
 
@@ -145,7 +146,7 @@ impl Search<'_> {
                     (best, better) = (Some(model), true);
                 }
             }
-            if best.as_ref().is_some_and(|b| !better || self.is_near(b)) {
+            if best.as_ref().is_some_and(|b| !better || self.is_near(&b.state)) {
                 break;
             }
         }

@@ -1,15 +1,16 @@
 //! A part of a row between two corners, or a whole closed row without any: one chain.
 
 use super::base::Base;
+use super::blocks::Blocks;
 use super::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
-use super::criterion::{Criterion, Model};
+use super::criterion::Model;
 use super::facets::angle;
-use super::least::{Row, Spread, State, Work};
+use super::least::{Spread, State, Work};
 use super::profile::Interval;
 use super::search::Search;
 use super::start::{Part, shares};
+use super::task::{Span, Task};
 use crate::progress::{Cancelled, Progress};
-use std::cell::Cell;
 
 /// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
 /// its own shape for certain, and intervals come out too short.
@@ -27,40 +28,10 @@ const QUIET: f64 = 0.25;
 const STARTS: [usize; 3] = [4, 8, 16];
 const EACH: usize = 4;
 
-/// Least length of a piece that is known, in distances between points.
-const KNOWN: f64 = 0.1;
+/// Steps by all points from where blocks of them have led to.
+const POLISHED: usize = 6;
 /// More points than this are thinned while pieces are looked for.
 const SEARCHED: usize = 1500;
-
-/// Points of one chain, in a row of their own.
-#[derive(Clone, Debug)]
-pub(super) struct Span {
-    /// Their numbers in the cleaned row.
-    pub numbers: Vec<usize>,
-    pub points: Vec<[f64; 2]>,
-    pub weights: Vec<f64>,
-}
-
-/// How the chain of a span is looked for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Task<'a> {
-    pub criterion: Criterion,
-    /// Standard deviation of the noise, given or of local fits, whichever is more.
-    pub scatter: f64,
-    pub spacing: f64,
-    /// Step at which points are followed.
-    pub step: usize,
-    pub closed: bool,
-    /// At joins of free pieces the curvature must not jump.
-    pub even: bool,
-    pub level: f64,
-    /// The pieces are those of the parts: nothing is searched.
-    pub known: bool,
-    /// As of the search.
-    pub hasty: Option<&'a Cell<bool>>,
-    /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
-    pub draft: bool,
-}
 
 /// A chain found.
 pub(super) struct Found {
@@ -80,28 +51,6 @@ pub(super) struct Found {
 }
 
 impl Span {
-    pub fn new(all: &[[f64; 2]], weights: &[f64], numbers: Vec<usize>) -> Span {
-        let points = numbers.iter().map(|i| all[*i]).collect();
-        let weights = numbers.iter().map(|i| weights[*i]).collect();
-        Span { numbers, points, weights }
-    }
-
-    fn search<'a>(&'a self, task: &Task<'a>) -> Search<'a> {
-        let row = self.row();
-        let criterion = Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion };
-        let (work, kinds) = (Work::default(), [true, true]);
-        Search {
-            row,
-            criterion,
-            work,
-            spacing: task.spacing,
-            kinds,
-            even: task.even,
-            hasty: task.hasty,
-            shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
-        }
-    }
-
     /// Sum of squares of the chain of these parts.
     pub fn sum(&self, parts: &[Part], task: &Task) -> f64 {
         let mut search = self.search(task);
@@ -130,7 +79,16 @@ impl Span {
             }
         }
         let mut search = self.search(task);
-        let found = settle(&mut search, best, task, progress)?;
+        let found = match Blocks::of(&self, &best.state).filter(|_| best.state.chain.joins() > 0) {
+            None => settle(&mut search, best, task, progress)?,
+            Some(blocks) => {
+                let own = blocks.task(task);
+                let (_, intervals, ..) =
+                    settle(&mut blocks.span.search(&own), blocks.model(), &own, progress)?;
+                let noise = search.variance(&best.state).0.sqrt();
+                (best.state, intervals, noise, std::mem::take(&mut search.work))
+            }
+        };
         let astray = self.is_astray(&found.0, task);
         Ok(Found { astray, ..self.found(found) })
     }
@@ -207,10 +165,6 @@ impl Span {
                 .contains(&(length / way))
     }
 
-    fn row(&self) -> Row<'_> {
-        Row { points: &self.points, weights: &self.weights }
-    }
-
     /// The pieces found from a start of these parts.
     fn search_from(&self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
@@ -253,8 +207,13 @@ impl Span {
         breaks[last] = breaks[0] + n;
         let feet = (0..n).map(|i| found.feet[(i / step).min(few - 1)]).collect();
         let mut search = self.search(task);
-        let model = Model { state: State { chain: found.chain, breaks, feet, sum: 0.0 }, cost: 0.0 };
-        Ok(search.settle(&model))
+        let state = State { chain: found.chain, breaks, feet, sum: 0.0 };
+        let Some(blocks) = Blocks::of(self, &state) else {
+            return Ok(search.settle(&Model { state, cost: 0.0 }));
+        };
+        let by_blocks = blocks.span.search(&blocks.task(task)).settle(&blocks.model());
+        let model = blocks.whole(by_blocks.state);
+        Ok(search.settled(&model, POLISHED))
     }
 
     fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {

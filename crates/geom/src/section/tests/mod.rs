@@ -3,6 +3,7 @@
 mod astray;
 mod direction;
 mod levels;
+mod long;
 mod outlines;
 mod resolved;
 mod scattered;
