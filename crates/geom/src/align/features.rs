@@ -38,6 +38,36 @@ fn relation(a: Oriented, b: Oriented, step: f64) -> Option<[f64; 4]> {
     Some([length / step, angle(dot(a.1, x)), angle(dot(b.1, x)), angle(dot(a.1, b.1))])
 }
 
+/// The cosines between the cells of the angles.
+fn walls() -> [f64; ANGLES - 1] {
+    std::array::from_fn(|k| libm::cos((k + 1) as f64 * (PI / ANGLES as f64)))
+}
+
+/// The cells of the four numbers, without arc cosines. `None` for pairs nearer than `least`.
+fn cells_of(
+    a: Oriented,
+    b: Oriented,
+    step: f64,
+    least: f64,
+    walls: &[f64; ANGLES - 1],
+) -> Option<[usize; 4]> {
+    let away = minus(b.0, a.0);
+    let length = dot(away, away).sqrt();
+    if length.partial_cmp(&least.max(f64::MIN_POSITIVE)).is_none_or(|o| o.is_lt()) {
+        return None;
+    }
+    let angle = |c: f64| {
+        let mut beyond = 0u32;
+        for wall in walls {
+            beyond += u32::from(c <= *wall);
+        }
+        beyond as usize
+    };
+    let cosines = [dot(a.1, away) / length, dot(b.1, away) / length, dot(a.1, b.1)];
+    let [first, second, between] = cosines.map(angle);
+    Some([(length / step) as usize, first, second, between])
+}
+
 impl PairTable {
     /// Of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of places.
     pub fn new(sample: &Samples, step: f64, least: f64) -> PairTable {
@@ -46,11 +76,11 @@ impl PairTable {
         let longest = sample.iter().flat_map(|a| sample.iter().map(move |b| minus(b.0, a.0)));
         let longest = longest.fold(0.0f64, |m, v| m.max(dot(v, v))).sqrt();
         let lengths = (longest / step) as usize + 1;
+        let walls = walls();
         let keys: Vec<Vec<u32>> = (sample.par_iter())
             .map(|&a| {
-                let key = |&b: &Oriented| match relation(a, b, step) {
-                    Some(r) if r[0] * step >= least => cell(r.map(|x| x as usize), lengths) as u32,
-                    _ => u32::MAX,
+                let key = |&b: &Oriented| {
+                    cells_of(a, b, step, least, &walls).map_or(u32::MAX, |at| cell(at, lengths) as u32)
                 };
                 sample.iter().map(key).collect()
             })
@@ -72,25 +102,31 @@ impl PairTable {
         PairTable { sample, step, lengths, first, pairs }
     }
 
-    /// Pairs of the reference that lie to each other about as these two: those of its cell and of the nearer neighbors.
-    pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
-        let Some(r) = relation(a, b, self.step) else { return vec![] };
-        // The cell in which the number lies, and the one on the side to which it is nearer.
-        let near = r.map(|x| {
-            let low = (x - 0.5).floor();
-            [low, low + 1.0]
-        });
+    /// Where the pairs of the reference are that lie to each other about as these two: those of its cell and of the nearer neighbors.
+    fn near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let relation = relation(a, b, self.step);
         let limits = [self.lengths, ANGLES, ANGLES, ANGLES];
-        let mut found = vec![];
-        for corner in 0..16usize {
-            let at: [f64; 4] = std::array::from_fn(|k| near[k][corner >> k & 1]);
+        let range = move |corner: usize| {
+            // The cell in which the number lies, and the one on the side to which it is nearer.
+            let low = relation?.map(|x| (x - 0.5).floor());
+            let at: [f64; 4] = std::array::from_fn(|k| low[k] + (corner >> k & 1) as f64);
             if (0..4).any(|k| at[k] < 0.0 || at[k] >= limits[k] as f64) {
-                continue;
+                return None;
             }
             let k = cell(at.map(|x| x as usize), self.lengths);
-            found.extend_from_slice(&self.pairs[self.first[k] as usize..self.first[k + 1] as usize]);
-        }
-        found
+            Some(self.first[k] as usize..self.first[k + 1] as usize)
+        };
+        (0..16).filter_map(range)
+    }
+
+    /// The pairs of the reference that lie to each other about as these two.
+    pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
+        self.near(a, b).flat_map(|range| &self.pairs[range]).copied().collect()
+    }
+
+    /// How many these are.
+    pub fn count_like(&self, a: Oriented, b: Oriented) -> usize {
+        self.near(a, b).map(|range| range.len()).sum()
     }
 
     /// The motion that lays the measured pair on a pair of the reference. `None` where a frame has no direction.

@@ -1,22 +1,29 @@
 //! A grid about the reference that tells at once how far a place is from it, about: for trying very many poses.
+//!
+//! A cell is 8 bytes and samples are tried eight at a time in single precision: first where each of them comes to lie, then their
+//! cells all at once, then what they say. The grid of a part then lies in the second-level cache, and the loads of a block go
+//! side by side. All is in units of cells. No operation is fused or put in another order: all levels give the same bits.
 
-use super::sample::agree;
+use super::sample::Samples;
 use crate::closest::{Query, QueryError, Tree};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::simd::widest::widest;
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, times, unit};
 
 /// Cells along the diagonal of the reference's box.
 const ALONG: f64 = 72.0;
+/// The greatest number of a cell.
+const FULL: f64 = 32767.0;
+/// Samples that are tried at once.
+pub(super) const LANES: usize = 8;
+/// Added to a number below 2²², it leaves the nearest whole number in the last bits.
+const ROUND: f32 = 12_582_912.0;
 
-/// What a cell knows of the surface near its middle.
-#[derive(Clone, Copy)]
-struct Cell {
-    /// Distance of its middle along the normal; infinite where the surface is beyond reach.
-    height: f32,
-    /// Normal of the nearest facet.
-    normal: [f32; 3],
-}
+/// What a cell knows of the surface near its middle: its distance along the normal, in steps of [`Field::step`], and the three
+/// components of the normal of the nearest facet, 16 bits each from the least. Where the surface is beyond reach: as far as can be told.
+type Cell = u64;
 
 /// Distances near a mesh.
 pub(super) struct Field {
@@ -24,13 +31,21 @@ pub(super) struct Field {
     /// Cells a millimeter.
     scale: f64,
     counts: [usize; 3],
+    /// The last one is for all places outside of the grid.
     cells: Vec<Cell>,
+    /// Cells a step of a cell's distance.
+    step: f32,
     /// Distance beyond which a place does not count.
     pub reach: f64,
 }
 
+fn cell_of(steps: f64, normal: Vector) -> Cell {
+    let part = |x: f64| u64::from(x.round().clamp(-FULL, FULL) as i16 as u16);
+    part(steps) | part(FULL * normal[0]) << 16 | part(FULL * normal[1]) << 32 | part(FULL * normal[2]) << 48
+}
+
 impl Field {
-    /// Of `mesh` with search tree `tree`, as far as `reach`. Cost: some hundred thousand closest points.
+    /// Of `mesh` with search tree `tree`, as far as `reach`. Cost: some ten thousand closest points.
     pub fn new(
         mesh: &Mesh,
         tree: &Tree,
@@ -47,43 +62,143 @@ impl Field {
             std::array::from_fn(|k| low[k] + (at[k] as f64 + 0.5) * cell)
         };
         let middles: Vec<Point> = (0..counts.iter().product()).map(middle).collect();
-        let far = Cell { height: f32::INFINITY, normal: [0.0; 3] };
+        // Twice of what is looked for is as far as can be told: beyond reach from everywhere in the cell.
+        let step = 2.0 * (reach + cell) / FULL;
+        let far = cell_of(FULL, [0.0; 3]);
         let query = Query { max_distance: reach + cell, ..Query::default() };
-        let cells = tree.map_closest(&middles, &query, progress, |i, hit| {
+        let mut cells = tree.map_closest(&middles, &query, progress, |i, hit| {
             let Some(hit) = hit else { return far };
             let Some(normal) = facet_normal(mesh, hit.face) else { return far };
             let away = minus(middles[i], tree.place(&middles[i], &hit).point);
             // Beside a rim the distance is longer than its share along the normal.
             let height = hit.distance().copysign(dot(away, normal));
-            Cell { height: height as f32, normal: normal.map(|x| x as f32) }
+            cell_of(height / step, normal)
         })?;
-        Ok(Field { low, scale: 1.0 / cell, counts, cells, reach })
+        cells.push(far);
+        Ok(Field { low, scale: 1.0 / cell, counts, cells, step: (step / cell) as f32, reach })
     }
 
-    /// How well a place with this normal (or none) fits the surface: 1 on it, 0 beyond `reach` of it or turned away.
-    #[inline(always)]
-    pub fn worth(&self, p: Point, normal: Vector, oriented: bool, reach: f64) -> f64 {
-        let at: [f64; 3] = std::array::from_fn(|k| (p[k] - self.low[k]) * self.scale);
-        if !(0..3).all(|k| at[k] >= 0.0 && at[k] < self.counts[k] as f64) {
-            return 0.0;
+    /// The same as numbers of cells, for blocks about `middle`.
+    pub fn placed(&self, pose: &Rigid, middle: Point) -> Placed {
+        let rows = pose.rotation();
+        let middle = pose.point(middle);
+        Placed {
+            turn: rows.map(|r| r.map(|x| x as f32)),
+            rows: rows.map(|r| r.map(|x: f64| (x * self.scale) as f32)),
+            shift: std::array::from_fn(|k| ((middle[k] - self.low[k]) * self.scale - 0.5) as f32),
         }
-        let [x, y, z] = at.map(|x| x as usize);
-        let cell = &self.cells[(z * self.counts[1] + y) * self.counts[0] + x];
-        if !cell.height.is_finite() {
-            return 0.0;
+    }
+
+    /// How well samples fit the surface, one after the other: the sum over them of 1 on it, 0 beyond `reach` of it or turned away.
+    pub fn worth(&self, placed: &Placed, blocks: &[Block], reach: f64) -> f64 {
+        let per_reach = (1.0 / (reach * self.scale)) as f32;
+        let sums = worths(self, placed, blocks, per_reach);
+        sums.iter().map(|s| f64::from(*s)).sum()
+    }
+}
+
+/// A pose in units of cells.
+pub(super) struct Placed {
+    /// Rotation, and the same with millimeters made cells.
+    turn: [[f32; 3]; 3],
+    rows: [[f32; 3]; 3],
+    /// Where the middle of the samples comes to lie, from the middle of the first cell.
+    shift: [f32; 3],
+}
+
+/// Some samples, side by side.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Block {
+    /// From a middle, millimeters.
+    points: [[f32; LANES]; 3],
+    normals: [[f32; LANES]; 3],
+    /// The least cosine of the angle between normals; none agrees with what fills up the last block.
+    least: [f32; LANES],
+    /// 1 where the normal may point either way, else 0.
+    either: f32,
+}
+
+impl Block {
+    /// All samples, from `middle`.
+    pub fn of(samples: &Samples, middle: Point) -> Vec<Block> {
+        let parts = samples.points.chunks(LANES).zip(samples.normals.chunks(LANES));
+        let block = |(points, normals): (&[Point], &[Vector])| {
+            let mut block = Block {
+                least: [f32::INFINITY; LANES],
+                either: if samples.oriented { 0.0 } else { 1.0 },
+                ..Block::default()
+            };
+            for (l, (p, n)) in points.iter().zip(normals).enumerate() {
+                let p = minus(*p, middle);
+                for k in 0..3 {
+                    block.points[k][l] = p[k] as f32;
+                    block.normals[k][l] = n[k] as f32;
+                }
+                // No normal agrees with all.
+                block.least[l] = if *n == [0.0; 3] { -1.0 } else { TURNED };
+            }
+            block
+        };
+        parts.map(block).collect()
+    }
+}
+
+widest! {
+    /// The sums of the worths of every eighth sample.
+    fn worths[][](field: &Field, placed: &Placed, blocks: &[Block], per_reach: f32) -> [f32; LANES] = {
+        let mut sums = [0.0f32; LANES];
+        let outside = field.cells.len() - 1;
+        let counts = field.counts.map(|c| c as u32);
+        for block in blocks {
+            let [x, y, z] = &block.points;
+            let (mut index, mut off) = ([[0u32; LANES]; 3], [[0.0f32; LANES]; 3]);
+            for k in 0..3 {
+                let r = placed.rows[k];
+                for l in 0..LANES {
+                    // So far off that nothing is there, but no farther than what can be rounded.
+                    let at = (r[0] * x[l] + r[1] * y[l] + r[2] * z[l] + placed.shift[k]).clamp(-1e6, 1e6);
+                    let whole = at + ROUND;
+                    index[k][l] = whole.to_bits().wrapping_sub(ROUND.to_bits());
+                    off[k][l] = at - (whole - ROUND);
+                }
+            }
+            let mut number = [0u32; LANES];
+            for l in 0..LANES {
+                let inside = (index[0][l] < counts[0]) & (index[1][l] < counts[1]) & (index[2][l] < counts[2]);
+                let n = index[2][l].wrapping_mul(counts[1]).wrapping_add(index[1][l]);
+                let n = n.wrapping_mul(counts[0]).wrapping_add(index[0][l]);
+                number[l] = if inside { n } else { u32::MAX };
+            }
+            let mut cells = [0u64; LANES];
+            for l in 0..LANES {
+                cells[l] = field.cells[(number[l] as usize).min(outside)];
+            }
+            let [x, y, z] = &block.normals;
+            let (mut height, mut cosine) = ([0.0f32; LANES], [0.0f32; LANES]);
+            for l in 0..LANES {
+                height[l] = f32::from(cells[l] as i16) * field.step;
+            }
+            for k in 0..3 {
+                let r = placed.turn[k];
+                for l in 0..LANES {
+                    let n = f32::from((cells[l] >> (16 * (k + 1))) as i16) * (1.0 / FULL as f32);
+                    height[l] += off[k][l] * n;
+                    cosine[l] += (r[0] * x[l] + r[1] * y[l] + r[2] * z[l]) * n;
+                }
+            }
+            for l in 0..LANES {
+                let share = height[l] * per_reach;
+                let worth = (1.0 - share * share).max(0.0);
+                let agrees = cosine[l].max(-cosine[l] * block.either) >= block.least[l];
+                sums[l] += if agrees { worth } else { 0.0 };
+            }
         }
-        let n = cell.normal.map(f64::from);
-        if !agree(normal, n, oriented, TURNED) {
-            return 0.0;
-        }
-        let from_middle: Vector = std::array::from_fn(|k| (at[k] - at[k].floor() - 0.5) / self.scale);
-        let share = (f64::from(cell.height) + dot(from_middle, n)) / reach;
-        (1.0 - share * share).max(0.0)
+        sums
     }
 }
 
 /// Cosine of the angle up to which normals are taken for those of the same place.
-pub(super) const TURNED: f64 = 0.35;
+const TURNED: f32 = 0.35;
 
 /// Unit normal of a face; `None` where it has no area.
 pub(super) fn facet_normal(mesh: &Mesh, face: u32) -> Option<Vector> {

@@ -1,7 +1,7 @@
 //! Where to start: poses from all that could tell, tried by the hundred thousand on a grid, the best of them refined.
 
 use super::features::{Oriented, PairFrame, PairTable};
-use super::field::Field;
+use super::field::{Block, Field, LANES};
 use super::icp::Problem;
 use super::sample::{Moments, Samples, area, on_surface};
 use super::{AlignError, Target};
@@ -9,7 +9,7 @@ use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times};
+use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
 use std::sync::Arc;
 
 /// Places on the reference whose pairs are known.
@@ -23,11 +23,19 @@ const LOOKED_UP: usize = 4000;
 const POSES: usize = 60_000;
 /// Counterparts tried of each.
 const COUNTERPARTS: usize = 300;
+/// Pairs of either kind that are tried before it is asked whether they are enough; they are once so many lead to one pose with this worth.
+const ROUND: usize = 16;
+const AGREED: usize = 20;
+const SURE: f64 = 0.7;
 /// Share of the best worth that others must have to be refined.
 const COMPARABLE: f64 = 0.5;
 /// Starts that are refined, and those whose refined pose is looked at closely.
 const REFINED: usize = 32;
 const CLOSE: usize = 12;
+/// Steps after which starts are refined further only where they have this share of the best worth there: a few steps take away what
+/// the pair of places was off, and with it most of what a right start lacks.
+const BEGUN: usize = 3;
+const LIVELY: f64 = 0.7;
 /// Share of the spacing within which places count where poses close together are told apart.
 const NEAR: f64 = 0.5;
 /// Share of the spacing for what cannot be told from zero in the first steps: ten standard deviations are half a spacing then.
@@ -41,12 +49,16 @@ const OTHER: f64 = 0.05;
 pub(super) struct Search {
     /// A few hundred samples with normals, in random order.
     pub samples: Samples,
+    /// The same about their mean, for trying.
+    blocks: Vec<Block>,
     bounds: Aabb,
     known: Arc<Known>,
     /// Mean distance of neighbors among the places of the reference.
     pub spacing: f64,
     measured: Moments,
     seed: u64,
+    /// Whether it may end early: where what was found then does not lie on the reference as a whole, it is looked for again in full.
+    brief: bool,
 }
 
 /// What is known of the reference.
@@ -78,12 +90,19 @@ impl Search {
         let field = Field::new(target.mesh, target.tree, &bounds, reach, progress)?;
         let table = PairTable::new(&reference, spacing, 2.0 * spacing);
         let known = Arc::new(Known { field, table, moments: reference.moments() });
-        Ok(Search { bounds, known, spacing, measured: samples.moments(), samples, seed })
+        Ok(Search::of(samples, bounds, known, spacing, seed, true))
+    }
+
+    fn of(samples: Samples, bounds: Aabb, known: Arc<Known>, spacing: f64, seed: u64, brief: bool) -> Search {
+        let measured = samples.moments();
+        let blocks = Block::of(&samples, measured.mean);
+        Search { samples, blocks, bounds, known, spacing, measured, seed, brief }
     }
 
     /// Turns the normals of the samples round.
     pub fn turn(&mut self) {
         self.samples = self.samples.turned();
+        self.blocks = Block::of(&self.samples, self.measured.mean);
     }
 
     /// Root mean square radius of the measured over that of the reference.
@@ -96,10 +115,9 @@ impl Search {
         self.again(self.samples.scaled(factor), self.seed)
     }
 
-    /// The same for other samples and random choices.
+    /// The same for other samples and random choices, in full.
     pub fn again(&self, samples: Samples, seed: u64) -> Search {
-        let (bounds, known, spacing) = (self.bounds, self.known.clone(), self.spacing);
-        Search { measured: samples.moments(), samples, bounds, known, spacing, seed }
+        Search::of(samples, self.bounds, self.known.clone(), self.spacing, seed, false)
     }
 
     /// The best poses, best first: no two nearly the same.
@@ -155,7 +173,7 @@ impl Search {
             .map(|(k, &pair)| {
                 let like = |s: &[f64; 2]| {
                     let (a, b) = facing(pair, s);
-                    self.known.table.like(a, b).len()
+                    self.known.table.count_like(a, b)
                 };
                 (signs.iter().map(like).sum(), k)
             })
@@ -175,9 +193,7 @@ impl Search {
         rare[rarest..].sort_unstable_by_key(|r| r.1);
         let drawn = poses(&rare[rarest..]);
         rare.truncate(rarest + drawn);
-        if progress.cancelled() {
-            return Err(Cancelled.into());
-        }
+        let (rarest, drawn) = rare.split_at(rarest);
         let best = |&(_, k): &(usize, usize)| -> Vec<Candidate> {
             let of_sign = |s: &[f64; 2]| {
                 let (a, b) = facing(pairs[k], s);
@@ -185,8 +201,32 @@ impl Search {
             };
             signs.iter().flat_map(of_sign).collect()
         };
-        let found: Vec<Vec<Candidate>> = rare.par_iter().map(best).collect();
+        let mut found: Vec<Vec<Candidate>> = vec![];
+        for round in 0..rarest.len().max(drawn.len()).div_ceil(ROUND) {
+            if progress.cancelled() {
+                return Err(Cancelled.into());
+            }
+            let part = |all: &[(usize, usize)]| {
+                let ends = [round, round + 1].map(|r| (r * ROUND).min(all.len()));
+                all[ends[0]..ends[1]].to_vec()
+            };
+            let pairs = [part(rarest), part(drawn)].concat();
+            found.extend(pairs.par_iter().map(best).collect::<Vec<_>>());
+            if self.brief && self.agreed(&found) {
+                break;
+            }
+        }
         Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Whether most samples lie on the reference at the best pose, and so many pairs lead there.
+    fn agreed(&self, found: &[Vec<Candidate>]) -> bool {
+        let all = found.iter().flatten();
+        let Some(best) = all.max_by(|a, b| a.worth.total_cmp(&b.worth)) else { return false };
+        let there = |pair: &&Vec<Candidate>| {
+            pair.iter().any(|c| self.apart(&c.pose, &best.pose) < 2.0 * self.spacing)
+        };
+        best.worth >= SURE && found.iter().filter(there).take(AGREED).count() == AGREED
     }
 
     /// The two best poses that lay this pair on one of the reference.
@@ -209,15 +249,13 @@ impl Search {
 
     /// Mean worth of the samples at a pose; 0 as soon as it is clearly poor.
     pub fn worth(&self, pose: &Rigid) -> f64 {
+        let field = &self.known.field;
+        let placed = field.placed(pose, self.measured.mean);
         let (mut sum, mut done) = (0.0, 0);
         for (stage, &until) in TRIED.iter().enumerate() {
             let until = until.min(self.samples.points.len());
-            for k in done..until {
-                let (p, n) = (self.samples.points[k], self.samples.normals[k]);
-                let oriented = self.samples.oriented;
-                sum +=
-                    self.known.field.worth(pose.point(p), pose.vector(n), oriented, self.known.field.reach);
-            }
+            let blocks = &self.blocks[done / LANES..until.div_ceil(LANES)];
+            sum += field.worth(&placed, blocks, field.reach);
             done = until;
             if stage < 2 && sum < ENOUGH[stage] * done as f64 {
                 return 0.0;
@@ -263,9 +301,18 @@ impl Search {
         progress: &dyn Progress,
     ) -> Result<Vec<(f64, Rigid)>, AlignError> {
         let cap = 0.5 * self.spacing;
-        let refined: Result<Vec<(f64, Rigid)>, AlignError> = (candidates.par_iter())
+        let begun: Result<Vec<Candidate>, AlignError> = (candidates.par_iter())
             .map(|c| {
-                let pose = problem.run(c.pose, 2.0 * self.spacing, 12, progress)?.pose;
+                let pose = problem.run(c.pose, 2.0 * self.spacing, BEGUN, progress)?.pose;
+                Ok(Candidate { pose, worth: self.worth(&pose) })
+            })
+            .collect();
+        let mut begun = begun?;
+        let enough = LIVELY * begun.iter().fold(0.0f64, |m, c| m.max(c.worth));
+        begun.retain(|c| c.worth >= enough);
+        let refined: Result<Vec<(f64, Rigid)>, AlignError> = (begun.par_iter())
+            .map(|c| {
+                let pose = problem.run(c.pose, 2.0 * self.spacing, 12 - BEGUN, progress)?.pose;
                 Ok((problem.cost(&pose, cap, progress)?, pose))
             })
             .collect();
@@ -319,11 +366,9 @@ impl Search {
 
     /// Mean worth of all samples at a pose, within a reach of its own.
     fn worth_within(&self, pose: &Rigid, reach: f64) -> f64 {
-        let samples = self.samples.points.iter().zip(&self.samples.normals);
-        let worth = |(p, n): (&Point, &Vector)| {
-            self.known.field.worth(pose.point(*p), pose.vector(*n), self.samples.oriented, reach)
-        };
-        samples.map(worth).sum::<f64>() / self.samples.points.len() as f64
+        let field = &self.known.field;
+        let placed = field.placed(pose, self.measured.mean);
+        field.worth(&placed, &self.blocks, reach) / self.samples.points.len() as f64
     }
 
     /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the

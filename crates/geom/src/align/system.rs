@@ -165,8 +165,9 @@ pub(super) fn eigen_six(a: &SixBySix) -> (Six, SixBySix) {
 /// One rotation in the plane of `p` and `q` that makes their common entry zero.
 fn rotate(a: &mut SixBySix, rows: &mut SixBySix, p: usize, q: usize) {
     let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    let t = 1f64.copysign(theta) / (theta.abs() + libm::hypot(theta, 1.0));
-    let c = 1.0 / libm::hypot(t, 1.0);
+    // Beyond the range of squares: no rotation.
+    let t = 1f64.copysign(theta) / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
     for k in 0..6 {
         (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]);

@@ -1,5 +1,6 @@
 //! What an alignment must do, against closed forms, brute force and properties.
 
+mod field;
 mod minimax;
 mod parts;
 mod poses;
