@@ -135,8 +135,9 @@ pub(super) fn feet(
             all.max_residual = all.max_residual.max(part.max_residual);
         }
     }
-    // With no more in memory than before.
-    let Binned { rank, .. } = data;
+    // With no more in memory than before: what the points were sorted into goes first.
+    let Binned { rank, order, local, points: sorted, .. } = data;
+    drop((order, local, sorted));
     all.deviations = in_order(&rank, &all.deviations);
     all.feet = in_order(&rank, &all.feet);
     all.doubtful.sort_unstable();
