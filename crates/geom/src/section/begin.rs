@@ -159,10 +159,10 @@ impl Search<'_> {
         let feet = vec![0.5; n];
         let mut state = State { chain, breaks, feet, sum: 0.0 };
         let stop = self.stop(60, 1e-6);
-        let start = state.clone();
+        let before = state.chain.is_long().then(|| state.clone());
         self.improved(&mut state, &stop);
-        if start.chain.is_long() && !self.is_near(&state) {
-            let mut grown = self.grown(&start);
+        if let Some(before) = before.filter(|_| !self.is_near(&state)) {
+            let mut grown = self.grown(&before);
             self.improved(&mut grown, &stop);
             if self.criterion.cost(&grown) < self.criterion.cost(&state) {
                 state = grown;
@@ -176,9 +176,7 @@ impl Search<'_> {
         }
         self.model(state)
     }
-}
 
-impl Search<'_> {
     /// Improves a state; a long one is mended where pieces have lost their points.
     fn improved(&mut self, state: &mut State, stop: &Stop) {
         self.work.improve(&self.row, state, None, stop);

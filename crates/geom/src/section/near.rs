@@ -245,9 +245,12 @@ impl Search<'_> {
 pub(super) fn mended(state: &State) -> State {
     let mut state = state.clone();
     for piece in state.chain.pieces.iter_mut().filter(|p| p.kind == SegmentKind::Arc) {
-        let whole = TAU / piece.coefficients[0].abs();
         // The end of an arc is that of one shorter by a turn.
-        piece.length -= whole * (piece.length / whole).floor();
+        let curvature = piece.coefficients[0].abs();
+        let turns = (piece.length * curvature / TAU).floor();
+        if turns > 0.0 {
+            piece.length -= turns * TAU / curvature;
+        }
     }
     let mut g = 0;
     while state.chain.pieces.len() > 1 && g < state.chain.pieces.len() {

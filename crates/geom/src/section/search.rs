@@ -254,7 +254,10 @@ impl Search<'_> {
     pub fn round_of(&mut self, base: &Base, is_asked: impl Fn(&[Plan]) -> bool) -> Option<Model> {
         let mut best: Option<Model> = None;
         for change in base.changes(self.kinds, self.spacing) {
-            if !is_asked(&change) || self.work.effort > self.until {
+            if self.work.effort > self.until {
+                break;
+            }
+            if !is_asked(&change) {
                 continue;
             }
             let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));

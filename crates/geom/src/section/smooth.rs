@@ -24,11 +24,11 @@ const FAR: f64 = 20.0;
 /// Fewer points to a line or arc do not tell it from a curve.
 const ENOUGH: usize = 10;
 const FINE: f64 = 4.0;
+/// and nearly so up to this many times.
+const NEARLY: f64 = 1.3;
 /// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
 /// then 1.65 times as far off.
 const HOPELESS: f64 = 1.0;
-/// and nearly so up to this many times.
-const NEARLY: f64 = 1.3;
 
 impl Search<'_> {
     /// The cheapest model reachable from that of the parts, or from one free piece where many lines and arcs stand for a smooth curve.
