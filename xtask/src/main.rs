@@ -47,17 +47,21 @@ const fn cargo(name: &'static str, arguments: &'static [&'static str]) -> Call {
     Call { name, folder: ".", program: env!("CARGO"), arguments, variables: &[] }
 }
 
+/// `geom` in one piece: half a minute less to compile and two fifths less to run than in the many pieces that make it quick to
+/// compile again after a change.
+const IN_ONE_PIECE: &str = "--config=profile.dev.package.trueness-geom.codegen-units=1";
+
 const STEPS: &[Step] = &[
     Step::Command(cargo("format", &["fmt", "--all", "--check"])),
     Step::Command(cargo(
         "lints",
-        &["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
+        &["clippy", IN_ONE_PIECE, "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"],
     )),
-    Step::Command(cargo("tests", &["test", "--workspace", "--locked"])),
+    Step::Command(cargo("tests", &["test", IN_ONE_PIECE, "--workspace", "--locked"])),
     Step::Own("read back", readback::run),
     Step::Command(Call {
         variables: &[("RUSTDOCFLAGS", "-D warnings")],
-        ..cargo("documentation", &["doc", "--workspace", "--no-deps", "--locked"])
+        ..cargo("documentation", &["doc", IN_ONE_PIECE, "--workspace", "--no-deps", "--locked"])
     }),
     Step::Command(TIDY),
     Step::Command(cargo(

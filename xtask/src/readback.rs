@@ -19,8 +19,8 @@ pub fn run(root: &Path) -> bool {
         eprintln!("the Python packages for reading back cannot be installed");
         return false;
     };
-    // With the examples: the features are those of the tests then, and nothing that they built is built again.
-    let build = ["build", "--locked", "--bins", "--examples"];
+    // With the examples and the tests' options: nothing that the tests built is built again.
+    let build = ["build", crate::IN_ONE_PIECE, "--locked", "--bins", "--examples"];
     done(Command::new(env!("CARGO")).args(build))
         && done(
             Command::new(packages)
