@@ -88,11 +88,15 @@ const STEPS: &[Step] = &[
         arguments: &["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--prefer-offline"],
         variables: &[],
     }),
+    Step::Command(cargo(
+        "viewer reports",
+        &["run", IN_ONE_PIECE, "--quiet", "--locked", "--example", "report_fixtures", "--", "target/reports"],
+    )),
     Step::Command(Call {
         name: "viewer",
         folder: "crates/viewer/web",
         program: NPM,
-        arguments: &["test"],
+        arguments: &["test", "--", "--fixtures", "../../../target/reports"],
         variables: &[],
     }),
 ];

@@ -30,10 +30,13 @@ const STRETCHED: f64 = 2.0;
 /// Factor to which they may shrink: of what is laid flat more densely the knots tell one place from the next no more.
 const CRUSHED: f64 = 0.05;
 
-/// Whether so many points lie in layers or stand on edge over the base, or the mesh is crushed so much as it is laid flat, that the
-/// surface is not theirs.
+/// Whether so many points lie in layers or stand on edge over the base, or one lies so near to its pole, or the mesh is crushed so much as
+/// it is laid flat, that the surface is not theirs.
 pub fn is_doubtful(base: &BaseRecord) -> bool {
-    base.folded_share > FOLDED || base.standing_share > STANDING || base.stretch.is_some_and(is_crushed)
+    base.folded_share > FOLDED
+        || base.standing_share > STANDING
+        || base.pole
+        || base.stretch.is_some_and(is_crushed)
 }
 
 fn is_crushed([least, _]: [f64; 2]) -> bool {
@@ -57,7 +60,8 @@ pub fn document(
     let [_, n] = surface.counts();
     let [u, v] = surface.knots();
     let total = fit.support.control_points;
-    let all = Summary::of(&fit.deviations).all;
+    let deviations: Vec<f64> = fit.kept().map(|k| fit.deviations[k]).collect();
+    let all = Summary::of(&deviations).all;
     SurfaceDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -71,15 +75,15 @@ pub fn document(
         fairness_from: if options.fairness == Fairness::Auto { "auto" } else { "given" }.into(),
         degrees_of_freedom: fit.degrees_of_freedom,
         degrees_of_freedom_reason: fit.degrees_of_freedom.is_none().then(|| "the fairness was given".into()),
-        map: deviation_map(&all, fit, options),
+        map: deviation_map(&all, &deviations, options),
         deviation: results::Statistics::of(&all, 0.0),
         worst: worst(fit, points),
         residual: Residual {
             sum_of_squares: fit.sum_of_squares,
-            rms: (fit.sum_of_squares / points.len() as f64).sqrt(),
+            rms: (fit.sum_of_squares / deviations.len() as f64).sqrt(),
             max: fit.max_residual,
         },
-        tolerance: tolerance(fit, options),
+        tolerance: tolerance(fit, &deviations, options),
         trim: outline.map(|outline| trim(fit, outline)),
         curvature: curvature(fit, points),
         unsupported_share: fit.support.unsupported as f64 / total as f64,
@@ -91,7 +95,7 @@ pub fn document(
         },
         far_control_points: fit.far_control_points as u64,
         corrections: fit.corrections as u64,
-        outliers: fit.outliers as u64,
+        outliers: fit.left_out.len() as u64,
         unsettled: fit.unsettled as u64,
         warnings: warnings(fit, outline),
     }
@@ -107,6 +111,7 @@ fn base(found: &Base) -> BaseRecord {
         radius: found.radius,
         radius_reason: found.radius.is_none().then(|| "the base is flat".into()),
         around: found.around,
+        pole: found.pole,
         folded_share: found.folded_share,
         standing_share: found.standing_share,
         stretch: found.stretch,
@@ -116,7 +121,7 @@ fn base(found: &Base) -> BaseRecord {
 
 fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
     let size = |k: usize| fit.deviations[k].abs();
-    let worst = (0..points.len()).fold(0, |best, k| if size(k) > size(best) { k } else { best });
+    let worst = fit.kept().reduce(|best, k| if size(k) > size(best) { k } else { best }).unwrap_or(0);
     WorstPoint {
         point: worst as u64,
         position: points[worst],
@@ -125,9 +130,9 @@ fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
     }
 }
 
-fn tolerance(fit: &SurfaceFit, options: &Options) -> Option<ToleranceRecord> {
+fn tolerance(fit: &SurfaceFit, deviations: &[f64], options: &Options) -> Option<ToleranceRecord> {
     let (Layout::Tolerance(value), Some(reached)) = (&options.layout, fit.reached) else { return None };
-    let outside = fit.deviations.iter().filter(|d| d.abs() > *value).count() as u64;
+    let outside = deviations.iter().filter(|d| d.abs() > *value).count() as u64;
     Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: Word(reached) })
 }
 
@@ -143,7 +148,7 @@ fn trim(fit: &SurfaceFit, outline: &Outline) -> TrimRecord {
 }
 
 /// The deviations' counts and colors: by the tolerance, where there is one.
-fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRecord {
+fn deviation_map(all: &Statistics, deviations: &[f64], options: &Options) -> MapRecord {
     // A few points far off must not hide how the rest lies.
     let [.., p2_5, _, _, _, _, _, p97_5, _, _] = all.percentiles;
     let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
@@ -152,7 +157,7 @@ fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRe
         _ => None,
     };
     MapRecord {
-        histogram: results::Histogram::counted(all, &fit.deviations),
+        histogram: results::Histogram::counted(all, deviations),
         mean: all.mean.ok(),
         scale: Scale::for_deviations(most, zone),
     }
@@ -160,7 +165,8 @@ fn deviation_map(all: &Statistics, fit: &SurfaceFit, options: &Options) -> MapRe
 
 fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
     let patches = Patches::new(&fit.surface);
-    let found: Vec<Bend> = fit.feet.par_iter().filter_map(|p| patches.bend(p[0], p[1])).collect();
+    let kept: Vec<[f64; 2]> = fit.kept().map(|k| fit.feet[k]).collect();
+    let found: Vec<Bend> = kept.par_iter().filter_map(|p| patches.bend(p[0], p[1])).collect();
     let range = |value: fn(&Bend) -> f64| Range::of(found.iter().map(value).collect());
     let [(a, b), (c, d)] = fit.surface.domain();
     let parameters = [0.5 * (a + b), 0.5 * (c + d)];
@@ -216,7 +222,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     if fit.base.folded_share > FOLDED {
         all.push(format!(
-            "{} of the points lie in layers over one another as seen on the base ({}): the surface lies between the layers; take another base, or the layers one by one",
+            "{} of the points lie in layers over one another as seen on the base ({}): the surface lies between the layers, or folds steeply from one to the other; take another base, or the layers one by one",
             percent(fit.base.folded_share),
             fit.base.kind.name()
         ));
@@ -246,6 +252,9 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
     }
     if fit.base.round {
         all.push("laid out freely, the mesh would lie on itself: it is laid within a circle, where its parts are less alike in size".into());
+    }
+    if fit.base.pole {
+        all.push("points lie within 10° of a pole of the sphere: the surface is torn or creased there, and its curvature is not that of the part; take a part of the points, or --base mesh where there are facets".into());
     }
     if fit.base.around {
         all.push("the points go all around the base: the surface has a seam, where it is not smooth".into());

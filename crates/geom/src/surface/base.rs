@@ -34,6 +34,8 @@ pub struct Base {
     /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
     /// surface then has a seam there.
     pub around: bool,
+    /// Whether points lie within ten degrees of a pole of the sphere: the parameters crowd there, and the surface is torn or creased.
+    pub pole: bool,
     /// How the parameters run.
     course: Course,
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
@@ -103,8 +105,11 @@ type Seen = ([f64; 2], f64);
 /// Share of the points that may stand on edge: walls of a part do, and points at its edges.
 pub const STANDING: f64 = 0.1;
 
-/// Share of the points that may lie in layers where a plane is taken over which no more stand on edge.
+/// Share of the points that may lie in layers: a few outliers do.
 const FEW: f64 = 0.01;
+
+/// Share of the points in layers below which they are outliers, and no other plane is looked for.
+const HARDLY_ANY: f64 = 0.002;
 
 /// Share of the points that may stand on edge over a plane over which there are hardly any layers: steep ground has one height everywhere,
 /// and a surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
@@ -113,12 +118,38 @@ const STEEP: f64 = 0.4;
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
 const LINE: f64 = 1e-6;
 
-/// The parameters of all points.
+/// The parameters of all points; over a plane it is the one that the surface has heights over, as far as there is one.
 pub(super) fn parameters(
     points: &[Point],
     kind: BaseKind,
     progress: &dyn Progress,
 ) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
+    let over_plane = |point, normal| upright(points, point, normal, progress);
+    let (mut base, seen) = seen(points, kind, over_plane, progress)?;
+    let found: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
+    no_line(&found)?;
+    base.folded_share = folded_share(&seen);
+    base.standing_share = upright::standing(points, |p| base.up(p), progress)?;
+    Ok((base, found))
+}
+
+/// The parameters of all points over the least-squares shape itself.
+pub(super) fn level(
+    points: &[Point],
+    kind: BaseKind,
+    progress: &dyn Progress,
+) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
+    let (base, seen) = seen(points, kind, |point, normal| plane(points, point, normal), progress)?;
+    Ok((base, seen.iter().map(|s| s.0).collect()))
+}
+
+/// How all points lie over the base; `over_plane` tells it of a plane.
+fn seen(
+    points: &[Point],
+    kind: BaseKind,
+    over_plane: impl Fn(Point, Vector) -> Result<(Base, Vec<Seen>), SurfaceError>,
+    progress: &dyn Progress,
+) -> Result<(Base, Vec<Seen>), SurfaceError> {
     let shape = |kind| {
         fit::fit(points, kind, &fit::Options::default(), progress).map(|f| f.shape).map_err(|e| match e {
             FitError::Cancelled => Cancelled.into(),
@@ -128,11 +159,11 @@ pub(super) fn parameters(
             e => SurfaceError::Base(e),
         })
     };
-    let (mut base, seen) = match kind {
+    Ok(match kind {
         BaseKind::Mesh => return Err(SurfaceError::NoFacets),
         BaseKind::Xy => (xy(), points.iter().map(|p| ([p[0], p[1]], p[2])).collect()),
         BaseKind::Plane => match shape(Kind::Plane)? {
-            Shape::Plane { point, normal } => upright(points, point, normal, progress)?,
+            Shape::Plane { point, normal } => over_plane(point, normal)?,
             _ => return Err(SurfaceError::Line),
         },
         BaseKind::Cylinder => match shape(Kind::Cylinder)? {
@@ -143,12 +174,7 @@ pub(super) fn parameters(
             Shape::Sphere { center, radius } => sphere(points, center, radius),
             _ => return Err(SurfaceError::Line),
         },
-    };
-    let found: Vec<[f64; 2]> = seen.iter().map(|s| s.0).collect();
-    no_line(&found)?;
-    base.folded_share = folded_share(&seen);
-    base.standing_share = upright::standing(points, |p| base.up(p), progress)?;
-    Ok((base, found))
+    })
 }
 
 /// Refuses places on one line.
@@ -198,7 +224,7 @@ fn upright(
     let flat = plane(points, point, normal)?;
     let standing = |base: &Base| upright::standing(points, |_| base.axes[2], progress);
     let (folded, on_edge) = (folded_share(&flat.1), standing(&flat.0)?);
-    if folded == 0.0 && on_edge <= STANDING {
+    if folded <= HARDLY_ANY && on_edge <= STANDING {
         return Ok(flat);
     }
     for (n, direction) in upright::directions(points, normal, progress)?.into_iter().enumerate() {
@@ -208,7 +234,9 @@ fn upright(
         let (base, seen) = plane(points, point, direction)?;
         let (layers, edges) = (folded_share(&seen), standing(&base)?);
         let steep = if layers <= FEW { STEEP } else { STANDING };
-        let fewer_layers = folded > 0.0 && 2.0 * layers <= folded && edges <= on_edge.max(steep);
+        // Some outliers look like layers from all sides, and from some a little less.
+        let gone = layers == 0.0 || folded > FEW && 2.0 * layers <= folded;
+        let fewer_layers = folded > HARDLY_ANY && gone && edges <= on_edge.max(steep);
         // Normals of noise are upright in some direction of several.
         let upright = n == 0 && on_edge > STANDING && edges <= STANDING && layers <= FEW;
         if fewer_layers || upright {
@@ -228,6 +256,7 @@ fn xy() -> Base {
         tilted: 0.0,
         radius: None,
         around: false,
+        pole: false,
         course: Course::default(),
         folded_share: 0.0,
         standing_share: 0.0,
@@ -347,6 +376,8 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
         points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();
     let mut angles: Vec<f64> = local.iter().map(|d| libm::atan2(d[1], d[0])).collect();
     let (start, around) = unrolled(&mut angles);
+    // Sine of ten degrees.
+    let pole = local.iter().any(|d| libm::hypot(d[0], d[1]) < 0.1736 * norm(*d));
     let mut seen: Vec<Seen> = local
         .iter()
         .zip(&angles)
@@ -354,7 +385,16 @@ fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
         .collect();
     let course = longer_first(&mut seen, start);
     (
-        Base { kind: BaseKind::Sphere, origin: center, axes, radius: Some(radius), around, course, ..xy() },
+        Base {
+            kind: BaseKind::Sphere,
+            origin: center,
+            axes,
+            radius: Some(radius),
+            around,
+            pole,
+            course,
+            ..xy()
+        },
         seen,
     )
 }

@@ -56,14 +56,21 @@ pub enum SurfaceError {
         memory: usize,
     },
     /// A point beyond the knots given.
-    #[error("point {index} has the parameter {value}, the knots run from {} to {}: give knots that hold all points", domain.0, domain.1)]
+    #[error(
+        "point {index} has the parameter {axis} = {value}, the knots along {axis} run from {} to {}: give knots that hold all points, which lie from {} to {}",
+        domain.0, domain.1, points.0, points.1
+    )]
     OutsideKnots {
         /// The point.
         index: usize,
+        /// `u` or `v`.
+        axis: char,
         /// Its parameter.
         value: f64,
         /// First and last knot.
         domain: (f64, f64),
+        /// Least and greatest parameter of all points.
+        points: (f64, f64),
     },
     /// All parameters lie on one line.
     #[error(

@@ -346,7 +346,7 @@ mod tests {
                 .iter()
                 .map(|[u, v]| surface.at(*u, *v).map(|x| x + off * (random.unit() - 0.5)))
                 .collect();
-            let data = Binned::new(&knots, &points, &parameters, None, center);
+            let data = Binned::new(&knots, &points, &parameters, center);
             let centered = Patches::of(data.spans.clone(), &centered, counts[1]);
             let found = Found { surface: &patches, centered: &centered };
             let feet = feet(data, &found, &points, &Silent).unwrap();

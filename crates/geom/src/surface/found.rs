@@ -80,13 +80,19 @@ pub struct SurfaceFit {
     pub far_control_points: usize,
     /// Parameter corrections made.
     pub corrections: usize,
-    /// Points without weight; 0 but for robust fits.
-    pub outliers: usize,
+    /// Points that contradict their neighbors and had no part in the fit, in ascending order; none but of robust fits.
+    pub left_out: Vec<u32>,
     /// Why no more knots were set; `None` without a tolerance.
     pub reached: Option<Reached>,
 }
 
 impl SurfaceFit {
+    /// Numbers of the points that the surface was fitted to.
+    pub fn kept(&self) -> impl Iterator<Item = usize> {
+        let mut out = self.left_out.iter().map(|i| *i as usize).peekable();
+        (0..self.deviations.len()).filter(move |i| out.next_if_eq(i).is_none())
+    }
+
     /// The outline of the places nearest to the points; see [`Outline::new`].
     ///
     /// # Errors

@@ -154,7 +154,7 @@ mod tests {
     fn binned(places: &[[f64; 2]]) -> Binned {
         let knots = [Knots::uniform(3, SPANS[0], 0.0, 100.0), Knots::uniform(2, SPANS[1], 0.0, 80.0)];
         let points: Vec<Point> = places.iter().map(|[x, y]| [*x, *y, libm::sin(x / 9.0) + y / 7.0]).collect();
-        Binned::new(&knots, &points, places, None, [50.0, 40.0, 0.0])
+        Binned::new(&knots, &points, places, [50.0, 40.0, 0.0])
     }
 
     /// Rows `apart` millimeters from each other at this angle, points on them 0.4 mm apart; without a disk of this radius.

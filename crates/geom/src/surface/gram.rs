@@ -37,14 +37,13 @@ pub(super) struct Binned {
     pub local: Vec<[f64; 2]>,
     /// The points less the center.
     pub points: Vec<Point>,
-    weights: Option<Vec<f64>>,
 }
 
 /// The sums of one run over all points.
 pub(super) struct Sums {
-    /// `Σ w N r`.
+    /// `Σ N r`.
     pub right: Vec<Point>,
-    /// `Σ w |r|²`.
+    /// `Σ |r|²`.
     pub square: f64,
 }
 
@@ -58,7 +57,6 @@ impl Binned {
         knots: &[Knots; 2],
         points: &[Point],
         parameters: &[[f64; 2]],
-        weights: Option<&[f64]>,
         center: Point,
     ) -> Binned {
         let spans = [Spans::new(&knots[0]), Spans::new(&knots[1])];
@@ -96,9 +94,8 @@ impl Binned {
                 }
             }
         });
-        let weights = weights.map(|w| order.iter().map(|i| w[*i as usize]).collect());
         let counts = [knots[0].count(), knots[1].count()];
-        Binned { spans, counts, starts, order, rank, local, points: sorted, weights }
+        Binned { spans, counts, starts, order, rank, local, points: sorted }
     }
 
     /// Number of points.
@@ -115,21 +112,18 @@ impl Binned {
     pub(super) fn cells(&self) -> (usize, usize) {
         (self.starts.len() - 1, self.starts.windows(2).filter(|w| w[0] == w[1]).count())
     }
-    /// Points for a unit of area, by their weights, over the cells that have any.
+    /// Points for a unit of area, over the cells that have any.
     pub(super) fn density(&self) -> f64 {
         let area = |cell: usize| {
             let at = [cell / self.spans[1].count(), cell % self.spans[1].count()];
             4.0 * self.spans[0].half(at[0]) * self.spans[1].half(at[1])
         };
         let filled = self.starts.windows(2).enumerate().filter(|(_, w)| w[0] < w[1]);
-        self.size().1 / filled.map(|(cell, _)| area(cell)).sum::<f64>()
+        self.len() as f64 / filled.map(|(cell, _)| area(cell)).sum::<f64>()
     }
-    /// `Σ w |x|²` over the points less the center, and `Σ w`.
-    pub(super) fn size(&self) -> (f64, f64) {
-        let weight = |k: usize| self.weights.as_ref().map_or(1.0, |w| w[k]);
-        let square =
-            self.points.iter().enumerate().map(|(k, p)| weight(k) * p.iter().map(|x| x * x).sum::<f64>());
-        (square.sum(), (0..self.len()).map(weight).sum())
+    /// `Σ |x|²` over the points less the center.
+    pub(super) fn square(&self) -> f64 {
+        self.points.iter().map(|p| p.iter().map(|x| x * x).sum::<f64>()).sum()
     }
 
     /// The pieces of work: cell, first point, end.
@@ -249,8 +243,8 @@ impl Binned {
                 [s[n], t[n]] = self.local[k];
                 let r = value(k, cell as usize, self.local[k]);
                 (0..3).for_each(|d| values[d][n] = r[d]);
-                powers[0][0][n] = self.weights.as_ref().map_or(1.0, |w| w[k]);
             }
+            powers[0][0][..count].fill(1.0);
             powers[0][0][count..padded].fill(0.0);
             values.iter_mut().for_each(|v| v[count..padded].fill(0.0));
             powers[1][0][..padded].fill(1.0);

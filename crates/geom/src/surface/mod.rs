@@ -13,7 +13,8 @@
 //! | `hold` | what holds the control points where points are few |
 //! | `gaps` | gaps between rows of points, and the least weight of the thin-plate term that they ask for |
 //! | `solve` | control points; the weight of the thin-plate term |
-//! | `pass` | one fit after the other: parameter correction, weights against outliers |
+//! | `outliers` | points that contradict their neighbors |
+//! | `pass` | one fit after the other: parameter correction |
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
 //! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
 //! | `outline`, `raster`, `trimmed` | where the points end: the outline along which the surface is cut off, and facets within it |
@@ -39,6 +40,7 @@ mod gram;
 mod hold;
 mod nearest;
 mod options;
+mod outliers;
 mod outline;
 mod pass;
 mod raster;
@@ -93,9 +95,52 @@ use crate::spline::basis::Knots;
 pub fn fit(points: &[Point], options: &Options, progress: &dyn Progress) -> Result<SurfaceFit, SurfaceError> {
     check(points, options)?;
     rayon::scope(|_| {
+        if options.robust {
+            let (base, parameters) = base::level(points, options.base, progress)?;
+            return without_outliers(points, &base, &parameters, progress, |out| {
+                let kept = outliers::others(points, out);
+                let (base, parameters) = base::parameters(&kept, options.base, progress)?;
+                over(&kept, base, parameters, options, progress)
+            });
+        }
         let (base, parameters) = base::parameters(points, options.base, progress)?;
         over(points, base, parameters, options, progress)
     })
+}
+
+/// The fit without the points that contradict their neighbors, with the deviations and nearest places of all; `fit` leaves out those with
+/// these numbers.
+fn without_outliers(
+    points: &[Point],
+    base: &Base,
+    parameters: &[[f64; 2]],
+    progress: &dyn Progress,
+    fit: impl Fn(&[u32]) -> Result<SurfaceFit, SurfaceError>,
+) -> Result<SurfaceFit, SurfaceError> {
+    let out = outliers::outliers(points, base, parameters, progress)?;
+    told_of_all(points, fit(&out)?, out, progress)
+}
+
+/// The fit of all points but those `out`, with the deviations and nearest places of all.
+fn told_of_all(
+    points: &[Point],
+    found: SurfaceFit,
+    out: Vec<u32>,
+    progress: &dyn Progress,
+) -> Result<SurfaceFit, SurfaceError> {
+    let mut all = SurfaceFit {
+        deviations: vec![f64::INFINITY; points.len()],
+        feet: vec![[0.0; 2]; points.len()],
+        doubtful: out.clone(),
+        left_out: out,
+        ..found.clone()
+    };
+    let kept: Vec<usize> = all.kept().collect();
+    for (k, i) in kept.into_iter().enumerate() {
+        (all.deviations[i], all.feet[i]) = (found.deviations[k], found.feet[k]);
+    }
+    let all = nearest::told(points, all, 0.0, progress)?;
+    Ok(SurfaceFit { unsettled: found.unsettled + all.doubtful.len(), ..all })
 }
 
 /// The B-spline surface of least squares through the vertices of a mesh. With [`BaseKind::Mesh`] the parameters come from its facets,
@@ -131,7 +176,14 @@ pub fn fit_mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Resu
     check(&mesh.positions, options)?;
     rayon::scope(|_| {
         let (base, parameters) = base::laid_flat(mesh, progress)?;
-        over(&mesh.positions, base, parameters, options, progress)
+        let points = &mesh.positions;
+        if options.robust {
+            return without_outliers(points, &base, &parameters, progress, |out| {
+                let (kept, parameters) = (outliers::others(points, out), outliers::others(&parameters, out));
+                over(&kept, base, parameters, options, progress)
+            });
+        }
+        over(points, base, parameters, options, progress)
     })
 }
 
@@ -150,7 +202,9 @@ fn over(
     for (k, domain) in domain.into_iter().enumerate() {
         let outside = |p: &[f64; 2]| p[k] < domain.0 || p[k] > domain.1;
         if let Some(index) = parameters.iter().position(outside) {
-            return Err(SurfaceError::OutsideKnots { index, value: parameters[index][k], domain });
+            let (axis, value) = (['u', 'v'][k], parameters[index][k]);
+            let points = base::ranges(parameters.iter().copied())[k];
+            return Err(SurfaceError::OutsideKnots { index, axis, value, domain, points });
         }
     }
     let uniform = |spans: [usize; 2]| {

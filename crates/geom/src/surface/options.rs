@@ -71,7 +71,7 @@ pub struct Options {
     pub fairness: Fairness,
     /// How often the parameters are replaced by those of the nearest places at most. With [`BaseKind::Xy`] they never are.
     pub corrections: usize,
-    /// Whether points far off count less (Tukey's weights).
+    /// Whether points that contradict their neighbors are left out.
     pub robust: bool,
     /// Bytes that the matrix of the normal equations may take.
     pub memory: usize,

@@ -1,4 +1,4 @@
-//! One fit after the other: parameters of the nearest places, weights against outliers.
+//! One fit after the other: parameters of the nearest places.
 
 use super::feet::{Feet, Found, feet};
 use super::gram::Binned;
@@ -16,12 +16,8 @@ const GAIN: f64 = 0.01;
 /// scanner lie between control points so that parameters corrected along them have no noise left: cross-validation then lets
 /// the surface go where there are no points.
 const KEPT: f64 = 0.01;
-/// Times that weights against outliers are found anew.
-const REWEIGHTED: usize = 8;
-/// Standard deviations beyond which a point has no weight: 95 % efficient for normal deviations.
-const TUKEY: f64 = 4.685;
 
-/// The fit over these knots, with parameters corrected and outliers weighed as the options say.
+/// The fit over these knots, with parameters corrected as the options say.
 pub(super) fn corrected(
     points: &[Point],
     parameters: Vec<[f64; 2]>,
@@ -31,16 +27,16 @@ pub(super) fn corrected(
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let corrections = if options.base == BaseKind::Xy { 0 } else { options.corrections };
-    let mut best = weighed(points, parameters, base, &knots, None, options, progress)?;
+    let mut best = once(points, parameters, base, &knots, None, options, progress)?;
     let mut known = None;
     for n in 1..=corrections {
-        let mut next = weighed(points, best.feet.clone(), base, &knots, known, options, progress)?;
+        let mut next = once(points, best.feet.clone(), base, &knots, known, options, progress)?;
         if let (None, Some(degrees_of_freedom)) = (known, best.degrees_of_freedom) {
             let fell = (rms(&next.deviations) / rms(&best.deviations)).min(1.0);
             let fairness = KEPT * best.fairness * fell * fell;
             if next.fairness < fairness {
                 let held = Some(Known { fairness, degrees_of_freedom, stiffness: best.stiffness });
-                next = weighed(points, best.feet.clone(), base, &knots, held, options, progress)?;
+                next = once(points, best.feet.clone(), base, &knots, held, options, progress)?;
             }
         }
         // The weight of the thin plate settles with the first correction.
@@ -66,60 +62,19 @@ pub(super) fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|d| d * d).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
-/// The fit at these parameters; of a robust one, until the weights have settled.
-fn weighed(
-    points: &[Point],
-    parameters: Vec<[f64; 2]>,
-    base: Base,
-    knots: &[Knots; 2],
-    known: Option<Known>,
-    options: &Options,
-    progress: &dyn Progress,
-) -> Result<SurfaceFit, SurfaceError> {
-    if !options.robust {
-        return once(points, parameters, base, knots, None, known, options, progress);
-    }
-    let mut found = once(points, parameters.clone(), base, knots, None, known, options, progress)?;
-    let mut weights: Vec<f64> = vec![];
-    for _ in 0..REWEIGHTED {
-        let mut sizes: Vec<f64> = found.deviations.iter().map(|d| d.abs()).collect();
-        let middle = sizes.len() / 2;
-        // The median of the sizes, to a standard deviation.
-        let sigma = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-        if sigma <= 0.0 {
-            break;
-        }
-        let weight = |d: &f64| {
-            let x = d / (TUKEY * sigma);
-            if x.abs() < 1.0 { (1.0 - x * x) * (1.0 - x * x) } else { 0.0 }
-        };
-        let next: Vec<f64> = found.deviations.iter().map(weight).collect();
-        let settled =
-            weights.len() == next.len() && weights.iter().zip(&next).all(|(a, b)| (a - b).abs() < 1e-3);
-        if settled {
-            break;
-        }
-        weights = next;
-        found = once(points, parameters.clone(), base, knots, Some(&weights), known, options, progress)?;
-        found.outliers = weights.iter().filter(|w| **w == 0.0).count();
-    }
-    Ok(found)
-}
-
-#[expect(clippy::too_many_arguments, reason = "the steps of one pass, each with a name")]
+/// The fit at these parameters.
 fn once(
     points: &[Point],
     parameters: Vec<[f64; 2]>,
     base: Base,
     knots: &[Knots; 2],
-    weights: Option<&[f64]>,
     known: Option<Known>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let hull = Aabb::of(points);
     let center = times(0.5, plus(hull.min, hull.max));
-    let data = Binned::new(knots, points, &parameters, weights, center);
+    let data = Binned::new(knots, points, &parameters, center);
     let ground = Ground { knots, base: &base, points, parameters: &parameters, center };
     let solved = solve::solve(&data, &ground, known, options, progress)?;
     // The sorted points know them too, and this is where most memory is in use.
@@ -152,7 +107,7 @@ fn once(
         surface,
         base,
         corrections: 0,
-        outliers: 0,
+        left_out: vec![],
         reached: None,
     })
 }

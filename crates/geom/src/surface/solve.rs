@@ -134,7 +134,7 @@ impl System<'_> {
         progress: &dyn Progress,
     ) -> Result<Option<f64>, SurfaceError> {
         let (Some(used), Some(_)) = (degrees_of_freedom, &self.hold) else { return Ok(None) };
-        let free = (self.data.size().1 - used).max(1.0);
+        let free = (self.data.len() as f64 - used).max(1.0);
         let variance = self.left_by(points, progress)?.square / free;
         let softer = hold::stiffness(self.data, &self.normal, variance);
         Ok(Some(softer).filter(|s| *s < 0.5 * self.stiffness))
@@ -242,7 +242,7 @@ impl System<'_> {
         let mut start_from = gradient.clone();
         self.pull(&mut start_from, &base, 0.0);
         let bent = self.energy.times(&base);
-        let (size, count) = self.data.size();
+        let (size, count) = (self.data.square(), self.data.len() as f64);
         let probes = self.probes(progress)?;
         let score = |weight: f64| -> Result<(f64, f64), SurfaceError> {
             let factor = self.factor(weight, progress)?;

@@ -12,7 +12,7 @@ use super::*;
 use crate::num::random::Random;
 use crate::progress::{Cancelled, Silent};
 use crate::shape::{Kind, Shape};
-use crate::space::{dot, norm};
+use crate::space::{dot, minus, norm};
 use crate::spline::surface::Surface;
 use std::f64::consts::PI;
 
@@ -409,7 +409,7 @@ fn knots_are_set_as_far_as_the_points_go() {
 }
 
 #[test]
-fn robust_weights_leave_outliers_out() {
+fn points_that_contradict_their_neighbors_are_left_out() {
     let mut points = scan(5_000, 0.01, 41);
     let random = &mut Random::new(1);
     for k in 0..250 {
@@ -422,7 +422,35 @@ fn robust_weights_leave_outliers_out() {
     let plain = fit(&points, &spans(15), &Silent).unwrap();
     let robust = fit(&points, &Options { robust: true, ..spans(15) }, &Silent).unwrap();
     assert!(error(&plain) > 0.3 && error(&robust) < 0.1, "{} {}", error(&plain), error(&robust));
-    assert!((250..400).contains(&robust.outliers), "{}", robust.outliers);
+    let wrong = robust.left_out.iter().filter(|i| !i.is_multiple_of(20)).count();
+    assert!(robust.left_out.len() - wrong == 250 && wrong < 3, "{wrong} of {}", robust.left_out.len());
+    // Of those left out, too, the distance is known.
+    let foot = |i: &u32| robust.surface.at(robust.feet[*i as usize][0], robust.feet[*i as usize][1]);
+    let apart = |i: &u32| norm(minus(points[*i as usize], foot(i))) - robust.deviations[*i as usize].abs();
+    assert!(robust.left_out.iter().all(|i| apart(i).abs() < 1e-12));
+}
+
+/// The shape of a part is no outlier, whatever surface has too few knots for it; and what is left keeps to the tolerance.
+#[test]
+fn features_are_no_outliers() {
+    // A feature line 24 mm wide and 8 mm high.
+    let step = |[x, y]: [f64; 2]| 4.0 * libm::tanh((x - 0.3 * y - 30.0) / 6.0);
+    let mut points = scan(6000, 0.03, 5);
+    for p in &mut points {
+        p[2] += step([p[0], p[1]]) - 10.0 * franke(p[0] / 100.0, p[1] / 100.0);
+    }
+    let robust = |points: &[Point], layout| {
+        fit(points, &Options { robust: true, layout, ..Options::default() }, &Silent).unwrap()
+    };
+    assert!(robust(&points, Layout::Spans([8, 8])).left_out.len() < 3);
+    let random = &mut Random::new(5);
+    for i in (0..6000).step_by(50) {
+        points[i][2] += 2.0 + 38.0 * random.unit();
+    }
+    let found = robust(&points, Layout::Tolerance(0.15));
+    let wrong = found.left_out.iter().filter(|i| !i.is_multiple_of(50)).count();
+    assert!(found.left_out.len() - wrong == 120 && wrong < 3, "{wrong} of {}", found.left_out.len());
+    assert_eq!((found.reached, found.base.tilted), (Some(Reached::Tolerance), 0.0));
 }
 
 #[test]

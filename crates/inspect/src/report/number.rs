@@ -72,6 +72,13 @@ impl Style {
     }
 }
 
+/// Digits after the point of numbers beside a scale with so many: as many more, up to four, as show two digits of this one of them.
+pub fn enough(value: Option<f64>, decimals: usize) -> usize {
+    let size = value.map(f64::abs).filter(|x| *x > 0.0 && x.is_finite());
+    let wanted = size.map_or(0.0, |x| 1.0 - libm::log10(x).floor()).max(0.0) as usize;
+    wanted.clamp(decimals, decimals + 4)
+}
+
 /// Digits after the point that show two digits of an uncertainty.
 pub fn decimals(uncertainty: Option<f64>, without: usize) -> usize {
     let u = uncertainty.filter(|u| *u > 0.0 && u.is_finite());

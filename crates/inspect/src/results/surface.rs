@@ -42,7 +42,7 @@ pub struct SurfaceDocument {
     /// Why they are not known.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub degrees_of_freedom_reason: Option<String>,
-    /// Signed distances of all points from the surface, at their nearest places; positive on the side of the normal, which is the
+    /// Signed distances of all points but those left out from the surface, at their nearest places; positive on the side of the normal, which is the
     /// derivative by `u` times the derivative by `v`.
     pub deviation: Statistics,
     /// Counts and colors of the deviations.
@@ -67,7 +67,7 @@ pub struct SurfaceDocument {
     pub far_control_points: u64,
     /// Parameter corrections made.
     pub corrections: u64,
-    /// Points left out by `--robust`.
+    /// Points left out by `--robust`: they contradict their neighbors. No other number counts them.
     pub outliers: u64,
     /// Points whose nearest place was not found to the last digit.
     pub unsettled: u64,
@@ -110,6 +110,9 @@ pub struct BaseRecord {
     pub radius_reason: Option<String>,
     /// Whether the points go all around, so that the surface has a seam.
     pub around: bool,
+    /// Whether points lie within ten degrees of a pole of the sphere, where the surface is torn or creased.
+    #[serde(skip_serializing_if = "is_false", default)]
+    pub pole: bool,
     /// Share of the points where layers lie over one another as seen on the base (0 to 1).
     pub folded_share: f64,
     /// Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1): of a tenth and more the surface is not

@@ -16,8 +16,9 @@ use trueness_geom::surface::{Outline, SurfaceFit};
 const VERTICES: f64 = 160_000.0;
 /// Fewest and most steps of a span: curvatures of a cubic change within it as straight lines do at most.
 const STEPS: [f64; 2] = [3.0, 24.0];
-/// Iso-lines drawn in a direction: of more knots some are passed over.
-const LINES: usize = 41;
+/// Of iso-lines nearer to each other than this share of the side one is drawn: knots set for a feature lie so close that they would hide
+/// its colors.
+const APART: f64 = 0.025;
 /// The control net.
 const NET: Rgb = [0x5b, 0x3d, 0xc4];
 /// Iso-lines.
@@ -27,7 +28,9 @@ const LINE: Rgb = [0x22, 0x26, 0x2b];
 pub struct View<'a> {
     name: &'a str,
     points: &'a [Point],
-    deviations: &'a [f64],
+    /// NaN of points left out.
+    deviations: Vec<f64>,
+    left_out: Vec<NoValue>,
     keep: [u32; 1],
     mesh: Mesh,
     /// Curvatures at the vertices, in the order of [`CurvatureKind::ALL`].
@@ -72,11 +75,14 @@ impl<'a> View<'a> {
         let normals: Vec<Option<Vector>> =
             bends.iter().zip(&held).map(|(b, held)| b.filter(|_| *held).map(|b| b.normal)).collect();
         let reflections = group("reflection_lines", LINE, reflection_lines(&mesh, &normals, fit.base.axes));
+        let mut deviations = fit.deviations.clone();
+        fit.left_out.iter().for_each(|i| deviations[*i as usize] = f64::NAN);
         let marks = |role, groups| Marks { role, comparison: None, groups };
         View {
             name,
             points,
-            deviations: &fit.deviations,
+            left_out: if fit.left_out.is_empty() { vec![] } else { vec![NoValue::Outlier; points.len()] },
+            deviations,
             keep: [document.worst.point as u32],
             reasons,
             marks: vec![
@@ -91,7 +97,7 @@ impl<'a> View<'a> {
 
     /// The points with their deviations, which are map 0, and the surface with its curvatures, the maps after it.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
-        let deviations = ViewField { comparison: 0, values: self.deviations, reasons: &[] };
+        let deviations = ViewField { comparison: 0, values: &self.deviations, reasons: &self.left_out };
         let fields = (1..).zip(&self.curvatures);
         let curvatures =
             fields.map(|(comparison, values)| ViewField { comparison, values, reasons: &self.reasons });
@@ -186,14 +192,16 @@ fn iso_lines(
         }
     };
     let held = surface.knots().each_ref().map(|k| {
-        let all = k.distinct();
-        let step = (all.len() - 1).div_ceil(LINES - 1);
-        let last = all.len() - 1;
-        all.into_iter()
-            .enumerate()
-            .filter(|(n, _)| n % step == 0 || *n == last)
-            .map(|(_, t)| t)
-            .collect::<Vec<_>>()
+        let (from, to) = k.domain();
+        let apart = APART * (to - from);
+        let mut drawn = vec![from];
+        for t in k.distinct() {
+            if drawn.last().is_some_and(|last| t - last >= apart) && to - t >= apart {
+                drawn.push(t);
+            }
+        }
+        drawn.push(to);
+        drawn
     });
     for u in &held[0] {
         add(vs.iter().map(|v| [*u, *v]).collect());

@@ -43,7 +43,7 @@ pub struct SurfaceArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "tolerance")]
     knots: Option<PathBuf>,
     /// Set knots until all points are within this distance, mm, or until noise is all that is left
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", value_parser = length, allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// What the parameters are taken from
     #[arg(long, value_enum, default_value = "plane")]
@@ -54,7 +54,7 @@ pub struct SurfaceArgs {
     /// Corrections of the parameters to the nearest places at most; with --base xy there are none
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(0..=50))]
     corrections: u8,
-    /// Points far off do not count
+    /// Leave out points that contradict their neighbors; they are counted
     #[arg(long)]
     robust: bool,
     /// Cut the surface along the outline of the points; gaps up to twice this length (mm) do not count [auto: three times the
@@ -100,6 +100,13 @@ fn trim(text: &str) -> Result<Trim, String> {
         (_, Ok(reach)) if reach > 0.0 && reach.is_finite() => Ok(Trim::Reach(reach)),
         _ => Err("it is auto, or a length above 0".into()),
     }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| match text.contains(',') {
+        true => "write it with a decimal point, like 0.05".into(),
+        false => "it is a length above 0, in millimeters".into(),
+    })
 }
 
 fn pair(text: &str) -> Result<[usize; 2], String> {

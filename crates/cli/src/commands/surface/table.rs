@@ -74,7 +74,8 @@ pub fn table(document: &SurfaceDocument) -> String {
         let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
     }
     if let Some(tolerance) = &document.tolerance {
-        let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, *tolerance.stopped_by));
+        let all = if document.outliers > 0 { "all other points" } else { "all points" };
+        let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, *tolerance.stopped_by, all));
     }
     out.push_str(&curvature(document));
     out
@@ -94,12 +95,12 @@ fn moved(base: &BaseRecord) -> String {
     tilted + &by(base.turned, ["turned", "along what bends"]) + &stretch.unwrap_or_default()
 }
 
-fn reached(value: f64, outside: u64, stopped_by: Reached) -> String {
+fn reached(value: f64, outside: u64, stopped_by: Reached, all: &str) -> String {
     let why = match stopped_by {
         Reached::Noise => "more knots would follow the noise of the points",
         Reached::Points => "there are too few points for more knots",
         Reached::Memory => "more knots would take more memory than allowed",
-        Reached::Tolerance => return format!("tolerance {value}: reached, all points are within"),
+        Reached::Tolerance => return format!("tolerance {value}: reached, {all} are within"),
     };
     format!("tolerance {value}: not reached, {} beyond it; {why}", counted(outside, POINTS))
 }

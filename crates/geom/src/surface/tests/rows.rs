@@ -36,18 +36,11 @@ fn rows(apart: f64, degrees: f64, hole: f64, wrong: f64, seed: u64) -> Vec<Point
 /// Cells are 5 mm wide. Between the rows the surface is within twice the noise, where it was 25 to 45 times that.
 #[test]
 fn rows_far_apart_are_joined_smoothly() {
-    let cases = [
-        (5.0, 0.0, 0.0, 0.0),
-        (7.0, 0.0, 18.0, 0.0),
-        (10.0, 17.0, 0.0, 0.0),
-        (10.0, 45.0, 0.0, 0.0),
-        (7.0, 0.0, 18.0, 0.03),
-    ];
-    for (n, (apart, degrees, hole, wrong)) in cases.into_iter().enumerate() {
-        let points = rows(apart, degrees, hole, wrong, n as u64);
+    let cases = [(5.0, 0.0, 0.0), (7.0, 0.0, 18.0), (10.0, 17.0, 0.0), (10.0, 45.0, 0.0)];
+    for (n, (apart, degrees, hole)) in cases.into_iter().enumerate() {
+        let points = rows(apart, degrees, hole, 0.0, n as u64);
         let layout = Layout::Spans([20, 20]);
-        let found =
-            fit(&points, &Options { layout, robust: wrong > 0.0, ..Options::default() }, &Silent).unwrap();
+        let found = fit(&points, &Options { layout, ..Options::default() }, &Silent).unwrap();
         let search = FootSearch::new(&[found.surface.clone().into()], &Silent).unwrap();
         for k in 0..625 {
             let [x, y] = [k / 25, k % 25].map(|k| 14.0 + 3.0 * f64::from(k));
@@ -57,5 +50,23 @@ fn rows_far_apart_are_joined_smoothly() {
             let off = search.nearest(&[x, y, height(x, y)]).foot.distance;
             assert!(off < 2.0 * NOISE, "{n}: {off} at {x} {y}");
         }
+    }
+}
+
+/// Neighbors lie on one row; the outliers among them are those points of which the height is wrong, and no others.
+#[test]
+fn outliers_in_rows_are_left_out() {
+    for seed in 0..4 {
+        let points = rows(7.0, 17.0, 18.0, 0.03, seed);
+        let is_wrong = |p: &Point| p[2] - height(p[0], p[1]) > 1.0;
+        let wrong: Vec<u32> = (0..).zip(&points).filter(|(_, p)| is_wrong(p)).map(|(i, _)| i).collect();
+        let layout = Layout::Spans([20, 20]);
+        let robust =
+            fit(&points, &Options { layout: layout.clone(), robust: true, ..Options::default() }, &Silent)
+                .unwrap();
+        assert_eq!(robust.left_out, wrong);
+        let right: Vec<Point> = points.iter().filter(|p| !is_wrong(p)).copied().collect();
+        let plain = fit(&right, &Options { layout, ..Options::default() }, &Silent).unwrap();
+        assert_eq!(robust.surface, plain.surface);
     }
 }

@@ -34,7 +34,12 @@ pub fn fact(s: Style, key: &str, value: impl Render) -> Markup {
 
 /// A key number under the verdict. `class`: `lead` for the first, `warn` for what needs care.
 pub fn key_number(s: Style, key: &str, class: &str, value: impl Render) -> Markup {
-    html! { div class=(class) { dt { (s.word(key)) } dd { (value) } } }
+    labeled_number(s.word(key), class, value)
+}
+
+/// The same with a label of its own.
+pub fn labeled_number(label: impl Render, class: &str, value: impl Render) -> Markup {
+    html! { div class=(class) { dt { (label) } dd { (value) } } }
 }
 
 /// The color of a kind, beside its name.

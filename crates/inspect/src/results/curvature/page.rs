@@ -1,8 +1,10 @@
 //! The page of curvatures: a map for each of them, where they are greatest and least, how well they are known.
 
 use crate::curvature::CurvatureKind;
-use crate::report::number::Style;
-use crate::report::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
+use crate::report::number::{Style, enough};
+use crate::report::page::parts::{
+    Headline, Tone, fact, key_number, labeled_number, place_cells, place_heads, section,
+};
 use crate::report::subject::{Head, Map, Pick, Subject};
 use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Range};
 use crate::scale::Scale;
@@ -140,11 +142,12 @@ fn ends(d: &CurvatureDocument, kind: CurvatureKind) -> [(&Place, f64); 2] {
 fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: CurvatureKind) -> Markup {
     let found = CurvatureDocument::quantity(d, kind);
     let (all, p) = (&found.statistics, &found.statistics.percentiles);
-    let value = |x| s.optional(x, found.scale.decimals as usize).signed();
+    let value = |x| s.optional(x, enough(all.median, found.scale.decimals as usize)).signed();
+    let label = html! { (s.word(words(kind)[0])) ", " (s.word("median")) };
     let without = d.total - d.count;
     html! {
         dl.key-numbers data-comparison=(n) hidden[n > 0] {
-            (key_number(s, words(kind)[0], "lead", html! {
+            (labeled_number(label, "lead", html! {
                 (value(all.median).because(all.median_reason.as_deref())) "\u{a0}" (kind.unit())
             }))
             (key_number(s, "most_within", "", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
@@ -163,7 +166,7 @@ fn quantities(s: Style, d: &CurvatureDocument) -> Markup {
     let row = |kind: CurvatureKind| {
         let found = CurvatureDocument::quantity(d, kind);
         let p = &found.statistics.percentiles;
-        let digits = found.scale.decimals as usize;
+        let digits = enough(found.statistics.median, found.scale.decimals as usize);
         Choice {
             key: words(kind)[0],
             values: [p.p2_5, p.p50, p.p97_5],

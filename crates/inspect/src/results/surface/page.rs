@@ -1,8 +1,10 @@
 //! The page of a surface through points: how far the points lie from it, how it bends, what it rests on.
 
 use crate::curvature::CurvatureKind;
-use crate::report::number::Style;
-use crate::report::page::parts::{Headline, Tone, fact, key_number, place_cells, place_heads, section};
+use crate::report::number::{Style, enough};
+use crate::report::page::parts::{
+    Headline, Tone, fact, key_number, labeled_number, place_cells, place_heads, section,
+};
 use crate::report::subject::{Head, Map, Pick, Subject};
 use crate::report::values::Text;
 use crate::results::Verdict;
@@ -166,10 +168,12 @@ fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
 /// The key numbers of a curvature, those of map `n`.
 fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: CurvatureKind, map: &MapRecord) -> Markup {
     let range = range(d, kind);
-    let value = |x| s.optional(x, map.scale.decimals as usize).signed();
+    let median = range.map(|r| r.median);
+    let value = |x| s.optional(x, enough(median, map.scale.decimals as usize)).signed();
+    let label = html! { (s.word(words(kind)[0])) ", " (s.word("median")) };
     html! {
         dl.key-numbers data-comparison=(n) hidden {
-            (key_number(s, words(kind)[0], "lead", html! { (value(range.map(|r| r.median))) "\u{a0}" (kind.unit()) }))
+            (labeled_number(label, "lead", html! { (value(median)) "\u{a0}" (kind.unit()) }))
             (key_number(s, "range", "", html! {
                 (value(range.map(|r| r.min))) "\u{2009}…\u{2009}" (value(range.map(|r| r.max)))
             }))
@@ -188,7 +192,7 @@ fn quantities(s: Style, d: &SurfaceDocument) -> Markup {
         Choice {
             key: words(kind)[0],
             values,
-            digits: map.scale.decimals as usize,
+            digits: enough(range.map(|r| r.median), map.scale.decimals as usize),
             unit: kind.unit(),
             signed: true,
         }
