@@ -69,7 +69,7 @@ impl Subject for SurfaceDocument {
     }
 
     fn points(&self) -> Option<u64> {
-        Some(self.deviation.count)
+        Some(self.deviation.count + self.outliers)
     }
 
     fn scale(&self) -> Option<&Scale> {
