@@ -192,8 +192,9 @@ fn wrong_input_is_refused_with_a_remedy() {
     let open = folder.write("open.json", r#"{"u": [0,1,2,3,4,5], "v": [0,0,1,1]}"#);
     let other = folder.write("other.json", r#"{"x": [0,0,1,1], "v": [0,0,1,1]}"#);
     let short = folder.write("short.json", r#"{"u": [0,0,9,9], "v": [0,0,9,9]}"#);
-    let [good, line, few, flat, open, other, short] =
-        [&good, &line, &few, &flat, &open, &other, &short].map(|p| p.to_str().unwrap());
+    let torn = folder.write("torn.json", r#"{"u": [0,0,0,0,50,50,50,50,99,99,99,99], "v": [0,0,9,9]}"#);
+    let [good, line, few, flat, open, other, short, torn] =
+        [&good, &line, &few, &flat, &open, &other, &short, &torn].map(|p| p.to_str().unwrap());
     for (words, want, reason) in [
         (vec![line], 3, "line.xyz: all points lie on one straight line"),
         (vec![few], 3, "few.xyz: a surface needs at least 4 points, there are 3"),
@@ -210,6 +211,11 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![good, "--base", "mesh"], 2, "--base mesh lays facets flat, and the file has none; give a mesh"),
         (vec![good, "--spans", "80x80", "--fairness", "0"], 3, "ask for fewer spans or a fairness above 0"),
         (vec![good, "--knots", open], 3, "open.json: the knots of u are not clamped"),
+        (
+            vec![good, "--knots", torn],
+            3,
+            "torn.json: the knot 50 of u stands 4 times and tears the surface apart",
+        ),
         (vec![good, "--knots", other], 3, "other.json: no knots; it must be"),
         (vec![good, "--knots", short, "--base", "xy"], 3, "the knots along u run from 0 to"),
         (vec![good, "--knots", short, "--degree", "3"], 3, "are of degree 1, --degree asks for 3"),

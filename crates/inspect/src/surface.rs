@@ -261,7 +261,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
     }
     if fit.far_control_points > 0 {
         all.push(format!(
-            "{} control points lie outside of twice the box of the points: the points hold them badly",
+            "control points lie outside of twice the box of the points ({} in all): the points hold them badly; ask for fewer spans, a greater --fairness, or another base",
             fit.far_control_points
         ));
     }

@@ -10,6 +10,7 @@ use std::path::Path;
 use trueness_files::Warning;
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Nurbs, Surface};
+use trueness_inspect::results::UNITS;
 use trueness_inspect::results::surface::SCHEMA;
 use trueness_inspect::results::{InputRecord, Role};
 
@@ -17,6 +18,7 @@ use trueness_inspect::results::{InputRecord, Role};
 #[derive(Deserialize)]
 struct Document {
     schema: String,
+    units: Option<String>,
     degree: [usize; 2],
     knots: Directions,
     control_points: Vec<Vec<[f64; 3]>>,
@@ -53,6 +55,10 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
     let document: Document = serde_json::from_slice(&text).with_context(|| format!("{shown}: {wanted}"))?;
     if document.schema != SCHEMA {
         bail!("{shown}: this is a document {}; {wanted} ({SCHEMA})", document.schema);
+    }
+    if document.units.as_deref() != Some(UNITS) {
+        let units = document.units.as_deref().unwrap_or("not told");
+        bail!("{shown}: its units are {units}; documents of surfaces are in {UNITS}");
     }
     let Document { degree, knots, control_points, trim, .. } = document;
     let direction = |name: &str, degree: usize, values: Vec<f64>| {

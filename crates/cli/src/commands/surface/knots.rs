@@ -36,7 +36,17 @@ pub fn read(path: &Path, degree: Option<[usize; 2]>) -> anyhow::Result<[Knots; 2
         if let Some(asked) = asked.filter(|d| d + 1 != first) {
             bail!("{shown}: the knots of {name} are of degree {}, --degree asks for {asked}", first - 1);
         }
-        Knots::new(first - 1, values).with_context(|| format!("{shown}: knots of {name}"))
+        let knots = Knots::new(first - 1, values).with_context(|| format!("{shown}: knots of {name}"))?;
+        let distinct = knots.distinct();
+        let inner = &distinct[1..distinct.len() - 1];
+        if let Some(knot) = inner.iter().find(|knot| knots.multiplicity(**knot) >= first) {
+            bail!(
+                "{shown}: the knot {knot} of {name} stands {} times and tears the surface apart: let it stand {} times at most",
+                knots.multiplicity(*knot),
+                first - 1
+            );
+        }
+        Ok(knots)
     };
     Ok([direction("u", file.u, degree.map(|d| d[0]))?, direction("v", file.v, degree.map(|d| d[1]))?])
 }

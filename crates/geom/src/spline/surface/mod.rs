@@ -3,6 +3,7 @@
 mod bend;
 mod cells;
 mod closest;
+mod foot_error;
 mod line;
 mod nurbs;
 mod patches;
@@ -17,9 +18,10 @@ mod tree;
 
 pub use bend::{Bend, Principal};
 pub use closest::SurfaceFoot;
+pub use foot_error::FootError;
 pub use nurbs::Nurbs;
 pub use patches::Patches;
 pub use rational::RationalSurface;
-pub use search::{FootError, FootSearch, NearestFoot, SHARE};
+pub use search::{FootSearch, NearestFoot, SHARE};
 pub use tensor::{Direction, Surface};
 pub use tessellate::Tessellation;

@@ -9,6 +9,7 @@
 use super::Nurbs;
 use super::cells::{Bent, Grid, Part};
 use super::closest::{SurfaceFoot, descend};
+use super::foot_error::{FootError, check};
 use super::patches::Jet;
 use super::tree::{Boxes, CellId};
 use crate::closest::{PointOfTriangle, QueryError, check_points, closest_point, squared_distance};
@@ -19,40 +20,6 @@ use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
 
 /// Places nearer by less than this share of the surfaces' size are not looked for once a minimum is found.
 pub const SHARE: f64 = 1e-9;
-
-/// Why surfaces cannot be searched.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum FootError {
-    /// There is none.
-    #[error("there is no surface")]
-    NoSurface,
-    /// A coordinate is not finite, or far beyond all measure.
-    #[error("control point {point} of surface {surface} is not a finite number of a size to compute with")]
-    BadPoint {
-        /// The surface, from 0.
-        surface: usize,
-        /// The control point, from 0.
-        point: usize,
-    },
-    /// A knot within stands as often as the degree and one.
-    #[error("surface {surface} is torn at the knot {knot}, which stands {times} times: split it there")]
-    Torn {
-        /// The surface, from 0.
-        surface: usize,
-        /// The knot.
-        knot: f64,
-        /// How often it stands.
-        times: usize,
-    },
-    /// More spans than cells can be numbered.
-    #[error(
-        "the surfaces have {0} pairs of spans, more than can be searched: divide them among several files"
-    )]
-    TooMany(usize),
-    /// The work was stopped.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
 
 /// The place of surfaces nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,9 +69,6 @@ const CELLS: f64 = 200_000.0;
 const MOST_PAIRS: usize = 4_000_000;
 /// Cuts of cells for one point at most.
 const CUTS: usize = 20_000;
-/// Coordinates beyond this cannot be squared safely.
-const LARGEST: f64 = 1e60;
-
 /// The best place so far.
 struct Best {
     foot: SurfaceFoot,
@@ -283,31 +247,6 @@ impl FootSearch {
 
 /// Surfaces nearer to one another than this share of their size are joined there.
 const JOINED: f64 = 1e-5;
-
-fn check(surfaces: &[Nurbs]) -> Result<Aabb, FootError> {
-    if surfaces.is_empty() {
-        return Err(FootError::NoSurface);
-    }
-    let mut bounds = Aabb::EMPTY;
-    for (surface, s) in surfaces.iter().enumerate() {
-        let points = s.control_points();
-        let bad = |(p, w): &(Point, f64)| !p.iter().all(|x| x.abs() <= LARGEST) || w.is_nan() || *w <= 0.0;
-        if let Some(point) = points.iter().position(bad) {
-            return Err(FootError::BadPoint { surface, point });
-        }
-        for knots in s.knots() {
-            let distinct = knots.distinct();
-            for knot in &distinct[1..distinct.len() - 1] {
-                let times = knots.multiplicity(*knot);
-                if times > knots.degree() {
-                    return Err(FootError::Torn { surface, knot: *knot, times });
-                }
-            }
-        }
-        bounds = points.iter().fold(bounds, |b, (p, _)| b.union(&Aabb { min: *p, max: *p }));
-    }
-    Ok(bounds)
-}
 
 /// A search under way.
 struct Search<'a> {

@@ -39,7 +39,7 @@ pub enum NotADisc {
     Closed,
     /// Handles, as a cup has.
     #[error(
-        "the mesh has {handles} handles (tunnels or bridges): it cannot be laid flat; cut it, or give a part without"
+        "the mesh has handles (tunnels or bridges; {handles} in all): it cannot be laid flat; cut it, or give a part without"
     )]
     Handles {
         /// How many.

@@ -240,6 +240,15 @@ fn what_cannot_be_searched_is_refused() {
     let torn = Surface::new([torn, Knots::uniform(1, 1, 0.0, 1.0)], points).unwrap();
     let error = FootSearch::new(&[torn.into()], &Silent).err();
     assert_eq!(error, Some(FootError::Torn { surface: 0, knot: 1.0, times: 2 }));
+    let arc = |weight: f64| {
+        let rows = [([0.0, 0.0], 1.0), ([1.0, 0.0], weight), ([1.0, 1.0], 1.0)];
+        let points = rows.map(|([x, y], w)| [0.0, 1.0].map(|z| ([x, y, z], w)));
+        let knots = [Knots::uniform(2, 1, 0.0, 1.0), Knots::uniform(1, 1, 0.0, 1.0)];
+        Nurbs::weighted(knots, &points.concat()).unwrap()
+    };
+    assert!(FootSearch::new(&[arc(1e4)], &Silent).is_ok());
+    let error = FootSearch::new(&[arc(1e6)], &Silent).err();
+    assert_eq!(error, Some(FootError::Weights { surface: 0, ratio: 1e6 }));
     let search = FootSearch::new(&[flat(1.0)], &Silent).unwrap();
     let points = [[0.0; 3], [f64::NAN, 0.0, 0.0]];
     assert_eq!(search.map(&points, &Silent, |_, f| f).err(), Some(QueryError::BadPoint(1)));
