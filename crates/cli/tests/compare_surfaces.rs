@@ -162,6 +162,12 @@ fn wrong_questions_are_refused() {
     said(&["compare", p, word(&other)], 3, "trueness/fit/1");
     let odd = folder.write("odd.json", r#"{"vertices": 3}"#);
     said(&["compare", p, word(&odd)], 3, "trueness surface --json");
-    let knots = r#"{"schema": "trueness/surface/1", "degree": [1,1], "knots": {"u": [0,0,1,1], "v": [0,0,1,1]}, "control_points": [[[0,0,0],[0,1,0]],[[1,0,0]]]}"#;
+    let knots = r#"{"schema": "trueness/surface/1", "units": "mm", "degree": [1,1], "knots": {"u": [0,0,1,1], "v": [0,0,1,1]}, "control_points": [[[0,0,0],[0,1,0]],[[1,0,0]]]}"#;
     said(&["compare", p, word(&folder.write("few.json", knots))], 3, "control_points[1] has 1 points");
+    let inches = knots.replace("\"mm\"", "\"in\"");
+    said(
+        &["compare", p, word(&folder.write("inches.json", &inches))],
+        3,
+        "its units are in; documents of surfaces are in mm",
+    );
 }
