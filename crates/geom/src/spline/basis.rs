@@ -133,6 +133,12 @@ impl Knots {
         all.dedup();
         all
     }
+    /// The first knot within that stands more often than the degree, and how often: what is built on it is torn there.
+    pub fn torn(&self) -> Option<(f64, usize)> {
+        let distinct = self.distinct();
+        let mut inner = distinct[1..distinct.len() - 1].iter().map(|knot| (*knot, self.multiplicity(*knot)));
+        inner.find(|(_, times)| *times > self.degree())
+    }
     /// How often `t` stands among the knots.
     pub fn multiplicity(&self, t: f64) -> usize {
         self.values.iter().filter(|k| **k == t).count()

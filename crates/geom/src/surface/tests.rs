@@ -453,6 +453,23 @@ fn features_are_no_outliers() {
     assert_eq!((found.reached, found.base.tilted), (Some(Reached::Tolerance), 0.0));
 }
 
+/// Of a cap the poles lie beyond its rim up to a half angle of 80°.
+#[test]
+fn points_near_a_pole_are_told() {
+    let cap = |most: f64| -> Vec<Point> {
+        let place = |k: i32| {
+            let (down, turn) = (most * (f64::from(k) / 3000.0).sqrt(), 2.4 * f64::from(k));
+            let across = 50.0 * libm::sin(down);
+            [across * libm::cos(turn), across * libm::sin(turn), 50.0 * libm::cos(down)]
+        };
+        (0..3000).map(place).collect()
+    };
+    let options = Options { base: BaseKind::Sphere, ..Options::default() };
+    for (degrees, pole) in [(70.0f64, false), (88.0, true)] {
+        assert_eq!(fit(&cap(degrees.to_radians()), &options, &Silent).unwrap().base.pole, pole, "{degrees}");
+    }
+}
+
 #[test]
 fn a_stop_is_heard() {
     struct Stop;

@@ -37,12 +37,9 @@ pub fn read(path: &Path, degree: Option<[usize; 2]>) -> anyhow::Result<[Knots; 2
             bail!("{shown}: the knots of {name} are of degree {}, --degree asks for {asked}", first - 1);
         }
         let knots = Knots::new(first - 1, values).with_context(|| format!("{shown}: knots of {name}"))?;
-        let distinct = knots.distinct();
-        let inner = &distinct[1..distinct.len() - 1];
-        if let Some(knot) = inner.iter().find(|knot| knots.multiplicity(**knot) >= first) {
+        if let Some((knot, times)) = knots.torn() {
             bail!(
-                "{shown}: the knot {knot} of {name} stands {} times and tears the surface apart: let it stand {} times at most",
-                knots.multiplicity(*knot),
+                "{shown}: the knot {knot} of {name} stands {times} times and tears the surface apart: let it stand {} times at most",
                 first - 1
             );
         }

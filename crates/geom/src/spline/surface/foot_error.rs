@@ -73,12 +73,8 @@ pub(super) fn check(surfaces: &[Nurbs]) -> Result<Aabb, FootError> {
             return Err(FootError::Weights { surface, ratio: most / least });
         }
         for knots in s.knots() {
-            let distinct = knots.distinct();
-            for knot in &distinct[1..distinct.len() - 1] {
-                let times = knots.multiplicity(*knot);
-                if times > knots.degree() {
-                    return Err(FootError::Torn { surface, knot: *knot, times });
-                }
+            if let Some((knot, times)) = knots.torn() {
+                return Err(FootError::Torn { surface, knot, times });
             }
         }
         bounds = points.iter().fold(bounds, |b, (p, _)| b.union(&Aabb { min: *p, max: *p }));
