@@ -108,4 +108,12 @@ mod tests {
         );
         assert_eq!((s.fixed(100.0, 0), s.signed(-2.0, 0)), ("100".into(), "\u{2212}2".into()));
     }
+
+    #[test]
+    fn small_numbers_beside_a_scale_get_two_digits_and_at_most_four_more_places() {
+        let digits = |value| enough(value, 3);
+        assert_eq!([0.123, 0.0123, -0.00012, 0.0000123].map(|x| digits(Some(x))), [3, 3, 5, 6]);
+        assert_eq!([Some(1e-30), Some(0.0), Some(f64::NAN), None].map(digits), [7, 3, 3, 3]);
+        assert_eq!(enough(Some(1234.0), 0), 0);
+    }
 }

@@ -22,6 +22,12 @@ pub fn table(document: &SurfaceDocument) -> String {
         moved(&document.base),
         counted(document.deviation.count, POINTS)
     );
+    let range = |knots: &[f64]| {
+        let [first, last] =
+            [knots.first(), knots.last()].map(|k| k.map_or_else(String::new, |k| fixed(*k, 4)));
+        format!("{first} to {last}")
+    };
+    let _ = writeln!(out, "parameters u {}   v {}", range(&document.knots.u), range(&document.knots.v));
     let freedom = document.degrees_of_freedom.map(|d| format!(", {} degrees of freedom", fixed(d, 1)));
     let _ = writeln!(
         out,
