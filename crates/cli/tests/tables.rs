@@ -29,7 +29,7 @@ fn what_was_taken_for_what_stands_in_document_and_table_of_every_command() {
         "header_line": 2,
         "lines_skipped": 2,
     });
-    let line = "x = column 4 \"X [in]\", y = column 3 \"Y [in]\", z = column 2 \"Z [in]\" of 5, parted by semicolons, \
+    let line = "x = column 4 \"X [in]\", y = column 3 \"Y [in]\", z = column 2 \"Z [in]\" of 5, separated by semicolons, \
                 decimal commas, unit in from the header, 2 lines before the rows skipped";
     let commands = [
         vec!["fit", points, "--shape", "plane"],
@@ -61,7 +61,7 @@ fn a_segmented_cloud_says_how_its_table_was_read() {
     let words = ["segment", points.to_str().unwrap()];
     let table = trueness(words);
     assert_eq!(status(&table), 0, "{}", stderr(&table));
-    let line = "x = column 1 \"x\", y = column 2 \"y\", z = column 3 \"z\" of 3, parted by commas, decimal points, 1 line";
+    let line = "x = column 1 \"x\", y = column 2 \"y\", z = column 3 \"z\" of 3, separated by commas, decimal points, 1 line";
     assert!(stdout(&table).contains(line), "{}", stdout(&table));
     assert_eq!(document(words)["inputs"][0]["table"]["separator"], "commas");
 }

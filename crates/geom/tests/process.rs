@@ -3,7 +3,7 @@
 
 use trueness_geom::num::random::Random;
 use trueness_geom::num::special::{chi_square_quantile, normal_quantile};
-use trueness_geom::stats::process::{Capability, Course, Rule};
+use trueness_geom::stats::process::{Capability, ControlChart, Rule};
 
 fn close(found: f64, expected: f64, relative: f64) {
     assert!((found - expected).abs() <= relative * expected.abs(), "{found} is not {expected}");
@@ -36,27 +36,27 @@ fn chi_square_has_its_closed_forms() {
 }
 
 fn rules(values: &[f64]) -> Vec<(usize, Rule)> {
-    Course::of(values).unwrap().signals.iter().map(|s| (s.index, s.rule)).collect()
+    ControlChart::of(values).unwrap().signals.iter().map(|s| (s.index, s.rule)).collect()
 }
 
 #[test]
 fn a_course_by_hand() {
     // Mean 5, squares 4 + 1 + 1 + 4 + 0, moving ranges 1, 2, 1, 2.
-    let course = Course::of(&[3.0, 4.0, 6.0, 7.0, 5.0]).unwrap();
-    assert_eq!((course.mean, course.min, course.max), (5.0, 3.0, 7.0));
-    assert!((course.std_dev - 2.5f64.sqrt()).abs() < 1e-15);
-    assert_eq!(course.moving_range, 1.5);
+    let chart = ControlChart::of(&[3.0, 4.0, 6.0, 7.0, 5.0]).unwrap();
+    assert_eq!((chart.mean, chart.min, chart.max), (5.0, 3.0, 7.0));
+    assert!((chart.std_dev - 2.5f64.sqrt()).abs() < 1e-15);
+    assert_eq!(chart.moving_range, 1.5);
     // The factors of the tables of control charts: 2.66 and 3.267.
-    assert!((course.limits[1] - 5.0 - 2.6587 * 1.5).abs() < 1e-3 * 1.5);
-    assert!((course.range_limit - 3.267 * 1.5).abs() < 1e-3 * 1.5);
-    let c = course.capability(Some(1.0), Some(11.0), 0.95);
-    assert!((c.pp.unwrap().value - 10.0 / (6.0 * course.std_dev)).abs() < 1e-15);
-    assert!((c.ppk.unwrap().value - 4.0 / (3.0 * course.std_dev)).abs() < 1e-15);
-    assert!((c.cp.unwrap().value - 10.0 / (6.0 * course.within)).abs() < 1e-15);
-    let one = course.capability(None, Some(11.0), 0.95);
+    assert!((chart.limits[1] - 5.0 - 2.6587 * 1.5).abs() < 1e-3 * 1.5);
+    assert!((chart.range_limit - 3.267 * 1.5).abs() < 1e-3 * 1.5);
+    let c = chart.capability(Some(1.0), Some(11.0), 0.95);
+    assert!((c.pp.unwrap().value - 10.0 / (6.0 * chart.std_dev)).abs() < 1e-15);
+    assert!((c.ppk.unwrap().value - 4.0 / (3.0 * chart.std_dev)).abs() < 1e-15);
+    assert!((c.cp.unwrap().value - 10.0 / (6.0 * chart.within)).abs() < 1e-15);
+    let one = chart.capability(None, Some(11.0), 0.95);
     assert!(one.cp.is_none() && one.pp.is_none());
-    assert!((one.ppk.unwrap().value - 6.0 / (3.0 * course.std_dev)).abs() < 1e-15);
-    assert_eq!(course.capability(None, None, 0.95), Capability::default());
+    assert!((one.ppk.unwrap().value - 6.0 / (3.0 * chart.std_dev)).abs() < 1e-15);
+    assert_eq!(chart.capability(None, None, 0.95), Capability::default());
 }
 
 #[test]
@@ -80,10 +80,10 @@ fn what_chance_seldom_does_is_told() {
 
 #[test]
 fn what_has_no_course() {
-    assert_eq!(Course::of(&[]), None);
-    assert_eq!(Course::of(&[1.0]), None);
-    assert_eq!(Course::of(&[1.0, f64::NAN]), None);
-    let still = Course::of(&[2.0; 9]).unwrap();
+    assert_eq!(ControlChart::of(&[]), None);
+    assert_eq!(ControlChart::of(&[1.0]), None);
+    assert_eq!(ControlChart::of(&[1.0, f64::NAN]), None);
+    let still = ControlChart::of(&[2.0; 9]).unwrap();
     assert_eq!((still.std_dev, still.within, still.signals.len()), (0.0, 0.0, 0));
     assert_eq!(still.capability(Some(1.0), Some(3.0), 0.95), Capability::default());
 }
@@ -99,7 +99,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     let runs = 4000;
     for _ in 0..runs {
         let values: Vec<f64> = (0..30).map(|_| normal_quantile(random.unit().max(1e-300))).collect();
-        let c = Course::of(&values).unwrap().capability(Some(lower), Some(upper), 0.95);
+        let c = ControlChart::of(&values).unwrap().capability(Some(lower), Some(upper), 0.95);
         for (k, index) in [c.cp, c.cpk, c.pp, c.ppk].into_iter().enumerate() {
             let index = index.unwrap();
             held[k] += u32::from(index.low <= truth[k] && truth[k] <= index.high);

@@ -7,7 +7,7 @@ pub use kind::{CurvatureKind, values};
 pub use view::View;
 
 use crate::results::curvature::{
-    CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Quantity, Range, SCHEMA,
+    CurvatureDocument, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Quantity, Range, SCHEMA,
 };
 use crate::results::surface::MapRecord;
 use crate::results::{self, Histogram, InputRecord, UNITS, VERSION, Word};
@@ -105,8 +105,8 @@ pub(crate) fn map(known: &[f64], kind: CurvatureKind, size: f64) -> (Statistics,
     (all, record)
 }
 
-fn place(index: usize, points: &[Point], jet: &Jet) -> Place {
-    Place {
+fn place(index: usize, points: &[Point], jet: &Jet) -> CurvaturePlace {
+    CurvaturePlace {
         index: index as u64,
         position: points[index],
         bend: (&jet.bend).into(),

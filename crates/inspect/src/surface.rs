@@ -18,7 +18,8 @@ use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_geom::surface::{
-    Base, BaseKind, Fairness, Layout, Options, Outline, Region, STANDING, SurfaceFit, minimum_rectangle,
+    Base, BaseKind, Fairness, Layout, Options, Outline, OutlineRegion, STANDING, SurfaceFit,
+    minimum_rectangle,
 };
 
 /// Share of points in layers beyond which the surface is doubtful.
@@ -138,7 +139,7 @@ fn tolerance(fit: &SurfaceFit, deviations: &[f64], options: &Options) -> Option<
 
 fn trim(fit: &SurfaceFit, outline: &Outline) -> TrimRecord {
     let sides = fit.surface.domain().map(|(from, to)| to - from);
-    let region = |r: &Region| RegionRecord { outer: r.outer.clone(), holes: r.holes.clone() };
+    let region = |r: &OutlineRegion| RegionRecord { outer: r.outer.clone(), holes: r.holes.clone() };
     TrimRecord {
         reach: outline.reach,
         share: outline.area() / (sides[0] * sides[1]),

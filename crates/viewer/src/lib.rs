@@ -16,7 +16,7 @@ pub const STYLE: &str = concat!(
     include_str!("../web/style/charts.css"),
     include_str!("../web/style/print.css"),
 );
-/// The words of the page: lines of `key`, English, German, Russian and Chinese, parted by tabs.
+/// The words of the page: lines of `key`, English, German, Russian and Chinese, separated by tabs.
 pub const TEXTS: &str = include_str!("../texts.tsv");
 
 #[cfg(test)]

@@ -243,7 +243,7 @@ fn best_fit(
     }
 }
 
-/// The rows of a table: numbers parted by blanks, commas, semicolons or tabs; `#` begins a comment.
+/// The rows of a table: numbers separated by blanks, commas, semicolons or tabs; `#` begins a comment.
 fn rows(path: &Path) -> anyhow::Result<Vec<Vec<f64>>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let mut all: Vec<Vec<f64>> = vec![];

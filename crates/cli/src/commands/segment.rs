@@ -204,8 +204,8 @@ fn size(region: &RegionRecord) -> String {
     let mut words = Vec::new();
     for (name, short) in names {
         // The radius of a cone is that at some place.
-        let told = name != "radius" || !region.parameters.contains_key("half_angle");
-        let Some(Number::One(value)) = region.parameters.get(name).filter(|_| told) else { continue };
+        let own = name != "radius" || !region.parameters.contains_key("half_angle");
+        let Some(Number::One(value)) = region.parameters.get(name).filter(|_| own) else { continue };
         let is_angle = region.shape.quantity(name) == Some(Quantity::Angle);
         let scale = if is_angle { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));

@@ -90,7 +90,7 @@ impl Field {
     }
 
     /// How well samples fit the surface, one after the other: the sum over them of 1 on it, 0 beyond `reach` of it or turned away.
-    pub fn worth(&self, placed: &Placed, blocks: &[Block], reach: f64) -> f64 {
+    pub fn worth(&self, placed: &Placed, blocks: &[SampleBlock], reach: f64) -> f64 {
         let per_reach = (1.0 / (reach * self.scale)) as f32;
         let sums = worths(self, placed, blocks, per_reach);
         sums.iter().map(|s| f64::from(*s)).sum()
@@ -108,7 +108,7 @@ pub(super) struct Placed {
 
 /// Some samples, side by side.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Block {
+pub(super) struct SampleBlock {
     /// From a middle, millimeters.
     points: [[f32; LANES]; 3],
     normals: [[f32; LANES]; 3],
@@ -118,15 +118,15 @@ pub(super) struct Block {
     either: f32,
 }
 
-impl Block {
+impl SampleBlock {
     /// All samples, from `middle`.
-    pub fn of(samples: &Samples, middle: Point) -> Vec<Block> {
+    pub fn of(samples: &Samples, middle: Point) -> Vec<SampleBlock> {
         let parts = samples.points.chunks(LANES).zip(samples.normals.chunks(LANES));
         let block = |(points, normals): (&[Point], &[Vector])| {
-            let mut block = Block {
+            let mut block = SampleBlock {
                 least: [f32::INFINITY; LANES],
                 either: if samples.oriented { 0.0 } else { 1.0 },
-                ..Block::default()
+                ..SampleBlock::default()
             };
             for (l, (p, n)) in points.iter().zip(normals).enumerate() {
                 let p = minus(*p, middle);
@@ -145,7 +145,7 @@ impl Block {
 
 widest! {
     /// The sums of the worths of every eighth sample.
-    fn worths[][](field: &Field, placed: &Placed, blocks: &[Block], per_reach: f32) -> [f32; LANES] = {
+    fn worths[][](field: &Field, placed: &Placed, blocks: &[SampleBlock], per_reach: f32) -> [f32; LANES] = {
         let mut sums = [0.0f32; LANES];
         let outside = field.cells.len() - 1;
         let counts = field.counts.map(|c| c as u32);

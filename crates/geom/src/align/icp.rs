@@ -10,7 +10,7 @@
 
 use super::field::facet_normal;
 use super::sample::{Samples, agree};
-use super::system::{Equation, Hold, Six, Spectrum, System};
+use super::system::{Constraint, Equation, Six, Spectrum, System};
 use super::{AlignError, Target};
 use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
@@ -74,7 +74,7 @@ impl Problem<'_> {
         let found = tree.map_closest(&moved, &query, progress, |i, hit| {
             let q = moved[i];
             let none = || Match {
-                equation: Equation { point: q, away: [0.0; 3], hold: Hold::Point, weight: 0.0 },
+                equation: Equation { point: q, away: [0.0; 3], hold: Constraint::Point, weight: 0.0 },
                 distance: f64::INFINITY,
                 facet: [0.0; 3],
             };
@@ -90,9 +90,9 @@ impl Problem<'_> {
                 return none();
             }
             let hold = match place.feature {
-                Feature::Face => Hold::Plane(facet),
-                Feature::Edge(k) => Hold::Line(self.edge(hit.face, k as usize)),
-                Feature::Vertex(_) => Hold::Point,
+                Feature::Face => Constraint::Plane(facet),
+                Feature::Edge(k) => Constraint::Line(self.edge(hit.face, k as usize)),
+                Feature::Vertex(_) => Constraint::Point,
             };
             let away = minus(q, place.point);
             let equation = Equation { point: q, away, hold, weight: samples.weights[i] };
@@ -172,7 +172,7 @@ impl Problem<'_> {
 
     /// The same where edges and corners hold no more than their facets do.
     pub fn system_of_facets(&self, matches: &[Match], pose: &Rigid) -> System {
-        let flat = |m: &Match| Equation { hold: Hold::Plane(m.facet), ..m.equation };
+        let flat = |m: &Match| Equation { hold: Constraint::Plane(m.facet), ..m.equation };
         let equations: Vec<Equation> = matches.iter().map(flat).collect();
         System::new(&equations, pose.point(self.mean), self.radius)
     }

@@ -3,7 +3,7 @@
 
 use super::AlignError;
 use super::icp::moved;
-use super::system::{Equation, Hold, SixBySix, Spectrum, System, eigen_six};
+use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six};
 use crate::closest::check_points;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
@@ -180,7 +180,7 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
         let equation = |i: usize| Equation {
             point: pose.point(measured[i]),
             away: minus(pose.point(measured[i]), nominal[i]),
-            hold: Hold::Plane(held[i]),
+            hold: Constraint::Plane(held[i]),
             weight: weight(i),
         };
         let equations: Vec<Equation> = (0..rows.len()).map(equation).collect();

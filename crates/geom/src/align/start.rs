@@ -1,7 +1,7 @@
 //! Where to start: poses from all that could tell, tried by the hundred thousand on a grid, the best of them refined.
 
 use super::features::{Oriented, PairFrame, PairTable};
-use super::field::{Block, Field, LANES};
+use super::field::{Field, LANES, SampleBlock};
 use super::icp::Problem;
 use super::sample::{Moments, Samples, area, on_surface};
 use super::{AlignError, Target};
@@ -50,7 +50,7 @@ pub(super) struct Search {
     /// A few hundred samples with normals, in random order.
     pub samples: Samples,
     /// The same about their mean, for trying.
-    blocks: Vec<Block>,
+    blocks: Vec<SampleBlock>,
     bounds: Aabb,
     known: Arc<Known>,
     /// Mean distance of neighbors among the places of the reference.
@@ -95,14 +95,14 @@ impl Search {
 
     fn of(samples: Samples, bounds: Aabb, known: Arc<Known>, spacing: f64, seed: u64, brief: bool) -> Search {
         let measured = samples.moments();
-        let blocks = Block::of(&samples, measured.mean);
+        let blocks = SampleBlock::of(&samples, measured.mean);
         Search { samples, blocks, bounds, known, spacing, measured, seed, brief }
     }
 
     /// Turns the normals of the samples round.
     pub fn turn(&mut self) {
         self.samples = self.samples.turned();
-        self.blocks = Block::of(&self.samples, self.measured.mean);
+        self.blocks = SampleBlock::of(&self.samples, self.measured.mean);
     }
 
     /// Root mean square radius of the measured over that of the reference.

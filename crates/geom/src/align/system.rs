@@ -8,7 +8,7 @@ use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 
 /// What a point is held by: the shape of the surface where it is nearest.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Hold {
+pub(super) enum Constraint {
     /// Inside a facet with this unit normal: along that.
     Plane(Vector),
     /// On an edge with this unit direction: across that.
@@ -25,7 +25,7 @@ pub(super) struct Equation {
     pub point: Point,
     /// From its closest place.
     pub away: Vector,
-    pub hold: Hold,
+    pub hold: Constraint,
     pub weight: f64,
 }
 
@@ -34,13 +34,13 @@ impl Equation {
     #[inline(always)]
     fn directions(&self) -> ([Vector; 3], usize) {
         match self.hold {
-            Hold::Plane(n) => ([n, n, n], 1),
-            Hold::Line(t) => {
+            Constraint::Plane(n) => ([n, n, n], 1),
+            Constraint::Line(t) => {
                 let axis = least_axis(t);
                 let a = unit(cross(t, axis)).map_or(axis, |a| a.0);
                 ([a, cross(t, a), t], 2)
             }
-            Hold::Point => ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 3),
+            Constraint::Point => ([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 3),
         }
     }
 }

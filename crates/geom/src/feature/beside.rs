@@ -91,7 +91,7 @@ pub fn pieces_beside(
     }
     let mut cloud =
         Cloud { points, tree, surface, near, count: NEIGHBORS[0], patches: BTreeMap::new(), progress };
-    cloud.settle(own)?;
+    cloud.choose_count(own)?;
     let mut label: BTreeMap<u32, u32> = BTreeMap::new();
     let mut pieces = 0;
     let mut seen: BTreeSet<u32> = BTreeSet::new();
@@ -147,7 +147,7 @@ struct Cloud<'a> {
 
 impl Cloud<'_> {
     /// Chooses the number of neighbors.
-    fn settle(&mut self, own: &[u32]) -> Result<(), FeatureError> {
+    fn choose_count(&mut self, own: &[u32]) -> Result<(), FeatureError> {
         let step = own.len().div_ceil(ASKED);
         let mut best = (f64::INFINITY, NEIGHBORS[0]);
         for count in NEIGHBORS.into_iter().filter(|n| *n <= own.len()) {

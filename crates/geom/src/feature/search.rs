@@ -79,16 +79,16 @@ impl<'a> FeatureSearch<'a> {
         };
         let starts = rules.starts();
         let nearest = starts.iter().filter_map(|p| self.tree.closest(p, f64::INFINITY).ok().flatten());
-        let mut front: Vec<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();
-        front.sort_unstable();
-        front.dedup();
-        if front.is_empty() {
+        let mut open: Vec<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();
+        open.sort_unstable();
+        open.dedup();
+        if open.is_empty() {
             return Ok(Found::default());
         }
         let mut found = Marked::new(self.mesh.faces.len());
-        front.iter().for_each(|f| found.add(*f));
+        open.iter().for_each(|f| found.add(*f));
         let mut beside = vec![];
-        while let Some(facet) = front.pop() {
+        while let Some(facet) = open.pop() {
             if found.count.is_multiple_of(1024) && progress.cancelled() {
                 return Err(FeatureError::Cancelled);
             }
@@ -98,7 +98,7 @@ impl<'a> FeatureSearch<'a> {
                 }
                 if belongs(other) {
                     found.add(other);
-                    front.push(other);
+                    open.push(other);
                 } else {
                     beside.push(other);
                 }

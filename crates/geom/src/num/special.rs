@@ -78,7 +78,7 @@ pub fn beta_share(a: f64, b: f64, x: f64) -> f64 {
 }
 
 fn beta_share_below(a: f64, b: f64, x: f64) -> f64 {
-    let front = libm::exp(a * libm::log(x) + b * libm::log1p(-x) - log_beta(a, b)) / a;
+    let factor = libm::exp(a * libm::log(x) + b * libm::log1p(-x) - log_beta(a, b)) / a;
     let keep = |y: f64| if y.abs() < 1e-300 { 1e-300 } else { y };
     let (mut c, mut d) = (1.0, 1.0 / keep(1.0 - (a + b) * x / (a + 1.0)));
     let mut fraction = d;
@@ -96,7 +96,7 @@ fn beta_share_below(a: f64, b: f64, x: f64) -> f64 {
             break;
         }
     }
-    front * fraction
+    factor * fraction
 }
 
 /// The lower incomplete gamma function as a share of the complete one, for positive `a` and `x`.
@@ -107,7 +107,7 @@ pub fn gamma_share(a: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
     }
-    let front = libm::exp(a * libm::log(x) - x - libm::lgamma(a));
+    let factor = libm::exp(a * libm::log(x) - x - libm::lgamma(a));
     if x < a + 1.0 {
         let (mut term, mut sum) = (1.0 / a, 1.0 / a);
         for k in 1..1_000_000 {
@@ -117,7 +117,7 @@ pub fn gamma_share(a: f64, x: f64) -> f64 {
                 break;
             }
         }
-        return front * sum;
+        return factor * sum;
     }
     let mut b = x + 1.0 - a;
     let (mut c, mut d) = (1e300, 1.0 / b);
@@ -133,7 +133,7 @@ pub fn gamma_share(a: f64, x: f64) -> f64 {
             break;
         }
     }
-    1.0 - front * fraction
+    1.0 - factor * fraction
 }
 
 /// Logarithm of the complete beta function.

@@ -197,10 +197,10 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
 /// Whether single precision takes no vertex farther than a trifle of the size.
 fn is_fine_in_single(mesh: &Mesh) -> bool {
     /// Of the diagonal.
-    const TRIFLE: f64 = 1e-6;
+    const NEGLIGIBLE: f64 = 1e-6;
     let bounds = mesh.finite_bounds();
     let most = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
-    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= TRIFLE * bounds.diagonal()
+    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= NEGLIGIBLE * bounds.diagonal()
 }
 
 /// As [`repair`], in the precision of `options` alone.

@@ -7,21 +7,21 @@
 //! least over all places at once).
 
 mod circles;
-mod course;
 mod edge;
 mod ends;
 mod error;
+mod profile;
 
 use super::direction::from_the_end;
 use super::result::{Contour, Geometry, Uncertainty};
 use crate::progress::Progress;
 use circles::Inscribed;
-use course::{Course, RESOLUTION};
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 use ends::distance;
 pub use error::AirfoilError;
 use error::FEWEST;
+use profile::{Profile, RESOLUTION};
 
 /// An edge lies on an arc of the contour that turns by more than this, radians.
 const TURN: f64 = 2.4;
@@ -129,7 +129,7 @@ fn in_order(
     if row.len() < FEWEST {
         return Err(AirfoilError::TooFewPoints { found: row.len() });
     }
-    let (around, mut course, mut other) = Course::new(&row, &numbers, contour, progress)?;
+    let (around, mut course, mut other) = Profile::new(&row, &numbers, contour, progress)?;
     let round = around.trailing == TrailingEdge::Round;
     let mut inscribed = Inscribed::new(&course, progress);
     // Segments overshoot where they join in a place that the points do not determine; the free curve through all points has no such place.

@@ -65,8 +65,8 @@ pub fn bent_across(contour: &Contour, heights: &[f64]) -> Vec<Bent> {
         let slope = xy / xx;
         let chance = ((yy - slope * xy).max(0.0) / (n - 2.0) / xx).sqrt();
         let bias = slope * square;
-        let told = slope.abs() > SURE * chance && bias.abs() > uncertainty;
-        told.then_some(Bent { segment, bias, uncertainty })
+        let significant = slope.abs() > SURE * chance && bias.abs() > uncertainty;
+        significant.then_some(Bent { segment, bias, uncertainty })
     };
     contour.segments.iter().enumerate().filter_map(of).collect()
 }

@@ -221,7 +221,7 @@ impl Search<'_> {
         let shift = if closed { n } else { 0 };
         let breaks = parts.iter().map(|p| p.from + shift).chain([parts[0].from + n + shift]).collect();
         let model = Model { state: State { chain, breaks, feet: vec![0.5; n], sum: 0.0 }, cost: 0.0 };
-        self.settle(&model)
+        self.converge(&model)
     }
 }
 

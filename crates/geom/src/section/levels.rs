@@ -25,7 +25,7 @@ const FEWEST_FINER: usize = 3;
 /// The partition and the noise that it shows follow each other so many times.
 const PASSES: usize = 6;
 /// Noise of a first partition below this share of that of local fits: these are not fits of noise.
-const POLLUTED: f64 = 0.3;
+const LEAST_OF_LOCAL: f64 = 0.3;
 /// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
 const SHORT: usize = 24;
 const FORM: f64 = 0.05;
@@ -124,7 +124,7 @@ impl Start {
             start.divide(FEWEST);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
             let found = scatter(&start.clean.points, &start.weights, &start.parts).max(least);
-            if options.noise.is_some() || found > POLLUTED * start.sigma {
+            if options.noise.is_some() || found > LEAST_OF_LOCAL * start.sigma {
                 break;
             }
             (start.own, start.sigma) = (start.own.min(found), found);

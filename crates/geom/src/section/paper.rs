@@ -346,12 +346,12 @@ impl Work {
         let curve = self.curve(s, count)?;
         let (line, join, on_line) = self.split(s);
         let (on, off) = self.distances(s, &curve);
-        let told = |d: &[f64]| {
+        let rms_and_max = |d: &[f64]| {
             let square: f64 = d.iter().map(|x| x * x).sum();
             [(square / d.len().max(1) as f64).sqrt(), d.iter().copied().fold(0.0, f64::max)]
         };
         let interval = ends.map(|s| [0, 1].map(|k| self.base[k] + s * self.direction[k]));
-        let (line_residuals, curve_residuals) = (told(&on), told(&off));
+        let (line_residuals, curve_residuals) = (rms_and_max(&on), rms_and_max(&off));
         Ok(Method { search, interval, join, line, curve, line_residuals, curve_residuals, on_line })
     }
 }

@@ -106,7 +106,7 @@ impl Search<'_> {
             return None;
         }
         let mut search = near.search(self, &model.state, 0.0);
-        let best = search.settle(&Model { state: near.state.clone(), cost: 0.0 }).state;
+        let best = search.converge(&Model { state: near.state.clone(), cost: 0.0 }).state;
         let join = near.core.start + 1;
         let pose = search.pose_of(&best, join);
         let lower = look(&mut search, &best, &Seek { join, pose, ..*seek })?;
@@ -363,7 +363,7 @@ mod tests {
             until: f64::INFINITY,
         };
         let state = State { chain, breaks, feet: vec![0.5; points.len()], sum: 0.0 };
-        let model = search.settle(&Model { state, cost: 0.0 });
+        let model = search.converge(&Model { state, cost: 0.0 });
         let none = Interval { ends: [[0.0; 2]; 2], uncertainty: 0.0, open: [false; 2] };
         let seeks = search.seeks(&model, 0.95).1;
         assert_eq!(seeks.len(), 23);

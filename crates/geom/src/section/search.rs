@@ -10,7 +10,7 @@ use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
 
 /// A model that is dearer than the best by this much after four steps is not refined.
-const HOPELESS: f64 = 30.0;
+const COST_TO_DROP: f64 = 30.0;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
 /// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
@@ -56,12 +56,12 @@ impl Search<'_> {
     }
 
     /// Converged; as it was where that runs into a loop.
-    pub fn settle(&mut self, model: &Model) -> Model {
-        self.settled(model, 60)
+    pub fn converge(&mut self, model: &Model) -> Model {
+        self.converge_within(model, 60)
     }
 
     /// The same within so many steps.
-    pub fn settled(&mut self, model: &Model, steps: usize) -> Model {
+    pub fn converge_within(&mut self, model: &Model, steps: usize) -> Model {
         let mut state = model.state.clone();
         let stop = self.stop(steps, 1e-11);
         self.work.improve(&self.row, &mut state, None, &stop);
@@ -108,7 +108,7 @@ impl Search<'_> {
         let stop = Stop { target, ..self.stop(4, 1e-4) };
         self.work.improve(&self.row, &mut state, None, &stop);
         let model = self.model(state);
-        if model.cost > bar + HOPELESS {
+        if model.cost > bar + COST_TO_DROP {
             return model;
         }
         let mut state = model.state;
@@ -129,7 +129,7 @@ impl Search<'_> {
                 found = other;
             }
         }
-        Ok(self.settle(&found))
+        Ok(self.converge(&found))
     }
 
     /// Rounds of the search.
@@ -242,7 +242,7 @@ impl Search<'_> {
             .filter(|p| p.kind == SegmentKind::Spline)
             .for_each(|p| p.count = (p.count + more).min(free::MOST));
         let built = self.build(&base, &plans, f64::INFINITY);
-        self.settle(&built)
+        self.converge(&built)
     }
 
     /// The best of all models one step away.

@@ -207,9 +207,9 @@ fn grow(
         {
             break;
         }
-        let torn = gap.is_none() && pieces as f64 > PIECES.0 * n as f64 + PIECES.1 as f64;
+        let fragmented = gap.is_none() && pieces as f64 > PIECES.0 * n as f64 + PIECES.1 as f64;
         best = Some((Grown { cells, tree, reach, follows }, pieces));
-        if follows && !torn {
+        if follows && !fragmented {
             break;
         }
         width *= GROWTH.0;

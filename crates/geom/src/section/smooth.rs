@@ -28,7 +28,7 @@ const FINE: f64 = 4.0;
 const NEARLY: f64 = 1.3;
 /// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
 /// then 1.65 times as far off.
-const HOPELESS: f64 = 1.0;
+const POINT_COST_TO_DROP: f64 = 1.0;
 
 impl Search<'_> {
     /// The cheapest model reachable from that of the parts, or from one free piece where many lines and arcs stand for a smooth curve.
@@ -96,7 +96,7 @@ impl Search<'_> {
                 let free = |from: f64, to: f64| Plan { kind: SegmentKind::Spline, count, from, to };
                 let plans = [free(from, own.from), own, free(own.to, to)];
                 let built = self.build(&base, &plans, f64::INFINITY);
-                let mut model = self.settle(&built);
+                let mut model = self.converge(&built);
                 let least = best.as_ref().map_or(bar, |b| b.cost);
                 let dearer = model.cost > least;
                 if model.cost < least && self.follows(&mut model.state) {
@@ -138,10 +138,10 @@ impl Search<'_> {
                 let plans: Vec<Plan> = (0..pieces).map(plan).collect();
                 let built = self.build(&base, &plans, f64::INFINITY);
                 let least = best.as_ref().map_or(bar, |b| b.cost);
-                if built.cost > least + HOPELESS * self.criterion.count {
+                if built.cost > least + POINT_COST_TO_DROP * self.criterion.count {
                     continue;
                 }
-                let mut model = self.settle(&built);
+                let mut model = self.converge(&built);
                 if model.cost < least && self.follows(&mut model.state) {
                     (best, better) = (Some(model), true);
                 }

@@ -55,7 +55,7 @@ impl Span {
     pub fn sum(&self, parts: &[Part], task: &Task) -> f64 {
         let mut search = self.search(task);
         let first = search.first(parts, false);
-        search.settle(&first).state.sum
+        search.converge(&first).state.sum
     }
 
     /// Finds the pieces and the intervals of the joins.
@@ -80,11 +80,11 @@ impl Span {
         }
         let mut search = self.search(task);
         let found = match Blocks::of(&self, &best.state).filter(|_| best.state.chain.joins() > 0) {
-            None => settle(&mut search, best, task, progress)?,
+            None => with_intervals(&mut search, best, task, progress)?,
             Some(blocks) => {
                 let own = blocks.task(task);
                 let (_, intervals, ..) =
-                    settle(&mut blocks.span.search(&own), blocks.model(), &own, progress)?;
+                    with_intervals(&mut blocks.span.search(&own), blocks.model(), &own, progress)?;
                 let noise = search.variance(&best.state).0.sqrt();
                 (best.state, intervals, noise, std::mem::take(&mut search.work))
             }
@@ -118,7 +118,7 @@ impl Span {
             _ => None,
         };
         let Some(model) = model else { return Ok(None) };
-        let found = settle(&mut search, model, task, progress)?;
+        let found = with_intervals(&mut search, model, task, progress)?;
         let own = found.0.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
         let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
         let astray = is_loose || self.is_astray(&found.0, task);
@@ -209,11 +209,11 @@ impl Span {
         let mut search = self.search(task);
         let state = State { chain: found.chain, breaks, feet, sum: 0.0 };
         let Some(blocks) = Blocks::of(self, &state) else {
-            return Ok(search.settle(&Model { state, cost: 0.0 }));
+            return Ok(search.converge(&Model { state, cost: 0.0 }));
         };
-        let by_blocks = blocks.span.search(&blocks.task(task)).settle(&blocks.model());
+        let by_blocks = blocks.span.search(&blocks.task(task)).converge(&blocks.model());
         let model = blocks.whole(by_blocks.state);
-        Ok(search.settled(&model, POLISHED))
+        Ok(search.converge_within(&model, POLISHED))
     }
 
     fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {
@@ -238,7 +238,7 @@ impl Span {
 }
 
 /// The best model once more, with the intervals of its joins; where the profile of a join finds a better place, from there.
-fn settle(
+fn with_intervals(
     search: &mut Search,
     mut best: Model,
     task: &Task,
@@ -266,7 +266,7 @@ fn settle(
             }
         }
         let Some(state) = better.filter(|_| !last) else { break };
-        best = search.settle(&Model { state, cost: 0.0 });
+        best = search.converge(&Model { state, cost: 0.0 });
     }
     let noise = search.variance(&best.state).0.sqrt();
     Ok((best.state, intervals, noise, std::mem::take(&mut search.work)))

@@ -16,7 +16,7 @@ const STEADY: usize = 6;
 
 /// A series of values as a control chart shows it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
+pub struct ControlChart {
     /// Number of values.
     pub count: usize,
     /// Their mean.
@@ -85,17 +85,17 @@ pub struct Capability {
     pub ppk: Option<Index>,
 }
 
-impl Course {
-    /// The course of `values` in the order of their making; `None` of fewer than two, or where one is not finite.
+impl ControlChart {
+    /// The chart of `values` in the order of their making; `None` of fewer than two, or where one is not finite.
     ///
     /// ```
-    /// use trueness_geom::stats::process::Course;
-    /// let course = Course::of(&[1.0, 3.0, 2.0, 2.0]).unwrap();
-    /// assert_eq!((course.mean, course.moving_range), (2.0, 1.0));
+    /// use trueness_geom::stats::process::ControlChart;
+    /// let chart = ControlChart::of(&[1.0, 3.0, 2.0, 2.0]).unwrap();
+    /// assert_eq!((chart.mean, chart.moving_range), (2.0, 1.0));
     /// // Three spreads within, each √π/2 of the mean moving range.
-    /// assert!((course.limits[1] - 2.0 - 1.5 * std::f64::consts::PI.sqrt()).abs() < 1e-15);
+    /// assert!((chart.limits[1] - 2.0 - 1.5 * std::f64::consts::PI.sqrt()).abs() < 1e-15);
     /// ```
-    pub fn of(values: &[f64]) -> Option<Course> {
+    pub fn of(values: &[f64]) -> Option<ControlChart> {
         if values.len() < 2 || values.iter().any(|x| !x.is_finite()) {
             return None;
         }
@@ -109,7 +109,7 @@ impl Course {
         let within = moving_range / D2;
         // The standard deviation of a range of two is √(2 − 4/π).
         let range_limit = moving_range * (1.0 + 3.0 * (2.0 - 4.0 / PI).sqrt() / D2);
-        let mut course = Course {
+        let mut chart = ControlChart {
             count: values.len(),
             mean,
             min: values.iter().copied().fold(f64::INFINITY, f64::min),
@@ -121,8 +121,8 @@ impl Course {
             range_limit,
             signals: vec![],
         };
-        course.signals = course.signaled(values, &ranges);
-        Some(course)
+        chart.signals = chart.signaled(values, &ranges);
+        Some(chart)
     }
 
     fn signaled(&self, values: &[f64], ranges: &[f64]) -> Vec<Signal> {

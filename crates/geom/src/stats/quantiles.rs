@@ -88,7 +88,7 @@ impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
         }];
         while !spans.is_empty() {
             spans = self.cut(&spans);
-            spans = self.settle(spans, &mut put);
+            spans = self.narrow(spans, &mut put);
         }
         ranks
             .iter()
@@ -143,8 +143,8 @@ impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
             .collect()
     }
 
-    /// One pass: copies out the small spans and settles their ranks; returns the large ones, trimmed to their keys.
-    fn settle(&self, spans: Vec<Span>, put: &mut impl FnMut(u64, u64)) -> Vec<Span> {
+    /// One pass: copies out the small spans and stores their ranks; returns the large ones, trimmed to their keys.
+    fn narrow(&self, spans: Vec<Span>, put: &mut impl FnMut(u64, u64)) -> Vec<Span> {
         let (known, open): (Vec<Span>, Vec<Span>) = spans.into_iter().partition(|s| s.low == s.high);
         known.iter().for_each(|s| s.ranks.iter().for_each(|r| put(*r, s.low)));
         if open.is_empty() {

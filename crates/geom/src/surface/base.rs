@@ -37,7 +37,7 @@ pub struct Base {
     /// Whether points lie within ten degrees of a pole of the sphere: the parameters crowd there, and the surface is torn or creased.
     pub pole: bool,
     /// How the parameters run.
-    course: Course,
+    course: Unrolling,
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
@@ -52,7 +52,7 @@ pub struct Base {
 
 /// How the parameters of a cylinder or a sphere run from the lengths along its own directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Course {
+struct Unrolling {
     /// The angle where they start.
     angle: f64,
     /// The lengths where they start.
@@ -257,7 +257,7 @@ fn xy() -> Base {
         radius: None,
         around: false,
         pole: false,
-        course: Course::default(),
+        course: Unrolling::default(),
         folded_share: 0.0,
         standing_share: 0.0,
         stretch: None,
@@ -340,14 +340,14 @@ fn unrolled(angles: &mut [f64]) -> (f64, bool) {
 }
 
 /// The longer direction as the first parameter, with the same side outside.
-fn longer_first(seen: &mut [Seen], angle: f64) -> Course {
+fn longer_first(seen: &mut [Seen], angle: f64) -> Unrolling {
     let [u, v] = ranges(seen.iter().map(|s| s.0));
     let turned = v.1 - v.0 > u.1 - u.0;
     for ([a, b], _) in seen {
         let own = [*a - u.0, *b - v.0];
         [*a, *b] = if turned { [own[1], u.1 - u.0 - own[0]] } else { own };
     }
-    Course { angle, low: [u.0, v.0], turned: turned.then_some(u.1 - u.0) }
+    Unrolling { angle, low: [u.0, v.0], turned: turned.then_some(u.1 - u.0) }
 }
 
 fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base, Vec<Seen>) {

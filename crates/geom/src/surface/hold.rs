@@ -37,16 +37,16 @@ pub(super) struct Ground<'a> {
 }
 
 /// The term `(p − t)ᵀ H (p − t)` for control points `p`.
-pub(super) struct Hold {
+pub(super) struct Penalty {
     /// `H`, of unit stiffness.
     pub stencil: Stencil,
     /// `t`, less the center: only its slopes count.
     pub target: Vec<Point>,
 }
 
-impl Hold {
+impl Penalty {
     /// For what the matrix of the points leaves loose; `None` where that is nothing.
-    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &Ground) -> Option<Hold> {
+    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &Ground) -> Option<Penalty> {
         let needs = needs(data, normal);
         if needs.iter().all(|n| *n == 0.0) {
             return None;
@@ -68,7 +68,7 @@ impl Hold {
             }
         }
         let target = target(ground).into_iter().map(|t| minus(t, ground.center)).collect();
-        Some(Hold { stencil, target })
+        Some(Penalty { stencil, target })
     }
 }
 

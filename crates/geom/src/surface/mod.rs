@@ -59,7 +59,7 @@ pub use error::SurfaceError;
 pub use flatten::NotADisc;
 pub use found::{Reached, Support, SurfaceFit};
 pub use options::{BaseKind, Fairness, HIGHEST_DEGREE, Layout, Options};
-pub use outline::{Outline, Region};
+pub use outline::{Outline, OutlineRegion};
 pub use rectangle::{Rectangle, minimum_rectangle};
 pub use trimmed::trimmed;
 
@@ -139,7 +139,7 @@ fn told_of_all(
     for (k, i) in kept.into_iter().enumerate() {
         (all.deviations[i], all.feet[i]) = (found.deviations[k], found.feet[k]);
     }
-    let all = nearest::told(points, all, 0.0, progress)?;
+    let all = nearest::with_true_distances(points, all, 0.0, progress)?;
     Ok(SurfaceFit { unsettled: found.unsettled + all.doubtful.len(), ..all })
 }
 
@@ -218,7 +218,7 @@ fn over(
             tolerance::to_tolerance(task, base, parameters)
         }
     };
-    let mut found = nearest::told(points, found?, 0.0, progress)?;
+    let mut found = nearest::with_true_distances(points, found?, 0.0, progress)?;
     // A surface that is not held goes along anything.
     if found.base.standing_share > STANDING && found.far_control_points == 0 {
         let base = found.base;

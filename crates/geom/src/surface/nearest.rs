@@ -16,7 +16,7 @@ const CHUNK: usize = 256;
 /// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater.
 ///
 /// Cost: some microseconds for each of them whose foot is in doubt.
-pub(super) fn told(
+pub(super) fn with_true_distances(
     points: &[Point],
     mut fit: SurfaceFit,
     beyond: f64,

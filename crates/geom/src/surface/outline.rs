@@ -18,14 +18,14 @@ pub struct Outline {
     /// The reach that was asked for: less than `reach` where the grid is no finer.
     pub wanted: f64,
     /// Regions that do not hang together, the largest first.
-    pub regions: Vec<Region>,
+    pub regions: Vec<OutlineRegion>,
     /// Points of regions too small to count: not within any.
     pub left_out: usize,
 }
 
 /// A region within a closed polygon, without its holes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Region {
+pub struct OutlineRegion {
     /// Around it, against the clock.
     pub outer: Vec<[f64; 2]>,
     /// Around its holes, with the clock.
@@ -132,7 +132,7 @@ impl Outline {
         let clamp =
             |p: [f64; 2]| -> [f64; 2] { std::array::from_fn(|k| p[k].clamp(domain[k].0, domain[k].1)) };
         let (part, count) = raster.parts(&depth, CELLS - OFF);
-        let mut regions = vec![(0, Region::default()); count];
+        let mut regions = vec![(0, OutlineRegion::default()); count];
         points.iter().for_each(|p| regions[part[raster.cell(*p)] as usize].0 += 1);
         // The points of a line are as deep as the reach.
         let mut deepest = vec![0.0f64; count];
@@ -175,7 +175,7 @@ impl Outline {
     /// so on. Sides along the line do not count.
     pub(super) fn crossings(&self, u: f64) -> Vec<f64> {
         let mut all = vec![];
-        for line in self.regions.iter().flat_map(Region::loops) {
+        for line in self.regions.iter().flat_map(OutlineRegion::loops) {
             let next = line.iter().cycle().skip(1);
             for (a, b) in line.iter().zip(next).filter(|(a, b)| (a[0] <= u) != (b[0] <= u)) {
                 all.push(a[1] + (u - a[0]) / (b[0] - a[0]) * (b[1] - a[1]));
@@ -187,11 +187,11 @@ impl Outline {
 
     /// Area of all regions.
     pub fn area(&self) -> f64 {
-        self.regions.iter().flat_map(Region::loops).map(area).sum()
+        self.regions.iter().flat_map(OutlineRegion::loops).map(area).sum()
     }
 }
 
-impl Region {
+impl OutlineRegion {
     /// The polygon around it, then those around its holes.
     pub fn loops(&self) -> impl Iterator<Item = &[[f64; 2]]> {
         std::iter::once(&self.outer).chain(&self.holes).map(Vec::as_slice)
@@ -282,11 +282,12 @@ fn winding(line: &[[f64; 2]], p: [f64; 2]) -> i32 {
 }
 
 /// The regions with enough of the points, the largest first.
-fn kept(regions: Vec<(usize, Region)>, reach: f64) -> Outline {
+fn kept(regions: Vec<(usize, OutlineRegion)>, reach: f64) -> Outline {
     let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0) as f64;
-    let enough = |(count, region): &(usize, Region)| *count as f64 >= SHARE * most && region.outer.len() > 2;
+    let enough =
+        |(count, region): &(usize, OutlineRegion)| *count as f64 >= SHARE * most && region.outer.len() > 2;
     let (kept, few): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
-    let mut regions: Vec<Region> = kept.into_iter().map(|(_, region)| region).collect();
+    let mut regions: Vec<OutlineRegion> = kept.into_iter().map(|(_, region)| region).collect();
     regions.sort_by(|a, b| area(&b.outer).total_cmp(&area(&a.outer)));
     Outline { reach, wanted: reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
 }

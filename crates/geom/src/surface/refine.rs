@@ -46,7 +46,7 @@ impl Task<'_> {
         let own = Options { corrections: self.options.corrections.min(corrections), ..self.options.clone() };
         let local = corrected(self.points, parameters, base, knots, &own, self.progress)?;
         let feet = local.feet.clone();
-        Ok((nearest::told(self.points, local, self.tolerance, self.progress)?, feet))
+        Ok((nearest::with_true_distances(self.points, local, self.tolerance, self.progress)?, feet))
     }
 
     /// Whether all points are within the tolerance.

@@ -3,7 +3,7 @@
 use super::energy::thin_plate;
 use super::gaps::Folds;
 use super::gram::{Binned, Sums};
-use super::hold::{self, Ground, Hold};
+use super::hold::{self, Ground, Penalty};
 use super::stencil::{Order, Stencil};
 use super::{Fairness, Options, Support, SurfaceError};
 use crate::num::banded::{Banded, BandedError, Factor};
@@ -57,7 +57,7 @@ pub(super) fn solve(
     };
     // A weight that was given is the only one.
     let hold = match options.fairness {
-        Fairness::Auto => Hold::of(data, &normal, ground),
+        Fairness::Auto => Penalty::of(data, &normal, ground),
         Fairness::Weight(_) => None,
     };
     let stiffness = known.map_or(hold::STIFFEST, |k| k.stiffness);
@@ -98,7 +98,7 @@ struct System<'a> {
     data: &'a Binned,
     normal: Stencil,
     energy: Stencil,
-    hold: Option<Hold>,
+    hold: Option<Penalty>,
     /// Of what holds, as a share of what the points hold a control point with in the mean.
     stiffness: f64,
     right: Vec<Point>,

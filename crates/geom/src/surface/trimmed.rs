@@ -16,7 +16,7 @@ const FINER: f64 = 0.2;
 const APART: f64 = 0.2;
 
 /// A place in the parameters.
-type Place = Point2<f64>;
+type Parameters = Point2<f64>;
 
 /// Facets of the surface within the outline, within `tolerance` of it; `None` if that takes more than `most`.
 ///
@@ -47,13 +47,13 @@ pub fn trimmed(
             edges.push([k, next]);
         }
     }
-    let mut places: Vec<Place> = places.into_iter().map(|[u, v]| Place::new(u, v)).collect();
+    let mut places: Vec<Parameters> = places.into_iter().map(|[u, v]| Parameters::new(u, v)).collect();
     for i in 1..us.len() - 1 {
         let crossings = outline.crossings(us[i]);
         let is_inside = |j: &usize| {
             !crossings.partition_point(|c| *c < vs[*j]).is_multiple_of(2) && !is_close[i * vs.len() + j]
         };
-        places.extend((1..vs.len() - 1).filter(is_inside).map(|j| Place::new(us[i], vs[j])));
+        places.extend((1..vs.len() - 1).filter(is_inside).map(|j| Parameters::new(us[i], vs[j])));
     }
     if progress.cancelled() {
         return Err(Cancelled);
@@ -69,9 +69,9 @@ pub fn trimmed(
 
 /// The triangulation with these edges; where edges cross, with a vertex there. `None` if a coordinate is not finite.
 fn triangulation(
-    places: Vec<Place>,
+    places: Vec<Parameters>,
     edges: Vec<[usize; 2]>,
-) -> Option<ConstrainedDelaunayTriangulation<Place>> {
+) -> Option<ConstrainedDelaunayTriangulation<Parameters>> {
     let mut crossing = vec![];
     let mut made =
         ConstrainedDelaunayTriangulation::try_bulk_load_cdt(places, edges, |edge| crossing.push(edge))
@@ -85,7 +85,7 @@ fn triangulation(
 
 /// For each face, by its number, whether it is inside. Faces that no edge of the outline parts are so together; the largest of them
 /// decides, for of a needle at the outline rounding would.
-fn inside(made: &ConstrainedDelaunayTriangulation<Place>, outline: &Outline) -> Vec<bool> {
+fn inside(made: &ConstrainedDelaunayTriangulation<Parameters>, outline: &Outline) -> Vec<bool> {
     let sets = Sets::new(made.num_all_faces());
     for edge in made.undirected_edges().filter(|edge| !edge.is_constraint_edge()) {
         let side = edge.as_directed();

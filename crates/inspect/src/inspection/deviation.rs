@@ -123,7 +123,7 @@ pub(super) fn regions(
     }
     let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
     let search = FeatureSearch::new(reference, tree);
-    let rule = |region: &crate::plan::Region| -> Result<RegionRule, Stop> {
+    let rule = |region: &crate::plan::ToleranceRegion| -> Result<RegionRule, Stop> {
         let Some(number) = region.feature else { return Ok(region.rule.clone()) };
         let feature = &plan.features[number];
         let wrong = |what: String| Stop::Plan {

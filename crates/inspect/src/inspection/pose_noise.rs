@@ -197,11 +197,11 @@ mod tests {
             let noise = Noise { deviation: 0.01, correlation, draws: 1 };
             let answer = Answer::new(&found, &points, &noise, points.iter());
             for draw in 0..20 {
-                let told = answer.motion(&Field::new(&noise, draw));
+                let estimated = answer.motion(&Field::new(&noise, draw));
                 let wanted = direct(&points, &found, &mut Field::new(&noise, draw));
                 let wanted = Response::motion(found.center, wanted);
                 for p in &points {
-                    let off = plus(told.point(*p), times(-1.0, wanted.point(*p)));
+                    let off = plus(estimated.point(*p), times(-1.0, wanted.point(*p)));
                     assert!(dot(off, off).sqrt() < 1e-12, "{correlation}: {off:?}");
                 }
             }
@@ -215,17 +215,17 @@ mod tests {
         for (correlation, touched) in [(0.0, 0), (0.0, 20), (2.5, 0), (2.5, 20)] {
             let noise = Noise { deviation: 0.01, correlation, draws: 1 };
             let answer = Answer::new(&found, &points, &noise, points[..touched].iter());
-            let (mut told, mut wanted) = ([0.0; 3], [0.0; 3]);
+            let (mut estimated, mut wanted) = ([0.0; 3], [0.0; 3]);
             for draw in 0..4000 {
                 let moved = answer.motion(&Field::new(&noise, draw)).point(found.center);
                 let sums = direct(&points, &found, &mut Field::new(&noise, 10_000 + draw));
                 for k in 0..3 {
-                    told[k] += (moved[k] - found.center[k]).powi(2);
+                    estimated[k] += (moved[k] - found.center[k]).powi(2);
                     wanted[k] += sums[3 + k].powi(2);
                 }
             }
             for k in 0..3 {
-                let ratio = (told[k] / wanted[k]).sqrt();
+                let ratio = (estimated[k] / wanted[k]).sqrt();
                 assert!((ratio - 1.0).abs() < 0.06, "{correlation} {touched}: {ratio}");
             }
         }

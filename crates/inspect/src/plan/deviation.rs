@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::error::PlanError;
 use super::feature::Feature;
 use super::text::{AlongText, CoverageText, DeviationText, PlanText};
-use super::tolerance_region::{Region, regions, share, zone};
+use super::tolerance_region::{ToleranceRegion, regions, share, zone};
 use crate::compare::{AlongRule, Coverage, OutlierRule};
 use crate::tolerance::Tolerance;
 
@@ -14,7 +14,7 @@ pub struct Deviation {
     /// The zone that they must keep; without it they are told and not judged.
     pub tolerance: Option<Tolerance>,
     /// Parts of the reference with tolerances of their own.
-    pub regions: Vec<Region>,
+    pub regions: Vec<ToleranceRegion>,
     /// Share of the points that must lie within it, 0 to 1.
     pub required_share: f64,
     /// Points farther away are left out; infinite without a limit.

@@ -114,7 +114,7 @@ fn said(text: &str, span: &Range<usize>, message: &str) -> String {
 fn slip(message: &str, line: &str, after: &str) -> Option<String> {
     let digit = |s: &str, c: fn(&str) -> Option<char>| c(s).is_some_and(|c| c.is_ascii_digit());
     let next = after.split('\n').next().unwrap_or("").trim();
-    let told = match message.split(',').next().unwrap_or("") {
+    let text = match message.split(',').next().unwrap_or("") {
         "unexpected key or value" if after.starts_with(',') && digit(line, |s| s.chars().last()) => {
             "a decimal comma; numbers have a point, as in 0.05".into()
         }
@@ -136,7 +136,7 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
         }
         _ => return None,
     };
-    Some(told)
+    Some(text)
 }
 
 /// How a key that must be there is written.

@@ -31,7 +31,7 @@ pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};
 pub use limits::{Basic, Limits, ZoneOffset};
 pub use proposal::proposal;
-pub use tolerance_region::{Region, regions_of_file};
+pub use tolerance_region::{ToleranceRegion, regions_of_file};
 
 use crate::characteristic;
 use checker::Checker;

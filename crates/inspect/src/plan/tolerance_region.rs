@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// A region of a plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Region {
+pub struct ToleranceRegion {
     /// The same for a comparison; of a feature without facets yet.
     pub rule: RegionRule,
     /// Number of the feature whose facets it has.
@@ -53,8 +53,8 @@ pub(super) fn regions(
     checker: &Checker,
     written: &[At<RegionText>],
     features: &[Feature],
-) -> Result<Vec<Region>, PlanError> {
-    let mut all: Vec<Region> = vec![];
+) -> Result<Vec<ToleranceRegion>, PlanError> {
+    let mut all: Vec<ToleranceRegion> = vec![];
     for At { value, span } in written {
         if all.len() == MOST {
             return checker.wrong(span, format!("there are more than {MOST} regions"));
@@ -67,7 +67,11 @@ pub(super) fn regions(
     Ok(all)
 }
 
-fn region(checker: &Checker, written: &RegionText, features: &[Feature]) -> Result<Region, PlanError> {
+fn region(
+    checker: &Checker,
+    written: &RegionText,
+    features: &[Feature],
+) -> Result<ToleranceRegion, PlanError> {
     let (extent, feature) = extent(checker, written, features)?;
     let required_share = match &written.inside {
         None => 1.0,
@@ -79,7 +83,7 @@ fn region(checker: &Checker, written: &RegionText, features: &[Feature]) -> Resu
         tolerance: zone(checker, &written.tolerance)?,
         required_share,
     };
-    Ok(Region { rule, feature, span: written.id.span.clone() })
+    Ok(ToleranceRegion { rule, feature, span: written.id.span.clone() })
 }
 
 /// A zone as it is written, in millimeters.

@@ -55,8 +55,8 @@ fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
                 let share = |size: f64| size / repaired.before.properties.area;
                 repaired.changes.iter().filter(|c| c.step.removes == what).map(|c| share(c.size)).sum()
             };
-            let torn = repaired.changes.iter().any(|c| c.step.removes == Removes::Crossings);
-            let lost = repaired.effect.surface.filter(|_| torn || removed(Removes::Sheets) > SHEETS);
+            let crossed = repaired.changes.iter().any(|c| c.step.removes == Removes::Crossings);
+            let lost = repaired.effect.surface.filter(|_| crossed || removed(Removes::Sheets) > SHEETS);
             let fins = (removed(Removes::Fins) > FINS).then_some(deviation.there.max);
             // Without a hole nothing is filled: what is new lies on the old surface, or counts.
             let new = (*reason == NotEnclosed::Inconsistent).then_some(deviation.back.max);

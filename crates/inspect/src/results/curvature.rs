@@ -122,16 +122,16 @@ pub struct Quantity {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub histogram: Option<Histogram>,
     /// Where it is greatest.
-    pub maximum: Place,
+    pub maximum: CurvaturePlace,
     /// Where it is least.
-    pub minimum: Place,
+    pub minimum: CurvaturePlace,
     /// Its colors.
     pub scale: Scale,
 }
 
 /// A vertex or point with its curvatures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Place {
+pub struct CurvaturePlace {
     /// Its number in the file, from 0.
     pub index: u64,
     /// Where it lies.

@@ -117,7 +117,7 @@ impl InputRecord {
             n => format!(", {n} lines before the rows skipped"),
         };
         let (columns, of, separator) = (columns.join(", "), table.of, &table.separator);
-        Some(format!("{columns} of {of}, parted by {separator}, decimal {sign}{unit}{skipped}"))
+        Some(format!("{columns} of {of}, separated by {separator}, decimal {sign}{unit}{skipped}"))
     }
 }
 

@@ -331,14 +331,14 @@ impl SectionDocument {
 
 fn method(found: &Method, on_curve: usize) -> MethodRecord {
     let [a, b] = found.interval;
-    let told = |points: usize, [rms, max]: [f64; 2]| ResidualsRecord { points: points as u64, rms, max };
+    let record = |points: usize, [rms, max]: [f64; 2]| ResidualsRecord { points: points as u64, rms, max };
     MethodRecord {
         method: found.search.name().into(),
         interval: found.interval,
         interval_length: ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt(),
         join: found.join,
-        line: told(found.on_line, found.line_residuals),
-        curve: told(on_curve, found.curve_residuals),
+        line: record(found.on_line, found.line_residuals),
+        curve: record(on_curve, found.curve_residuals),
         control_points: found.curve.points().len() as u64,
     }
 }

@@ -12,7 +12,7 @@ use super::verdict::rank;
 use super::{UNITS, VERSION, Verdict, overall};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::stats::process::Course;
+use trueness_geom::stats::process::ControlChart;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/trend/1";
@@ -202,7 +202,7 @@ fn difference(first: &InspectDocument, other: &InspectDocument) -> Option<String
         let number = |x: Option<f64>| x.map_or_else(|| "none".into(), |x| x.to_string());
         // The greatest allowed value of a material requirement is that of each part; its tolerance is the plan's.
         let upper = |c: &CharacteristicRecord| if c.tolerance.is_some() { None } else { Some(c.upper) };
-        let told = [
+        let facts = [
             ("kind", c.kind.clone(), f.kind.clone()),
             ("feature", c.feature.clone(), f.feature.clone()),
             ("list of datums", c.datums.join(" "), f.datums.join(" ")),
@@ -212,7 +212,7 @@ fn difference(first: &InspectDocument, other: &InspectDocument) -> Option<String
             ("lower limit", number(c.lower), number(f.lower)),
             ("upper limit", number(upper(c)), number(upper(f))),
         ];
-        let (what, here, there) = told.into_iter().find(|(_, a, b)| a != b)?;
+        let (what, here, there) = facts.into_iter().find(|(_, a, b)| a != b)?;
         Some(format!("characteristic \"{}\": its {what} is {here}, in the first result {there}", c.id))
     })
 }
@@ -226,20 +226,20 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
     let count = |verdict| of.iter().filter(|c| c.verdict == verdict).count() as u64;
     let own_limits = of.iter().any(|c| c.upper != first.upper);
     let upper = Some(first.upper).filter(|_| !own_limits);
-    let course = Course::of(&there);
-    let capability = match (&course, upper) {
-        (Some(course), Some(_)) => course.capability(first.lower, upper, CONFIDENCE),
+    let chart = ControlChart::of(&there);
+    let capability = match (&chart, upper) {
+        (Some(chart), Some(_)) => chart.capability(first.lower, upper, CONFIDENCE),
         _ => Default::default(),
     };
     let few = || format!("it needs at least two values, there are {}", there.len());
-    let capability_reason = match &course {
+    let capability_reason = match &chart {
         None => Some(few()),
         Some(_) if own_limits => Some("a material requirement allows each part a value of its own".into()),
         Some(c) if c.std_dev == 0.0 || c.within == 0.0 => Some("the values do not vary".into()),
         Some(_) if first.lower.is_none() => Some("it has one limit: there is no Cp and no Pp".into()),
         Some(_) => None,
     };
-    let number = |f: fn(&Course) -> f64| course.as_ref().map(f);
+    let number = |f: fn(&ControlChart) -> f64| chart.as_ref().map(f);
     let least = |pick: fn(f64, f64) -> f64| there.iter().copied().reduce(pick);
     let uncertainties: Vec<Option<f64>> = of.iter().map(|c| c.uncertainty).collect();
     let even = |c: &CharacteristicRecord| c.value.zip(c.uncertainty).map(|(v, u)| [v - u, v + u]);
@@ -270,15 +270,15 @@ fn record(of: &[&CharacteristicRecord]) -> TrendRecord {
         max: least(f64::max),
         std_dev: number(|c| c.std_dev),
         std_dev_within: number(|c| c.within),
-        control: course.as_ref().map(|c| Control {
+        control: chart.as_ref().map(|c| Control {
             lower: c.limits[0],
             center: c.mean,
             upper: c.limits[1],
             moving_range: c.moving_range,
             moving_range_upper: c.range_limit,
         }),
-        course_reason: course.is_none().then(few),
-        out_of_control: course.as_ref().map_or(vec![], |c| {
+        course_reason: chart.is_none().then(few),
+        out_of_control: chart.as_ref().map_or(vec![], |c| {
             let one = |s: &trueness_geom::stats::process::Signal| OutOfControl {
                 part: places[s.index] as u64,
                 rule: s.rule.into(),

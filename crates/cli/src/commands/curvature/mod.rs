@@ -175,11 +175,11 @@ fn nothing(found: &Curvatures, of_mesh: bool, reach: Reach) -> String {
         | NoCurvature::NotASurface
         | NoCurvature::Folded => "`trueness check` tells what is wrong with a mesh",
     };
-    let told: Vec<String> = reasons
+    let shares: Vec<String> = reasons
         .iter()
         .map(|(reason, count)| format!("{count} {}", reason.name().replace('_', " ")))
         .collect();
-    format!("no place has a curvature ({}); {remedy}", told.join(", "))
+    format!("no place has a curvature ({}); {remedy}", shares.join(", "))
 }
 
 /// The words for the reasons in files; the first is of those that have a value.

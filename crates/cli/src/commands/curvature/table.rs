@@ -4,7 +4,9 @@ use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_d
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_inspect::curvature::CurvatureKind;
-use trueness_inspect::results::curvature::{CurvatureDocument, Neighborhood, Place, PlaceKind, Range};
+use trueness_inspect::results::curvature::{
+    CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range,
+};
 
 /// The document as text.
 pub fn table(document: &CurvatureDocument) -> String {
@@ -64,7 +66,7 @@ pub fn table(document: &CurvatureDocument) -> String {
     out
 }
 
-fn at(name: &str, place: &Place) -> String {
+fn at(name: &str, place: &CurvaturePlace) -> String {
     let value = if name.ends_with("k1") { place.bend.k1 } else { place.bend.k2 };
     let [x, y, z] = place.position.map(|x| fixed(x, 4));
     format!("{name} is at {} ({x}  {y}  {z}): {}", place.index, six_digits(value))

@@ -10,7 +10,7 @@ use trueness_files::cad::{self, Bound, SplineSurface, TrimmedFace};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::Surface;
-use trueness_geom::surface::{Outline, Region, trimmed};
+use trueness_geom::surface::{Outline, OutlineRegion, trimmed};
 
 /// Facets that are written at most.
 const MOST_FACETS: usize = 20_000_000;
@@ -110,7 +110,7 @@ impl Models {
 }
 
 /// A region of the parameters as a face.
-fn face(surface: &Surface<Point>, region: &Region) -> TrimmedFace {
+fn face(surface: &Surface<Point>, region: &OutlineRegion) -> TrimmedFace {
     let bound = |corners: &Vec<[f64; 2]>| {
         let next = corners.iter().cycle().skip(1);
         let sides = corners.iter().zip(next).map(|(a, b)| surface.over_line(*a, *b)).collect();

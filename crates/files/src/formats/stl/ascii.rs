@@ -1,4 +1,4 @@
-//! ASCII STL: words, parted by any white space.
+//! ASCII STL: words, separated by any white space.
 //!
 //! Large files are cut into parts behind lines that say `endfacet`, each read by itself; a fault found in one is the
 //! same whoever finds it, and the first in the file is reported. Positions keep what the text says beyond single

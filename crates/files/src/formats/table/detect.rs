@@ -195,7 +195,7 @@ fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
         let text = String::from_utf8_lossy(line).to_lowercase();
         let text = text.trim_start_matches(|c: char| !c.is_alphabetic());
         let Some(rest) = STATING.iter().find_map(|word| text.strip_prefix(word)) else { continue };
-        let parted = rest.starts_with([':', '=', ',', ';', '\t', ' ', '(']);
+        let separated = rest.starts_with([':', '=', ',', ';', '\t', ' ', '(']);
         // What stands in brackets says what it is the unit of.
         let rest = rest.trim_start();
         let rest = rest.strip_prefix('(').and_then(|r| r.split_once(')')).map_or(rest, |(_, rest)| rest);
@@ -206,9 +206,9 @@ fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
             Err(Fault::Unclear { what, remedy }.at_line(number as u64 + 1))
         };
         match unit_of(said) {
-            Said::Unit(unit) if parted && found.is_none_or(|before| before == unit) => found = Some(unit),
-            Said::Unit(_) if parted && !asked => return unclear("two units are stated".into()),
-            Said::Foreign(word) if parted && !asked => {
+            Said::Unit(unit) if separated && found.is_none_or(|before| before == unit) => found = Some(unit),
+            Said::Unit(_) if separated && !asked => return unclear("two units are stated".into()),
+            Said::Foreign(word) if separated && !asked => {
                 return unclear(format!("the unit {word} is not understood"));
             }
             // A factor before a unit, or a part of one.

@@ -158,7 +158,7 @@ impl<'a> Tried<'a> {
         self.rows.iter().map(move |l| l.cells.get(i).copied().unwrap_or_default())
     }
 
-    /// Equally many cells in every row, and none of them numbers parted by blanks: what stands between is no alignment.
+    /// Equally many cells in every row, and none of them numbers separated by blanks: what stands between is no alignment.
     pub fn clearly_parted(&self) -> bool {
         let even = |l: &Line| l.cells.len() == self.rows[0].cells.len();
         let blanks = |c: &&[u8]| c.contains(&b' ') && c.iter().any(u8::is_ascii_digit);

@@ -2,7 +2,7 @@
 
 use super::parts::{bracket, random_pose};
 use crate::align::features::{PairFrame, PairTable};
-use crate::align::field::{Block, Field};
+use crate::align::field::{Field, SampleBlock};
 use crate::align::sample::{Samples, on_surface};
 use crate::closest::Tree;
 use crate::num::random::Random;
@@ -49,7 +49,7 @@ fn the_grid_tells_what_exact_distances_do() {
                     weights: vec![1.0],
                     oriented,
                 };
-                let worth = field.worth(&placed, &Block::of(&one, middle), reach);
+                let worth = field.worth(&placed, &SampleBlock::of(&one, middle), reach);
                 sum += worth;
                 let p = pose.point(samples.points[i]);
                 let hit = tree.closest(&p, f64::INFINITY).unwrap().unwrap();
@@ -63,7 +63,7 @@ fn the_grid_tells_what_exact_distances_do() {
             }
             assert!(far_off < samples.points.len() / 20, "{far_off}");
             // All at once: the same, but for the order of the sum.
-            let all = field.worth(&placed, &Block::of(&samples, middle), reach);
+            let all = field.worth(&placed, &SampleBlock::of(&samples, middle), reach);
             assert!((all - sum).abs() < 1e-4 * sum.max(1.0), "{all} {sum}");
         }
     }

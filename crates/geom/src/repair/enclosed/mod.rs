@@ -79,7 +79,7 @@ pub enum NotEnclosed {
 /// What rounding adds at most, as a share of the sum of all terms.
 const ROUNDING: f64 = 1e-14;
 /// Facets at one place, at most.
-const HEAP: usize = 64;
+const MOST_AT_ONE_PLACE: usize = 64;
 
 /// Whether every facet that counts has a neighbor at each edge.
 pub(super) fn is_closed(topology: &Topology) -> bool {
@@ -172,7 +172,7 @@ fn meets(topology: &Topology, pairs: &[[u32; 2]]) -> Result<BTreeMap<u32, Vec<u3
     let mut same = topology.duplicate_facets.clone();
     same.sort_unstable();
     for group in same.chunk_by(|a, b| a[0] == b[0]) {
-        if group.len() > HEAP {
+        if group.len() > MOST_AT_ONE_PLACE {
             return Err(NotEnclosed::Tangle);
         }
         for (i, [first, again]) in group.iter().enumerate() {
@@ -335,7 +335,7 @@ impl Solid<'_> {
             let whole = vector[steepest(vector)].abs();
             let weight = 1.0 / (1 + part.upon.len()) as f64;
             sums.add(facet.terms(winding, part.area / whole, weight));
-            if part.area > HAIR * whole {
+            if part.area > LEAST_SHARE * whole {
                 pieces.push(Piece { facet: part.facet, middle: part.at, corners: part.corners });
             }
         }
@@ -407,7 +407,7 @@ impl Sheets {
 
 /// Parts of less than this share of their facet may reach across a segment that ends a hair too early: their middle says nothing of
 /// where they lie.
-const HAIR: f64 = 1e-9;
+const LEAST_SHARE: f64 = 1e-9;
 
 /// The axis along which a facet with this normal is seen largest.
 fn steepest(vector: Vector) -> usize {

@@ -2,9 +2,9 @@
 
 use super::super::crossings::crossing_chords;
 use super::super::nominal::inside;
-use super::course::Course;
 use super::ends::distance;
 use super::error::AirfoilError;
+use super::profile::Profile;
 use crate::progress::{Cancelled, Progress};
 
 /// A loop of a profile that crosses itself is told from one that scatter makes at the trailing edge by so many uncertainties of a place
@@ -32,7 +32,7 @@ pub(super) struct Inscribed {
 
 impl Inscribed {
     /// Of a course that goes on beyond its seam at both ends, if it has one.
-    pub fn new(course: &Course, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
+    pub fn new(course: &Profile, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
         let (all, seam) = (&course.places, course.seam);
         let places: Vec<[f64; 2]> = all.iter().map(|a| a.0).collect();
         let (quarter, last) = (places.len() / 4, places.len() - 1);

@@ -283,7 +283,7 @@ impl Search<'_> {
         if !own || norm(minus(grid.shape.place(&part, start), self.p)) < self.reach() {
             self.start(grid, id.grid, part, start);
         }
-        self.settle(grid, id.grid, part, piece);
+        self.exclude(grid, id.grid, part, piece);
     }
 
     /// Newton's method from here; what it finds is kept if it is better.
@@ -309,8 +309,8 @@ impl Search<'_> {
         self.best.as_ref().and_then(|b| b.alone.as_ref()).is_some_and(|a| a.holds(piece))
     }
 
-    /// Does away with a cell.
-    fn settle(&mut self, grid: &Grid, number: u32, part: Part, piece: Piece) {
+    /// Cuts a cell until no part of it can hold the nearest place.
+    fn exclude(&mut self, grid: &Grid, number: u32, part: Part, piece: Piece) {
         let mut open = vec![piece];
         while let Some(piece) = open.pop() {
             let (distance, half) = piece.distance(&self.p);

@@ -173,7 +173,7 @@ fn enter<P: Position>(size: usize, item: &(impl Fn(usize) -> P + Sync), first: &
                 prefetch(&table[b.1]);
             }
             for (k, (p, slot)) in batch[..part.len()].iter().enumerate() {
-                new += usize::from(settle(&table, *slot, (start + k) as u32, p, item, first));
+                new += usize::from(insert(&table, *slot, (start + k) as u32, p, item, first));
             }
         }
         used.fetch_add(new, Relaxed);
@@ -183,7 +183,7 @@ fn enter<P: Position>(size: usize, item: &(impl Fn(usize) -> P + Sync), first: &
 
 /// Enters item `c` at position `p`, starting at slot `at`. True if it is the first there.
 #[inline(always)]
-fn settle<P: Position>(
+fn insert<P: Position>(
     table: &[AtomicU32],
     mut at: usize,
     c: u32,

@@ -137,7 +137,7 @@ impl Common<'_> {
         if stepped {
             return Err(self.wrong(
                 "its planes face one way at different heights; only coplanar and opposite planes make a common datum \
-                 here (give `outward` where the material is not told rightly)",
+                 here (give `outward` where the side of the material is not found rightly)",
             ));
         }
         let points: Vec<Point> = sources.iter().flat_map(|s| s.points).copied().collect();

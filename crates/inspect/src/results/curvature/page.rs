@@ -6,7 +6,9 @@ use crate::report::page::parts::{
     Headline, Tone, fact, key_number, labeled_number, place_cells, place_heads, section,
 };
 use crate::report::subject::{Head, Map, Pick, Subject};
-use crate::results::curvature::{CurvatureDocument, Neighborhood, NormalSource, Place, PlaceKind, Range};
+use crate::results::curvature::{
+    CurvatureDocument, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Range,
+};
 use crate::scale::Scale;
 use maud::{Markup, Render, html};
 use serde_json::Value;
@@ -125,7 +127,7 @@ pub fn words(kind: CurvatureKind) -> [&'static str; 3] {
 }
 
 /// Where a curvature is greatest and least, with its value.
-fn ends(d: &CurvatureDocument, kind: CurvatureKind) -> [(&Place, f64); 2] {
+fn ends(d: &CurvatureDocument, kind: CurvatureKind) -> [(&CurvaturePlace, f64); 2] {
     let found = CurvatureDocument::quantity(d, kind);
     [&found.maximum, &found.minimum].map(|place| {
         let value = match kind {

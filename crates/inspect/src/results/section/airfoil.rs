@@ -90,9 +90,9 @@ impl AirfoilMeasures {
     fn new(found: &Airfoil) -> AirfoilMeasures {
         let ([a, b], [c, d]) = (found.leading, found.trailing);
         let edge = |radius: &Result<EdgeRadius, AirfoilError>| {
-            let told = radius.as_ref().ok();
+            let found = radius.as_ref().ok();
             let reason = radius.as_ref().err().map(ToString::to_string);
-            (told.map(|r| r.radius), told.map(|r| r.uncertainty), reason)
+            (found.map(|r| r.radius), found.map(|r| r.uncertainty), reason)
         };
         let (leading_radius, leading_radius_uncertainty, leading_radius_reason) = edge(&found.leading_radius);
         let (trailing_radius, trailing_radius_uncertainty, trailing_radius_reason) =

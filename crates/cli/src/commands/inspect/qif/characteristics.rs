@@ -1,6 +1,6 @@
 //! Characteristics: what was asked for, and what was found.
 
-use super::datums::{Datums, parted};
+use super::datums::{Datums, letters_and_modifier};
 use super::xml::{Value, Xml, decimal};
 use trueness_inspect::plan::Class;
 use trueness_inspect::plan::text::MaterialWord;
@@ -175,7 +175,7 @@ pub fn measured(
         x.leaf("CharacteristicItemId", &ids.item.to_string());
         let mut of: Vec<u32> = c.features().into_iter().filter_map(&feature).collect();
         if matches!(name, "DistanceBetween" | "AngleBetween") {
-            let datums = c.datums.iter().flat_map(|d| parted(document, d).0);
+            let datums = c.datums.iter().flat_map(|d| letters_and_modifier(document, d).0);
             of.extend(datums.filter_map(&feature));
         }
         of.dedup();

@@ -13,7 +13,10 @@ pub struct Datums {
 }
 
 /// A datum as a characteristic names it: its letters, several of a common datum, and its material requirement.
-pub fn parted<'a>(document: &InspectDocument, written: &'a str) -> (Vec<&'a str>, &'static str) {
+pub fn letters_and_modifier<'a>(
+    document: &InspectDocument,
+    written: &'a str,
+) -> (Vec<&'a str>, &'static str) {
     let known = |id: &str| document.features.iter().any(|f| f.id == id);
     let (name, modifier) = match (written.strip_suffix("(M)"), written.strip_suffix("(L)")) {
         (Some(name), _) if !known(written) => (name, "MAXIMUM"),
@@ -33,7 +36,7 @@ impl Datums {
         let mut all = Datums::default();
         for c in document.characteristics.iter().filter(|c| !c.datums.is_empty()) {
             for written in &c.datums {
-                for letter in parted(document, written).0 {
+                for letter in letters_and_modifier(document, written).0 {
                     if !all.letters.iter().any(|(l, _)| l == letter) {
                         let id = x.number();
                         all.letters.push((letter.into(), id));
@@ -94,7 +97,7 @@ impl Datums {
     }
 
     fn datum(&self, x: &mut Xml, document: &InspectDocument, written: &str, place: usize) {
-        let (letters, modifier) = parted(document, written);
+        let (letters, modifier) = letters_and_modifier(document, written);
         let simple = |x: &mut Xml, letter: &str| {
             x.element("SimpleDatum", &[], |x| {
                 x.leaf("DatumDefinitionId", &self.letter(letter).to_string());

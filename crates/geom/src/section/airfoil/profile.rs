@@ -31,7 +31,7 @@ const FEWEST: usize = 24;
 const NEAR: f64 = 3.0;
 
 /// The course of a profile from its trailing edge around to it again.
-pub(super) struct Course {
+pub(super) struct Profile {
     /// Places with the direction there; at a round trailing edge they go on beyond it at both ends.
     pub places: Vec<([f64; 2], [f64; 2])>,
     /// The place where a round trailing edge begins and ends.
@@ -44,7 +44,7 @@ pub(super) struct Course {
     pub of_contour: bool,
 }
 
-impl Course {
+impl Profile {
     /// The likelier course of a row, where the row ends for it, and another course where that is no lines and arcs: the other one, or
     /// the B-spline of every second point. `numbers` are those of the row's points among the contour's.
     pub fn new(
@@ -52,7 +52,7 @@ impl Course {
         numbers: &[usize],
         contour: &Contour,
         progress: &dyn Progress,
-    ) -> Result<(Around, Course, Option<Course>), AirfoilError> {
+    ) -> Result<(Around, Profile, Option<Profile>), AirfoilError> {
         let around = Around::new(row, contour.closed, None)?;
         let smooth = Smooth::new(&thinned(&around.row), progress);
         if let Err(AirfoilError::Cancelled(e)) = smooth {
@@ -89,10 +89,10 @@ impl Course {
 }
 
 impl Smooth {
-    fn course(&self, around: &Around) -> Course {
+    fn course(&self, around: &Around) -> Profile {
         let seam = (around.trailing == TrailingEdge::Round).then(|| around.row[around.over]);
         let (places, uncertainty, noise) = (along(&self.curve), self.uncertainty, self.noise);
-        Course { places, seam, uncertainty, noise, of_contour: false }
+        Profile { places, seam, uncertainty, noise, of_contour: false }
     }
 }
 
@@ -124,7 +124,7 @@ fn along(curve: &Curve<[f64; 2]>) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 /// The contour's own course with what it costs for as many points; `None` where it does not end where the profile does.
-fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64) -> Option<(f64, Course)> {
+fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64) -> Option<(f64, Profile)> {
     let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
     if whole <= 0.0 {
         return None;
@@ -161,7 +161,7 @@ fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64
     let at = between(contour, stations[0], stations[0], whole).first()?.0;
     let seam = (around.trailing == TrailingEdge::Round).then_some(at);
     let uncertainty = contour.noise * (unknowns / count.max(1.0)).sqrt();
-    Some((cost, Course { places, seam, uncertainty, noise: contour.noise, of_contour: true }))
+    Some((cost, Profile { places, seam, uncertainty, noise: contour.noise, of_contour: true }))
 }
 
 /// Lengths along a contour to its corners.
