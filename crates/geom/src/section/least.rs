@@ -4,6 +4,7 @@
 //! depend on what lies before it through three numbers alone, and one pass over the points that sums products of those
 //! and of the piece's own unknowns serves for any number of unknowns.
 
+mod constrained;
 mod normal;
 mod work;
 
@@ -11,14 +12,16 @@ pub(super) use work::{Held, Work};
 
 use super::chain::{Chain, Ends, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
-use crate::num::cholesky::Cholesky;
+use constrained::Constrained;
 use normal::end_coefficient;
 use work::{PieceSums, Variable};
 
-/// Weight of a squared distance that must vanish, against one that is to be least.
-pub(super) const STIFF: f64 = 1e8;
+/// Weight of a squared distance that must vanish, against one that is to be least, where it is to vanish at last.
+const STIFF: f64 = 1e8;
 /// The same while models are compared: a chain that does not close yet is bent to where it does, step by step.
-pub(super) const SOFT: f64 = 1e3;
+const SOFT: f64 = 1e3;
+/// Steps back to where the conditions hold, after one along their tangents: each squares what is missing.
+const RESTORED: usize = 4;
 
 /// The points that a chain is fitted to, seen from near their middle, and how much each counts.
 #[derive(Clone, Copy, Debug)]
@@ -71,8 +74,8 @@ pub(super) struct Stop {
     pub gain: f64,
     /// Least length of a piece.
     pub shortest: f64,
-    /// Weight of what must vanish.
-    pub stiff: f64,
+    /// Whether what must vanish does, in every step; otherwise it is weighed against the distances.
+    pub exact: bool,
     /// Sum of squares that is asked for: where a step gains less than a tenth of what is missing, it will not be reached.
     /// Infinite where none is.
     pub target: f64,
@@ -192,7 +195,8 @@ impl Work {
 
     /// Sum of squares and what conditions add to it.
     fn cost(&self, state: &State, held: Option<&Held>) -> f64 {
-        state.sum + self.stiff * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()
+        let weight = if self.exact { STIFF } else { SOFT };
+        state.sum + weight * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()
     }
 
     /// The chain moved by a step.
@@ -217,9 +221,33 @@ impl Work {
         }
     }
 
+    /// Brings a chain back to where the conditions hold, which a step along their tangents leaves by its square.
+    fn restore(&mut self, chain: &mut Chain, system: &Constrained, held: Option<&Held>, shortest: f64) {
+        let off = |work: &mut Work, chain: &Chain| {
+            work.layout.fill(chain);
+            let off = work.off(chain, held);
+            let square: f64 = off.iter().map(|x| x * x).sum();
+            (off, square)
+        };
+        if !self.exact || self.conditions.is_empty() {
+            return;
+        }
+        let (mut missing, mut square) = off(self, chain);
+        for _ in 0..RESTORED {
+            let mut next = chain.clone();
+            self.step(&mut next, &system.restore(missing), shortest);
+            let found = off(self, &next);
+            if found.1.is_nan() || found.1 >= square {
+                return;
+            }
+            *chain = next;
+            (missing, square) = found;
+        }
+    }
+
     /// Improves the state until the rule to stop holds. False where the unknowns are not determined.
     pub(super) fn improve(&mut self, row: &Row, state: &mut State, held: Option<&Held>, stop: &Stop) -> bool {
-        self.stiff = stop.stiff;
+        self.exact = stop.exact;
         self.measure(row, state, true);
         let mut cost = self.cost(state, held);
         let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
@@ -237,7 +265,7 @@ impl Work {
             for i in 0..k {
                 damped[i * k + i] += lambda * self.scale[i] + f64::MIN_POSITIVE;
             }
-            let Some(factor) = Cholesky::new(damped, k) else {
+            let Some(system) = Constrained::new(damped, &self.conditions) else {
                 lambda *= 100.0;
                 fresh = false;
                 if lambda > 1e10 {
@@ -245,17 +273,18 @@ impl Work {
                 }
                 continue;
             };
-            let mut step = self.right.clone();
-            factor.solve(&mut step);
+            let step = system.solve(&self.right, &self.missing);
             // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
             // nothing is measured any more.
-            let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum();
+            let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum::<f64>()
+                + (STIFF - SOFT) * self.missing.iter().map(|x| x * x).sum::<f64>();
             let least = if fresh { NEGLIGIBLE * stop.gain } else { settled };
             if gain <= least * cost {
                 break;
             }
             copy(&mut next, state);
             self.step(&mut next.chain, &step, stop.shortest);
+            self.restore(&mut next.chain, &system, held, stop.shortest);
             self.measure(row, &mut next, true);
             let after = self.cost(&next, held);
             if after <= cost {
@@ -281,21 +310,17 @@ impl Work {
 
     /// Standard deviations for distances of standard deviation 1. `None` where the unknowns are not determined.
     pub(super) fn spread(&mut self, row: &Row, state: &mut State) -> Option<Spread> {
-        self.stiff = STIFF;
+        self.exact = true;
         self.measure(row, state, true);
         self.assemble(&state.chain, None);
         let chain = &state.chain;
-        let factor = Cholesky::new(self.matrix.clone(), self.variables.len())?;
-        let deviation = |effect: Vec<f64>| {
-            let mut answer = effect.clone();
-            factor.solve(&mut answer);
-            answer.iter().zip(&effect).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()
-        };
+        let system = Constrained::new(self.matrix.clone(), &self.conditions)?;
+        let deviation = |effect: Vec<f64>| system.deviation(&effect);
         let n = chain.pieces.len();
         let mut all = Spread::default();
         for join in usize::from(!chain.closed)..n {
             let held = Held { join, along: self.layout.poses[join].along, value: 0.0 };
-            all.places.push(deviation(self.conditions(chain, Some(&held)).pop()?));
+            all.places.push(deviation(self.conditions_of(chain, Some(&held)).pop()?));
             let ends =
                 (end_coefficient(chain, (join + n - 1) % n, true), end_coefficient(chain, join, false));
             let is = |v: &Variable, end: Option<(usize, usize)>| {
@@ -305,7 +330,7 @@ impl Work {
         }
         for (end, join) in all.ends.iter_mut().zip([0, n]) {
             let held = Held { join, along: self.layout.poses[join].normal(), value: 0.0 };
-            *end = deviation(self.conditions(chain, Some(&held)).pop()?);
+            *end = deviation(self.conditions_of(chain, Some(&held)).pop()?);
         }
         all.pieces = (0..n).map(|g| self.uncertainty(chain, g, &deviation)).collect();
         let longer = |g: usize, v: &Variable| match v {

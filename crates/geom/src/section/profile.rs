@@ -2,7 +2,7 @@
 
 use super::chain::{Layout, Pose};
 use super::criterion::Model;
-use super::least::{Held, STIFF, State, Stop};
+use super::least::{Held, State, Stop};
 use super::near::{Near, spliced};
 use super::search::Search;
 use crate::num::special::student_quantile;
@@ -191,7 +191,7 @@ impl Search<'_> {
         // What the sum of squares may miss of the least one.
         let gain = SLACK * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
         let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
-        let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, stiff: STIFF, target };
+        let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, exact: true, target };
         let (at, along) = (seek.pose.at, seek.pose.along);
         let value = at[0] * along[0] + at[1] * along[1] + seek.sign * x;
         let held = Held { join: seek.join, along, value };

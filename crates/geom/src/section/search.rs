@@ -5,7 +5,7 @@ use super::base::Base;
 use super::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::{Criterion, Model, Plan};
 use super::free;
-use super::least::{Row, SOFT, STIFF, State, Stop, Work};
+use super::least::{Row, State, Stop, Work};
 use crate::progress::{Cancelled, Progress};
 use std::cell::Cell;
 
@@ -37,7 +37,7 @@ pub(super) struct Search<'a> {
 
 impl Search<'_> {
     pub fn stop(&self, steps: usize, gain: f64) -> Stop {
-        Stop { steps, gain, shortest: self.shortest * self.spacing, stiff: SOFT, target: f64::INFINITY }
+        Stop { steps, gain, shortest: self.shortest * self.spacing, exact: false, target: f64::INFINITY }
     }
 
     pub fn model(&mut self, state: State) -> Model {
@@ -66,7 +66,7 @@ impl Search<'_> {
         let stop = self.stop(steps, 1e-11);
         self.work.improve(&self.row, &mut state, None, &stop);
         if state.chain.closed || state.chain.even || state.chain.ends.end.is_some() {
-            self.work.improve(&self.row, &mut state, None, &Stop { stiff: STIFF, ..stop });
+            self.work.improve(&self.row, &mut state, None, &Stop { exact: true, ..stop });
         }
         let mut before = model.state.clone();
         match self.follows(&mut state) || !self.follows(&mut before) {

@@ -2,6 +2,7 @@
 
 use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
+use super::SOFT;
 use super::work::{Held, Variable, Work};
 
 impl Work {
@@ -125,7 +126,7 @@ impl Work {
         }
     }
 
-    /// The normal equations of all unknowns.
+    /// The normal equations of all unknowns, and the conditions that must hold exactly, if they must.
     pub(super) fn assemble(&mut self, chain: &Chain, held: Option<&Held>) {
         self.move_ends(chain);
         self.list(chain);
@@ -138,13 +139,19 @@ impl Work {
         self.add_beyond(chain);
         self.scale.clear();
         self.scale.extend((0..k).map(|v| self.matrix[v * k + v]));
-        for (row, off) in self.conditions(chain, held).iter().zip(self.off(chain, held)) {
+        self.conditions = self.conditions_of(chain, held);
+        self.missing = self.off(chain, held);
+        for (row, off) in self.conditions.iter().zip(&self.missing) {
             for v in 0..k {
-                self.right[v] += self.stiff * row[v] * off;
+                self.right[v] += SOFT * row[v] * off;
                 for u in 0..=v {
-                    self.matrix[v * k + u] += self.stiff * row[v] * row[u];
+                    self.matrix[v * k + u] += SOFT * row[v] * row[u];
                 }
             }
+        }
+        if !self.exact {
+            self.conditions.clear();
+            self.missing.clear();
         }
     }
 
@@ -239,7 +246,7 @@ impl Work {
     }
 
     /// How each unknown changes it.
-    pub(super) fn conditions(&self, chain: &Chain, held: Option<&Held>) -> Vec<Vec<f64>> {
+    pub(super) fn conditions_of(&self, chain: &Chain, held: Option<&Held>) -> Vec<Vec<f64>> {
         let mut all = vec![];
         let of = |g: usize, f: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
             self.variables.iter().map(|v| f(self.effect(chain, *v, g).0)).collect()

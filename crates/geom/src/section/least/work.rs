@@ -107,7 +107,11 @@ pub(in crate::section) struct Work {
     pub(super) scale: Vec<f64>,
     /// Signed distances of the points last measured.
     pub(super) distances: Vec<f64>,
-    pub(super) stiff: f64,
+    /// Whether what must vanish does, in every step.
+    pub(super) exact: bool,
+    /// How each unknown changes what must vanish, and what it is off by. Empty where that is weighed.
+    pub(super) conditions: Vec<Vec<f64>>,
+    pub(super) missing: Vec<f64>,
     /// Products summed so far.
     pub effort: f64,
 }
