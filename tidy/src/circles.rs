@@ -8,17 +8,22 @@ use std::path::{Path, PathBuf};
 /// From a file to those it takes names from, with the names.
 type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// The circles among the files of a crate, each with the arrows that make it; `name` stands for the crate's sources.
+/// The circles among the files of a library, and among those of its program, each with the arrows that make it; `name` stands for the
+/// crate's sources.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
 pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
-    let arrows = arrows(source)?;
-    Ok(rings(&arrows).iter().map(|ring| told(name, ring, &arrows)).collect())
+    let mut all = BTreeSet::new();
+    for root in ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists()) {
+        let arrows = arrows(source, root)?;
+        all.extend(rings(&arrows).iter().map(|ring| told(name, ring, &arrows)));
+    }
+    Ok(all.into_iter().collect())
 }
 
-fn arrows(source: &Path) -> io::Result<Arrows> {
-    let modules = modules::of_crate(source)?;
+fn arrows(source: &Path, root: &str) -> io::Result<Arrows> {
+    let modules = modules::of_crate(source, root)?;
     let mut arrows = Arrows::new();
     for (number, module) in modules.iter().enumerate() {
         let mut paths: Vec<Vec<String>> = module.imports.values().cloned().collect();
@@ -88,6 +93,18 @@ mod tests {
         let found = of_crate(&folder, "crate").unwrap();
         fs::remove_dir_all(&folder).unwrap();
         found
+    }
+
+    #[test]
+    fn a_program_beside_a_library_is_looked_at_too() {
+        let files = [
+            ("lib.rs", "pub mod c;"),
+            ("c.rs", "pub struct C;"),
+            ("main.rs", "mod a; mod b;"),
+            ("a.rs", "use crate::b::B; pub struct A;"),
+            ("b.rs", "pub struct B; use super::a::A;"),
+        ];
+        assert_eq!(found("program", &files).len(), 1);
     }
 
     #[test]

@@ -61,10 +61,17 @@ fn findings(root: &Path) -> io::Result<Vec<String>> {
 /// Dependencies on crates that lie higher, or beside.
 fn upward(folder: &Path, name: &str, below: &[&str]) -> io::Result<Vec<String>> {
     let manifest = fs::read_to_string(folder.join("Cargo.toml"))?;
-    let used =
-        manifest.lines().filter_map(|line| line.strip_prefix("trueness-")?.split([' ', '.', '=']).next());
+    // As a line of a table, as a table of its own, and under another name.
+    let written = |line: &str| {
+        let (_, after) = line.split_once("trueness-")?;
+        let is_name = line.starts_with("trueness-") || line.contains("dependencies.trueness-");
+        let is_used = is_name || line.contains("package = \"trueness-");
+        after.split([' ', '.', '=', '"', ']']).next().filter(|_| is_used).map(String::from)
+    };
+    let used: Vec<String> = manifest.lines().filter_map(written).collect();
     Ok(used
-        .filter(|used| !below.contains(used))
+        .into_iter()
+        .filter(|used| !below.contains(&used.as_str()))
         .map(|used| format!("crates/{name}/Cargo.toml: `{name}` must not use `{used}`"))
         .collect())
 }

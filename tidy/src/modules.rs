@@ -24,12 +24,11 @@ pub struct Module {
     pub tokens: Vec<proc_macro2::TokenStream>,
 }
 
-/// All modules of the crate with this source folder; the first is the root. Modules for tests are left out.
+/// All modules of the crate whose root is this file of the folder; the first is the root. Modules for tests are left out.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-pub fn of_crate(folder: &Path) -> io::Result<Vec<Module>> {
-    let root = ["lib.rs", "main.rs"].into_iter().find(|f| folder.join(f).exists()).unwrap_or("lib.rs");
+pub fn of_crate(folder: &Path, root: &str) -> io::Result<Vec<Module>> {
     let mut modules = vec![];
     read_file(folder, Path::new(root), Path::new(""), None, &mut modules)?;
     Ok(modules)

@@ -84,7 +84,8 @@ fn wrong_input_is_refused_with_a_remedy() {
     for (words, want, reason) in [
         (vec![few], 3, "few.txt: a section needs at least 4 different points, there are 3"),
         (vec![good, "--noise", "0"], 2, "noise 0: it must be a length above 0"),
-        (vec![good, "--level", "100"], 2, "level 1: it must be between 0 and 1"),
+        (vec![good, "--level", "100"], 2, "a number of percent between 1 and 100"),
+        (vec![good, "--level", "0.95"], 2, "it is in percent: write 95"),
         (vec![cube], 2, "it is a mesh; say where to cut it: --plane"),
         (vec![cube, "--plane", "0,0,0,1"], 2, "the normal [0.0, 0.0, 0.0] has no direction"),
         (vec![cube, "--plane", "0,0,1"], 2, "give 4 numbers, not 3"),

@@ -135,7 +135,7 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
 
 /// The inverse of the normal matrix; `None` if a distance the size of rounding could move an unknown by the size of the
 /// part.
-fn determined<const P: usize>(optimum: &Optimum<P>) -> Option<[[f64; P]; P]> {
+pub(super) fn determined<const P: usize>(optimum: &Optimum<P>) -> Option<[[f64; P]; P]> {
     const WEAKEST: f64 = 1e-4 / f64::EPSILON;
     let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < WEAKEST;
     dense::inverse(&optimum.sums.symmetric()).filter(|inverse| (0..P).all(|k| firm(inverse[k][k])))

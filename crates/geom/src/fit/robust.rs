@@ -11,7 +11,7 @@ use super::gaussian;
 use super::normal::{Placing, Weighing};
 use super::sample::Sample;
 use super::solution::{Fit, Residuals};
-use super::{FitError, Kind, Options, dense};
+use super::{FitError, Kind, Options};
 use crate::num::random::Random;
 use crate::progress::Progress;
 use crate::space::Point;
@@ -84,14 +84,14 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
     let optimum = minimize::<P, F, _>(&F::settled(element), sample, &biweight, FULL)
         .ok_or_else(|| gaussian::nothing(sample, kind))?;
     progress.advance(sample.len() as u64);
+    let inverse = gaussian::determined(&optimum).ok_or_else(|| gaussian::nothing(sample, kind))?;
     let element = optimum.element;
     let cutoff = biweight.sharpness.sqrt().recip();
     let residuals =
         inliers::<P, F>(&element, sample, cutoff).ok_or_else(|| gaussian::nothing(sample, kind))?;
-    let covariance = residuals.std_dev.and_then(|std_dev| {
-        let inverse = dense::inverse(&optimum.sums.symmetric())?;
-        gaussian::covariance::<P, F>(&element, &inverse, std_dev * sample.scale, sample)
-    });
+    let covariance = residuals
+        .std_dev
+        .and_then(|std_dev| gaussian::covariance::<P, F>(&element, &inverse, std_dev * sample.scale, sample));
     Ok(Fit {
         shape: F::shape(&element, sample),
         method: options.method,

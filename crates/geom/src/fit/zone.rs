@@ -77,10 +77,15 @@ fn aim<const P: usize, F: Family<P>>(kind: Kind, method: Method) -> Result<Aim, 
     match method {
         Method::MinimumCircumscribed if round => Ok(Aim { outer: true, inner: false, pinned: true }),
         Method::MaximumInscribed if round => Ok(Aim { outer: false, inner: true, pinned: true }),
-        Method::MinimumZone => Ok(Aim { outer: true, inner: F::SIGNED, pinned: false }),
-        Method::MinimumCircumscribed | Method::MaximumInscribed | Method::Gaussian | Method::Robust => {
-            Err(FitError::NoSuchMethod { kind, method })
+        // Curves parallel to an ellipse are no ellipses.
+        Method::MinimumZone if kind != Kind::Ellipse2 => {
+            Ok(Aim { outer: true, inner: F::SIGNED, pinned: false })
         }
+        Method::MinimumZone
+        | Method::MinimumCircumscribed
+        | Method::MaximumInscribed
+        | Method::Gaussian
+        | Method::Robust => Err(FitError::NoSuchMethod { kind, method }),
     }
 }
 

@@ -4,14 +4,21 @@ use super::chain::Pose;
 use super::result::{Continuity, Join};
 use super::span::Found;
 
-/// From where the points end a corner lies no farther than this share of it, beyond what is uncertain.
+/// From where the points end a corner that they tell lies no farther than this share of the farthest, beyond what is uncertain.
 const NEAR: f64 = 0.25;
+
+/// Or so many times the mean distance between the points of the segments that meet there: a cut of large facets has few.
+const LOCAL: f64 = 5.0;
 
 /// A corner takes less than this share of the way along a segment's points: the other end may take as much.
 const SHORTEST: f64 = 0.45;
 
-/// The corner between two chains: where they cross, each going on as its end does.
+/// The corner between two chains: where they cross, each going on as its end does. Where they cross in a wide gap of the points its interval
+/// is the gap. Where they cross nowhere near, it is the middle between where the points end.
 pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
+    let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
+    let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
+    let farthest = farthest.max(width);
     let (mut u, mut v) = (0.0, 0.0);
     let (mut p, mut q) = (a.beyond(true, 0.0), b.beyond(false, 0.0));
     for _ in 0..30 {
@@ -36,17 +43,20 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     );
     let across = |f: &Found, end: usize| f.spread.as_ref().map_or(f.noise, |s| s.ends[end] * f.noise);
     let (direction, uncertainty) = ellipse(&p, &q, across(a, 1), across(b, 0));
-    let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
     // Two parts that head nearly the same way do not tell where they cross, by more than the shorter of the two segments is long.
     let most =
         [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
     let reach = quantile * uncertainty;
     // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
-    let near = NEAR * farthest + 3.0 * uncertainty.min(farthest);
+    let local = a.local_spacing(true).max(b.local_spacing(false));
+    let near = (NEAR * farthest).max(LOCAL * local) + 3.0 * uncertainty.min(farthest);
     let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
     let eaten = -beyond > SHORTEST * a.extent(true) || within > SHORTEST * b.extent(false);
+    // Both go on to meet within a gap of the points: that is where they were drawn to, but nothing tells.
+    let gap = beyond.min(-within) >= -near && beyond.max(-within) <= width + near;
     if reach > most || eaten || beyond.abs().max(within.abs()) > near {
-        return between(feet, turn, uncertainty.min(most));
+        let hidden = between(feet, turn, uncertainty.min(most));
+        return if gap && reach <= most { Join { point, ..hidden } } else { hidden };
     }
     let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
     Join {

@@ -57,6 +57,8 @@ pub struct Dimension {
 
 /// Directions that differ by fewer standard uncertainties than this are taken for parallel.
 const PARALLEL: f64 = 3.0;
+/// Radians between lines that are never parallel, however uncertain their directions are.
+const STEEPEST: f64 = 0.05;
 /// Places of a segment from which its least distance from another is looked for.
 const STARTS: usize = 16;
 /// Lines, and arcs, of one plane whose pairs are looked at.
@@ -188,7 +190,7 @@ fn width((of, a): &([usize; 2], Line), (with, b): &([usize; 2], Line)) -> Option
     let along = a.along();
     let sense = if along[0] * b.along()[0] + along[1] * b.along()[1] < 0.0 { -1.0 } else { 1.0 };
     let turn = angle(along, b.along().map(|x| sense * x));
-    if turn.abs() > PARALLEL * libm::hypot(a.angle, b.angle) {
+    if turn.abs() > (PARALLEL * libm::hypot(a.angle, b.angle)).min(STEEPEST) {
         return None;
     }
     // The mean direction of the two, each as long as it is.

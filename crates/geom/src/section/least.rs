@@ -14,12 +14,10 @@ use super::chain::{Chain, Ends, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
 use constrained::Constrained;
 use normal::end_coefficient;
-use work::{PieceSums, Variable};
+use work::{PieceSums, SOFT, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least, where it is to vanish at last.
 const STIFF: f64 = 1e8;
-/// The same while models are compared: a chain that does not close yet is bent to where it does, step by step.
-const SOFT: f64 = 1e3;
 /// Steps back to where the conditions hold, after one along their tangents: each squares what is missing.
 const RESTORED: usize = 4;
 

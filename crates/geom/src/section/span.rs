@@ -308,6 +308,12 @@ impl Found {
         let at = |i: usize| self.stations[i % self.stations.len()];
         (at(breaks[g + 1] - 1) - at(breaks[g])).abs()
     }
+    /// Mean distance between the feet of its last or first piece; 0 of one.
+    pub fn local_spacing(&self, at_end: bool) -> f64 {
+        let breaks = &self.state.breaks;
+        let g = if at_end { breaks.len() - 2 } else { 0 };
+        self.extent(at_end) / (breaks[g + 1] - breaks[g]).saturating_sub(1).max(1) as f64
+    }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {
         let n = self.pieces().len();

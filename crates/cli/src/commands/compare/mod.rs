@@ -135,7 +135,7 @@ enum SignArg {
     Auto,
     /// Angle-weighted pseudonormals.
     Pseudonormal,
-    /// Generalised winding number.
+    /// Generalized winding number.
     Winding,
     /// Distances without a sign.
     None,

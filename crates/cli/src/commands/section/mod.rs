@@ -56,7 +56,7 @@ pub struct SectionArgs {
     #[arg(long)]
     open: bool,
     /// Confidence of the intervals, percent
-    #[arg(long, value_name = "PERCENT", default_value = "95")]
+    #[arg(long, value_name = "PERCENT", default_value = "95", value_parser = percent)]
     level: f64,
     /// Measure each contour as an airfoil or blade: chord, camber line, greatest thickness, radii of its edges
     #[arg(long)]
@@ -98,6 +98,17 @@ impl SectionArgs {
             level: self.level / 100.0,
             ..Options::default()
         }
+    }
+}
+
+/// A level of confidence: a share of 1 written by mistake is refused, since it would make all intervals tiny.
+fn percent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(level) if level > 1.0 && level < 100.0 => Ok(level),
+        Ok(level) if level > 0.0 && level <= 1.0 => {
+            Err(format!("it is in percent: write {} for a share of {level}", 100.0 * level))
+        }
+        _ => Err("a number of percent between 1 and 100, such as 95".into()),
     }
 }
 

@@ -108,15 +108,23 @@ fn wrong_points_are_refused_by_name() {
             assert_eq!(fitted(&bad, kind, method), Err(FitError::NotFinite { index: 13 }));
         }
         let line: Vec<Point> = (0..30).map(|k| times(0.1 * f64::from(k), [1.0, 2.0, 3.0])).collect();
-        let answer = fitted(&line, kind, Method::Gaussian);
-        match kind {
-            Kind::Line2 | Kind::Line => assert!(answer.unwrap().residuals.rms < 1e-15),
-            _ => assert_eq!(answer, Err(FitError::Collinear { kind }), "{kind:?}"),
+        for method in [Method::Gaussian, Method::Robust] {
+            let answer = fitted(&line, kind, method);
+            match kind {
+                Kind::Line2 | Kind::Line => assert!(answer.unwrap().residuals.rms < 1e-15),
+                _ => assert_eq!(answer, Err(FitError::Collinear { kind }), "{kind:?} {method:?}"),
+            }
         }
     }
     let circle = Made { kind: Kind::Circle, count: 40, share: 1.0, noise: 0.0, seed: 4 }.points();
     let kind = Kind::Sphere;
-    assert_eq!(fitted(&circle, kind, Method::Gaussian), Err(FitError::Undetermined { kind }));
-    let (kind, method) = (Kind::Plane, Method::MinimumCircumscribed);
-    assert_eq!(fitted(&circle, kind, method), Err(FitError::NoSuchMethod { kind, method }));
+    for method in [Method::Gaussian, Method::Robust] {
+        assert_eq!(fitted(&circle, kind, method), Err(FitError::Undetermined { kind }));
+        let cone = fitted(&circle, Kind::Cone, method);
+        assert_eq!(cone, Err(FitError::Undetermined { kind: Kind::Cone }), "{method:?}");
+    }
+    for (kind, method) in [(Kind::Plane, Method::MinimumCircumscribed), (Kind::Ellipse2, Method::MinimumZone)]
+    {
+        assert_eq!(fitted(&circle, kind, method), Err(FitError::NoSuchMethod { kind, method }));
+    }
 }

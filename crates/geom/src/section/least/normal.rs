@@ -2,8 +2,7 @@
 
 use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
-use super::SOFT;
-use super::work::{Held, Variable, Work};
+use super::work::{Held, SOFT, Variable, Work};
 
 impl Work {
     /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.

@@ -85,10 +85,10 @@ fn graph(points: &[Point], k: usize) -> (Vec<Vec<u32>>, f64) {
 }
 
 /// Moran's I of values whose mean is zero. Each row of weights adds up to one.
-fn index(graph: &[Vec<u32>], centerd: &[f64]) -> f64 {
-    let near = |row: &[u32]| row.iter().map(|j| centerd[*j as usize]).sum::<f64>() / row.len() as f64;
-    let products = graph.iter().zip(centerd).map(|(row, x)| x * near(row)).sum::<f64>();
-    products / centerd.iter().map(|x| x * x).sum::<f64>()
+fn index(graph: &[Vec<u32>], centered: &[f64]) -> f64 {
+    let near = |row: &[u32]| row.iter().map(|j| centered[*j as usize]).sum::<f64>() / row.len() as f64;
+    let products = graph.iter().zip(centered).map(|(row, x)| x * near(row)).sum::<f64>();
+    products / centered.iter().map(|x| x * x).sum::<f64>()
 }
 
 /// Mean and variance of I when the values are put to the points in random order.
@@ -167,7 +167,7 @@ mod tests {
         let values = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let found =
             autocorrelation(&points, &values, &Options { neighbors: 1, ..Options::default() }).unwrap();
-        // The nearest of i is i - 1 (the lower number of two equally near), of 0 it is 1. Centerd: 0.8, 0.8, -0.2 …
+        // The nearest of i is i - 1 (the lower number of two equally near), of 0 it is 1. Centered: 0.8, 0.8, -0.2 …
         let products = 0.64 + 0.64 - 0.16 + 7.0 * 0.04;
         assert!((found.i - products / (2.0 * 0.64 + 8.0 * 0.04)).abs() < 1e-15, "{found:?}");
         assert_eq!(found.neighbor_distance, 1.0);

@@ -25,7 +25,7 @@ const SINKING: Record<string, number> = { reference: 1.5, before: 1.5, surface: 
 const COVER_POINTS = 60_000
 /** Points whose neighbors tell how far apart a cloud's points lie, and the neighbor that is as far as that. */
 const PROBES = 32
-const NEIGHBOUR = 4
+const NEIGHBOR = 4
 /** Discs of points, in spacings: of this diameter they close the surface but for a few gaps where points lie at random. */
 const CLOSED = 2
 /** And of this one they close it but for a thousandth. */
@@ -245,19 +245,19 @@ export class Part {
     for (let probe = 0; probe < Math.min(PROBES, count); probe++) {
       const v = 4 * Math.floor((probe * count) / Math.min(PROBES, count))
       // The place itself is among them.
-      const least = new Float64Array(NEIGHBOUR + 1).fill(Infinity)
+      const least = new Float64Array(NEIGHBOR + 1).fill(Infinity)
       const [x, y, z] = [packed[v], packed[v + 1], packed[v + 2]]
       for (let p = 0; p < packed.length; p += 4) {
         // One product tells most of them.
         const along = (packed[p] - x) ** 2
-        if (along >= least[NEIGHBOUR]) continue
+        if (along >= least[NEIGHBOR]) continue
         const d = along + (packed[p + 1] - y) ** 2 + (packed[p + 2] - z) ** 2
-        if (d >= least[NEIGHBOUR]) continue
-        let i = NEIGHBOUR
+        if (d >= least[NEIGHBOR]) continue
+        let i = NEIGHBOR
         for (; i > 0 && least[i - 1] > d; i--) least[i] = least[i - 1]
         least[i] = d
       }
-      if (least[NEIGHBOUR] < Infinity) found.push(Math.sqrt(least[NEIGHBOUR]))
+      if (least[NEIGHBOR] < Infinity) found.push(Math.sqrt(least[NEIGHBOR]))
     }
     found.sort((a, b) => a - b)
     return (this.measured = (found[found.length >> 1] ?? 65535) * this.object.step)
