@@ -151,12 +151,7 @@ fn segment(
             pose.place(arc_end(s, s * k))
         }
     };
-    // Where segments do not meet the corner lies beside them: a line or an arc ends at its own place nearest to it.
-    let own = |corner: Option<[f64; 2]>, place: [f64; 2]| {
-        let is_near = |c: &[f64; 2]| libm::hypot(c[0] - place[0], c[1] - place[1]) <= tolerance;
-        corner.filter(|c| piece.kind == SegmentKind::Spline || is_near(c)).unwrap_or(place)
-    };
-    let [start, end] = [own(corners[0], at(from)), own(corners[1], at(to))];
+    let [start, end] = [corners[0].unwrap_or(at(from)), corners[1].unwrap_or(at(to))];
     let geometry = match piece.kind {
         SegmentKind::Line => Geometry::Line,
         SegmentKind::Arc => {

@@ -26,6 +26,11 @@ pub enum Search {
     Golden,
 }
 
+/// Noises of the default's contour beyond which what is left of a segment's points is none.
+const ASTRAY: f64 = 4.0;
+/// Share of the distance between points below which what is left is nothing.
+const NOTHING: f64 = 0.005;
+
 impl Search {
     /// All, in the order of the paper's table.
     pub const ALL: [Search; 3] = [Search::Stepwise, Search::Improved, Search::Golden];
@@ -358,7 +363,7 @@ impl Work {
 
 /// The contour of one method: a line, and the curve as one segment.
 ///
-/// `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
+/// Segments whose points are off by several times the noise that the default's contour leaves are astray. `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
 /// its standard uncertainty that of a value anywhere in the interval.
 pub fn method_contour(
     points: &[[f64; 2]],
@@ -417,6 +422,9 @@ pub fn method_contour(
     }
     let sum: f64 = all.segments.iter().map(|s| s.rms).sum();
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
+    // A rule to stop may end far from where the line does: the points then tell the noise, not what is left of them.
+    let most = ASTRAY * found.noise.max(NOTHING * found.spacing);
+    all.astray = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
     all.noise = options.noise.unwrap_or((sum / kept.max(1) as f64).sqrt());
     all
 }

@@ -12,6 +12,12 @@ const STEADY: f64 = 0.05;
 const SURE: f64 = 3.0;
 /// They lie within this share of the chord from the end.
 const NEAR: f64 = 0.03;
+/// Noises that two corners of a blunt edge are apart, at least.
+const FACE: f64 = 5.0;
+/// Share of the distance of two points within which a corner lies amid them.
+const AMID: f64 = 0.25;
+/// Distances of the points before it beyond which a corner has none of its sides' points near it.
+const NEXT: f64 = 1.2;
 /// The widths of both ends are compared at this share of the chord.
 const STATION: f64 = 0.05;
 /// The ends of an open row are no farther apart than this share of the chord.
@@ -86,7 +92,12 @@ impl Around {
         let run = |from: usize, count: usize| -> Vec<[f64; 2]> {
             (from..=from + count).map(|i| row[i % n]).collect()
         };
-        Ok(match corners[..] {
+        // Two points side by side may be the corners of a face that has no others.
+        let face = match (&corners[..], known) {
+            ([one], Some(known)) => face(row, *one, known),
+            _ => None,
+        };
+        Ok(match face.as_ref().unwrap_or(&corners)[..] {
             [one] => Around { row: run(one, n), ends: [one; 2], over: 0, trailing: TrailingEdge::Sharp },
             [before, after] => {
                 let trailing = TrailingEdge::Blunt(distance(row[before], row[after]));
@@ -154,6 +165,21 @@ fn known_corners(row: &[[f64; 2]], head: usize, tail: usize, known: &[[f64; 2]])
     found.sort_by_key(|i| (i + n + n / 2 - tail) % n);
     found.dedup();
     if found.len() > 2 { vec![] } else { found }
+}
+
+/// The two points between which the corner nearest to point `at` lies, in the order of the row, where the profile ends with the face between
+/// them: the corner lies amid them, or farther beyond them than the next point of either side would, if the sides ran on to meet.
+fn face(row: &[[f64; 2]], at: usize, known: &[[f64; 2]]) -> Option<Vec<usize>> {
+    let (n, (noise, _)) = (row.len(), noise(row, true));
+    let corner = known.iter().min_by(|a, b| distance(**a, row[at]).total_cmp(&distance(**b, row[at])))?;
+    let is_face = |[a, b]: &[usize; 2]| {
+        let (p, q) = (row[*a], row[*b]);
+        let (gap, middle) = (distance(p, q), [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
+        let step = distance(p, row[(a + n - 1) % n]).max(distance(q, row[(b + 1) % n]));
+        let beyond = distance(*corner, middle);
+        gap > FACE * noise && (beyond < AMID * gap || beyond > gap.max(NEXT * step))
+    };
+    [[(at + n - 1) % n, at], [at, (at + 1) % n]].into_iter().find(is_face).map(Vec::from)
 }
 
 /// The corners near the end `tail`: none, or one, or the first and the last of two, in the order of the row; none, too, where there

@@ -162,6 +162,14 @@ fn trailing_edges_are_told_apart() {
     let open = airfoil(&points, &found(&points, false), &Silent).unwrap();
     assert!(matches!(open.trailing_edge, TrailingEdge::Open(_)), "{:?}", open.trailing_edge);
     assert!((open.thickness - cut.thickness).abs() < 1e-6);
+    // Few points of seven decimals, as catalogs have them: both corners are one of the contour, between the ends.
+    for count in [30, 34, 50] {
+        let points = naca(0.0, 0.4, 0.12, 0.1015, count);
+        let rounded: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| (x * 1e7).round() / 1e7)).collect();
+        let cut = measured(&rounded);
+        let TrailingEdge::Blunt(gap) = cut.trailing_edge else { panic!("{count}: {:?}", cut.trailing_edge) };
+        assert!((gap - 2.0 * half(0.12, 1.0, 0.1015)).abs() < 2e-7, "{count}: {gap}");
+    }
 }
 
 #[test]
