@@ -12,6 +12,7 @@
 //! | planes, circles, cylinders … of least squares | [`fit`] |
 //! | planes, cylinders … found in a scan | [`segment`] |
 //! | lines, arcs and curves of a profile | [`contour`] |
+//! | the same where a plane cuts a mesh | [`sections`] |
 //! | a B-spline surface through points | [`surface`] |
 //! | curvatures of a mesh | [`curvature`] |
 //! | an inspection plan: features, characteristics, verdicts | [`inspection::inspection::run`] |
@@ -39,7 +40,7 @@ pub use library::deviations::{Deviation, Deviations};
 pub use library::error::Error;
 pub use library::part::{Part, read, write_mesh};
 pub use library::reference::Reference;
-pub use library::tasks::{check, contour, curvature, fit, repair, segment, surface};
+pub use library::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
 
 pub use trueness_files as files;
 pub use trueness_geom as geom;
@@ -54,7 +55,7 @@ pub use trueness_geom::deviation::surface::{Exclusion, SurfaceOptions};
 pub use trueness_geom::fit::Fit;
 pub use trueness_geom::mesh::Mesh;
 pub use trueness_geom::repair::Repaired;
-pub use trueness_geom::section::Contour;
+pub use trueness_geom::section::{Contour, Plane};
 pub use trueness_geom::segment::Segmentation;
 pub use trueness_geom::shape::{Kind, Shape};
 pub use trueness_geom::space::{Point, Vector};

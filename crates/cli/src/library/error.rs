@@ -40,6 +40,12 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// The file holds points without facets, where a mesh is needed.
+    #[error("{path}: it holds points without facets; this needs a mesh (STL, PLY, OBJ, OFF)")]
+    NoFacets {
+        /// The file.
+        path: String,
+    },
     /// A mesh cannot be searched.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -67,16 +67,22 @@ impl Reference {
     /// Of a file.
     ///
     /// # Errors
-    /// Those of [`read`](part::read) and [`Reference::new`].
+    /// Those of [`read`](part::read) and [`Reference::new`]; [`Error::NoFacets`] for points.
     ///
     /// ```
     /// let reference = trueness::Reference::read("../../corpus/bunny/zipper_res4.ply")?;
     /// assert_eq!(reference.mesh().faces.len(), 948);
     /// assert!(!reference.soundness().closed);
+    /// let points = trueness::Reference::read("../../corpus/bunny/scans.ply");
+    /// assert!(matches!(points, Err(trueness::Error::NoFacets { .. })));
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn read(path: impl AsRef<Path>) -> Result<Reference, Error> {
-        Reference::new(part::read(path)?.mesh)
+        let part = part::read(path)?;
+        if part.is_cloud() {
+            return Err(Error::NoFacets { path: part.provenance.path });
+        }
+        Reference::new(part.mesh)
     }
 
     /// The mesh.

@@ -8,7 +8,7 @@ use trueness_geom::fit::{self, Fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
 use trueness_geom::repair::{self, Repaired};
-use trueness_geom::section::{self, Contour};
+use trueness_geom::section::{self, Contour, Plane, SectionError};
 use trueness_geom::segment::{self, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
@@ -110,6 +110,28 @@ pub fn segment(mesh: &Mesh) -> Result<Segmentation, Error> {
 /// ```
 pub fn contour(points: &[[f64; 2]]) -> Result<Contour, Error> {
     Ok(section::contour(points, &section::Options::default(), &Silent)?)
+}
+
+/// The lines, arcs and curves in which a plane cuts a mesh, a contour for each closed or open chain, in the frame of the plane
+/// ([`Plane::frame`]). The cut of a drawing's facets is taken as exact, that of a scan as measured. None where the plane misses the mesh.
+/// Options: [`geom::section::cut`](section::cut()), [`geom::section::chain_contour`](section::chain_contour).
+///
+/// # Errors
+/// [`Error::Section`]: a coordinate that is no number; a normal without direction.
+///
+/// ```
+/// use trueness::{Plane, read, sections};
+/// let cube = read("../../corpus/shapes/trimesh__unit_cube.STL")?.mesh;
+/// let found = sections(&cube, &Plane { normal: [0.0, 0.0, 1.0], offset: 0.25 })?;
+/// assert_eq!((found.len(), found[0].segments.len()), (1, 4));
+/// # Ok::<(), trueness::Error>(())
+/// ```
+pub fn sections(mesh: &Mesh, plane: &Plane) -> Result<Vec<Contour>, Error> {
+    let frame = plane.frame().ok_or(SectionError::NoDirection)?;
+    let (rounding, options) = (section::rounding(mesh), section::Options::default());
+    let chains = section::cut(mesh, plane, &Silent).map_err(SectionError::from)?;
+    let each = chains.iter().map(|chain| section::chain_contour(chain, &frame, rounding, &options, &Silent));
+    Ok(each.collect::<Result<_, _>>()?)
 }
 
 /// The B-spline surface of least squares through scattered points. Options: [`geom::surface::fit`](surface::fit).

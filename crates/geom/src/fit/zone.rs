@@ -73,7 +73,13 @@ pub(super) fn zone<const P: usize, F: Family<P>>(
 
 /// Which distances count.
 fn aim<const P: usize, F: Family<P>>(kind: Kind, method: Method) -> Result<Aim, FitError> {
-    let round = matches!(kind, Kind::Circle2 | Kind::Sphere | Kind::Cylinder);
+    // Whether its surfaces at equal distance are of its kind, and one of them has no inside.
+    let round = match kind {
+        Kind::Circle2 | Kind::Sphere | Kind::Cylinder => true,
+        Kind::Line2 | Kind::Line | Kind::Plane | Kind::Circle | Kind::Ellipse2 | Kind::Cone | Kind::Torus => {
+            false
+        }
+    };
     match method {
         Method::MinimumCircumscribed if round => Ok(Aim { outer: true, inner: false, pinned: true }),
         Method::MaximumInscribed if round => Ok(Aim { outer: false, inner: true, pinned: true }),

@@ -319,6 +319,9 @@ pub enum SectionError {
         "no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out"
     )]
     NoLine,
+    /// A plane without direction.
+    #[error("the normal of the plane has no direction")]
+    NoDirection,
     /// An option has no meaning.
     #[error("{name} {value}: it must be {allowed}")]
     WrongOption {

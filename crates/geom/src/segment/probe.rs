@@ -29,7 +29,11 @@ impl Probe {
             Shape::Torus { center, direction, major_radius, minor_radius } => {
                 Probe::Torus { center, axis: direction, major: major_radius, minor: minor_radius }
             }
-            other => Probe::Other(other),
+            other @ (Shape::Line2 { .. }
+            | Shape::Line { .. }
+            | Shape::Circle2 { .. }
+            | Shape::Circle { .. }
+            | Shape::Ellipse2 { .. }) => Probe::Other(other),
         }
     }
     /// Signed distance of `p`, as [`Shape::distance`].

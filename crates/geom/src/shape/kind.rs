@@ -37,9 +37,23 @@ pub enum Quantity {
     Direction,
 }
 
-/// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Kind {
+/// The kinds, and the list of all of them.
+macro_rules! kinds {
+    ($(#[$about:meta] $name:ident,)*) => {
+        /// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Kind {
+            $(#[$about] $name,)*
+        }
+
+        impl Kind {
+            /// All kinds.
+            pub const ALL: [Kind; [$(Kind::$name),*].len()] = [$(Kind::$name),*];
+        }
+    };
+}
+
+kinds! {
     /// Straight line in the plane.
     Line2,
     /// Straight line in space.
@@ -63,19 +77,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All kinds.
-    pub const ALL: [Kind; 10] = [
-        Kind::Line2,
-        Kind::Line,
-        Kind::Plane,
-        Kind::Circle2,
-        Kind::Circle,
-        Kind::Ellipse2,
-        Kind::Sphere,
-        Kind::Cylinder,
-        Kind::Cone,
-        Kind::Torus,
-    ];
     /// The word for it: `line`, `plane`, … The same in the plane and in space.
     pub fn name(self) -> &'static str {
         match self {
@@ -117,7 +118,7 @@ impl Kind {
     pub fn quantity(self, parameter: &str) -> Option<Quantity> {
         self.parameters().iter().find(|(name, _)| *name == parameter).map(|(_, quantity)| *quantity)
     }
-    /// Number of unknowns: fewer points do not determine it.
+    /// Number of unknowns.
     pub fn unknowns(self) -> usize {
         match self {
             Kind::Line2 => 2,

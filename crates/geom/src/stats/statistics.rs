@@ -74,6 +74,18 @@ pub struct Statistics {
 const MEAN_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Statistics {
+    /// The value that `percent` of all are below; `None` where `percent` is not one of [`PERCENTILES`].
+    ///
+    /// ```
+    /// use trueness_geom::stats::statistics::Summary;
+    /// let summary = Summary::of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+    /// assert_eq!(summary.all.percentile(75.0), Some(Ok(4.0)));
+    /// assert_eq!(summary.all.percentile(33.0), None);
+    /// ```
+    pub fn percentile(&self, percent: f64) -> Option<Number> {
+        PERCENTILES.iter().position(|p| *p == percent).map(|i| self.percentiles[i])
+    }
+
     /// Greatest absolute value.
     pub fn max_abs(&self) -> Number {
         Ok(self.min?.abs().max(self.max?.abs()))

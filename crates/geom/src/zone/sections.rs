@@ -8,7 +8,7 @@ const SECTIONS: usize = 24;
 const POINTS: usize = 24;
 /// Fewest points of a ring.
 pub(super) const FEWEST: usize = 6;
-/// Share of the extent along the direction that separates two rings, and that none is higher than.
+/// Share of the extent along the direction: a gap above it separates two rings, and no ring is higher.
 const APART: f64 = 0.01;
 
 /// The sections of points (mm) across a direction (of length 1), each by the indices of its points, in the order along it.

@@ -14,7 +14,7 @@ pub trait Named: Copy + PartialEq + Debug + 'static {
     const WHAT: &'static str;
     /// All of them.
     fn all() -> &'static [Self];
-    /// Its name; no two have the same, but for things that another key tells apart.
+    /// Its name. Two may share one where another key of the document tells them apart: `circle` in the plane and in space.
     fn name(self) -> &'static str;
 }
 
@@ -64,7 +64,7 @@ impl<'de, T: Named> Deserialize<'de> for Word<T> {
     }
 }
 
-/// A string, as it ever was.
+/// In schemas a plain string.
 impl<T> JsonSchema for Word<T> {
     fn inline_schema() -> bool {
         true
