@@ -1,13 +1,13 @@
 //! Corners: where two chains cross.
 
-use super::chain::Pose;
+use super::chain::{Pose, SegmentKind};
 use super::result::{Continuity, Join};
 use super::span::Found;
 
 /// From where the points end a corner that they tell lies no farther than this share of the farthest, beyond what is uncertain.
 const NEAR: f64 = 0.25;
 
-/// Or so many times the mean distance between the points of the segments that meet there: a cut of large facets has few.
+/// Or so many times the mean distance between the points of the line that runs there: a cut of large facets has few.
 const LOCAL: f64 = 5.0;
 
 /// A corner takes less than this share of the way along a segment's points: the other end may take as much.
@@ -48,13 +48,20 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
         [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
     let reach = quantile * uncertainty;
     // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
-    let local = a.local_spacing(true).max(b.local_spacing(false));
-    let near = (NEAR * farthest).max(LOCAL * local) + 3.0 * uncertainty.min(farthest);
+    // Where few points lie on a line it goes on as far; an arc or a free curve does not tell as much.
+    let near = |f: &Found, at_end: bool| {
+        let local =
+            if f.end_kind(at_end) == SegmentKind::Line { LOCAL * f.local_spacing(at_end) } else { 0.0 };
+        (NEAR * farthest).max(local) + 3.0 * uncertainty.min(farthest)
+    };
+    let (near_a, near_b) = (near(a, true), near(b, false));
     let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
     let eaten = -beyond > SHORTEST * a.extent(true) || within > SHORTEST * b.extent(false);
     // Both go on to meet within a gap of the points: that is where they were drawn to, but nothing tells.
-    let gap = beyond.min(-within) >= -near && beyond.max(-within) <= width + near;
-    if reach > most || eaten || beyond.abs().max(within.abs()) > near {
+    let free = [a.end_kind(true), b.end_kind(false)].contains(&SegmentKind::Spline);
+    let slack = NEAR * farthest;
+    let gap = !free && beyond.min(-within) >= -slack && beyond.max(-within) <= width + slack;
+    if reach > most || eaten || beyond.abs() > near_a || within.abs() > near_b {
         let hidden = between(feet, turn, uncertainty.min(most));
         return if gap && reach <= most { Join { point, ..hidden } } else { hidden };
     }

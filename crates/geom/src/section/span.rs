@@ -308,6 +308,11 @@ impl Found {
         let at = |i: usize| self.stations[i % self.stations.len()];
         (at(breaks[g + 1] - 1) - at(breaks[g])).abs()
     }
+    /// What its last or first piece is.
+    pub fn end_kind(&self, at_end: bool) -> SegmentKind {
+        let pieces = self.pieces();
+        pieces[if at_end { pieces.len() - 1 } else { 0 }].kind
+    }
     /// Mean distance between the feet of its last or first piece; 0 of one.
     pub fn local_spacing(&self, at_end: bool) -> f64 {
         let breaks = &self.state.breaks;

@@ -102,7 +102,10 @@ fn independent(chain: &Chain) -> Vec<usize> {
     kept
 }
 
-/// A contour found from some of the points, for all of them.
+/// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
+const MISSED: f64 = 20.0;
+
+/// A contour found from some of the points, for all of them. Segments that others lie far off are astray.
 fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
@@ -125,6 +128,20 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
         (all.labels[i], all.stations[i], all.residuals[i]) =
             nearest(&all.segments, &starts, around.into_iter(), points[i]);
     }
+    let left_out = |i: &usize| all.outliers.binary_search(i).is_ok() || all.repeated.binary_search(i).is_ok();
+    let counted: Vec<usize> = (0..points.len()).filter(|i| !left_out(i)).collect();
+    all.segments.iter_mut().for_each(|s| (s.count, s.rms, s.max) = (0, 0.0, 0.0));
+    for i in counted {
+        let (segment, off) = (&mut all.segments[all.labels[i] as usize], all.residuals[i]);
+        segment.count += 1;
+        segment.rms += off * off;
+        segment.max = segment.max.max(off.abs());
+    }
+    all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
+    let most = MISSED * all.noise;
+    all.astray.extend((0..all.segments.len()).filter(|k| all.segments[*k].max > most));
+    all.astray.sort_unstable();
+    all.astray.dedup();
     all
 }
 
@@ -195,7 +212,7 @@ impl Sheet<'_> {
             let range = 0..found.segments.len();
             let item = Item { from: 0, to: self.polygon.facets(), ..run.items[0] };
             let mut all = self.finish(found.segments, found.joins, &[(item, range)]);
-            (all.noise, all.spacing) = (found.noise, found.spacing);
+            all.spacing = found.spacing;
             return Ok(all);
         }
         let mut segments: Vec<Segment> = vec![];
