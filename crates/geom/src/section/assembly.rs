@@ -5,6 +5,9 @@ use super::result::{Contour, Segment};
 use super::row::Clean;
 use super::span::Found;
 
+/// A free piece whose points leave so many spans of its curvature after another without one may run anywhere there.
+const UNTOLD: f64 = 3.0;
+
 /// A contour while it is put together.
 #[derive(Default)]
 pub(super) struct Joined {
@@ -33,8 +36,9 @@ impl Joined {
                 contour.stations[number] = self.length + parts.before + found.stations[i % n];
             }
         }
-        let strays =
-            |(k, s): &(usize, &Segment)| found.astray || s.strays() || found.pieces()[*k].is_loose(s.count);
+        let strays = |(k, s): &(usize, &Segment)| {
+            found.astray || s.strays() || found.pieces()[*k].is_loose(s.count) || found.widest(*k) > UNTOLD
+        };
         let astray = parts.segments.iter().enumerate().filter(strays);
         contour.astray.extend(astray.map(|(k, _)| first + k));
         self.length += parts.length;

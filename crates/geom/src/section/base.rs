@@ -5,6 +5,10 @@ use super::criterion::{Model, Plan};
 use super::free;
 use super::least::State;
 
+/// Samples of the curvature to a coefficient of a free piece along points.
+const SAMPLES: usize = 4;
+/// Shares of a free piece that go to a line or arc beside it.
+const GIVEN: [f64; 3] = [0.05, 0.12, 0.3];
 /// Fewest points to a coefficient of a free piece over two.
 const LEAST: usize = 2;
 /// A model with the places of its joins and points along it.
@@ -16,6 +20,8 @@ pub(super) struct Base {
     pub plans: Vec<Plan>,
     /// Where two chains follow each other, and how far the row turns there.
     seam: Option<(f64, f64)>,
+    /// The pieces are arcs along the points, too short to tell from the curve there.
+    along: bool,
 }
 
 impl Base {
@@ -27,7 +33,7 @@ impl Base {
         rising(&mut order);
         let stations = model.state.chain.stations();
         let plans = plans(&model.state.chain, &stations);
-        Base { model, stations, order, plans, seam: None }
+        Base { model, stations, order, plans, seam: None, along: false }
     }
 
     /// Two chains of a row as one, whose order along each is given, with a `turn` and a `gap` from one to the next. It is none that runs along the
@@ -58,12 +64,29 @@ impl Base {
             order,
             plans,
             seam: Some((whole, turn)),
+            along: false,
         }
     }
 
+    /// Short arcs along the points, which lie in this order, with plans of other pieces.
+    pub fn along(model: Model, stations: Vec<f64>, order: Vec<f64>, plans: Vec<Plan>) -> Base {
+        let mut order = order;
+        rising(&mut order);
+        Base { model, stations, order, plans, seam: None, along: true }
+    }
+
+    /// Coefficients of a free piece: those with the curvature along the points; beside other pieces the mean curvature about each of
+    /// its places.
     pub fn coefficients(&self, plan: &Plan) -> Vec<f64> {
         let chain = &self.model.state.chain;
         let width = (plan.to - plan.from) / (2.0 * plan.count as f64);
+        if self.seam.is_none() {
+            let cells = SAMPLES * plan.count;
+            let ends = |i: usize| plan.from + (plan.to - plan.from) * i as f64 / cells as f64;
+            let all: Vec<f64> =
+                (0..cells).map(|i| chain.mean_curvature(&self.stations, ends(i), ends(i + 1))).collect();
+            return free::near(plan.count, &all);
+        }
         let at: Vec<f64> =
             free::places(plan.count).iter().map(|t| plan.from + t * (plan.to - plan.from)).collect();
         let around = |s: &f64| ((s - width).max(plan.from), (s + width).min(plan.to));
@@ -160,9 +183,45 @@ impl Base {
         }
         for i in 0..n {
             splits(i, plans, kinds[0], spacing, &mut all);
+            shorter(i, plans, spacing, &mut all);
         }
         all
     }
+}
+
+/// A free piece beside a line or arc with a part of it given to this, and fewer coefficients: it may have them only to follow that.
+fn shorter(i: usize, plans: &[Plan], spacing: f64, all: &mut Vec<Vec<Plan>>) {
+    let plan = plans[i];
+    let width = plan.to - plan.from;
+    if plan.kind != SegmentKind::Spline || plan.count < 3 || width < 8.0 * spacing {
+        return;
+    }
+    let is_simple = |k: &usize| plans.get(*k).is_some_and(|p| p.kind != SegmentKind::Spline);
+    let beside = [i.checked_sub(1).filter(is_simple), Some(i + 1).filter(is_simple)];
+    for (k, other) in beside.into_iter().enumerate() {
+        let Some(other) = other else { continue };
+        for share in GIVEN {
+            let at = if k == 0 { plan.from + share * width } else { plan.to - share * width };
+            for count in [2, plan.count / 2 + 1, part_of(plan.count, 1.0 - share), plan.count - 1]
+                .into_iter()
+                .filter(|c| *c < plan.count)
+            {
+                let mut new = plans.to_vec();
+                new[i].count = count;
+                if k == 0 {
+                    (new[other].to, new[i].from) = (at, at);
+                } else {
+                    (new[other].from, new[i].to) = (at, at);
+                }
+                all.push(new);
+            }
+        }
+    }
+}
+
+/// Coefficients of a part of a piece that has so many: as many to a length.
+fn part_of(count: usize, share: f64) -> usize {
+    ((share * count as f64).ceil() as usize).max(2)
 }
 
 /// A piece cut in two.
@@ -197,7 +256,9 @@ fn splits(i: usize, plans: &[Plan], arcs: bool, spacing: f64, all: &mut Vec<Vec<
             continue;
         }
         // A free piece that lost a part needs fewer coefficients.
-        let fewer = (plan.count > 4 && [*a, *b].contains(&Spline)).then_some(plan.count / 2 + 1);
+        let left = if *a == Spline { *share } else { 1.0 - share };
+        let fewer = [plan.count / 2 + 1, part_of(plan.count, left)];
+        let fewer = fewer.into_iter().filter(|_| plan.count > 4 && [*a, *b].contains(&Spline));
         for free in std::iter::once(plan.count.max(2)).chain(fewer) {
             let count = |kind: SegmentKind| match kind {
                 Line => 0,

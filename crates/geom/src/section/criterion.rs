@@ -24,6 +24,9 @@ pub(super) struct Rest {
     pub unknowns: Unknowns,
 }
 
+/// Fewer points do not tell all that a search goes through on its way.
+const ENOUGH: f64 = 60.0;
+
 /// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones.
 const ARC: f64 = 1.0;
 const FREE: f64 = 1.5;
@@ -39,12 +42,16 @@ impl Criterion {
         if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
             return f64::INFINITY;
         }
-        // An arc that meets itself is none of a contour, but a whole circle's ends may overlap by their noise.
+        // An arc that meets itself is none of a contour, but a whole circle's ends may overlap by their noise. In rows of points enough
+        // a free piece beside others needs more points than unknowns.
         let pieces = &state.chain.pieces;
         let meets_itself = |p: &Piece| {
             p.kind == SegmentKind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU
         };
-        if pieces.len() > 1 && pieces.iter().any(meets_itself) {
+        let loose = |(p, w): (&Piece, &[usize])| self.count >= ENOUGH && p.is_loose(w[1] - w[0]);
+        if pieces.len() > 1
+            && (pieces.iter().any(meets_itself) || pieces.iter().zip(state.breaks.windows(2)).any(loose))
+        {
             return f64::INFINITY;
         }
         let own = Unknowns::of(&state.chain);

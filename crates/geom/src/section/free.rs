@@ -6,6 +6,7 @@
 //! along the first axis.
 
 use crate::spline::basis::Knots;
+use crate::spline::curve::{self, Ends};
 use std::sync::OnceLock;
 
 /// Most coefficients of a free piece.
@@ -39,6 +40,11 @@ fn degree(count: usize) -> usize {
     3.min(count - 1)
 }
 
+/// Spans between the knots of the curvature of a piece with so many coefficients.
+pub(super) fn spans(count: usize) -> usize {
+    count - degree(count)
+}
+
 /// The curvature at `t`.
 pub(super) fn curvature(coefficients: &[f64], t: f64) -> f64 {
     let degree = degree(coefficients.len());
@@ -50,6 +56,19 @@ pub(super) fn curvature(coefficients: &[f64], t: f64) -> f64 {
 pub(super) fn places(count: usize) -> Vec<f64> {
     let degree = degree(count);
     Knots::uniform(degree, count - degree, 0.0, 1.0).greville()
+}
+
+/// So many coefficients with nearly the curvatures given, the means over parts of equal length: least squares.
+pub(super) fn near(count: usize, curvatures: &[f64]) -> Vec<f64> {
+    let degree = degree(count);
+    let knots = Knots::uniform(degree, count - degree, 0.0, 1.0);
+    let share = |i: usize| (i as f64 + 0.5) / curvatures.len() as f64;
+    let at: Vec<f64> = (0..curvatures.len()).map(share).collect();
+    let values: Vec<[f64; 1]> = curvatures.iter().map(|c| [*c]).collect();
+    match curve::fit(&values, &at, &knots, Ends::FREE, 0.0) {
+        Ok(fitted) => fitted.curve.points().iter().map(|p| p[0]).collect(),
+        Err(_) => vec![0.0; count],
+    }
 }
 
 impl Basis {

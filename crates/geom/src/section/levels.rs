@@ -88,6 +88,8 @@ impl Start {
             own = own.min(FORM * clean.spacing);
         }
         let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
+        let rounding = clean.rounding;
+        own = own.max(rounding);
         let sigma = options.noise.unwrap_or(own).max(least);
         let free = options.noise.is_none() && options.continuity.is_none();
         let exact = if free { rounded(&clean, least) } else { None };
@@ -107,7 +109,7 @@ impl Start {
             forced: options.continuity,
             sigma,
             own,
-            least,
+            least: least.max(rounding),
         };
         // Of a polygon nothing more is to be known.
         if let Some((by, parts)) = exact {
@@ -123,7 +125,7 @@ impl Start {
         for _ in 0..PASSES {
             start.divide(FEWEST);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
-            let found = scatter(&start.clean.points, &start.weights, &start.parts).max(least);
+            let found = scatter(&start.clean.points, &start.weights, &start.parts).max(start.least);
             if options.noise.is_some() || found > LEAST_OF_LOCAL * start.sigma {
                 break;
             }

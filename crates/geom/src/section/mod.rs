@@ -31,6 +31,7 @@
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
 mod airfoil;
+mod along;
 mod assembly;
 mod base;
 mod begin;

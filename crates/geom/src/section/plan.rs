@@ -176,7 +176,7 @@ impl Plan<'_> {
     }
 
     pub(super) fn resolution(&self) -> f64 {
-        self.options.resolution.unwrap_or(RESOLUTION * self.spacing)
+        self.options.resolution.unwrap_or((RESOLUTION * self.spacing).max(self.clean.rounding))
     }
 
     pub(super) fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {

@@ -60,7 +60,7 @@ pub(super) fn resolved(start: &Start, options: &Options, among: Among) -> Option
     {
         return None;
     }
-    let noise = noise_beyond_form(&clean.points, clean.closed);
+    let noise = noise_beyond_form(&clean.points, clean.closed).max(clean.rounding);
     let is_form = noise <= NONE[1] * start.own;
     let quiet = noise <= NONE[0] * clean.spacing || noise <= 2.0 * NONE[0] * clean.spacing && is_form;
     if !quiet && noise > NONE[2] * clean.spacing {

@@ -17,6 +17,8 @@ pub(super) struct Clean {
     pub closed: bool,
     /// Median distance between neighbors.
     pub spacing: f64,
+    /// Standard deviation that coordinates have for being rounded to a step; 0 where none is seen.
+    pub rounding: f64,
 }
 
 /// Median step over median distance of nearest points from which on a row is no row.
@@ -113,8 +115,9 @@ impl Clean {
         let closed = options.closed.unwrap_or(found);
         let n = all.len() as f64;
         let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());
+        let rounding = rounding(&all, spacing);
         all.iter_mut().for_each(|p| (0..2).for_each(|k| p[k] -= middle[k]));
-        Ok(Clean { points: all, numbers, middle, repeated, ends_meet, gaps, closed, spacing })
+        Ok(Clean { points: all, numbers, middle, repeated, ends_meet, gaps, closed, spacing, rounding })
     }
 
     /// Points that lie far off what their neighbors on both sides tell, where these agree: eight times the noise. Neighbors are
@@ -202,6 +205,35 @@ fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> b
     let enough = pairs.filter(|(a, b)| n - 1 - usize::from(a != b) >= 6);
     let best = enough.filter_map(without).min_by(|x, y| x.1.total_cmp(&y.1));
     best.is_some_and(|(own, rest)| own > limit && rest < agreed)
+}
+
+/// Coordinates are rounded to a step between these shares of the distance between points: a coarser one is the row's own, as of pixels, and
+/// a finer one does not count.
+const ROUNDED: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
+/// What is left of a step below this share of the distance between points is nothing.
+const LEFT: f64 = 1e-6;
+
+/// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm: values rounded to it lie
+/// anywhere in its width.
+fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
+    let least = LEFT * spacing;
+    let common = |step: f64, other: f64| {
+        let (mut a, mut b) = (step, other);
+        while b > least {
+            (a, b) = (b, (a - b * (a / b).round()).abs());
+        }
+        a
+    };
+    let mut step = 0.0;
+    for w in points.windows(2) {
+        for k in 0..2 {
+            step = common(step, (w[1][k] - w[0][k]).abs());
+        }
+        if step > 0.0 && step < ROUNDED.start() * spacing {
+            return 0.0;
+        }
+    }
+    if ROUNDED.contains(&(step / spacing)) { step / 12.0_f64.sqrt() } else { 0.0 }
 }
 
 /// Length of the diagonal of the box around points.

@@ -154,6 +154,20 @@ impl Search<'_> {
             };
             match found.filter(|f| f.cost < best.cost - 1e-6) {
                 Some(found) => {
+                    if std::env::var("DBG").is_ok() {
+                        eprintln!(
+                            "{:.2} sum {:.4e} {:?}",
+                            found.cost,
+                            found.state.sum,
+                            found
+                                .state
+                                .chain
+                                .pieces
+                                .iter()
+                                .map(|p| (p.kind, p.coefficients.len(), (p.length * 100.0).round() / 100.0))
+                                .collect::<Vec<_>>()
+                        );
+                    }
                     idle = 0;
                     best = found;
                 }
@@ -175,20 +189,25 @@ impl Search<'_> {
         Ok(best)
     }
 
-    /// The cheapest model over two chains, where one costs less than `bar`.
+    /// The cheapest model over two chains, built on one of these, where one costs less than `bar`.
     pub fn over(
         &mut self,
-        base: &Base,
+        bases: &[Option<Base>],
         first: usize,
         bar: f64,
         progress: &dyn Progress,
     ) -> Result<Option<Model>, Cancelled> {
         let mut best: Option<Model> = None;
-        for plans in base.joined(first) {
-            let least = best.as_ref().map_or(bar, |b| b.cost);
-            let mut model = self.build(base, &plans, least);
-            if model.cost < least && self.follows(&mut model.state) {
-                best = Some(model);
+        for base in bases.iter().flatten() {
+            for plans in base.joined(first) {
+                let least = best.as_ref().map_or(bar, |b| b.cost);
+                let mut model = self.build(base, &plans, least);
+                if (least..least + COST_TO_DROP).contains(&model.cost) {
+                    model = self.converge(&model);
+                }
+                if model.cost < least && self.follows(&mut model.state) {
+                    best = Some(model);
+                }
             }
         }
         best.map(|model| self.run(model, progress)).transpose()

@@ -122,11 +122,16 @@ impl Search<'_> {
 
     /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that costs less than `bar`.
     fn smooth(&mut self, first: &Model, bar: f64) -> Option<Model> {
-        let base = self.base(first.clone());
-        let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
+        let mut base = self.base(first.clone());
         if base.plans.len() < MANY || !self.kinds[1] {
             return None;
         }
+        if !self.is_near(&first.state)
+            && let Some(along) = self.along(&first.state, &base.plans)
+        {
+            base = along;
+        }
+        let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
         let mut best: Option<Model> = None;
         for pieces in PIECES {
             let mut better = false;

@@ -5,6 +5,7 @@ use super::blocks::Blocks;
 use super::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::Model;
 use super::facets::angle;
+use super::free;
 use super::least::{Spread, State, Work};
 use super::profile::Interval;
 use super::search::Search;
@@ -108,7 +109,8 @@ impl Span {
                 let turn = angle(a.beyond(true, 0.0).along, b.beyond(false, 0.0).along);
                 let both = [a, b].map(|f| (&f.state, f.stations.clone()));
                 let base = Base::of_both(both, turn, task.spacing);
-                search.over(&base, a.pieces().len() - 1, bar, progress)?
+                let along = search.along(&base.model.state, &base.plans);
+                search.over(&[Some(base), along], a.pieces().len() - 1, bar, progress)?
             }
             [one] => {
                 // From the chain's end to its start, whose pieces end where these do.
@@ -300,6 +302,17 @@ impl Found {
         let (n, count) = (self.pieces().len(), self.stations.len());
         let length: f64 = self.pieces().iter().map(|p| p.length).sum();
         self.stations[(self.state.breaks[n] + count - 1) % count] - length
+    }
+    /// The widest gap between feet on a free piece, in spans of its curvature; 0 of a line or arc.
+    pub fn widest(&self, g: usize) -> f64 {
+        let piece = &self.pieces()[g];
+        if piece.kind != SegmentKind::Spline {
+            return 0.0;
+        }
+        let at = |i: usize| self.stations[i % self.stations.len()];
+        let own = self.state.breaks[g]..self.state.breaks[g + 1].saturating_sub(1);
+        let gap = own.map(|i| (at(i + 1) - at(i)).abs()).fold(0.0, f64::max);
+        gap / piece.length * free::spans(piece.coefficients.len()) as f64
     }
     /// Length along the chain from the first to the last foot of its last or first piece.
     pub fn extent(&self, at_end: bool) -> f64 {
