@@ -20,8 +20,8 @@ pub(super) struct Base {
     pub plans: Vec<Plan>,
     /// Where two chains follow each other, and how far the row turns there.
     seam: Option<(f64, f64)>,
-    /// The pieces are arcs along the points, too short to tell from the curve there.
-    along: bool,
+    /// Of short arcs along the points, how far they turn from the start to each end; else empty.
+    turns: Vec<f64>,
 }
 
 impl Base {
@@ -33,7 +33,7 @@ impl Base {
         rising(&mut order);
         let stations = model.state.chain.stations();
         let plans = plans(&model.state.chain, &stations);
-        Base { model, stations, order, plans, seam: None, along: false }
+        Base { model, stations, order, plans, seam: None, turns: vec![] }
     }
 
     /// Two chains of a row as one, whose order along each is given, with a `turn` and a `gap` from one to the next. It is none that runs along the
@@ -64,7 +64,7 @@ impl Base {
             order,
             plans,
             seam: Some((whole, turn)),
-            along: false,
+            turns: vec![],
         }
     }
 
@@ -72,7 +72,11 @@ impl Base {
     pub fn along(model: Model, stations: Vec<f64>, order: Vec<f64>, plans: Vec<Plan>) -> Base {
         let mut order = order;
         rising(&mut order);
-        Base { model, stations, order, plans, seam: None, along: true }
+        let mut turns = vec![0.0];
+        for (k, arc) in model.state.chain.pieces.iter().enumerate() {
+            turns.push(turns[k] + arc.length * arc.curvature(0.0));
+        }
+        Base { model, stations, order, plans, seam: None, turns }
     }
 
     /// Coefficients of a free piece: those with the curvature along the points; beside other pieces the mean curvature about each of
@@ -83,8 +87,7 @@ impl Base {
         if self.seam.is_none() {
             let cells = SAMPLES * plan.count;
             let ends = |i: usize| plan.from + (plan.to - plan.from) * i as f64 / cells as f64;
-            let all: Vec<f64> =
-                (0..cells).map(|i| chain.mean_curvature(&self.stations, ends(i), ends(i + 1))).collect();
+            let all: Vec<f64> = (0..cells).map(|i| self.mean_curvature(ends(i), ends(i + 1))).collect();
             return free::near(plan.count, &all);
         }
         let at: Vec<f64> =
@@ -103,6 +106,19 @@ impl Base {
             all[nearest] += turn / (b - a);
         }
         all
+    }
+
+    /// Mean curvature over a part; of short arcs exactly, so that what free pieces turn does not add up to something else.
+    fn mean_curvature(&self, from: f64, to: f64) -> f64 {
+        if self.turns.is_empty() {
+            return self.model.state.chain.mean_curvature(&self.stations, from, to);
+        }
+        let turn = |s: f64| {
+            let k = self.stations.partition_point(|x| *x <= s).clamp(1, self.stations.len() - 1);
+            let share = (s - self.stations[k - 1]) / (self.stations[k] - self.stations[k - 1]);
+            self.turns[k - 1] + share * (self.turns[k] - self.turns[k - 1])
+        };
+        (turn(to) - turn(from)) / (to - from)
     }
 
     /// The chains as they are, tangent to each other; with a line or an arc beside the corner, which a free piece around it may hide; and

@@ -31,7 +31,8 @@ const FARTHEST: f64 = 20.0;
 /// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
 /// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
 /// other way round. Points that repeat the one before, and single points
-/// far off what their neighbors tell, are left out and listed.
+/// far off what their neighbors tell, are left out and listed. A search of more than a dozen seconds ends with the cheapest contour so far, as of
+/// spirals of many turns.
 ///
 /// # Errors
 /// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
@@ -56,20 +57,21 @@ pub fn contour(
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
     let (hasty, again) = (Cell::new(false), Cell::new(false));
-    let mut found = in_order(ways[0], options, Some(&hasty), progress);
+    let left = &Cell::new(PRODUCTS);
+    let mut found = in_order(ways[0], options, left, Some(&hasty), progress);
     let mut is_backward = backward;
     // What takes long from one end may be short from the other.
     if hasty.get() && !matches!(found, Err(SectionError::Cancelled(_))) {
-        found = in_order(ways[1], options, Some(&again), progress);
+        found = in_order(ways[1], options, left, Some(&again), progress);
         match again.get() {
-            true => found = in_order(ways[0], options, None, progress),
+            true => found = in_order(ways[0], options, left, None, progress),
             false => is_backward = !backward,
         }
     }
     // A search that ended badly may end well from the other end.
-    let doubtful = |found: &Contour| !hasty.get() && is_doubtful(found, points, options);
+    let doubtful = |found: &Contour| !hasty.get() && left.get() > 0.0 && is_doubtful(found, points, options);
     if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
-        let other = match in_order(ways[1], options, None, progress) {
+        let other = match in_order(ways[1], options, left, None, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             other => other,
         };
@@ -87,6 +89,9 @@ pub fn contour(
     found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }
+
+/// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
+const PRODUCTS: f64 = 3e10;
 
 /// Points scatter about a contour this many times as much as about local fits where it hides form.
 const DOUBTFUL: f64 = 1.3;
@@ -114,10 +119,11 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
     (found.astray.len(), cost)
 }
 
-/// The contour of a row, found from its first point; `hasty` as of the search.
+/// The contour of a row, found from its first point; `left` and `hasty` as of the search.
 fn in_order(
     points: &[[f64; 2]],
     options: &Options,
+    left: &Cell<f64>,
     hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
@@ -130,19 +136,19 @@ fn in_order(
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
-    let mut chains = Plan { hasty, ..start.plan(options) }.chains(&start.parts, progress)?;
+    let mut chains = Plan { hasty, ..start.plan(options, left) }.chains(&start.parts, progress)?;
     if hasty.is_some_and(Cell::get) {
         // It is of no use.
         return Err(SectionError::Astray);
     }
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.founds);
-    while let Some(other) = finer.pop_front() {
+    while let Some(other) = finer.pop_front().filter(|_| left.get() > 0.0) {
         let bar = start.cost(&chains.founds);
-        if !promises(&other, options, bar, progress)? {
+        if !promises(&other, options, left, bar, progress)? {
             continue;
         }
-        let found = match other.plan(options).chains(&other.parts, progress) {
+        let found = match other.plan(options, left).chains(&other.parts, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             Err(_) => continue,
             Ok(found) => found,
@@ -162,7 +168,7 @@ fn in_order(
             (start, chains) = (other, found);
         }
     }
-    let mut found = start.plan(options).join(chains)?;
+    let mut found = start.plan(options, left).join(chains)?;
     if options.noise.is_none() && options.resolution.is_none() {
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
@@ -186,13 +192,14 @@ fn is_cornered(contour: &Contour) -> bool {
 fn promises(
     start: &Start,
     options: &Options,
+    left: &Cell<f64>,
     bar: f64,
     progress: &dyn Progress,
 ) -> Result<bool, SectionError> {
     if bar.is_infinite() {
         return Ok(true);
     }
-    let plan = Plan { draft: true, ..start.plan(options) };
+    let plan = Plan { draft: true, ..start.plan(options, left) };
     match plan.all(&start.parts, progress) {
         Err(SectionError::Cancelled(e)) => Err(e.into()),
         Err(_) => Ok(false),

@@ -46,6 +46,11 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         let at = [corners[0].filter(|_| g == 0), corners[1].filter(|_| g + 1 == n)];
         let tolerance = found.noise.max(1e-4 * spacing);
         let mut segment = segment(&found.layout, g, piece, [from, to], at, tolerance);
+        // A free curve that is led to a corner is as long as it is drawn.
+        if let (Geometry::Spline { curve, .. }, true) = (&segment.geometry, at.iter().any(Option::is_some)) {
+            let (start, end) = curve.domain();
+            segment.length = curve.length(start, end);
+        }
         let unit = found.spread.as_ref().and_then(|s| s.pieces[g]);
         segment.uncertainty = unit.map(|u| u.times(found.noise));
         segment.length_uncertainty = of_length(found, g);
@@ -243,6 +248,8 @@ impl Segment {
         let points = curve.points().iter().enumerate().map(led).collect();
         if let Ok(moved) = Curve::new(curve.knots().clone(), points) {
             *curve = moved;
+            let (from, to) = curve.domain();
+            self.length = curve.length(from, to);
             *deviation += ends.iter().map(|d| libm::hypot(d[0], d[1])).fold(0.0, f64::max);
         }
     }

@@ -158,6 +158,12 @@ pub(super) struct Table {
 }
 
 impl Table {
+    /// What it takes to fill it, in products: a sine takes about as long as so many.
+    pub(super) fn products(&self) -> f64 {
+        const SINE: usize = 50;
+        (4 * self.panels * (4 * self.count + SINE)) as f64
+    }
+
     /// Computes all for the piece.
     pub(super) fn fill(&mut self, coefficients: &[f64], length: f64) {
         let basis = Basis::of(coefficients.len());

@@ -151,6 +151,9 @@ impl Work {
             let pose = &self.layout.poses[g];
             let curvature = piece.coefficients.first().copied().unwrap_or(0.0);
             let table = &self.layout.tables[g];
+            if piece.kind == SegmentKind::Spline {
+                self.effort += table.products();
+            }
             let mut products = [0.0; 64];
             let size = block.size;
             // A distance takes about as long as so many products.
@@ -259,6 +262,7 @@ impl Work {
                 state.chain = chain;
             }
             let k = self.variables.len();
+            self.effort += (k * k * k / 6) as f64;
             let mut damped = self.matrix.clone();
             for i in 0..k {
                 damped[i * k + i] += lambda * self.scale[i] + f64::MIN_POSITIVE;

@@ -110,6 +110,7 @@ impl Near {
             row: self.row(),
             criterion,
             work: Work::default(),
+            left: whole.left,
             hasty: None,
             until: f64::INFINITY,
             ..*whole
@@ -201,8 +202,6 @@ impl Search<'_> {
             near.core.contains(&same)
         };
         let best = search.round_of(&base, inside);
-        let effort = search.work.effort;
-        self.work.effort += effort;
         best.map(|best| (best.cost, best.state))
     }
 

@@ -41,6 +41,7 @@ pub(super) struct Plan<'a> {
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
     /// As of the search.
+    pub left: &'a Cell<f64>,
     pub hasty: Option<&'a Cell<bool>>,
 }
 
@@ -53,7 +54,7 @@ pub(super) struct Chains {
 
 impl Start {
     /// How chains of its parts are looked for.
-    pub(super) fn plan<'a>(&'a self, options: &'a Options) -> Plan<'a> {
+    pub(super) fn plan<'a>(&'a self, options: &'a Options, left: &'a Cell<f64>) -> Plan<'a> {
         Plan {
             clean: &self.clean,
             weights: &self.weights,
@@ -67,6 +68,7 @@ impl Start {
             known: self.known,
             tangent: self.tangent,
             draft: false,
+            left,
             hasty: None,
         }
     }
@@ -202,6 +204,7 @@ impl Plan<'_> {
             level: self.options.level,
             known: self.known,
             draft: self.draft,
+            left: self.left,
             hasty: self.hasty,
         }
     }

@@ -38,7 +38,8 @@ const NEAR: f64 = 0.06;
 /// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
 const SLACK: f64 = 0.01;
 
-/// Of longer rows the likelihood is normal, and its second derivative tells the intervals: nothing is fitted anew.
+/// Of longer rows the likelihood is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the search
+/// has taken all it may.
 const PROFILED: usize = 6000;
 
 impl Search<'_> {
@@ -60,7 +61,7 @@ impl Search<'_> {
         for seek in seeks {
             let Pose { at, along, .. } = seek.pose;
             let mut interval = Interval { ends: [at; 2], uncertainty: 0.0, open: [false; 2] };
-            if self.row.points.len() > PROFILED {
+            if self.row.points.len() > PROFILED || self.is_spent() {
                 interval.ends =
                     [-seek.first, seek.first].map(|x| [at[0] + x * along[0], at[1] + x * along[1]]);
                 interval.uncertainty = seek.first / quantile;
@@ -140,7 +141,7 @@ impl Search<'_> {
 
     /// A better model where a join is held at an end of the interval that the second derivative of the likelihood tells.
     pub fn better(&mut self, model: &Model, level: f64) -> Option<State> {
-        if self.row.points.len() > PROFILED {
+        if self.row.points.len() > PROFILED || self.is_spent() {
             return None;
         }
         let mut better = None;
@@ -317,6 +318,7 @@ mod tests {
     use super::super::least::{Row, Work};
     use super::*;
     use crate::num::random::Random;
+    use std::cell::Cell;
 
     /// Intervals by the pieces near a join are those by all pieces of a chain.
     #[test]
@@ -358,6 +360,7 @@ mod tests {
             spacing: 0.13,
             kinds: [true; 2],
             even: false,
+            left: &Cell::new(f64::INFINITY),
             hasty: None,
             shortest: 1.0,
             until: f64::INFINITY,

@@ -3,7 +3,7 @@
 
 use super::base::Base;
 use super::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
-use super::criterion::{Criterion, Model, Plan};
+use super::criterion::{Criterion, Model, Plan, Unknowns};
 use super::free;
 use super::least::{Row, State, Stop, Work};
 use crate::progress::{Cancelled, Progress};
@@ -11,6 +11,10 @@ use std::cell::Cell;
 
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
+
+/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all the same: where a curvature grows from 0,
+/// a join moves slowly.
+const SLOW: f64 = 0.2;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
 /// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
@@ -27,6 +31,8 @@ pub(super) struct Search<'a> {
     pub kinds: [bool; 2],
     /// At joins of free pieces the curvature must not jump.
     pub even: bool,
+    /// Products that all searches of a contour may take from now on, those of this one when it ends.
+    pub left: &'a Cell<f64>,
     /// Set where the search is given up because it takes long from this end of the row; `None`: it is not given up.
     pub hasty: Option<&'a Cell<bool>>,
     /// Least length of a piece, in distances between points.
@@ -35,7 +41,25 @@ pub(super) struct Search<'a> {
     pub until: f64,
 }
 
+impl Drop for Search<'_> {
+    fn drop(&mut self) {
+        self.left.set(self.left.get() - self.work.effort);
+    }
+}
+
 impl Search<'_> {
+    /// Whether the searches of the contour have taken what they may.
+    pub fn is_spent(&self) -> bool {
+        self.left.get() < self.work.effort
+    }
+
+    /// What is at hand of the last state that was measured.
+    pub fn take_work(&mut self) -> Work {
+        let effort = std::mem::take(&mut self.work.effort);
+        self.left.set(self.left.get() - effort);
+        std::mem::take(&mut self.work)
+    }
+
     pub fn stop(&self, steps: usize, gain: f64) -> Stop {
         Stop { steps, gain, shortest: self.shortest * self.spacing, exact: false, target: f64::INFINITY }
     }
@@ -137,7 +161,7 @@ impl Search<'_> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
-        self.until = self.work.effort + MOST;
+        self.until = self.work.effort + MOST.min(self.left.get());
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
@@ -154,20 +178,6 @@ impl Search<'_> {
             };
             match found.filter(|f| f.cost < best.cost - 1e-6) {
                 Some(found) => {
-                    if std::env::var("DBG").is_ok() {
-                        eprintln!(
-                            "{:.2} sum {:.4e} {:?}",
-                            found.cost,
-                            found.state.sum,
-                            found
-                                .state
-                                .chain
-                                .pieces
-                                .iter()
-                                .map(|p| (p.kind, p.coefficients.len(), (p.length * 100.0).round() / 100.0))
-                                .collect::<Vec<_>>()
-                        );
-                    }
                     idle = 0;
                     best = found;
                 }
@@ -272,6 +282,7 @@ impl Search<'_> {
     /// The best of those models one step away that are asked for.
     pub fn round_of(&mut self, base: &Base, is_asked: impl Fn(&[Plan]) -> bool) -> Option<Model> {
         let mut best: Option<Model> = None;
+        let own = Unknowns::of(&base.model.state.chain).number;
         for change in base.changes(self.kinds, self.spacing) {
             if self.work.effort > self.until {
                 break;
@@ -281,6 +292,11 @@ impl Search<'_> {
             }
             let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));
             let mut model = self.build(base, &change, bar);
+            let kinds = |plans: &[Plan]| plans.iter().map(|p| p.kind).collect::<Vec<_>>();
+            let fewer = Unknowns::of(&model.state.chain).number < own && kinds(&change) == kinds(&base.plans);
+            if fewer && (bar..bar + SLOW * self.criterion.count).contains(&model.cost) {
+                model = self.converge(&model);
+            }
             if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.follows(&mut model.state) {
                 best = Some(model);
             }

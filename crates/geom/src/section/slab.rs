@@ -261,12 +261,13 @@ impl Cells {
         let around = ((reach / self.width).ceil() as i64).clamp(1, 12);
         let mut edges: Vec<(f64, usize, usize)> = vec![];
         for (i, [x, y]) in self.keys.iter().enumerate() {
-            for dx in -around..=around {
-                for dy in -around..=around {
+            // Each pair from one of the two: the other half of the cells around look for this one.
+            for dx in 0..=around {
+                for dy in if dx == 0 { 1 } else { -around }..=around {
                     let Some(&j) = self.at.get(&[x + dx, y + dy]) else { continue };
                     let d = far(self.middles[i], self.middles[j]);
-                    if i < j && d <= reach {
-                        edges.push((d, i, j));
+                    if d <= reach {
+                        edges.push((d, i.min(j), i.max(j)));
                     }
                 }
             }

@@ -50,6 +50,7 @@ impl Search<'_> {
         // told from 0: then costs tell rounding, and no kinds.
         let off = (found.state.sum / self.criterion.count).sqrt();
         if (found.state.chain.pieces.len() > 1 || off > FINE * self.criterion.resolution)
+            && !self.is_spent()
             && let Some(held) = self.held(&plain, found.cost)
         {
             let other = self.run(held, progress)?;
@@ -134,6 +135,9 @@ impl Search<'_> {
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
         let mut best: Option<Model> = None;
         for pieces in PIECES {
+            if self.is_spent() {
+                break;
+            }
             let mut better = false;
             // Several pieces are for curves that one of most coefficients cannot follow.
             let held = self.row.points.len() / EACH / pieces;

@@ -64,13 +64,14 @@ impl Span {
         if task.draft {
             let mut search = self.search(task);
             let state = search.first(parts, task.closed).state;
-            let (astray, work) = (self.is_astray(&state, task), std::mem::take(&mut search.work));
+            let (astray, work) = (self.is_astray(&state, task), search.take_work());
+            drop(search);
             return Ok(Found { astray, ..self.found((state, vec![], task.scatter, work)) });
         }
         let mut best = self.search_from(parts, task, progress)?;
         let mut astray = self.is_astray(&best.state, task);
         for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {
-            if !astray {
+            if !astray || task.left.get() < 0.0 {
                 break;
             }
             let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;
@@ -87,9 +88,10 @@ impl Span {
                 let (_, intervals, ..) =
                     with_intervals(&mut blocks.span.search(&own), blocks.model(), &own, progress)?;
                 let noise = search.variance(&best.state).0.sqrt();
-                (best.state, intervals, noise, std::mem::take(&mut search.work))
+                (best.state, intervals, noise, search.take_work())
             }
         };
+        drop(search);
         let astray = self.is_astray(&found.0, task);
         Ok(Found { astray, ..self.found(found) })
     }
@@ -121,6 +123,7 @@ impl Span {
         };
         let Some(model) = model else { return Ok(None) };
         let found = with_intervals(&mut search, model, task, progress)?;
+        drop(search);
         let own = found.0.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
         let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
         let astray = is_loose || self.is_astray(&found.0, task);
@@ -271,7 +274,7 @@ fn with_intervals(
         best = search.converge(&Model { state, cost: 0.0 });
     }
     let noise = search.variance(&best.state).0.sqrt();
-    Ok((best.state, intervals, noise, std::mem::take(&mut search.work)))
+    Ok((best.state, intervals, noise, search.take_work()))
 }
 
 /// A closed chain of one piece joins itself where it happens to start.

@@ -33,6 +33,7 @@ pub(super) struct Task<'a> {
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
     /// As of the search.
+    pub left: &'a Cell<f64>,
     pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
     pub draft: bool,
@@ -56,6 +57,7 @@ impl Span {
             spacing: task.spacing,
             kinds,
             even: task.even,
+            left: task.left,
             hasty: task.hasty,
             shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
             until: f64::INFINITY,

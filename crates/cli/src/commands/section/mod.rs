@@ -141,11 +141,14 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);
             match planes.is_empty() {
-                true => row(&points, planar, &options, &stage).and_then(|found| {
-                    let (found, table) = args.method.apply(found, &options, &stage)?;
-                    methods = table;
-                    Ok(found)
-                }),
+                true => {
+                    args.planes.fit_a_row()?;
+                    row(&points, planar, &options, &stage).and_then(|found| {
+                        let (found, table) = args.method.apply(found, &options, &stage)?;
+                        methods = table;
+                        Ok(found)
+                    })
+                }
                 false => {
                     args.method.only_for_rows()?;
                     let slab = args.planes.slab(&shown.to_string(), planar)?;

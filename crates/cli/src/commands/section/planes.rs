@@ -81,12 +81,21 @@ impl PlaneArgs {
                 "{shown}: it is a mesh; say where to cut it: --plane nx,ny,nz,d or --stack nx,ny,nz,from,to,step"
             )));
         }
-        for (name, given) in [("thickness", self.thickness), ("gap", self.gap)] {
-            if given.is_some() {
-                return Err(Usage(format!("{shown}: it is a mesh; --{name} is for clouds of points")));
-            }
+        self.without_slab(&format!("{shown}: it is a mesh; "), "clouds of points")
+    }
+
+    /// Refuses what makes no sense for points in order.
+    pub fn fit_a_row(&self) -> Result<(), Usage> {
+        self.without_slab("", "clouds of points, with --plane or --stack")
+    }
+
+    /// Refuses what only clouds have.
+    fn without_slab(&self, why: &str, whose: &str) -> Result<(), Usage> {
+        let given = [("thickness", self.thickness), ("gap", self.gap)];
+        match given.iter().find(|(_, given)| given.is_some()) {
+            Some((name, _)) => Err(Usage(format!("{why}--{name} is for {whose}"))),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// How the points of a cloud are taken.

@@ -2,10 +2,12 @@
 
 mod astray;
 mod direction;
+mod gentle;
 mod levels;
 mod long;
 mod outlines;
 mod resolved;
+mod rounded;
 mod scattered;
 mod smooth;
 mod sparse;

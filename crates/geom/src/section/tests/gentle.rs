@@ -1,0 +1,103 @@
+//! Curves that lines lead into without a jump of curvature, and waves: what lines and arcs of a first partition do not tell.
+
+use super::*;
+
+/// Lines of 40 mm along the x axis to the origin, and what comes after.
+fn after_a_line(curve: impl Iterator<Item = [f64; 2]>, noise: f64, seed: u64) -> Vec<[f64; 2]> {
+    let random = &mut Random::new(seed);
+    let line = (0..400).map(|i| [0.1 * f64::from(i) - 40.0, 0.0]);
+    line.chain(curve).map(|p| [p[0] + noise * normal(random), p[1] + noise * normal(random)]).collect()
+}
+
+/// The clothoid of parameter 40 mm, whose curvature is the length over 1,600: places a tenth of a millimeter apart.
+fn clothoid(count: usize) -> impl Iterator<Item = [f64; 2]> {
+    let steps = 8;
+    let step = 0.1 / f64::from(steps);
+    let (mut at, mut s) = ([0.0; 2], 0.0);
+    (0..count).map(move |_| {
+        let now = at;
+        for _ in 0..steps {
+            let (sin, cos) = libm::sincos((s + 0.5 * step) * (s + 0.5 * step) / 3200.0);
+            at = [at[0] + step * cos, at[1] + step * sin];
+            s += step;
+        }
+        now
+    })
+}
+
+/// A line goes on into a clothoid without a jump: the join is where the curvature begins to grow, and no few coefficients more let the
+/// curve begin on the line.
+#[test]
+fn clothoids_begin_where_the_line_ends() {
+    let mut held = 0;
+    for seed in 0..10 {
+        let found = found(&after_a_line(clothoid(700), 0.002, seed));
+        assert_eq!(kinds(&found), [SegmentKind::Line, SegmentKind::Spline], "{seed}");
+        let join = &found.joins[0];
+        assert_ne!(join.continuity, Continuity::G0);
+        assert!(join.point[0].abs() < 1.0, "{seed}: {:?}", join.point);
+        let ends = join.interval.map(|p| p[0]);
+        held += usize::from(ends[0].min(ends[1]) <= 0.0 && ends[0].max(ends[1]) >= 0.0);
+    }
+    assert!(held >= 8, "{held} of 10 intervals");
+}
+
+/// A wave of a dozen turns has no corner anywhere, and what is left of its points is their noise.
+#[test]
+fn waves_have_no_corners() {
+    for seed in 0..6 {
+        let random = &mut Random::new(seed);
+        let points: Vec<[f64; 2]> = (0..800)
+            .map(|i| 0.1 * f64::from(i))
+            .map(|x| [x + 0.003 * normal(random), 0.5 * libm::sin(x) + 0.003 * normal(random)])
+            .collect();
+        let found = found(&points);
+        let corners = found.joins.iter().filter(|j| j.continuity == Continuity::G0).count();
+        assert_eq!(corners, 0, "{seed}: {:?}", kinds(&found));
+        assert!(kinds(&found).iter().all(|k| *k == SegmentKind::Spline), "{seed}");
+        assert!((0.85..1.2).contains(&(found.noise / 0.003)), "{seed}: {}", found.noise);
+    }
+}
+
+/// Corners beyond few points of two lines are where these cross, though points elsewhere lie near each other.
+#[test]
+fn sparse_lines_meet_beyond_their_points() {
+    // Three lines: points of the outer two are 10 mm apart, and 5 mm from the corners; those of the middle one 0.1 mm.
+    let (low, high) = ([0.0, 0.0], [0.0, 30.0]);
+    let mut points: Vec<[f64; 2]> =
+        (0..6).rev().map(|i| [low[0] - 5.0 - 10.0 * f64::from(i), low[1]]).collect();
+    points.extend((1..300).map(|i| [0.0, 0.1 * f64::from(i)]));
+    points.extend((0..6).map(|i| [high[0] + 5.0 + 10.0 * f64::from(i), high[1]]));
+    let random = &mut Random::new(5);
+    let points: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x + 0.002 * normal(random))).collect();
+    let found = found(&points);
+    assert_eq!(kinds(&found), [SegmentKind::Line; 3]);
+    for (join, truth) in found.joins.iter().zip([low, high]) {
+        assert!(far(join.point, truth) < 0.02 && join.open == [false; 2], "{join:?}");
+    }
+}
+
+/// Splines are as long as the curve that is drawn, at corners too.
+#[test]
+fn lengths_are_those_of_what_is_drawn() {
+    let random = &mut Random::new(8);
+    // A leaf: two bows that meet in sharp corners.
+    let bow = |x: f64| (x * (20.0 - x)) * (0.02 + 0.001 * x);
+    let there = (0..200).map(|i| 0.1 * f64::from(i) + 0.05).map(|x| [x, bow(x)]);
+    let back = (0..200).rev().map(|i| 0.1 * f64::from(i) + 0.05).map(|x| [x, -bow(x)]);
+    let points: Vec<[f64; 2]> = there.chain(back).map(|p| p.map(|x| x + 0.004 * normal(random))).collect();
+    let found = contour(&points, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
+    assert!(found.joins.iter().filter(|j| j.continuity == Continuity::G0).count() == 2, "{:?}", found.joins);
+    let mut splines = 0;
+    for segment in &found.segments {
+        let Geometry::Spline { curve, .. } = &segment.geometry else { continue };
+        let (from, to) = curve.domain();
+        let drawn: f64 = (0..4000)
+            .map(|i| [i, i + 1].map(|k| curve.at(from + (to - from) * f64::from(k) / 4000.0)))
+            .map(|[a, b]| far(a, b))
+            .sum();
+        assert!((segment.length / drawn - 1.0).abs() < 1e-6, "{} {drawn}", segment.length);
+        splines += 1;
+    }
+    assert!(splines > 0);
+}
