@@ -259,7 +259,7 @@ impl Search<'_> {
         best.map(|model| self.run(model, progress)).transpose()
     }
 
-    /// The same model with `more` coefficients to each free piece.
+    /// The same model with `more` coefficients to each free piece, or half as many again where that is more.
     pub fn looser(&mut self, model: &Model, more: usize) -> Model {
         let base = self.base(model.clone());
         if base.plans.iter().all(|p| p.kind != SegmentKind::Spline) {
@@ -269,7 +269,7 @@ impl Search<'_> {
         plans
             .iter_mut()
             .filter(|p| p.kind == SegmentKind::Spline)
-            .for_each(|p| p.count = (p.count + more).min(free::MOST));
+            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MOST));
         let built = self.build(&base, &plans, f64::INFINITY);
         self.converge(&built)
     }
