@@ -53,7 +53,7 @@ impl Search<'_> {
             let share = (t - places[k - 1]) / (places[k] - places[k - 1]);
             stations[k - 1] + share * (stations[k] - stations[k - 1])
         };
-        // A point left out is where the one before it is.
+        // A point left out is where the next one is.
         let mut order = vec![0.0; n];
         let mut next = 0;
         for (k, place) in order.iter_mut().enumerate() {

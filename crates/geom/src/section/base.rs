@@ -5,7 +5,7 @@ use super::criterion::{Model, Plan};
 use super::free;
 use super::least::State;
 
-/// Samples of the curvature to a coefficient of a free piece along points.
+/// Samples of the curvature to a coefficient of a free piece.
 const SAMPLES: usize = 4;
 /// Shares of a free piece that go to a line or arc beside it.
 const GIVEN: [f64; 3] = [0.05, 0.12, 0.3];
@@ -79,17 +79,17 @@ impl Base {
         Base { model, stations, order, plans, seam: None, turns }
     }
 
-    /// Coefficients of a free piece: those with the curvature along the points; beside other pieces the mean curvature about each of
-    /// its places.
+    /// Coefficients of a free piece: nearly those with the curvature of the pieces there (least squares), so that it turns as much as they do;
+    /// between two chains the mean curvature about each of its places, and at the seam the turn there.
     pub fn coefficients(&self, plan: &Plan) -> Vec<f64> {
-        let chain = &self.model.state.chain;
-        let width = (plan.to - plan.from) / (2.0 * plan.count as f64);
         if self.seam.is_none() {
             let cells = SAMPLES * plan.count;
             let ends = |i: usize| plan.from + (plan.to - plan.from) * i as f64 / cells as f64;
             let all: Vec<f64> = (0..cells).map(|i| self.mean_curvature(ends(i), ends(i + 1))).collect();
             return free::near(plan.count, &all);
         }
+        let chain = &self.model.state.chain;
+        let width = (plan.to - plan.from) / (2.0 * plan.count as f64);
         let at: Vec<f64> =
             free::places(plan.count).iter().map(|t| plan.from + t * (plan.to - plan.from)).collect();
         let around = |s: &f64| ((s - width).max(plan.from), (s + width).min(plan.to));

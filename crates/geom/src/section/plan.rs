@@ -40,7 +40,7 @@ pub(super) struct Plan<'a> {
     pub tangent: bool,
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
-    /// As of the search.
+    /// As of the search, both.
     pub left: &'a Cell<f64>,
     pub hasty: Option<&'a Cell<bool>>,
 }

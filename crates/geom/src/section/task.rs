@@ -32,7 +32,7 @@ pub(super) struct Task<'a> {
     pub level: f64,
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
-    /// As of the search.
+    /// As of the search, both.
     pub left: &'a Cell<f64>,
     pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
