@@ -76,28 +76,3 @@ fn sparse_lines_meet_beyond_their_points() {
         assert!(far(join.point, truth) < 0.02 && join.open == [false; 2], "{join:?}");
     }
 }
-
-/// Splines are as long as the curve that is drawn, at corners too.
-#[test]
-fn lengths_are_those_of_what_is_drawn() {
-    let random = &mut Random::new(8);
-    // A leaf: two bows that meet in sharp corners.
-    let bow = |x: f64| (x * (20.0 - x)) * (0.02 + 0.001 * x);
-    let there = (0..200).map(|i| 0.1 * f64::from(i) + 0.05).map(|x| [x, bow(x)]);
-    let back = (0..200).rev().map(|i| 0.1 * f64::from(i) + 0.05).map(|x| [x, -bow(x)]);
-    let points: Vec<[f64; 2]> = there.chain(back).map(|p| p.map(|x| x + 0.004 * normal(random))).collect();
-    let found = contour(&points, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
-    assert!(found.joins.iter().filter(|j| j.continuity == Continuity::G0).count() == 2, "{:?}", found.joins);
-    let mut splines = 0;
-    for segment in &found.segments {
-        let Geometry::Spline { curve, .. } = &segment.geometry else { continue };
-        let (from, to) = curve.domain();
-        let drawn: f64 = (0..4000)
-            .map(|i| [i, i + 1].map(|k| curve.at(from + (to - from) * f64::from(k) / 4000.0)))
-            .map(|[a, b]| far(a, b))
-            .sum();
-        assert!((segment.length / drawn - 1.0).abs() < 1e-6, "{} {drawn}", segment.length);
-        splines += 1;
-    }
-    assert!(splines > 0);
-}
