@@ -33,7 +33,7 @@ impl Joined {
                 let number = found.span.numbers[i % n];
                 contour.labels[number] = (first + g) as u32;
                 contour.residuals[number] = found.residuals[i % n];
-                contour.stations[number] = self.length + parts.before + found.stations[i % n];
+                contour.stations[number] = self.length + parts.stations[i % n];
             }
         }
         let strays = |(k, s): &(usize, &Segment)| {

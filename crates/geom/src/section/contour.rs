@@ -1,6 +1,7 @@
 //! Whole contours: corners first, then the chains between them, then corners as the places where chains cross.
 
 use super::assembly::Joined;
+use super::budget::Budget;
 use super::convert::segments;
 use super::corner::crossing;
 use super::crossings::crossings_with_loops;
@@ -32,7 +33,7 @@ const FARTHEST: f64 = 20.0;
 /// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
 /// other way round. Points that repeat the one before, and single points
 /// far off what their neighbors tell, are left out and listed. A search of more than a dozen seconds ends with the cheapest contour so far, as of
-/// spirals of many turns.
+/// spirals of many turns; the contour tells that it was cut short.
 ///
 /// # Errors
 /// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
@@ -52,12 +53,22 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
+    contour_within(PRODUCTS, points, options, progress)
+}
+
+/// The same with so many products for its searches.
+pub(super) fn contour_within(
+    products: f64,
+    points: &[[f64; 2]],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
     check_row(points, options)?;
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
     let (hasty, again) = (Cell::new(false), Cell::new(false));
-    let left = &Cell::new(PRODUCTS);
+    let left = &Budget::new(products);
     let mut found = in_order(ways[0], options, left, Some(&hasty), progress);
     let mut is_backward = backward;
     // What takes long from one end may be short from the other.
@@ -69,7 +80,8 @@ pub fn contour(
         }
     }
     // A search that ended badly may end well from the other end.
-    let doubtful = |found: &Contour| !hasty.get() && left.get() > 0.0 && is_doubtful(found, points, options);
+    let doubtful =
+        |found: &Contour| !hasty.get() && is_doubtful(found, points, options) && !left.is_spent(0.0);
     if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
         let other = match in_order(ways[1], options, left, None, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
@@ -86,6 +98,7 @@ pub fn contour(
     let found = found?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
     found.keep_gaps(points);
+    found.cut_short = left.was_cut_short();
     found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }
@@ -123,7 +136,7 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
 fn in_order(
     points: &[[f64; 2]],
     options: &Options,
-    left: &Cell<f64>,
+    left: &Budget,
     hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
@@ -143,7 +156,7 @@ fn in_order(
     }
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.founds);
-    while let Some(other) = finer.pop_front().filter(|_| left.get() > 0.0) {
+    while let Some(other) = finer.pop_front().filter(|_| !left.is_spent(0.0)) {
         let bar = start.cost(&chains.founds);
         if !promises(&other, options, left, bar, progress)? {
             continue;
@@ -192,7 +205,7 @@ fn is_cornered(contour: &Contour) -> bool {
 fn promises(
     start: &Start,
     options: &Options,
-    left: &Cell<f64>,
+    left: &Budget,
     bar: f64,
     progress: &dyn Progress,
 ) -> Result<bool, SectionError> {

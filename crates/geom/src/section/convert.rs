@@ -13,8 +13,8 @@ pub(super) struct Parts {
     pub joins: Vec<Join>,
     /// Length of all.
     pub length: f64,
-    /// From the corner at the start to the start of the chain's first piece.
-    pub before: f64,
+    /// Of each point of the chain the length to its foot, from the start of the first segment.
+    pub stations: Vec<f64>,
 }
 
 /// A jump of curvature below so many standard deviations is none.
@@ -40,6 +40,8 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         after = corners[1].map_or(found.last_foot(), |c| along(n, c));
     }
     let mut segments: Vec<Segment> = vec![];
+    let mut stations = vec![0.0; count];
+    let (mut way, mut own_way) = (0.0, 0.0);
     for (g, piece) in pieces.iter().enumerate() {
         let from = if g == 0 { -before } else { 0.0 };
         let to = piece.length + if g + 1 == n { after } else { 0.0 };
@@ -47,10 +49,17 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         let tolerance = found.noise.max(1e-4 * spacing);
         let mut segment = segment(&found.layout, g, piece, [from, to], at, tolerance);
         // A free curve that is led to a corner is as long as it is drawn.
+        let mut longer = vec![];
         if let (Geometry::Spline { curve, .. }, true) = (&segment.geometry, at.iter().any(Option::is_some)) {
-            let (start, end) = curve.domain();
-            segment.length = curve.length(start, end);
+            longer = lengths(curve);
+            segment.length = longer[SHARES];
+            longer.iter_mut().enumerate().for_each(|(k, s)| *s -= (to - from) * k as f64 / SHARES as f64);
         }
+        for i in (found.state.breaks[g]..found.state.breaks[g + 1]).map(|i| i % count) {
+            let s = found.stations[i] - own_way - from;
+            stations[i] = way + s + interpolated(&longer, s / (to - from));
+        }
+        (way, own_way) = (way + segment.length, own_way + piece.length);
         let unit = found.spread.as_ref().and_then(|s| s.pieces[g]);
         segment.uncertainty = unit.map(|u| u.times(found.noise));
         segment.length_uncertainty = of_length(found, g);
@@ -62,9 +71,30 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         segment.max = distances.iter().fold(0.0, |m, d| m.max(d.abs()));
         segments.push(segment);
     }
-    let length = segments.iter().map(|s| s.length).sum();
     let joins = if single(&found.state) { vec![] } else { joins(found) };
-    Parts { segments, joins, length, before }
+    Parts { segments, joins, length: way, stations }
+}
+
+/// Equal shares of a free curve's parameter whose lengths are taken.
+const SHARES: usize = 64;
+
+/// Length of a curve from its start to each of the shares of its parameter.
+fn lengths(curve: &Curve<[f64; 2]>) -> Vec<f64> {
+    let (start, end) = curve.domain();
+    let at = |k: usize| start + (end - start) * k as f64 / SHARES as f64;
+    let mut all = vec![0.0];
+    for k in 0..SHARES {
+        all.push(all[k] + curve.length(at(k), at(k + 1)));
+    }
+    all
+}
+
+/// The value at a share of the way through values at equal steps; 0 of none.
+fn interpolated(values: &[f64], share: f64) -> f64 {
+    let Some(last) = values.len().checked_sub(1) else { return 0.0 };
+    let at = (share * last as f64).clamp(0.0, last as f64);
+    let k = (at as usize).min(last - 1);
+    values[k] + (at - k as f64) * (values[k + 1] - values[k])
 }
 
 /// Standard uncertainty of the length of piece `g` between the joins of its chain. Beside free pieces intervals of joins are

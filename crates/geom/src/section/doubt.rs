@@ -16,13 +16,13 @@ use crate::progress::Progress;
 /// Corners that are doubted: of more, those that turn least. Each takes a search.
 const DOUBTED: usize = 12;
 /// A corner in unknowns, beyond those of the chains on both sides: its place among the points was chosen among many.
-const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0 };
+pub(super) const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0 };
 
 /// Chains of more points are left: they have points enough for the parts of a first partition to tell a corner.
 const MOST: usize = 1500;
 
 impl Plan<'_> {
-    /// The chains between corners, without corners that cost more than a chain over them.
+    /// The chains between corners, without corners that cost more than a chain over them, with those that cost less.
     pub(super) fn chains(&self, parts: &[Part], progress: &dyn Progress) -> Result<Chains, SectionError> {
         let mut all = self.all(parts, progress)?;
         if self.forced.is_some() || self.known || self.draft || self.step > 1 {
@@ -30,7 +30,7 @@ impl Plan<'_> {
         }
         let mut tried: Vec<[usize; 2]> = vec![];
         for _ in 0..DOUBTED {
-            let Some(first) = self.bluntest(&all, &tried).filter(|_| self.left.get() > 0.0) else { break };
+            let Some(first) = self.bluntest(&all, &tried).filter(|_| !self.left.is_spent(0.0)) else { break };
             let next = (first + 1) % all.founds.len();
             let pair = [first, next].map(|k| &all.founds[k]);
             tried.push(pair.map(|f| f.span.numbers[0]));
@@ -42,7 +42,7 @@ impl Plan<'_> {
                 all.founds.remove(next);
             }
         }
-        Ok(all)
+        self.divided(all, progress)
     }
 
     /// The first of the two neighboring chains, not yet tried, that turn least from one to the next; of a closed row a single chain is its

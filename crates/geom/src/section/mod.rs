@@ -25,7 +25,8 @@
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
-//! | `plan`, `task`, `span`, `doubt` | corners, chains between them; corners that are none |
+//! | `budget` | how long the searches of a row may take |
+//! | `plan`, `task`, `span`, `doubt`, `blunt` | corners, chains between them; corners that are none, and that chains pass over |
 //! | `contour`, `convert` | the contour as lines, arcs and B-splines |
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
@@ -37,6 +38,8 @@ mod base;
 mod begin;
 mod bent;
 mod blocks;
+mod blunt;
+mod budget;
 mod chain;
 mod contour;
 mod convert;

@@ -1,5 +1,6 @@
 //! The chains of a row between its corners, as a first partition tells them.
 
+use super::budget::Budget;
 use super::chain::SegmentKind;
 use super::criterion::Criterion;
 use super::levels::Start;
@@ -41,7 +42,7 @@ pub(super) struct Plan<'a> {
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
     /// As of the search, both.
-    pub left: &'a Cell<f64>,
+    pub left: &'a Budget,
     pub hasty: Option<&'a Cell<bool>>,
 }
 
@@ -54,7 +55,7 @@ pub(super) struct Chains {
 
 impl Start {
     /// How chains of its parts are looked for.
-    pub(super) fn plan<'a>(&'a self, options: &'a Options, left: &'a Cell<f64>) -> Plan<'a> {
+    pub(super) fn plan<'a>(&'a self, options: &'a Options, left: &'a Budget) -> Plan<'a> {
         Plan {
             clean: &self.clean,
             weights: &self.weights,

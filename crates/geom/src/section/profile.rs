@@ -313,12 +313,12 @@ fn least(better: Option<State>, lower: Option<State>, best: &State) -> Option<St
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use super::super::budget::Budget;
     use super::super::chain::{Chain, Ends, Piece};
     use super::super::criterion::Criterion;
     use super::super::least::{Row, Work};
     use super::*;
     use crate::num::random::Random;
-    use std::cell::Cell;
 
     /// Intervals by the pieces near a join are those by all pieces of a chain.
     #[test]
@@ -360,7 +360,7 @@ mod tests {
             spacing: 0.13,
             kinds: [true; 2],
             even: false,
-            left: &Cell::new(f64::INFINITY),
+            left: &Budget::new(f64::INFINITY),
             hasty: None,
             shortest: 1.0,
             until: f64::INFINITY,

@@ -254,6 +254,8 @@ pub struct Contour {
     /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
     /// the way through the points. They tell nothing of the part.
     pub astray: Vec<usize>,
+    /// The search for number and kinds of the segments took too long and ended before all was tried.
+    pub cut_short: bool,
 }
 
 /// What is asked about a row.

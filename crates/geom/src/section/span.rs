@@ -71,7 +71,7 @@ impl Span {
         let mut best = self.search_from(parts, task, progress)?;
         let mut astray = self.is_astray(&best.state, task);
         for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {
-            if !astray || task.left.get() < 0.0 {
+            if !astray || task.left.is_spent(0.0) {
                 break;
             }
             let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;
@@ -128,6 +128,15 @@ impl Span {
         let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
         let astray = is_loose || self.is_astray(&found.0, task);
         Ok((!astray).then(|| self.found(found)))
+    }
+
+    /// The chain of a state, with the intervals of its joins.
+    pub fn refined(self, state: State, task: &Task, progress: &dyn Progress) -> Result<Found, Cancelled> {
+        let mut search = self.search(task);
+        let found = with_intervals(&mut search, Model { state, cost: 0.0 }, task, progress)?;
+        drop(search);
+        let astray = self.is_astray(&found.0, task);
+        Ok(Found { astray, ..self.found(found) })
     }
 
     /// Whether a chain does not run along its points.

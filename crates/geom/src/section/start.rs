@@ -273,6 +273,40 @@ pub(super) fn circle(n: f64, [xx, xy, yy, xz, yz, zz, z]: [f64; 7]) -> Option<(f
     (radius.is_finite() && cov > 1e-12 * z * z).then_some((x.max(0.0), center, radius))
 }
 
+/// Two lines or arcs with a corner between them, and their sum of squares.
+pub(super) struct Halves {
+    pub parts: [Part; 2],
+    pub sum: f64,
+}
+
+/// Of each two kinds the lines or arcs, with `fewest` points on each at least, of least squares: each fitted by itself. Time grows with
+/// the number of points.
+pub(super) fn halves(points: &[[f64; 2]], weights: &[f64], fewest: usize) -> Vec<Halves> {
+    use SegmentKind::{Arc, Line};
+    let (sums, n) = (Sums::new(points, weights), points.len());
+    // Of lines and arcs before and after.
+    let mut best = [[(f64::INFINITY, 0); 2]; 2];
+    for at in fewest..(n + 1).saturating_sub(fewest) {
+        let [before, after] = [sums.fit(0, at), sums.fit(at, n)]
+            .map(|(line, arc)| [line, arc.map_or(f64::INFINITY, |(arc, ..)| arc)]);
+        for (best, before) in best.iter_mut().zip(before) {
+            for (best, after) in best.iter_mut().zip(after) {
+                if before + after < best.0 {
+                    *best = (before + after, at);
+                }
+            }
+        }
+    }
+    let kinds = [Line, Arc];
+    let pairs = (0..2).flat_map(|i| (0..2).map(move |j| (i, j))).filter(|(i, j)| best[*i][*j].0.is_finite());
+    let halves = |(i, j): (usize, usize)| {
+        let (sum, at) = best[i][j];
+        let parts = [sums.part(points, kinds[i], 0, at), sums.part(points, kinds[j], at, n)];
+        Halves { parts, sum }
+    };
+    pairs.map(halves).collect()
+}
+
 /// So many parts of as many points each, as arcs.
 pub(super) fn shares(points: &[[f64; 2]], weights: &[f64], count: usize) -> Vec<Part> {
     let (sums, n) = (Sums::new(points, weights), points.len());

@@ -1,5 +1,6 @@
 //! Points of one chain, and how it is looked for.
 
+use super::budget::Budget;
 use super::criterion::Criterion;
 use super::least::{Row, Work};
 use super::search::Search;
@@ -33,7 +34,7 @@ pub(super) struct Task<'a> {
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
     /// As of the search, both.
-    pub left: &'a Cell<f64>,
+    pub left: &'a Budget,
     pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
     pub draft: bool,

@@ -76,3 +76,75 @@ fn sparse_lines_meet_beyond_their_points() {
         assert!(far(join.point, truth) < 0.02 && join.open == [false; 2], "{join:?}");
     }
 }
+
+/// Two lines, or a line and an arc, that meet at a small angle have a corner there: no free curve or arc stands between them, and no tangent
+/// join beside. Tangent ones have none.
+#[test]
+fn blunt_corners_are_found() {
+    for (seed, degrees) in [0.5_f64, 1.0, 2.0, 4.0, 6.0].into_iter().enumerate() {
+        for (curvature, second) in [(0.0, SegmentKind::Line), (0.1, SegmentKind::Arc)] {
+            // Beside an arc few points tell less.
+            if curvature > 0.0 && degrees < 6.0 {
+                continue;
+            }
+            let random = &mut Random::new(seed as u64);
+            let points: Vec<[f64; 2]> = (-70..50)
+                .map(|i| 0.3 * (f64::from(i) + 0.4))
+                .map(|s| if s < 0.0 { [s, 0.0] } else { bent(s, degrees.to_radians(), curvature) })
+                .map(|p| p.map(|x| x + 0.005 * normal(random)))
+                .collect();
+            let found = found(&points);
+            assert_eq!(kinds(&found), [SegmentKind::Line, second], "{degrees}");
+            let join = &found.joins[0];
+            assert_eq!(join.continuity, Continuity::G0, "{degrees}");
+            assert!(far(join.point, [0.0; 2]) < 3.0 * join.uncertainty, "{degrees}: {join:?}");
+            assert!((join.turn.to_degrees() - degrees).abs() < 0.3, "{degrees}: {}", join.turn);
+        }
+    }
+    for seed in 0..6 {
+        let random = &mut Random::new(seed);
+        let points: Vec<[f64; 2]> = (-70..50)
+            .map(|i| 0.3 * (f64::from(i) + 0.4))
+            .map(|s| if s < 0.0 { [s, 0.0] } else { bent(s, 0.0, 0.1) })
+            .map(|p| p.map(|x| x + 0.005 * normal(random)))
+            .collect();
+        assert_eq!(found(&points).joins[0].continuity, Continuity::G1, "{seed}");
+    }
+}
+
+/// The place after a length from the origin on an arc that starts in a direction.
+fn bent(length: f64, heading: f64, curvature: f64) -> [f64; 2] {
+    let [x, y] = super::super::chain::arc_end(length, length * curvature);
+    let (sin, cos) = libm::sincos(heading);
+    [x * cos - y * sin, x * sin + y * cos]
+}
+
+/// Points behind a free curve that is led to a corner lie as far along as the curve is drawn long.
+#[test]
+fn stations_go_by_the_curves_drawn() {
+    let mut seen = 0;
+    for seed in 0..8 {
+        let random = &mut Random::new(seed);
+        let wave = (0..60).map(|i| 0.4 * f64::from(i)).map(|x| [x, 2.0 * libm::sin(x / 4.0) + 0.02 * x * x]);
+        let end = [24.0, 2.0 * libm::sin(6.0_f64) + 0.02 * 24.0 * 24.0];
+        let line = (0..40).map(|i| 0.4 * f64::from(i)).map(|s| [end[0] + 0.3 * s, end[1] - s]);
+        let points: Vec<[f64; 2]> = wave.chain(line).map(|p| p.map(|x| x + 0.06 * normal(random))).collect();
+        let found = found(&points);
+        let mut way = 0.0;
+        for (k, segment) in found.segments.iter().enumerate() {
+            let own = (0..points.len()).filter(|i| found.labels[*i] as usize == k);
+            let inside = |i: &usize| (0.001..0.999).contains(&segment.nearest(points[*i]).share);
+            for i in own.filter(inside).filter(|_| segment.geometry.kind() == SegmentKind::Line) {
+                let foot = way + segment.foot(points[i]).0;
+                assert!(
+                    (found.stations[i] - foot).abs() < 1e-6 + 1e-3 * found.residuals[i].abs(),
+                    "{seed} {i}: {} {foot}",
+                    found.stations[i]
+                );
+            }
+            way += segment.length;
+            seen += usize::from(k > 0 && segment.geometry.kind() == SegmentKind::Line);
+        }
+    }
+    assert!(seen > 0);
+}

@@ -1,5 +1,6 @@
 //! Smooth rows of which the first partition makes many pieces.
 
+use super::super::contour::contour_within;
 use super::*;
 use crate::progress::Progress;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -61,6 +62,21 @@ fn long_waves_are_few_free_curves() {
         assert!(contour.segments.len() <= 4 && contour.noise < 1.2 * noise, "{count}: {}", contour.noise);
         assert!(rounds.0.into_inner() <= 12, "{count}");
     }
+}
+
+/// A search that may take little ends with a contour along the points all the same, and says so.
+#[test]
+fn a_search_cut_short_says_so() {
+    let random = &mut Random::new(5);
+    let points: Vec<[f64; 2]> = (0..600)
+        .map(|i| 0.1 * f64::from(i))
+        .map(|x| [x, 3.0 * libm::sin(x / 5.0) + libm::cos(x / 1.7) + 0.002 * normal(random)])
+        .collect();
+    let within = |products| contour_within(products, &points, &Options::default(), &Silent).unwrap();
+    let (whole, part) = (within(3e10), within(1e6));
+    assert!(!whole.cut_short && part.cut_short);
+    assert!(part.astray.is_empty() && part.noise < 0.1, "{}", part.noise);
+    assert!(part.segments.len() > whole.segments.len());
 }
 
 /// The edge of a blade between two free curves is an arc, at any noise: a search that begins with free pieces alone puts their join

@@ -16,7 +16,11 @@ const CHANCE: f64 = 4.0;
 /// What there is to say about a contour of a section; `bent` are its arcs whose radii the slab moves.
 pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: &Options) -> Vec<String> {
     let flat = off_plane(section, found);
-    flat.into_iter().chain(noise(found, options)).chain(slab(section, found, bent)).collect()
+    flat.into_iter()
+        .chain(noise(found, options))
+        .chain(slab(section, found, bent))
+        .chain(cut_short(found))
+        .collect()
 }
 
 /// A row in space that lies in no plane.
@@ -29,6 +33,15 @@ fn off_plane(section: &Section, found: &Contour) -> Option<String> {
              their projection; check the columns, or cut a mesh or a cloud with --plane",
             digits(off)
         )
+    })
+}
+
+/// A search that ended before all was tried.
+fn cut_short(found: &Contour) -> Option<String> {
+    found.cut_short.then(|| {
+        "the search took long and ended before all was tried: fewer segments may do; thin the points, cut the row in two at a corner, or \
+         look whether --noise is too small"
+            .into()
     })
 }
 
@@ -85,4 +98,16 @@ fn slab(section: &Section, found: &Contour, bent: &[Bent]) -> Option<String> {
 pub(super) fn digits(x: f64) -> String {
     let places = (1.0 - libm::log10(x.abs().max(1e-9)).floor()).clamp(0.0, 9.0) as usize;
     format!("{x:.places$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_cut_short_is_told() {
+        assert_eq!(cut_short(&Contour::default()), None);
+        let hint = cut_short(&Contour { cut_short: true, ..Contour::default() }).unwrap();
+        assert!(hint.contains("before all was tried"), "{hint}");
+    }
 }
