@@ -24,7 +24,7 @@ export class PlanView {
     const { x, y, width, height } = drawing.viewBox.baseVal
     this.all = { x, y, width, height }
     this.seen = { ...this.all }
-    this.signs = [...drawing.querySelectorAll<SVGGElement>('.join')]
+    this.signs = [...drawing.querySelectorAll<SVGGElement>('.join, .worst')]
   }
 
   /** Millimeters of a pixel. The drawing lies in its box as a whole, in the middle. */
