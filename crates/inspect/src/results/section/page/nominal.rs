@@ -190,11 +190,13 @@ pub fn worst(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument) -
         @for (n, worst) in found.worst.iter().enumerate().filter(|(_, w)| own(w.contour)) {
             @let [[x, y], [u, v]] = [worst.point, worst.nearest].map(|p| plan.at(p));
             @let (side, sign) = if worst.deviation > 0.0 { ("plus", "M0 -6L6 5H-6Z") } else { ("minus", "M0 6L6 -5H-6Z") };
+            @let right = x > 0.5 * plan.half[0];
             (leaf("path", &[("class", &format!("off {side}")), ("d", &format!("M{u} {v}L{x} {y}"))])) "\n"
             g class={ "worst " (side) } data-mark=(first + n) data-at={ (x) " " (y) } data-reach=(worst.deviation.abs())
                 transform={ "translate(" (x) " " (y) ") scale(" (plan.pixel()) ")" } {
                 (leaf("path", &[("d", &sign)]))
-                text x="9" y="-6" {
+                // At the right rim there is no room to the right.
+                text x=(if right { "-9" } else { "9" }) y="-6" text-anchor=[right.then_some("end")] {
                     tspan data-n=(worst.deviation) data-d=(digits) data-s { (s.signed(worst.deviation, digits)) }
                 }
             }
@@ -206,17 +208,20 @@ pub fn worst(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument) -
 /// What strokes of the nominal and whiskers mean.
 pub fn legend(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument, rooms: &Rooms) -> Markup {
     let missed = sheet.outlines.iter().any(|(_, o)| o.covered == 0.0);
+    let solid = sheet.outlines.iter().any(|(_, o)| o.covered > 0.0);
     let drawn = rooms.within.filter(|_| !sheet.outlines.is_empty());
     let whiskers = document.nominal.is_some() && rooms.whiskers.is_some() && !sheet.contours.is_empty();
     html! {
         @if let Some(within) = drawn {
-            span {
-                i.stroke.nominal {} " " (s.word("reference"))
-                @if within > 0.0 {
-                    " ≤\u{a0}" (s.small(within * plan.half[0].max(plan.half[1]))) "\u{a0}mm"
+            @if solid || within > 0.0 {
+                span {
+                    i.stroke.nominal {} " " (s.word("reference"))
+                    @if within > 0.0 {
+                        " ≤\u{a0}" (s.small(within * plan.half[0].max(plan.half[1]))) "\u{a0}mm"
+                    }
                 }
+                " "
             }
-            " "
             @if missed { span { i.stroke.nominal.missed {} " " (s.word("nominal.missed")) } " " }
         }
         @if whiskers {
