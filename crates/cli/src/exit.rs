@@ -15,6 +15,14 @@ pub enum Outcome {
     NotConforming,
 }
 
+/// What the help of a command says at its end: all exit statuses, of which `one` says what 1 means for it, then `rest`.
+pub fn help(one: &str, rest: &str) -> String {
+    format!(
+        "Exit status: 0 done and conforming; 1 done, but {one}; 2 wrong usage; 3 the input could not be read or does not allow \
+         an answer; 4 internal error.\n\n{rest}"
+    )
+}
+
 /// Wrong use of an option that the parser of the command line cannot see.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]

@@ -15,7 +15,7 @@ pub struct Common {
     /// Seed of everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Print no table
+    /// Print no table; the exit status and the files written tell the result
     #[arg(long, short, global = true)]
     pub quiet: bool,
     /// Progress on stderr: a bar on a terminal, plain lines, JSON lines, or nothing

@@ -158,3 +158,85 @@ fn contours_that_cross_themselves_are_told() {
     assert_eq!(status(&refused), 3, "{}", stderr(&refused));
     assert!(stderr(&refused).contains("crosses itself"), "{}", stderr(&refused));
 }
+
+/// A hole that no point is near to, and the half of an outline where there are no points, in document, table and report.
+#[test]
+fn what_of_a_nominal_was_not_measured_is_told() {
+    let folder = Folder::new();
+    let outline = "0 LWPOLYLINE 90 4 70 1 10 0 20 0 10 40 20 0 10 40 20 20 10 0 20 20";
+    let file = folder.write("holed.dxf", drawing(4, &format!("0 CIRCLE 10 20 20 12 40 4 {outline}")));
+    let (nominal, html) = (file.to_str().unwrap(), folder.file("report.html"));
+    // From the middle of the lower side, every half millimeter, to the right; 0.01 inside.
+    let at = |s: f64| match (s + 20.0) % 120.0 {
+        s if s < 40.0 => [s, 0.01],
+        s if s < 60.0 => [39.99, s - 40.0],
+        s if s < 100.0 => [100.0 - s, 19.99],
+        s => [0.01, 120.0 - s],
+    };
+    let row = |count: u32| -> Vec<[f64; 2]> { (0..count).map(|i| at(0.5 * f64::from(i) + 0.25)).collect() };
+    // Of the half: 120 points, 119 steps of half a millimeter.
+    for (count, covered, told) in [(240, 1.0, "100"), (120, 59.5 / 120.0, "50")] {
+        let points = folder.write("row.txt", text(&row(count)));
+        let words = ["section", points.to_str().unwrap(), "--nominal", nominal];
+        let answer = document(words);
+        let outlines = answer["nominal"]["outlines"].as_array().unwrap();
+        assert_eq!(outlines.len(), 2);
+        let (holes, others): (Vec<_>, Vec<_>) = outlines.iter().partition(|o| o["hole"].as_bool().unwrap());
+        assert_eq!((&holes[0]["covered"], &holes[0]["points"]), (&0.0.into(), &0.into()));
+        let near = |list: &serde_json::Value, wanted: [f64; 2]| {
+            (0..2).all(|k| (list[k].as_f64().unwrap() - wanted[k]).abs() < 1e-9)
+        };
+        assert!(near(&holes[0]["center"], [20.0, 12.0]) && near(&holes[0]["size"], [8.0; 2]), "{holes:?}");
+        assert!((others[0]["covered"].as_f64().unwrap() - covered).abs() < 1e-3, "{others:?}");
+        assert_eq!(others[0]["points"], count);
+        let html = html.to_str().unwrap();
+        let table = stdout(&trueness([&words[..], &["--html", html]].concat()));
+        let hole = "of the nominal was not measured (a hole of about 8.000 × 8.000 at 20.000 12.000)";
+        assert!(table.lines().any(|l| l.starts_with("! contour ") && l.ends_with(hole)), "{table}");
+        let half = format!("of the nominal was measured over {told} % of its length (about 40.000 × 20.000");
+        assert_eq!(table.contains(&half), covered < 1.0, "{table}");
+        let report = std::fs::read_to_string(html).unwrap();
+        assert_eq!(report.matches("class=\"nominal missed\"").count(), 1);
+    }
+    // Of a mesh that two planes cut where the part has one contour and none.
+    let cube = folder.write("cube.off", common::CUBE);
+    let flat = common::CUBE.replace("0 0 1\n1 0 1\n0 1 1\n1 1 1\n", "0 0 0.5\n1 0 0.5\n0 1 0.5\n1 1 0.5\n");
+    let low = folder.write("low.off", flat);
+    let planes = ["section", low.to_str().unwrap(), "--plane", "0,0,1,0.25", "--plane", "0,0,1,0.75"];
+    let words = [&planes[..], &["--nominal", cube.to_str().unwrap()]].concat();
+    let answer = document(&words);
+    let covered: Vec<f64> = (answer["nominal"]["outlines"].as_array().unwrap().iter())
+        .map(|o| o["covered"].as_f64().unwrap())
+        .collect();
+    assert_eq!(covered, [1.0, 0.0]);
+    let table = stdout(&trueness(&words));
+    assert!(
+        table.contains("! contour 2 in plane 2 of the nominal was not measured (about 1.000 × 1.000"),
+        "{table}"
+    );
+}
+
+/// A drawing in another unit than it says is noticed by its size.
+#[test]
+fn a_nominal_in_another_unit_is_told() {
+    let folder = Folder::new();
+    let row = folder.write("row.txt", text(&rounded(0.0, 0.3)));
+    let outline = "0 LWPOLYLINE 90 4 70 1 10 0 20 0 10 40 20 0 10 40 20 20 10 0 20 20";
+    for (unit, times) in
+        [(4, None), (1, Some("25.4 times smaller")), (5, Some("10.0 times smaller")), (6, Some("1000 times"))]
+    {
+        let file = folder.write("drawn.dxf", drawing(unit, outline));
+        let words = ["section", row.to_str().unwrap(), "--nominal", file.to_str().unwrap()];
+        let (answer, table) = (document(words), stdout(&trueness(words)));
+        let warnings = answer["nominal"]["warnings"].as_array();
+        let Some(times) = times else {
+            assert!(warnings.is_none() && !table.contains("is a unit wrong"), "{table}");
+            continue;
+        };
+        let warning = &warnings.unwrap()[0];
+        assert_eq!(warning["kind"], "size_ratio");
+        let text = warning["text"].as_str().unwrap();
+        assert!(text.contains(times) && text.contains("--reference-units"), "{text}");
+        assert!(table.contains(&format!("! {text}")), "{table}");
+    }
+}

@@ -122,3 +122,31 @@ fn scatter_is_no_gap() {
     };
     assert_eq!((gaps(0.0), gaps(3.0)), (serde_json::json!([]), serde_json::json!([999])));
 }
+
+/// Coordinates of points in space are those of the plane nearest to them, which the table names.
+#[test]
+fn the_plane_of_points_in_space_is_named() {
+    let folder = Folder::new();
+    let at = |i: u32| f64::from(i) * 0.1;
+    let flat: String = (0..60).map(|i| format!("{} {}\n", at(i), 2.0 * at(i))).collect();
+    let arc: String = (0..60).map(|i| format!("{} 7 {}\n", 5.0 * at(i).sin(), 5.0 * at(i).cos())).collect();
+    for (name, text) in [("flat.txt", flat), ("space.txt", arc)] {
+        let file = folder.write(name, text);
+        let words = ["section", file.to_str().unwrap()];
+        let (table, frame) = (stdout(&trueness(words)), document(words)["frame"].take());
+        let named = table.lines().find(|l| l.starts_with("frame     x along "));
+        assert_eq!(named.is_some(), name == "space.txt", "{table}");
+        let Some(named) = named else { continue };
+        // What stands in the line is the document's frame: origin, then both axes are at right angles to y.
+        let numbers: Vec<f64> =
+            (named.replace('−', "-").split([' ', ','])).filter_map(|w| w.parse::<f64>().ok()).collect();
+        let told = |key: &str| (0..3).map(|k| frame[key][k].as_f64().unwrap()).collect::<Vec<_>>();
+        let wanted = [told("x"), told("y"), told("origin")].concat();
+        assert_eq!(numbers.len(), 9, "{named}");
+        assert!(numbers.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-4), "{named} {wanted:?}");
+        assert!(
+            numbers[1].abs() < 1e-3 && numbers[4].abs() < 1e-3 && (numbers[7] - 7.0).abs() < 1e-3,
+            "{named}"
+        );
+    }
+}

@@ -2,7 +2,7 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{self, Outcome, Usage};
 use crate::number::{POINTS, counted, fixed, scientific, signed, six_digits};
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
@@ -27,10 +27,9 @@ use trueness_inspect::results::{InputRecord, Role};
 /// Brings a scan onto its reference, from any starting pose
 ///
 /// The best fit has the least mean square distance to the surface of the reference, weighted by area where the scan is a
-/// mesh; outliers do not count. Whole and partial scans, meshes and points. The exit status is 0 if the result can be
-/// relied on, 1 if it is poor, ambiguous, of a wrong unit, of few points or did not settle (it is written all the same).
+/// mesh; outliers do not count. Whole and partial scans, meshes and points.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("the result cannot be relied on: poor, ambiguous, of a wrong unit, of few points or not settled, or out of tolerance; files are written all the same", "\
 Tables of --points, one row a line, mm: of pairs, x y z measured and x y z of the reference; of 3-2-1 and rps, these six and
 the direction in which the point is held. A last column, if there, is the weight.
 
@@ -39,7 +38,7 @@ Examples:
   trueness align scan.ply nominal.stl --json transform.json
   trueness align scan.stl nominal.stl --method chebyshev -o aligned.stl
   trueness align scan.stl nominal.stl --method zones --tolerance 0.2 --regions regions.toml -o aligned.stl
-  trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl")]
+  trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl"))]
 pub struct AlignArgs {
     /// The scan: a mesh or points; `-` reads stdin
     measured: PathBuf,

@@ -2,7 +2,7 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::Outcome;
+use crate::exit::{self, Outcome};
 use crate::number::{counted, fixed, six_digits};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
@@ -24,14 +24,13 @@ const LONGEST: u64 = 256 << 20;
 
 /// The course of an inspection plan over many parts: capability, control limits
 ///
-/// Reads the results that `trueness inspect --json` wrote, in the order in which the parts were made. Exit status 1 if a part
-/// does not pass or a value is out of control.
+/// Reads the results that `trueness inspect --json` wrote, in the order in which the parts were made.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("a part does not pass, or a value is out of control", "\
 Examples:
   trueness trend part-01.json part-02.json part-03.json
   trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html
-  trueness trend results/*.json --map map.html")]
+  trueness trend results/*.json --map map.html"))]
 pub struct TrendArgs {
     /// Results of `trueness inspect --json`, one part each, in their order
     #[arg(required = true)]

@@ -21,6 +21,8 @@ pub struct OffNominal {
     pub place: [f64; 2],
     /// Number of the outline that it is on.
     pub outline: usize,
+    /// Length along the outline from its start to the place.
+    pub along: f64,
 }
 
 impl Outline {
@@ -38,6 +40,25 @@ impl Outline {
         Outline { segments: contour.segments.clone(), closed: contour.closed }
     }
 
+    /// Its length.
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|s| s.length).sum()
+    }
+
+    /// What a closed one encloses, above 0 where it runs counter-clockwise, as outer ones do; of arcs and splines by chords.
+    pub fn area(&self) -> f64 {
+        area(&self.places())
+    }
+
+    /// The box around it, of arcs and splines around places along them: least and greatest coordinates. `None` of one without segments.
+    pub fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        let end = self.segments.last()?.end;
+        let wider = |[low, high]: [[f64; 2]; 2], p: [f64; 2]| {
+            [[0, 1].map(|k| low[k].min(p[k])), [0, 1].map(|k| high[k].max(p[k]))]
+        };
+        Some(self.places().into_iter().fold([end, end], wider))
+    }
+
     /// Places along it; of lines the ends.
     fn places(&self) -> Vec<[f64; 2]> {
         let of = |s: &Segment| {
@@ -45,11 +66,6 @@ impl Outline {
             (0..parts).map(|i| s.place(i as f64 / parts as f64)).collect::<Vec<_>>()
         };
         self.segments.iter().flat_map(of).collect()
-    }
-
-    /// What a closed one encloses, above 0 where it runs counter-clockwise; of arcs and splines by chords.
-    pub(super) fn area(&self) -> f64 {
-        area(&self.places())
     }
 
     fn reversed(self) -> Outline {
@@ -103,11 +119,14 @@ struct Boxed {
     high: [f64; 2],
     outline: usize,
     number: usize,
+    /// Length of the outline before it.
+    before: f64,
 }
 
 impl Boxed {
-    fn new(segment: &Segment, outline: usize, number: usize) -> Boxed {
-        let mut all = Boxed { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number };
+    fn new(segment: &Segment, outline: usize, number: usize, before: f64) -> Boxed {
+        let mut all =
+            Boxed { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number, before };
         for p in segment.hull() {
             for k in 0..2 {
                 all.low[k] = all.low[k].min(p[k]);
@@ -146,7 +165,13 @@ pub fn off_nominal(
     progress: &dyn Progress,
 ) -> Result<Vec<Option<OffNominal>>, Cancelled> {
     let each = |(n, o): (usize, &Outline)| -> Vec<Boxed> {
-        o.segments.iter().enumerate().map(|(k, s)| Boxed::new(s, n, k)).collect()
+        let lengths = o.segments.iter().scan(0.0, |sum, s| Some(std::mem::replace(sum, *sum + s.length)));
+        o.segments
+            .iter()
+            .zip(lengths)
+            .enumerate()
+            .map(|(k, (s, before))| Boxed::new(s, n, k, before))
+            .collect()
     };
     let boxes: Vec<Boxed> = outlines.iter().enumerate().flat_map(each).collect();
     let mut all = Vec::with_capacity(points.len());
@@ -173,12 +198,16 @@ pub fn off_nominal(
         }
         last = best.1;
         let b = &boxes[last];
-        all.push(signed(*p, &outlines[b.outline], b.number).map(|o| OffNominal { outline: b.outline, ..o }));
+        all.push(signed(*p, &outlines[b.outline], b.number).map(|(deviation, place)| {
+            let along = b.before + segment(b).foot(*p).0;
+            OffNominal { deviation, place, outline: b.outline, along }
+        }));
     }
     Ok(all)
 }
 
-fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<OffNominal> {
+/// The deviation of a point from the segment of an outline nearest to it, and the place nearest to it.
+fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f64; 2])> {
     let (segments, count) = (&outline.segments, outline.segments.len());
     let foot = segments[number].nearest(point);
     let d = [point[0] - foot.place[0], point[1] - foot.place[1]];
@@ -207,7 +236,7 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<OffNomina
     let distance = foot.distance.abs();
     let outside = if outline.closed { left < 0.0 } else { left > 0.0 };
     let deviation = if outside { distance } else { -distance };
-    Some(OffNominal { deviation: deviation + 0.0, place: foot.place, outline: 0 })
+    Some((deviation + 0.0, foot.place))
 }
 
 /// Ahead of a free end by more than this share of its distance a point lies beyond it: at right angles it does not.

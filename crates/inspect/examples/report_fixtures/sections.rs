@@ -4,14 +4,17 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Options, contour};
+use trueness_geom::section::{Options, Outline, Segment, contour, off_nominal};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ReportInput, ReportOptions, ViewObject, flat};
 use trueness_inspect::results::Role;
-use trueness_inspect::results::section::{FrameRecord, Section, SectionDocument};
+use trueness_inspect::results::section::{
+    Against, AgainstPlane, FrameRecord, NominalRecord, Section, SectionDocument,
+};
 
-/// Both of them, into `folder`.
+/// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
+    super::written(folder, "against", against());
     super::written(folder, "section", page(&[vec![profile()]]));
     super::written(folder, "stack", page(&[vec![circle(20.0), circle(12.0)], vec![circle(16.0)]]));
 }
@@ -41,6 +44,49 @@ fn profile() -> Vec<[f64; 2]> {
 fn circle(radius: f64) -> Vec<[f64; 2]> {
     let at = |i: u32| TAU * f64::from(i) / 180.0;
     (0..180).map(|i| [radius * at(i).cos(), radius * at(i).sin()]).collect()
+}
+
+/// The report of the profile in a plane whose second axis points down, against what it was made of, 0.05 outside of that on the
+/// first line, and a hole that was not measured.
+fn against() -> Vec<u8> {
+    let points: Vec<[f64; 2]> = profile();
+    let (wish, options) = (Options::default(), ReportOptions::default());
+    let lines = [
+        [[1000.0, -499.95], [1020.0, -499.95]],
+        [[1028.0, -492.0], [1028.0, -480.0]],
+        [[1028.0, -480.0], [1013.0, -480.0]],
+    ];
+    let [first, up, back] = lines.map(|[a, b]| Segment::straight(a, b));
+    let arc = Segment::arc([1020.0, -492.0], 8.0, -0.25 * TAU, 0.25 * TAU);
+    let hole = Segment::arc([1010.0, -490.0], 2.0, 0.0, -TAU);
+    let whole = Outline { segments: vec![first, arc, up, back], closed: false };
+    let outlines = vec![whole, Outline { segments: vec![hole], closed: true }];
+    let own = contour(&points, &wish, &Silent).unwrap();
+    let found = off_nominal(&points, &outlines, &Silent).unwrap();
+    let contours = vec![Against { points: &points, found, contour: &own }];
+    let nominal = NominalRecord::new(
+        "nominal.dxf",
+        "drawing",
+        vec![AgainstPlane { plane: Some(0), outlines, contours }],
+    );
+    let frame = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 0.0, -1.0], flatness: 0.0 };
+    let section = Section {
+        frame,
+        plane: Some(([0.0, 1.0, 0.0], 0.0)),
+        area: Err("points have no facets"),
+        loose: 0,
+        gap: None,
+        thickness: None,
+        bent: vec![],
+        contours: vec![own.clone()],
+    };
+    let files = [(Role::Measured, "profile.txt"), (Role::Reference, "nominal.dxf")];
+    let files = files.map(|(role, name)| super::record(role, name, points.len(), None)).to_vec();
+    let document =
+        SectionDocument { nominal: Some(nominal), ..SectionDocument::new(&[section], files, &wish) };
+    let places = flat(&points);
+    let objects = [ViewObject::measured(&places)];
+    super::bytes(&ReportInput { result: &document, objects: &objects, marks: &[], options: &options })
 }
 
 /// The report of planes with contours of these points.

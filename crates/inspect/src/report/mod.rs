@@ -109,7 +109,8 @@ fn write_drawing(
     let maps = page::maps(input);
     let bare = page::page(input, &Payload::default(), &page::Stage::Drawing(drawing, 0), &maps)?.len();
     let room = input.options.budget.saturating_sub(bare);
-    let payload = Payload { points: drawing.shown(input.objects, room), ..Payload::default() };
+    let payload =
+        Payload { points: drawing.shown(input.objects, input.options.up, room), ..Payload::default() };
     progress.advance(work(input.objects));
     let html = page::page(input, &payload, &page::Stage::Drawing(drawing, room), &maps)?;
     finish(&html, &payload, progress, out)

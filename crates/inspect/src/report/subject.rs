@@ -3,6 +3,7 @@
 use super::number::Style;
 use super::object::ViewObject;
 use super::page::parts::Headline;
+use super::up::Up;
 use crate::results::InputRecord;
 use crate::results::compare::{Histogram, ToleranceShares};
 use crate::scale::Scale;
@@ -104,9 +105,10 @@ pub trait Drawn {
         ["drawn", "flat"]
     }
     /// Of the places of the objects how many are drawn in so many bytes, and how many there are.
-    fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize);
+    fn shown(&self, objects: &[ViewObject], up: Up, room: usize) -> (usize, usize);
     /// The drawing, with as many places of the objects as `room` bytes hold.
-    fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup;
+    /// `up` is the model's axis that points upward, where the plane lies in space.
+    fn draw(&self, s: Style, objects: &[ViewObject], up: Up, room: usize) -> Markup;
 }
 
 /// Values that can be shown as colors.

@@ -6,13 +6,15 @@ mod found;
 mod hints;
 mod near_arc;
 mod nominal;
+mod outline;
 mod page;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
 pub use near_arc::NearArc;
-pub use nominal::{Against, BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
+pub use nominal::{BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
+pub use outline::{Against, AgainstPlane, OutlineRecord};
 
 use super::{InputRecord, UNITS, VERSION, Word};
 use near_arc::near_arc;
@@ -287,7 +289,6 @@ impl SectionDocument {
     /// The document of what was found in the file of `inputs`.
     pub fn new(sections: &[Section], inputs: Vec<InputRecord>, options: &Options) -> SectionDocument {
         let planes = sections.iter().filter_map(plane).collect();
-        let none = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
         let contours = sections.iter().enumerate().flat_map(|(n, section)| {
             let number = section.plane.map(|_| n as u64);
             section.contours.iter().enumerate().map(move |(k, c)| {
@@ -306,7 +307,7 @@ impl SectionDocument {
             level: options.level,
             noise_given: options.noise,
             continuity_given: options.continuity.map(Word),
-            frame: sections.first().map_or(none, |s| s.frame),
+            frame: sections.first().map_or(FrameRecord::FLAT, |s| s.frame),
             planes,
             contours: contours.collect(),
             dimensions: DimensionsRecord::new(sections),

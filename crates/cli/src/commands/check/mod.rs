@@ -3,7 +3,7 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage, not_negative};
+use crate::exit::{self, Outcome, Usage, not_negative};
 use crate::options::{Common, DocumentArgs, InputArgs, weld};
 use crate::progress::Stage;
 use crate::read;
@@ -19,15 +19,14 @@ use trueness_inspect::results::Role;
 
 /// Size and defects of a mesh
 ///
-/// Tells what the mesh is (facets, shells, area, volume, genus) and finds every defect with its place. The exit status
-/// is 1 if the mesh is not sound.
+/// Tells what the mesh is (facets, shells, area, volume, genus) and finds every defect with its place.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("the mesh is not sound", "\
 Examples:
   trueness check part.stl
   trueness check part.stl --html report.html
   trueness check part.stl --json defects.json --items 100000
-  trueness check scan.ply --gap 0.01 --no-self-intersections")]
+  trueness check scan.ply --gap 0.01 --no-self-intersections"))]
 pub struct CheckArgs {
     /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
     mesh: PathBuf,

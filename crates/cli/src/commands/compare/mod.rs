@@ -7,7 +7,7 @@ mod table;
 mod words;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, PointInputArgs, ReferenceArgs, weld};
 use crate::progress::Stage;
 use crate::read;
@@ -39,7 +39,7 @@ use words::FacingArg;
 /// document of `trueness surface`), + outside the reference, − inside, with its statistics. Several references are ranked by
 /// their root mean square.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("out of tolerance, undecided or not measured, or an alignment that cannot be relied on", "\
 Examples:
   trueness compare scan.ply nominal.stl
   trueness compare scan.xyz nominal.stl --tolerance -0.1,+0.2 --html report.html
@@ -49,7 +49,7 @@ Examples:
   trueness compare scan.ply nominal.stl --along 0,0,1 --max-distance 2
   trueness compare scan.ply nominal.stl --tolerance 0.2 --regions regions.toml
   trueness compare part.stl nominal.stl --sample 1000000 --both --max-distance 5
-  trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html")]
+  trueness compare scan.ply nominal.step --tolerance 0.05 --html report.html"))]
 pub struct CompareArgs {
     /// The scan: points or a mesh (its vertices are compared); `-` reads stdin
     measured: PathBuf,

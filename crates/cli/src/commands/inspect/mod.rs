@@ -6,7 +6,7 @@ mod qif;
 mod table;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
 use crate::progress::Stage;
@@ -26,15 +26,15 @@ use trueness_inspect::results::inspect::InspectDocument;
 /// Run an inspection plan: features, tolerances, verdicts
 ///
 /// The plan is a TOML file that names the measured data, the features and the characteristics with their tolerances. A fault
-/// in it is told with line and column. Exit status 1 if a characteristic fails, is undecided or was not measured.
+/// in it is told with line and column.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("a characteristic fails, is undecided or was not measured", "\
 Examples:
   trueness inspect bracket.toml
   trueness inspect bracket.toml --measured scan-0815.stl --json result.json --html report.html
   trueness inspect bracket.toml --measured scan-0816.stl --json part-0816.json --places
   trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml
-  trueness inspect bracket.toml --qif results.qif")]
+  trueness inspect bracket.toml --qif results.qif"))]
 pub struct InspectArgs {
     /// The plan; paths in it are relative to it
     plan: PathBuf,

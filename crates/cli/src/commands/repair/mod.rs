@@ -3,7 +3,7 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage, not_negative};
+use crate::exit::{self, Outcome, Usage, not_negative};
 use crate::options::{Common, DocumentArgs, InputArgs};
 use crate::progress::Stage;
 use crate::read;
@@ -23,8 +23,7 @@ use trueness_inspect::results::repair::OutputRecord;
 /// A mesh without its defects
 ///
 /// Mends what `trueness check` finds and tells every change, the deviation introduced, and what is left. No vertex moves:
-/// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place. The
-/// exit status is 0 if the result is sound and the same part, 1 if not (it is written all the same).
+/// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place.
 #[derive(Args, Debug)]
 #[command(after_help = help())]
 pub struct RepairArgs {
@@ -74,12 +73,13 @@ pub struct RepairArgs {
 
 fn help() -> String {
     let steps: Vec<String> = STEPS.iter().map(|s| format!("  {:<24}{}", s.name, s.about)).collect();
-    format!(
+    let rest = format!(
         "Steps, in their order:\n{}\n\nExamples:\n  trueness repair part.stl -o sound.stl\n  \
          trueness repair scan.ply -o closed.ply --all-holes --html report.html\n  \
          trueness repair part.stl -o turned.stl --only orient,outward",
         steps.join("\n")
-    )
+    );
+    exit::help("the result is not sound, or another part; it is written all the same", &rest)
 }
 
 impl RepairArgs {

@@ -8,7 +8,7 @@ mod table;
 mod write;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
@@ -28,7 +28,7 @@ use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument
 /// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
 /// number and kinds of the segments, refines all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("segments do not run along their points and tell nothing of the part; files are written all the same", "\
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
@@ -37,7 +37,7 @@ Examples:
   trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
   trueness section part.stl --stack 0,0,1,0,40,5
   trueness section scan.stl --plane 0,0,1,12.5 --nominal part.stl
-  trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4")]
+  trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4"))]
 pub struct SectionArgs {
     /// Points in order, of two or three columns, or with planes a mesh or a cloud; `-` reads stdin
     input: PathBuf,

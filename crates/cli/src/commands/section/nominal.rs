@@ -11,10 +11,13 @@ use std::path::{Path, PathBuf};
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::section::{self, Options, Outline, Plane, PlaneFrame, Segment};
-use trueness_geom::space::{Point, dot};
+use trueness_geom::progress::Cancelled;
+use trueness_geom::section::{self, Contour, Options, Outline, Plane, PlaneFrame, Segment};
+use trueness_geom::space::{Aabb, Point, dot};
+use trueness_inspect::compare::plausibility;
 use trueness_inspect::results::InputRecord;
-use trueness_inspect::results::section::{Against, NominalRecord, Section};
+use trueness_inspect::results::compare::{Bounds, Warning};
+use trueness_inspect::results::section::{Against, AgainstPlane, NominalRecord, Section};
 
 /// What the section should be.
 #[derive(Args, Debug)]
@@ -42,10 +45,10 @@ const SHARE: f64 = 1e-6;
 impl NominalArgs {
     /// How the points of the sections differ from the nominal, and what there is to say about its file; nothing where none was
     /// given.
-    pub fn compare(
+    pub fn compare<'a>(
         &self,
         measured: &PointInputArgs,
-        (sections, rows): &Sections,
+        (sections, rows): &'a Sections,
         planes: &[Cut],
         options: &Options,
         stage: &Stage,
@@ -54,7 +57,7 @@ impl NominalArgs {
         let shown = path.display();
         let (nominal, mut record) = open(path, &self.reading.reading(measured))?;
         read::hash(&mut record, path)?;
-        let (mut all, mut closed, mut known) = (vec![], true, 0);
+        let mut all = vec![];
         let mut rows = rows.iter();
         for (n, section) in sections.iter().enumerate() {
             let outlines = match &nominal {
@@ -77,14 +80,16 @@ impl NominalArgs {
             if !matches!(nominal, Nominal::Mesh(_)) {
                 refuse_crossings(&outlines, &shown.to_string(), stage)?;
             }
-            known += outlines.len();
-            closed &= outlines.iter().all(|o| o.closed);
-            for points in rows.by_ref().take(section.contours.len()) {
+            let own = rows.by_ref().take(section.contours.len());
+            let against = |(points, contour): (&'a Vec<[f64; 2]>, &'a Contour)| {
                 let found = section::off_nominal(points, &outlines, stage)?;
-                all.push(Against { points, found, outlined: !outlines.is_empty() });
-            }
+                Ok::<_, Cancelled>(Against { points, found, contour })
+            };
+            let contours = own.zip(&section.contours).map(against).collect::<Result<_, _>>()?;
+            let plane = section.plane.map(|_| n as u64);
+            all.push(AgainstPlane { plane, outlines, contours });
         }
-        if known == 0 {
+        if all.iter().all(|plane| plane.outlines.is_empty()) {
             anyhow::bail!(
                 "{shown}: no plane of the section meets it; bring part and nominal together with trueness align"
             );
@@ -94,7 +99,27 @@ impl NominalArgs {
             Nominal::Row(..) => "contour",
             Nominal::Drawing(_) => "drawing",
         };
-        Ok(Some((NominalRecord::new(&record.path, outline, closed, &all), record)))
+        let warnings = unlikely(sections, &all);
+        Ok(Some((NominalRecord { warnings, ..NominalRecord::new(&record.path, outline, all) }, record)))
+    }
+}
+
+/// What makes it unlikely that part and nominal belong together: sizes as of another unit, boxes that lie apart.
+fn unlikely(sections: &[Section], all: &[AgainstPlane]) -> Vec<Warning> {
+    let (mut measured, mut nominal) = (vec![], vec![]);
+    // What one of them alone has in a plane tells nothing.
+    let both = |(_, p): &(&Section, &AgainstPlane)| !p.outlines.is_empty() && !p.contours.is_empty();
+    for (section, plane) in sections.iter().zip(all).filter(both) {
+        measured.extend(plane.contours.iter().flat_map(|c| c.points).map(|p| section.frame.place(*p)));
+        for corners in plane.outlines.iter().filter_map(Outline::bounds) {
+            let corner = |[i, j]: [usize; 2]| section.frame.place([corners[i][0], corners[j][1]]);
+            nominal.extend([[0, 0], [0, 1], [1, 0], [1, 1]].map(corner));
+        }
+    }
+    let [measured, nominal] = [measured, nominal].map(|places| Bounds::of(&Aabb::of(&places)));
+    match (measured, nominal) {
+        (Some(m), Some(n)) => plausibility::warnings(&m, &n, "--units, --reference-units"),
+        _ => vec![],
     }
 }
 

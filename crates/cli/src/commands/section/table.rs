@@ -5,8 +5,8 @@ use crate::{console, read};
 use std::fmt::Write;
 use trueness_geom::section::{DimensionKind, Taken};
 use trueness_inspect::results::section::{
-    AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, GeometryRecord,
-    MethodsRecord, NominalRecord, Positive, SectionDocument, SegmentRecord,
+    AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
+    MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -19,6 +19,9 @@ const CONTOURS: usize = 40;
 pub fn table(document: &SectionDocument) -> String {
     let mut out = read::notes(&document.inputs);
     let mut plane = None;
+    if document.planes.is_empty() && document.frame.is_in_space() {
+        let _ = writeln!(out, "frame     {}", axes(&document.frame));
+    }
     for (n, contour) in document.contours.iter().take(CONTOURS).enumerate() {
         if contour.plane != plane {
             plane = contour.plane;
@@ -77,7 +80,7 @@ pub fn table(document: &SectionDocument) -> String {
         out.push_str(&airfoil(found));
     }
     if let Some(found) = &document.nominal {
-        out.push_str(&nominal(found));
+        out.push_str(&nominal(found, document.planes.len() > 1));
     }
     if let Some(methods) = &document.methods {
         out.push_str(&methods_table(methods));
@@ -165,10 +168,14 @@ fn plane_line(document: &SectionDocument, number: Option<u64>) -> String {
     if plane.loose > 0 {
         let _ = write!(line, "   {} points of no contour", grouped(plane.loose));
     }
-    let [x, y] = [plane.frame.x, plane.frame.y].map(|a| a.map(|n| fixed(n, 4)).join(" "));
-    let origin = plane.frame.origin.map(|n| fixed(n, 6)).join(" ");
     let hint = plane.hint.as_ref().map_or(String::new(), |hint| format!("! {hint}\n"));
-    format!("{line}\n          x along {x}, y along {y}, from {origin}\n{hint}")
+    format!("{line}\n          {}\n{hint}", axes(&plane.frame))
+}
+
+/// Where a plane lies in space.
+fn axes(frame: &FrameRecord) -> String {
+    let [x, y] = [frame.x, frame.y].map(|a| a.map(|n| fixed(n, 4)).join(" "));
+    format!("x along {x}, y along {y}, from {}", frame.origin.map(|n| fixed(n, 6)).join(" "))
 }
 
 fn segments(contour: &ContourRecord) -> String {
@@ -312,8 +319,8 @@ fn trailing(m: &AirfoilMeasures) -> (String, String) {
     }
 }
 
-/// How the points differ from the nominal.
-fn nominal(found: &NominalRecord) -> String {
+/// How the points differ from the nominal, and what of it was not measured; `several` planes have numbers.
+fn nominal(found: &NominalRecord, several: bool) -> String {
     let side = match *found.positive {
         Positive::Outside => "+ outside",
         Positive::Left => "+ left of the nominal",
@@ -332,6 +339,37 @@ fn nominal(found: &NominalRecord) -> String {
         let words =
             if reason == BEYOND_END { "beyond the end of the nominal" } else { "in planes without nominal" };
         let _ = writeln!(out, "points {words}: {}", grouped(*count));
+    }
+    found.warnings.iter().for_each(|warning| _ = writeln!(out, "! {}", warning.text));
+    out.push_str(&lacking(&found.outlines, several));
+    out
+}
+
+/// Outlines of the nominal that are named where they were not measured.
+const LACKING: usize = 20;
+
+/// The outlines of the nominal that were not measured, or not as a whole.
+fn lacking(outlines: &[OutlineRecord], several: bool) -> String {
+    let mut out = String::new();
+    let all = outlines.iter().enumerate().filter(|(_, outline)| outline.lacks());
+    for (n, outline) in all.clone().take(LACKING) {
+        let plane =
+            outline.plane.filter(|_| several).map_or(String::new(), |n| format!(" in plane {}", n + 1));
+        let how = match outline.covered {
+            0.0 => "not measured".into(),
+            covered => format!("measured over {:.0} % of its length", 100.0 * covered),
+        };
+        let what = if outline.hole { "a hole of about" } else { "about" };
+        let [[width, height], [x, y]] = [outline.size, outline.center].map(|p| p.map(|x| fixed(x, 3)));
+        let _ = writeln!(
+            out,
+            "! contour {}{plane} of the nominal was {how} ({what} {width} × {height} at {x} {y})",
+            n + 1
+        );
+    }
+    let more = all.count().saturating_sub(LACKING);
+    if more > 0 {
+        let _ = writeln!(out, "… and {more} more contours of the nominal that were not measured as a whole");
     }
     out
 }

@@ -5,7 +5,7 @@ mod table;
 mod write;
 
 use crate::command::Run;
-use crate::exit::{Outcome, Usage};
+use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
@@ -24,12 +24,12 @@ use trueness_inspect::surface::View;
 /// By least squares: parameters from a base, uniform knots (or given ones, or as many as a tolerance asks for), a thin-plate term
 /// that bridges what was not measured, and parameters corrected to the nearest places.
 #[derive(Args, Debug)]
-#[command(after_help = "\
+#[command(after_help = exit::help("the tolerance was not reached, or the surface is doubtful", "\
 Examples:
   trueness surface scan.asc --spans 12x8 --step surface.stp
   trueness surface scan.ply --tolerance 0.02 --json result.json --html report.html
   trueness surface shoulder.stl --base mesh --spans 20x12 --step surface.stp --trim
-  trueness surface heights.xyz --base xy --knots knots.json --fairness 0")]
+  trueness surface heights.xyz --base xy --knots knots.json --fairness 0"))]
 pub struct SurfaceArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
     points: PathBuf,

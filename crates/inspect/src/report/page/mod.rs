@@ -63,7 +63,7 @@ pub fn page(
                         Stage::Part(picture) => { (stage(s, input, picture)) }
                         Stage::Drawing(drawing, room) => {
                             section id="stage" class={ "stage " (drawing.classes()[1]) } {
-                                "\n" (drawing.draw(s, input.objects, *room))
+                                "\n" (drawing.draw(s, input.objects, options.up, *room))
                             }
                             "\n"
                         }

@@ -1,12 +1,12 @@
 //! How a section differs from that of a nominal.
 
 use super::super::Word;
-use super::super::compare::{BySide, Histogram};
+use super::super::compare::{BySide, Histogram, Warning};
 use super::super::word::named;
+use super::outline::{self, AgainstPlane, OutlineRecord};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::section::OffNominal;
 use trueness_geom::stats::statistics::Summary;
 
 /// Where deviations from a nominal are positive.
@@ -48,6 +48,15 @@ pub struct NominalRecord {
     pub worst: Vec<WorstRecord>,
     /// The deviation of each point of each contour; `null` where it is left out.
     pub deviations: Vec<Vec<Option<f64>>>,
+    /// The outlines of the nominal, plane after plane, and how much of each was measured.
+    #[serde(default)]
+    pub outlines: Vec<OutlineRecord>,
+    /// What makes it unlikely that part and nominal belong together as they lie.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub warnings: Vec<Warning>,
+    /// The place nearest to each point of each contour, for the page.
+    #[serde(skip)]
+    pub nearest: Vec<Vec<Option<[f64; 2]>>>,
 }
 
 /// A point far off the nominal.
@@ -65,27 +74,17 @@ pub struct WorstRecord {
     pub deviation: f64,
 }
 
-/// What the points of a contour were measured against.
-#[derive(Clone, Debug)]
-pub struct Against<'a> {
-    /// The points.
-    pub points: &'a [[f64; 2]],
-    /// Of each, the nearest place; `None` beyond the end of an open outline.
-    pub found: Vec<Option<OffNominal>>,
-    /// Whether the nominal has an outline in the plane of the contour.
-    pub outlined: bool,
-}
-
 impl NominalRecord {
-    /// The record of all contours; `closed` tells whether all outlines of the nominal are.
-    pub fn new(path: &str, outline: &str, closed: bool, contours: &[Against]) -> NominalRecord {
+    /// The record of all contours, plane after plane.
+    pub fn new(path: &str, outline: &str, planes: Vec<AgainstPlane>) -> NominalRecord {
         let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
         let mut worst: [Option<WorstRecord>; 2] = [None; 2];
         let mut values = vec![];
-        for (contour, against) in contours.iter().enumerate() {
+        let contours = planes.iter().flat_map(|p| p.contours.iter().map(|c| (p.outlines.is_empty(), c)));
+        for (contour, (bare, against)) in contours.enumerate() {
             for (index, (point, found)) in against.points.iter().zip(&against.found).enumerate() {
                 let Some(off) = found else {
-                    let reason = if against.outlined { BEYOND_END } else { NO_OUTLINE };
+                    let reason = if bare { NO_OUTLINE } else { BEYOND_END };
                     *excluded.entry(reason.into()).or_default() += 1;
                     continue;
                 };
@@ -102,6 +101,8 @@ impl NominalRecord {
                 }
             }
         }
+        let closed = planes.iter().flat_map(|p| &p.outlines).all(|o| o.closed);
+        let found = || planes.iter().flat_map(|p| p.contours.iter().map(|c| &c.found));
         let summary = Summary::of(&values);
         NominalRecord {
             path: path.into(),
@@ -111,10 +112,10 @@ impl NominalRecord {
             excluded,
             histogram: Histogram::counted(&summary.all, &values),
             worst: worst.into_iter().flatten().collect(),
-            deviations: contours
-                .iter()
-                .map(|a| a.found.iter().map(|o| o.map(|o| o.deviation)).collect())
-                .collect(),
+            warnings: vec![],
+            deviations: found().map(|f| f.iter().map(|o| o.map(|o| o.deviation)).collect()).collect(),
+            nearest: found().map(|f| f.iter().map(|o| o.map(|o| o.place)).collect()).collect(),
+            outlines: planes.into_iter().flat_map(outline::records).collect(),
         }
     }
 }

@@ -2,24 +2,26 @@
 
 mod airfoil;
 mod course;
+mod nominal;
+mod nominal_tables;
+#[cfg(test)]
+mod nominal_tests;
 mod path;
 mod pieces;
+mod plan;
 mod sheet;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-use crate::report::ViewObject;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, fact, key_number, section};
 use crate::report::subject::{Drawn, Head, Pick, Subject};
+use crate::report::{Up, ViewObject};
 use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
 use maud::{Markup, html};
 use serde_json::Value;
 use trueness_geom::section::Taken;
-
-/// Bytes that a measured point takes in the drawing.
-const DOT: usize = 26;
 
 impl Subject for SectionDocument {
     fn head(&self) -> Head<'_> {
@@ -67,7 +69,7 @@ impl Subject for SectionDocument {
             (section(s, "contours", tables::contours(s, self)))
             @if self.dimensions.count > 0 { (section(s, "dimensions", tables::dimensions(s, &self.dimensions))) }
             @if let Some(airfoils) = &self.airfoils { (section(s, "airfoil", airfoil::airfoils(s, airfoils))) }
-            @if let Some(nominal) = &self.nominal { (section(s, "nominal.section", tables::nominal(s, nominal))) }
+            @if let Some(nominal) = &self.nominal { (section(s, "nominal.section", nominal_tables::nominal(s, self, nominal))) }
             @if let Some(methods) = &self.methods { (section(s, "methods", tables::methods(s, methods))) }
             @if !self.planes.is_empty() { (section(s, "planes", tables::planes(s, &self.planes))) }
             (section(s, "model", html! {
@@ -100,7 +102,7 @@ impl Subject for SectionDocument {
     fn picks(&self) -> Vec<Pick> {
         let mut all = vec![];
         for contour in &self.contours {
-            let frame = self.frame_of(contour);
+            let frame = self.frame_in(contour.plane);
             all.extend(contour.segments.iter().map(|s| Pick {
                 position: frame.place([0, 1].map(|k| 0.5 * (s.start[k] + s.end[k]))),
                 reach: Some(0.5 * s.length),
@@ -108,6 +110,7 @@ impl Subject for SectionDocument {
             }));
             all.extend(contour.joins.iter().map(|j| Pick { position: j.position, ..Pick::default() }));
         }
+        all.extend(nominal::picks(self));
         all.into_iter().enumerate().map(|(n, pick)| Pick { mark: Some(n), ..pick }).collect()
     }
 
@@ -121,20 +124,23 @@ impl Subject for SectionDocument {
 }
 
 impl Drawn for SectionDocument {
-    fn shown(&self, objects: &[ViewObject], room: usize) -> (usize, usize) {
-        let shown = stride(objects, room)
-            .map_or(0, |stride| objects.iter().map(|o| o.places().len().div_ceil(stride)).sum());
-        (shown, count(objects))
+    fn shown(&self, objects: &[ViewObject], up: Up, room: usize) -> (usize, usize) {
+        let places = |o: &ViewObject| o.places().len();
+        let stride = nominal::Rooms::of(self, objects, up, room).dots;
+        let shown = stride.map_or(0, |stride| objects.iter().map(|o| places(o).div_ceil(stride)).sum());
+        (shown, objects.iter().map(places).sum())
     }
 
-    fn draw(&self, s: Style, objects: &[ViewObject], room: usize) -> Markup {
-        let stride = stride(objects, room);
+    fn draw(&self, s: Style, objects: &[ViewObject], up: Up, room: usize) -> Markup {
+        let rooms = nominal::Rooms::of(self, objects, up, room);
+        // Teeth and whiskers at once are too much.
+        let comb = if self.nominal.is_some() { " no-comb" } else { "" };
         html! {
-            div id="drawing" class="drawing" {
+            div id="drawing" class={ "drawing" (comb) } {
                 "\n"
-                @for (n, sheet) in sheet::sheets(self).iter().enumerate() {
+                @for (n, sheet) in plan::sheets(self).iter().enumerate() {
                     div.sheet data-plane=[sheet.plane] hidden[n > 0] {
-                        "\n" (sheet.draw(s, self, objects, stride))
+                        "\n" (sheet.draw(s, self, objects, up, &rooms))
                     }
                     "\n"
                 }
@@ -149,19 +155,10 @@ impl Drawn for SectionDocument {
     }
 }
 
-fn count(objects: &[ViewObject]) -> usize {
-    objects.iter().map(|o| o.places().len()).sum()
-}
-
-/// Every which point is drawn in so many bytes; `None` where there is no room for any.
-fn stride(objects: &[ViewObject], room: usize) -> Option<usize> {
-    let fit = (room / DOT).checked_sub(objects.len()).filter(|n| *n > 0)?;
-    Some(count(objects).div_ceil(fit).max(1))
-}
-
 impl SectionDocument {
-    fn frame_of(&self, contour: &ContourRecord) -> &FrameRecord {
-        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
+    /// Where a plane lies; `None` is that of points in order.
+    fn frame_in(&self, plane: Option<u64>) -> &FrameRecord {
+        let plane = plane.and_then(|n| self.planes.get(n as usize));
         plane.map_or(&self.frame, |p| &p.frame)
     }
 }

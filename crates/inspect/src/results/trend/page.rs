@@ -10,11 +10,11 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-use crate::report::ViewObject;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, file_name, key_number, section};
 use crate::report::subject::{Drawn, Head, Pick, Subject};
 use crate::report::values::{Name, Text, leaf};
+use crate::report::{Up, ViewObject};
 use crate::results::Verdict;
 use crate::results::trend::TrendDocument;
 use axes::Axes;
@@ -106,11 +106,11 @@ impl Drawn for TrendDocument {
         ["charted", "charts"]
     }
 
-    fn shown(&self, _: &[ViewObject], _: usize) -> (usize, usize) {
+    fn shown(&self, _: &[ViewObject], _: Up, _: usize) -> (usize, usize) {
         (0, 0)
     }
 
-    fn draw(&self, s: Style, _: &[ViewObject], _: usize) -> Markup {
+    fn draw(&self, s: Style, _: &[ViewObject], _: Up, _: usize) -> Markup {
         let rows = self.rows();
         html! {
             div id="charts" {

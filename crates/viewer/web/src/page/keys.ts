@@ -1,7 +1,7 @@
 import { el } from '../dom'
 import type { Stage } from '../stage/stage'
 import { STANDARD } from '../stage/eye'
-import { LAYERS } from '../plan/layers'
+import { layers } from '../plan/layers'
 import type { State } from '../state'
 import type { Words } from '../words'
 
@@ -69,7 +69,7 @@ export function showKeys(words: Words, state: State): void {
     ? [['← → ↑ ↓', 'keys.pan']]
     : [['← → ↑ ↓', 'keys.turn'], ['Shift ← → ↑ ↓', 'keys.pan'], ['1 … 7', 'tool.views']]
   const own: [string, string][] = charted ? [] : state.planar
-    ? LAYERS.map(([, key, word]) => [key, word])
+    ? layers().map(([, key, word]) => [key, word])
     : pageKeys(state).map((k) => [k.key, k.word])
   const rows: [string, string][] = [
     ...moves,

@@ -3,7 +3,7 @@ import { onKeys, showKeys } from '../page/keys'
 import type { State } from '../state'
 import type { Words } from '../words'
 import { control } from './controls'
-import { LAYERS } from './layers'
+import { layers } from './layers'
 import { ruler } from './ruler'
 import { PlanView } from './view'
 
@@ -21,10 +21,14 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
     const bar = ruler(sheet, words)
     const view: PlanView = new PlanView(drawing, () => bar.draw(view.pixel))
     const [ox, oy] = (drawing.dataset.origin ?? '0 0').split(' ').map(Number)
+    // The direction in the plane that points upward: coordinates are those of the plane, however it is turned.
+    const [a, b] = (drawing.dataset.up ?? '0 1').split(' ').map(Number)
     const decimals = () => Math.max(0, Math.min(9, 1 - Math.floor(Math.log10(view.pixel))))
     const over = (place: [number, number] | null) => {
       const shown = (x: number) => words.number(x, decimals())
-      readout.textContent = place ? `x ${shown(ox + place[0])}  y ${shown(oy - place[1])} mm` : ''
+      if (!place) return void (readout.textContent = '')
+      const [u, v] = [ox + place[0], oy - place[1]]
+      readout.textContent = `x ${shown(b * u + a * v)}  y ${shown(b * v - a * u)} mm`
     }
     control(view, over, (mark) => state.pick(mark))
     return view
@@ -38,7 +42,7 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
   const fill = () => {
     const items: HTMLElement[] = []
     if (sheets.length > 1) items.push(chooser(sheets, current, words, showSheet))
-    for (const [name, key, word] of LAYERS) {
+    for (const [name, key, word] of layers()) {
       const b = el('button', { type: 'button', 'aria-pressed': String(!holder.classList.contains(`no-${name}`)), title: `${words.of(word)} (${key})` }, words.of(word))
       b.addEventListener('click', () => toggle(name))
       items.push(b)
@@ -69,7 +73,7 @@ export function openPlan(state: State, words: Words, step: (by: number) => void)
     k: () => step(-1),
     '?': () => showKeys(words, state),
     escape: () => (state.picked >= 0 ? state.pick(-1) : views[current]?.fit()),
-    ...Object.fromEntries(LAYERS.map(([name, key]) => [key.toLowerCase(), () => toggle(name)])),
+    ...Object.fromEntries(layers().map(([name, key]) => [key.toLowerCase(), () => toggle(name)])),
   }
   onKeys((key) => acts[key])
   words.onChange(() => {
@@ -98,13 +102,15 @@ function chooser(sheets: HTMLElement[], current: number, words: Words, choose: (
   return box
 }
 
-/** The residuals of the contour that a row of the list belongs to. */
+/** The residuals of the contour that a row of the list belongs to; rows of no contour leave what there is. */
 function showCourse(mark: number): void {
   const contour = document.querySelector(`tr[data-pick="${mark}"]`)?.closest<HTMLElement>('[data-contour]')?.dataset.contour
+  if (contour === undefined) return
   for (const course of document.querySelectorAll<HTMLElement>('.course')) course.hidden = course.dataset.contour !== contour
 }
 
 function showFirstCourse(sheet: HTMLElement): void {
-  const mark = sheet.querySelector<SVGElement>('[data-mark]')?.dataset.mark
+  const mark = sheet.querySelector<SVGElement>('.segment[data-mark]')?.dataset.mark
   if (mark) showCourse(Number(mark))
+  else for (const course of document.querySelectorAll<HTMLElement>('.course')) course.hidden = true
 }

@@ -24,7 +24,8 @@ export class PlanView {
     const { x, y, width, height } = drawing.viewBox.baseVal
     this.all = { x, y, width, height }
     this.seen = { ...this.all }
-    this.signs = [...drawing.querySelectorAll<SVGGElement>('.join')]
+    // The first have their numbers where there is no room for all.
+    this.signs = ['.worst', '.join'].flatMap((css) => [...drawing.querySelectorAll<SVGGElement>(css)])
   }
 
   /** Millimeters of a pixel. The drawing lies in its box as a whole, in the middle. */

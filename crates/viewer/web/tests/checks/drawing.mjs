@@ -223,4 +223,56 @@ export const drawing = [
       assert.deepEqual(await token(page, '--paper'), [255, 255, 255])
     },
   ],
+  [
+    'a nominal is drawn with its deviations; rows lead to the points farthest off, and to what was not measured',
+    async (session) => {
+      const page = await session.report('against', { live: false })
+      await page.waitForSelector('.stage.live')
+      assert.deepEqual(page.seen.errors, [])
+      const seen = (css) => page.evaluate((css) => [...document.querySelectorAll(css)].filter((e) => getComputedStyle(e).display !== 'none' && e.getClientRects().length).length, css)
+      assert.deepEqual(await Promise.all(['.plan .nominal', '.plan .missed', '.plan .whisker', '.plan .worst', '.plan .comb'].map(seen)), [2, 1, 2, 2, 0])
+      // Signs and their numbers belong to the drawing: words of a page would end it.
+      const worst = (await manifest(page)).result.nominal.worst
+      const labels = await page.evaluate(() => [...document.querySelectorAll('svg.plan .worst text')].map((t) => t.textContent))
+      assert.deepEqual(labels.map((t) => t[0]), ['+', '−'])
+      labels.forEach((t, k) => assert.ok(Math.abs(Math.abs(worst[k].deviation) - Number(t.slice(1))) < 1e-3, `${t}`))
+      await page.keyboard.press('n')
+      await page.keyboard.press('w')
+      assert.deepEqual(await Promise.all(['.plan .nominal', '.plan .whisker', '.plan .worst'].map(seen)), [0, 0, 0])
+      await page.keyboard.press('n')
+      await page.keyboard.press('w')
+      const rows = page.locator('.farthest tr[data-pick]')
+      await rows.nth(1).click()
+      const middle = () => page.evaluate(() => {
+        const c = document.querySelector('.plan .chosen').getBoundingClientRect()
+        const b = document.querySelector('svg.plan').getBoundingClientRect()
+        return Math.hypot(c.x + c.width / 2 - b.x - b.width / 2, c.y + c.height / 2 - b.y - b.height / 2)
+      })
+      assert.equal(await page.locator('.plan .chosen').getAttribute('class'), 'worst minus chosen')
+      assert.ok((await middle()) < 60, `${await middle()}`)
+      assert.equal(await seen('.course'), 1)
+      await page.locator('.outlines tr[data-pick]').last().click()
+      assert.equal(await page.locator('.plan .chosen').getAttribute('class'), 'nominal missed chosen')
+      assert.ok((await middle()) < 2, `${await middle()}`)
+    },
+  ],
+  [
+    'a plane whose axis points down is turned, and its coordinates are told all the same',
+    async (session) => {
+      const page = await session.report('against', { live: false })
+      await page.waitForSelector('.stage.live')
+      const { result } = await manifest(page)
+      const [one, last] = [result.contours[0].joins[0], result.contours[0].joins.at(-1)].map((j) => j.point)
+      const signs = await page.evaluate(() => [...document.querySelectorAll('.plan .join')].map((j) => {
+        const b = j.querySelector('path, circle').getBoundingClientRect()
+        return [b.x + b.width / 2, b.y + b.height / 2]
+      }))
+      // The later join has the greater second coordinate, which is the lower one in space.
+      assert.ok(last[1] > one[1] && signs.at(-1)[1] > signs[0][1])
+      await page.mouse.move(...signs[0])
+      const [u, v] = (await page.locator('#readout').innerText()).match(/−?[\d,]+\.\d+/g).map((s) => Number(s.replace('−', '-').replace(',', '')))
+      const { pixel } = await mapping(page)
+      assert.ok(Math.hypot(u - one[0], v - one[1]) < 2 * pixel, `${u} ${v} ${one}`)
+    },
+  ],
 ]

@@ -26,10 +26,19 @@ struct Axes {
 }
 
 impl Axes {
+    /// Outliers and points of segments astray do not widen it: they would make a line of all others.
     fn of(contour: &ContourRecord) -> Axes {
-        let kept = contour.residuals.iter().enumerate();
-        let kept = kept.filter(|(i, _)| contour.outliers.binary_search(&(*i as u64)).is_err());
-        let range = kept.map(|(_, r)| r.abs()).fold(SHOWN * contour.noise, f64::max);
+        let greatest = |counts: &dyn Fn(usize) -> bool| {
+            let all = contour.residuals.iter().enumerate().filter(|(i, _)| counts(*i));
+            all.map(|(_, r)| r.abs()).max_by(f64::total_cmp)
+        };
+        let outlier = |i: usize| contour.outliers.binary_search(&(i as u64)).is_ok();
+        let followed = greatest(&|i| !outlier(i) && !astray(contour, i));
+        // Scatter about segments astray is not that of the others.
+        let range = match followed.filter(|_| !contour.astray.is_empty()) {
+            Some(followed) => followed,
+            None => greatest(&|i| !outlier(i)).unwrap_or(0.0).max(SHOWN * contour.noise),
+        };
         let range = if range > 0.0 { range } else { 1e-9 };
         Axes { length: contour.length.max(f64::MIN_POSITIVE), range: 1.05 * range }
     }
@@ -43,6 +52,12 @@ impl Axes {
     }
 }
 
+/// Whether a point belongs to a segment that does not run along its points.
+fn astray(contour: &ContourRecord, point: usize) -> bool {
+    let label = contour.labels.get(point).map(|l| u64::from(*l));
+    label.is_some_and(|label| contour.astray.contains(&label))
+}
+
 /// The figure of contour `number`; of several all but the first wait to be asked for.
 pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
     let axes = Axes::of(contour);
@@ -52,7 +67,10 @@ pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
     });
     html! {
         figure.course data-contour=(number) hidden[number > 0] {
-            figcaption { (s.word("residuals")) ", mm · " (s.word("contour")) " " (number + 1) }
+            figcaption {
+                (s.word("residuals")) ", mm · " (s.word("contour")) " " (number + 1)
+                @if !contour.astray.is_empty() { " · " i.stroke.astray {} " " (s.word("legend.astray")) }
+            }
             div.course-y {
                 span { "+" (s.small(axes.range)) } span { "0" } span { "\u{2212}" (s.small(axes.range)) }
             }
@@ -91,17 +109,22 @@ fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
     }
 }
 
-/// Points by the kind of their segment; outliers at the rim where they are beyond it.
+/// Points by the kind of their segment; outliers, and points of segments astray, at the rim where they are beyond it.
 fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
-    let mut paths: [(&str, String); 4] = ["line", "arc", "spline", "outlier"].map(|k| (k, String::new()));
-    let mut columns: Vec<[Option<[f64; 2]>; 4]> = vec![[None; 4]; COLUMNS];
+    let names = ["line", "arc", "spline", "astray", "outlier"];
+    let mut paths = names.map(|k| (k, String::new()));
+    let mut columns = vec![[None::<[f64; 2]>; 5]; COLUMNS];
     let many = contour.residuals.len() > DOTS;
     let all = contour.residuals.iter().zip(&contour.stations).zip(&contour.labels).enumerate();
     for (i, ((residual, station), label)) in all {
         let Some(segment) = contour.segments.get(*label as usize) else { continue };
         let outlier = contour.outliers.binary_search(&(i as u64)).is_ok();
-        let name = if outlier { "outlier" } else { kind(segment) };
-        let slot = paths.iter().position(|(k, _)| *k == name).unwrap_or(3);
+        let name = match outlier {
+            true => "outlier",
+            false if astray(contour, i) => "astray",
+            false => kind(segment),
+        };
+        let slot = paths.iter().position(|(k, _)| *k == name).unwrap_or(4);
         let (x, y) = (axes.x(*station), axes.y(*residual).clamp(-HALF, HALF));
         if many && !outlier {
             let column = ((x / WIDTH * COLUMNS as f64) as usize).min(COLUMNS - 1);

@@ -2,6 +2,7 @@
 
 use crate::results::section::{GeometryRecord, SegmentRecord};
 use std::f64::consts::{FRAC_PI_8, TAU};
+use trueness_geom::section::{Geometry, Segment};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
 
@@ -24,10 +25,27 @@ impl Path {
                 Path::Cubic(arc(*center, *radius, *start_angle, *sweep))
             }
             GeometryRecord::Spline { .. } => match curve(segment) {
-                Some(c) if c.knots().degree() == 3 => Path::Cubic(c.bezier()),
-                Some(c) => Path::Straight(c.sample(64 * c.knots().distinct().len())),
+                Some(c) => Path::spline(&c),
                 None => Path::Straight(vec![segment.start, segment.end]),
             },
+        }
+    }
+
+    /// Of a segment of a nominal, in the same way.
+    pub fn of_nominal(segment: &Segment) -> Path {
+        match &segment.geometry {
+            Geometry::Line => Path::Straight(vec![segment.start, segment.end]),
+            Geometry::Arc { center, radius, start, sweep } => {
+                Path::Cubic(arc(*center, *radius, *start, *sweep))
+            }
+            Geometry::Spline { curve, .. } => Path::spline(curve),
+        }
+    }
+
+    fn spline(curve: &Curve<[f64; 2]>) -> Path {
+        match curve.knots().degree() {
+            3 => Path::Cubic(curve.bezier()),
+            _ => Path::Straight(curve.sample(64 * curve.knots().distinct().len())),
         }
     }
 

@@ -21,3 +21,17 @@ pub(super) fn pick_numbers(document: &SectionDocument) -> Vec<usize> {
         })
         .collect()
 }
+
+/// How many picks lead to the pieces of all contours; those of the nominal follow.
+pub(super) fn drawn_pieces(document: &SectionDocument) -> usize {
+    document.contours.iter().map(|c| c.segments.len() + c.joins.len()).sum()
+}
+
+/// Outlines of the nominal that are listed.
+const LISTED: usize = 60;
+
+/// The first outlines of the nominal that were not measured as a whole, by their numbers.
+pub(super) fn lacking(document: &SectionDocument) -> Vec<usize> {
+    let all = document.nominal.iter().flat_map(|n| n.outlines.iter().enumerate());
+    all.filter(|(_, o)| o.lacks()).map(|(n, _)| n).take(LISTED).collect()
+}

@@ -2,12 +2,11 @@
 
 use super::pieces::{kind, pick_numbers};
 use crate::report::number::{Style, decimals};
-use crate::report::page::parts::{fact, file_name, not_printed, row_class};
+use crate::report::page::parts::{fact, not_printed, row_class};
 use crate::report::values::{Number, Optional, Text};
-use crate::results::compare::page::by_side;
 use crate::results::section::{
-    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, NominalRecord, PlaneRecord,
-    SectionDocument, SegmentRecord, UncertaintyRecord,
+    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, PlaneRecord, SectionDocument,
+    SegmentRecord, UncertaintyRecord,
 };
 use maud::{Markup, html};
 use trueness_geom::section::{DimensionKind, Taken};
@@ -76,7 +75,7 @@ fn facts(s: Style, contour: &ContourRecord) -> Markup {
 }
 
 /// The head of a table: two columns without a name, then these.
-fn head(s: Style, words: &[&str]) -> Markup {
+pub(super) fn head(s: Style, words: &[&str]) -> Markup {
     html! {
         thead {
             tr {
@@ -98,7 +97,8 @@ fn segments(s: Style, contour: &ContourRecord, first: usize) -> Markup {
                     tr data-pick=(first + n) class=[row_class(n)] {
                         td { (n + 1) }
                         td {
-                            i class={ "stroke k-" (kind(segment)) } {} "\u{a0}"
+                            @let astray = if contour.astray.contains(&(n as u64)) { " astray" } else { "" };
+                            i class={ "stroke k-" (kind(segment)) (astray) } {} "\u{a0}"
                             (s.word(format!("segment.{}", kind(segment))))
                         }
                         (known_by(s, segment))
@@ -240,21 +240,6 @@ pub fn dimensions(s: Style, all: &DimensionsRecord) -> Markup {
         }
         p.note {
             (s.word("dimensions.text")) @if all.count > LISTED as u64 { " " (s.word("dimensions.more")) }
-        }
-    }
-}
-
-/// How the points differ from the nominal.
-pub fn nominal(s: Style, found: &NominalRecord) -> Markup {
-    let digits = decimals(found.deviation.all.std_dev, 4);
-    html! {
-        p.note {
-            (Text(file_name(&found.path))) ": " (s.word(format!("nominal.{}", found.outline))) " · "
-            (s.word(format!("nominal.{}", found.positive)))
-        }
-        (by_side(s, &found.deviation, digits))
-        dl.facts.pairs {
-            @for (reason, count) in &found.excluded { (fact(s, &format!("nominal.{reason}"), s.count(*count))) }
         }
     }
 }

@@ -11,7 +11,7 @@ use trueness_geom::section::{Options, contour};
 use trueness_geom::space::Point;
 
 /// Far from the origin: a line, an arc of radius 8, a line, a corner, a free curve.
-fn row(noise: f64) -> Vec<[f64; 2]> {
+pub(super) fn row(noise: f64) -> Vec<[f64; 2]> {
     let mut random = Random::new(7);
     let mut normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
     let line = (0..60).map(|i| [f64::from(i) / 3.0, 0.0]);
@@ -24,7 +24,7 @@ fn row(noise: f64) -> Vec<[f64; 2]> {
     all.map(|[x, y]| [1000.0 + x + noise * normal(), y - 500.0 + noise * normal()]).collect()
 }
 
-fn document(points: &[[f64; 2]]) -> SectionDocument {
+pub(super) fn document(points: &[[f64; 2]]) -> SectionDocument {
     let options = Options::default();
     let found = contour(points, &options, &Silent).unwrap();
     let frame = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
@@ -41,30 +41,30 @@ fn document(points: &[[f64; 2]]) -> SectionDocument {
     SectionDocument::new(&[section], vec![], &options)
 }
 
-fn drawn(document: &SectionDocument, places: &[Point], room: usize) -> String {
+pub(super) fn drawn(document: &SectionDocument, places: &[Point], room: usize) -> String {
     let style = Style { language: Language::En, decimal: None };
-    document.draw(style, &[ViewObject::measured(places)], room).into_string()
+    document.draw(style, &[ViewObject::measured(places)], Up::Z, room).into_string()
 }
 
 /// The values of an attribute of all elements of a class.
-fn attributes<'a>(page: &'a str, class: &str, name: &str) -> Vec<&'a str> {
+pub(super) fn attributes<'a>(page: &'a str, class: &str, name: &str) -> Vec<&'a str> {
     let found = page.split('<').filter(|e| e.contains(&format!("class=\"{class}")));
     found.map(|e| e.split(&format!(" {name}=\"")).nth(1).unwrap().split('"').next().unwrap()).collect()
 }
 
 /// The numbers of a path or an attribute.
-fn numbers(text: &str) -> Vec<f64> {
+pub(super) fn numbers(text: &str) -> Vec<f64> {
     let parts = text.split(|c: char| c.is_ascii_alphabetic() && c != 'e' || c.is_whitespace());
     parts.filter(|p| !p.is_empty()).map(|p| p.parse().unwrap()).collect()
 }
 
 /// The places of a drawing as those of the section.
-fn places(page: &str, path: &str) -> Vec<[f64; 2]> {
+pub(super) fn places(page: &str, path: &str) -> Vec<[f64; 2]> {
     let origin = numbers(attributes(page, "plan", "data-origin")[0]);
     numbers(path).chunks(2).map(|p| [origin[0] + p[0], origin[1] - p[1]]).collect()
 }
 
-fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
@@ -226,10 +226,10 @@ fn few_bytes_hold_few_points() {
     let points = row(0.01);
     let (document, places) = (document(&points), flat(&points));
     for room in [0, 30, 1000, 3000, 1 << 20] {
-        let (shown, all) = Drawn::shown(&document, &[ViewObject::measured(&places)], room);
+        let (shown, all) = Drawn::shown(&document, &[ViewObject::measured(&places)], Up::Z, room);
         let page = drawn(&document, &places, room);
         let dots = attributes(&page, "dots\"", "d").first().map_or(0, |d| d.matches('M').count());
         assert_eq!((dots, all), (shown, points.len()), "{room}");
-        assert!(shown * DOT <= room);
+        assert!(shown * nominal::DOT <= room);
     }
 }
