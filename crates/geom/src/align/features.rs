@@ -98,7 +98,8 @@ impl PairTable {
         let keys: Vec<Vec<u32>> = (sample.par_iter())
             .map(|&a| {
                 let key = |&b: &Oriented| {
-                    Relation::of(a, b, step, least, &walls).map_or(u32::MAX, |r| cell(r.cells, lengths) as u32)
+                    Relation::of(a, b, step, least, &walls)
+                        .map_or(u32::MAX, |r| cell(r.cells, lengths) as u32)
                 };
                 sample.iter().map(key).collect()
             })
