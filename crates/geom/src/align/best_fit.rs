@@ -4,6 +4,7 @@ use super::icp::{MOST, Match, OF_MEDIAN, Problem, weighted_median};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
+use super::work::{PART, RIVAL, SOON, Work};
 use super::{
     AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
 };
@@ -16,10 +17,6 @@ use crate::space::{Aabb, cross, dot, norm};
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
 const FEW: usize = 400;
 const SOME: usize = 5000;
-/// Iterations after which poses are compared.
-const SOON: usize = 20;
-/// Standard deviations from which on a distance counts no more when poses are compared.
-const FAR: f64 = 20.0;
 /// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
 const AS_WELL: f64 = 1.25;
 /// Within this ratio it fits equally: what is symmetric is not turned without need.
@@ -160,15 +157,6 @@ fn checked(measured: &Measured, reference: &Target) -> Result<Samples, AlignErro
     Ok(samples)
 }
 
-/// What all steps share.
-pub(super) struct Work<'a> {
-    target: &'a Target<'a>,
-    boundary_edges: Option<&'a BoundaryEdges>,
-    options: &'a BestFit,
-    radius: f64,
-    rounding: f64,
-}
-
 /// Where to go on from.
 struct Found {
     /// Best first.
@@ -180,42 +168,7 @@ struct Found {
     search: Option<Search>,
 }
 
-impl<'a> Work<'a> {
-    pub(super) fn new(
-        target: &'a Target<'a>,
-        boundary_edges: &'a BoundaryEdges,
-        options: &'a BestFit,
-        samples: &Samples,
-    ) -> Work<'a> {
-        let far = |b: &Aabb| b.min.iter().chain(&b.max).fold(0.0f64, |m, x| m.max(x.abs()));
-        let moments = samples.moments();
-        let size = far(&target.bounds) + norm(moments.mean).min(far(&Aabb::of(&samples.points)));
-        Work {
-            target,
-            boundary_edges: (boundary_edges.count() > 0).then_some(boundary_edges),
-            options,
-            radius: moments.radius(),
-            rounding: 4.0 * f64::EPSILON * size.max(moments.radius()),
-        }
-    }
-
-    pub(super) fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
-        Problem {
-            target: self.target,
-            boundary_edges: self.boundary_edges,
-            samples,
-            mean: samples.moments().mean,
-            robust: self.options.robust,
-            radius: self.radius,
-            rounding: self.rounding,
-        }
-    }
-
-    /// How far a pose with distances of this deviation is looked around at first.
-    fn reach(&self, sigma: f64) -> f64 {
-        if self.options.robust { (2.0 * FAR * sigma).max(64.0 * self.rounding) } else { f64::INFINITY }
-    }
-
+impl Work<'_> {
     /// Looks for starts.
     fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
         let few = samples.thinned(FEW, self.options.seed).with_normals(&samples.points);
@@ -245,7 +198,7 @@ impl<'a> Work<'a> {
         candidates: &[Candidate],
         progress: &dyn Progress,
     ) -> Result<Vec<Rigid>, AlignError> {
-        let refined = search.refine(candidates, &self.problem(&search.samples), progress)?;
+        let refined = search.refine(candidates, 0.0, &self.problem(&search.samples), progress)?;
         let least = refined.first().map_or(0.0, |r| r.0);
         Ok(refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect())
     }
@@ -317,38 +270,6 @@ impl<'a> Work<'a> {
         Ok(None)
     }
 
-    /// The best of the poses, iterated to the end on some samples, and the standard deviation of the distances there.
-    fn choose(
-        &self,
-        poses: &[Rigid],
-        some: &Samples,
-        progress: &dyn Progress,
-    ) -> Result<(Rigid, f64), AlignError> {
-        let problem = self.problem(some);
-        let mut ended: Vec<(Rigid, f64)> = vec![];
-        for pose in poses {
-            let at_start = problem.matches(pose, f64::INFINITY, progress)?;
-            let sigma = problem.deviation(&at_start);
-            let pose = problem.run(*pose, self.reach(sigma), SOON, progress)?.pose;
-            let matches = problem.matches(&pose, f64::INFINITY, progress)?;
-            ended.push((pose, problem.deviation(&matches)));
-        }
-        let least = ended.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
-        let mut best: Option<(f64, Rigid, f64)> = None;
-        for (pose, sigma) in ended {
-            let cost = problem.cost(&pose, self.cap(least), progress)?;
-            if best.is_none_or(|(c, ..)| cost < c) {
-                best = Some((cost, pose, sigma));
-            }
-        }
-        best.map(|(_, pose, sigma)| (pose, sigma)).ok_or(AlignError::NoOverlap)
-    }
-
-    /// The distance from which on none counts for more when poses are compared.
-    fn cap(&self, sigma: f64) -> f64 {
-        (FAR * sigma).max(1e-6 * self.radius)
-    }
-
     /// Figures of the result at `pose`.
     pub(super) fn worth(
         &self,
@@ -410,17 +331,25 @@ impl<'a> Work<'a> {
         let others = [Rigid::IDENTITY].iter().chain(poses);
         candidates.extend(others.map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
         candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
-        let problem = self.problem(some);
+        let (problem, part) = (self.problem(some), some.first(PART));
+        let part = self.problem(&part);
         let cap = self.cap(1.4826 * result.median);
-        let own = problem.cost(&pose, cap, progress)?;
-        let own_few = few.cost(&pose, cap, progress)?;
+        let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
+        let (own, own_few, own_part) = (own?, own_few?, own_part?);
         let mut found: Vec<Alternative> = vec![];
-        for (_, other) in search.refine(&candidates, &few, progress)? {
-            // With few samples first: most are far worse.
-            if few.cost(&other, cap, progress)? > 4.0 * AS_WELL * AS_WELL * own_few.max(1e-3 * cap * cap) {
+        for (_, other) in search.refine(&candidates, search.worth(&pose), &few, progress)? {
+            // With few samples first, then with a part of them: most are far worse.
+            let worse =
+                |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
+            if worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
                 continue;
             }
-            let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
+            let reach = self.reach(result.median);
+            let other = part.run(other, reach, SOON, progress)?.pose;
+            if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {
+                continue;
+            }
+            let other = problem.run(other, reach, 30, progress)?.pose;
             let cost = problem.cost(&other, cap, progress)?;
             let floor = self.rounding * self.rounding * 256.0;
             let ratio = ((cost + floor) / (own + floor)).sqrt();

@@ -22,6 +22,7 @@ pub(super) type Oriented = (Point, Vector);
 /// Pairs of a sample, by the way in which they lie.
 pub(super) struct PairTable {
     sample: Vec<Oriented>,
+    walls: Walls,
     /// Width of the cells of distance.
     step: f64,
     /// Cells of distance.
@@ -31,41 +32,58 @@ pub(super) struct PairTable {
     pairs: Vec<[u16; 2]>,
 }
 
-/// The four numbers, in units of cells.
-fn relation(a: Oriented, b: Oriented, step: f64) -> Option<[f64; 4]> {
-    let (x, length) = unit(minus(b.0, a.0))?;
-    let angle = |c: f64| libm::acos(c.clamp(-1.0, 1.0)) * (ANGLES as f64 / PI);
-    Some([length / step, angle(dot(a.1, x)), angle(dot(b.1, x)), angle(dot(a.1, b.1))])
+/// Cosines at the ends of the cells of the angles and at their middles, descending.
+struct Walls {
+    ends: [f64; ANGLES - 1],
+    middles: [f64; ANGLES],
 }
 
-/// The cosines between the cells of the angles.
-fn walls() -> [f64; ANGLES - 1] {
-    std::array::from_fn(|k| libm::cos((k + 1) as f64 * (PI / ANGLES as f64)))
-}
-
-/// The cells of the four numbers, without arc cosines. `None` for pairs nearer than `least`.
-fn cells_of(
-    a: Oriented,
-    b: Oriented,
-    step: f64,
-    least: f64,
-    walls: &[f64; ANGLES - 1],
-) -> Option<[usize; 4]> {
-    let away = minus(b.0, a.0);
-    let length = dot(away, away).sqrt();
-    if length.partial_cmp(&least.max(f64::MIN_POSITIVE)).is_none_or(|o| o.is_lt()) {
-        return None;
-    }
-    let angle = |c: f64| {
-        let mut beyond = 0u32;
-        for wall in walls {
-            beyond += u32::from(c <= *wall);
+impl Walls {
+    fn new() -> Walls {
+        let cosine = |cells: f64| libm::cos(cells * (PI / ANGLES as f64));
+        Walls {
+            ends: std::array::from_fn(|k| cosine((k + 1) as f64)),
+            middles: std::array::from_fn(|k| cosine(k as f64 + 0.5)),
         }
-        beyond as usize
-    };
-    let cosines = [dot(a.1, away) / length, dot(b.1, away) / length, dot(a.1, b.1)];
-    let [first, second, between] = cosines.map(angle);
-    Some([(length / step) as usize, first, second, between])
+    }
+}
+
+/// How two places with normals lie to each other.
+struct Relation {
+    /// Their distance in cells, and the cosines of the three angles.
+    length: f64,
+    cosines: [f64; 3],
+    /// The cells of these four numbers.
+    cells: [usize; 4],
+}
+
+impl Relation {
+    /// Without arc cosines: these would take most of the time. `None` for places nearer than `least`, and for one and the same.
+    #[inline(always)]
+    fn of(a: Oriented, b: Oriented, step: f64, least: f64, walls: &Walls) -> Option<Relation> {
+        let away = minus(b.0, a.0);
+        let length = dot(away, away).sqrt();
+        if length.partial_cmp(&least.max(f64::MIN_POSITIVE)).is_none_or(|o| o.is_lt()) {
+            return None;
+        }
+        let angle = |c: f64| {
+            let mut beyond = 0u32;
+            for wall in &walls.ends {
+                beyond += u32::from(c <= *wall);
+            }
+            beyond as usize
+        };
+        let cosines = [dot(a.1, away) / length, dot(b.1, away) / length, dot(a.1, b.1)];
+        let [first, second, between] = cosines.map(angle);
+        let length = length / step;
+        Some(Relation { length, cosines, cells: [length as usize, first, second, between] })
+    }
+
+    /// For each number whether it lies in the second half of its cell.
+    fn beyond_middle(&self, walls: &Walls) -> [bool; 4] {
+        let angle = |k: usize| self.cosines[k] <= walls.middles[self.cells[k + 1]];
+        [self.length.fract() >= 0.5, angle(0), angle(1), angle(2)]
+    }
 }
 
 impl PairTable {
@@ -76,11 +94,12 @@ impl PairTable {
         let longest = sample.iter().flat_map(|a| sample.iter().map(move |b| minus(b.0, a.0)));
         let longest = longest.fold(0.0f64, |m, v| m.max(dot(v, v))).sqrt();
         let lengths = (longest / step) as usize + 1;
-        let walls = walls();
+        let walls = Walls::new();
         let keys: Vec<Vec<u32>> = (sample.par_iter())
             .map(|&a| {
                 let key = |&b: &Oriented| {
-                    cells_of(a, b, step, least, &walls).map_or(u32::MAX, |at| cell(at, lengths) as u32)
+                    Relation::of(a, b, step, least, &walls)
+                        .map_or(u32::MAX, |r| cell(r.cells, lengths) as u32)
                 };
                 sample.iter().map(key).collect()
             })
@@ -99,21 +118,24 @@ impl PairTable {
                 next[k as usize] += 1;
             }
         }
-        PairTable { sample, step, lengths, first, pairs }
+        PairTable { sample, walls, step, lengths, first, pairs }
     }
 
     /// Where the pairs of the reference are that lie to each other about as these two: those of its cell and of the nearer neighbors.
     fn near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
-        let relation = relation(a, b, self.step);
         let limits = [self.lengths, ANGLES, ANGLES, ANGLES];
+        let relation = Relation::of(a, b, self.step, 0.0, &self.walls);
+        // The cell in which a number lies, and the one on the side to which it is nearer: from the lower of both on.
+        let upper = relation.map(|r| {
+            let beyond = r.beyond_middle(&self.walls);
+            std::array::from_fn::<usize, 4, _>(|k| r.cells[k] + usize::from(beyond[k]))
+        });
         let range = move |corner: usize| {
-            // The cell in which the number lies, and the one on the side to which it is nearer.
-            let low = relation?.map(|x| (x - 0.5).floor());
-            let at: [f64; 4] = std::array::from_fn(|k| low[k] + (corner >> k & 1) as f64);
-            if (0..4).any(|k| at[k] < 0.0 || at[k] >= limits[k] as f64) {
-                return None;
+            let mut at = upper?;
+            for k in 0..4 {
+                at[k] = (at[k] + (corner >> k & 1)).checked_sub(1).filter(|c| *c < limits[k])?;
             }
-            let k = cell(at.map(|x| x as usize), self.lengths);
+            let k = cell(at, self.lengths);
             Some(self.first[k] as usize..self.first[k + 1] as usize)
         };
         (0..16).filter_map(range)

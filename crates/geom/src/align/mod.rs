@@ -37,6 +37,7 @@ mod system;
 mod target;
 #[cfg(test)]
 mod tests;
+mod work;
 mod zones;
 
 pub use alignment::{AlignWarning, Alignment, Alternative, BestFit, Start};

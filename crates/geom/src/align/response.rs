@@ -4,9 +4,9 @@
 //! vertex changes the distances of its facets along their normals (JCGM 102:2011, 6.2: the propagation of covariances through a
 //! least-squares estimate). Weights and facets met are those of the pose.
 
-use super::best_fit::Work;
 use super::sample::{Measured, Samples};
 use super::system::{Six, Spectrum, slope};
+use super::work::Work;
 use super::{AlignError, AlignWarning, Alignment, BestFit, Target};
 use crate::closest::BoundaryEdges;
 use crate::progress::Progress;

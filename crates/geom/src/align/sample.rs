@@ -171,6 +171,18 @@ impl Samples {
         }
     }
 
+    /// The first `count` of them, of equal weight as they are: of thinned ones these are any.
+    pub fn first(&self, count: usize) -> Samples {
+        let count = count.min(self.points.len());
+        let total: f64 = self.weights[..count].iter().sum();
+        Samples {
+            points: self.points[..count].to_vec(),
+            normals: self.normals[..count.min(self.normals.len())].to_vec(),
+            weights: self.weights[..count].iter().map(|w| w / total).collect(),
+            oriented: self.oriented,
+        }
+    }
+
     /// The same with normals by local planes of `among`, without sides; where there are normals, those.
     pub fn with_normals(mut self, among: &[Point]) -> Samples {
         if self.normals.is_empty() {

@@ -293,10 +293,11 @@ impl Search {
     }
 
     /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean
-    /// square distance.
+    /// square distance. Those that are worth far less than the best of them, or than `known`, are left out.
     pub fn refine(
         &self,
         candidates: &[Candidate],
+        known: f64,
         problem: &Problem,
         progress: &dyn Progress,
     ) -> Result<Vec<(f64, Rigid)>, AlignError> {
@@ -308,7 +309,7 @@ impl Search {
             })
             .collect();
         let mut begun = begun?;
-        let enough = LIVELY * begun.iter().fold(0.0f64, |m, c| m.max(c.worth));
+        let enough = LIVELY * begun.iter().fold(known, |m, c| m.max(c.worth));
         begun.retain(|c| c.worth >= enough);
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (begun.par_iter())
             .map(|c| {

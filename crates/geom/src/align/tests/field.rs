@@ -8,6 +8,7 @@ use crate::closest::Tree;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::space::{Point, dot, minus, norm};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Samples on the surface and beside it, with and without normals, in any pose, a number that fills no whole block.
 fn samples(oriented: bool) -> Samples {
@@ -69,41 +70,43 @@ fn the_grid_tells_what_exact_distances_do() {
     }
 }
 
-/// A pair finds the pairs that lie like it, itself among them, and none that lie otherwise; there are as many as are counted.
+/// A pair finds all pairs whose four numbers are within half a cell of its own, and none that are more than one and a half away; there are as
+/// many as are counted.
 #[test]
 fn pairs_are_found_where_they_lie() {
     let places = on_surface(&bracket(4.0), 60, 3);
     let all: Vec<_> = places.points.iter().copied().zip(places.normals.iter().copied()).collect();
     let (step, least) = (4.0, 8.0);
     let table = PairTable::new(&places, step, least);
-    let mut tried = 0;
-    for (i, j) in (0..60).flat_map(|i| (0..60).map(move |j| (i, j))) {
-        let like = table.like(all[i], all[j]);
-        assert_eq!(like.len(), table.count_like(all[i], all[j]));
-        let length = |[a, b]: [usize; 2]| norm(minus(all[b].0, all[a].0));
-        if length([i, j]) < least {
-            continue;
-        }
-        tried += 1;
-        assert!(like.contains(&[i as u16, j as u16]), "{i} {j}");
-        let angles = |[a, b]: [usize; 2]| {
-            let x = minus(all[b].0, all[a].0);
-            [dot(all[a].1, x) / norm(x), dot(all[b].1, x) / norm(x), dot(all[a].1, all[b].1)]
-                .map(|c| libm::acos(c.clamp(-1.0, 1.0)).to_degrees())
-        };
-        for pair in like.iter().map(|p| p.map(usize::from)) {
-            assert!((length(pair) - length([i, j])).abs() <= 1.5 * step + 1e-9);
-            let (own, other) = (angles([i, j]), angles(pair));
-            assert!(
-                (0..3).all(|k| (own[k] - other[k]).abs() <= 1.5 * 180.0 / 16.0 + 1e-6),
-                "{own:?} {other:?}"
-            );
-        }
-        if let Some(frame) = PairFrame::best(all[i], all[j])
-            && let Some(pose) = table.pose(&frame, [i as u16, j as u16])
+    // Distance and angles in cells, by arc cosines.
+    let numbers = |i: usize, j: usize| {
+        let x = minus(all[j].0, all[i].0);
+        let angle = |c: f64| libm::acos(c.clamp(-1.0, 1.0)) * 16.0 / std::f64::consts::PI;
+        let [a, b] = [i, j].map(|k| angle(dot(all[k].1, x) / norm(x)));
+        [norm(x) / step, a, b, angle(dot(all[i].1, all[j].1))]
+    };
+    let pairs = (0..60u16).flat_map(|i| (0..60u16).map(move |j| [i, j]));
+    let pairs: Vec<([u16; 2], [f64; 4])> = pairs
+        .filter(|[i, j]| i != j)
+        .map(|p| (p, numbers(usize::from(p[0]), usize::from(p[1]))))
+        .filter(|(_, own)| own[0] * step >= least)
+        .collect();
+    assert!(pairs.len() > 2000, "{}", pairs.len());
+    let mut known = BTreeMap::new();
+    known.extend(pairs.iter().copied());
+    for ([i, j], own) in &pairs {
+        let (a, b) = (all[usize::from(*i)], all[usize::from(*j)]);
+        let like = table.like(a, b);
+        assert_eq!(like.len(), table.count_like(a, b));
+        let apart = |other: &[f64; 4]| (0..4).map(|k| (own[k] - other[k]).abs()).fold(0.0, f64::max);
+        let found: BTreeSet<[u16; 2]> = like.iter().copied().collect();
+        assert_eq!(found.len(), like.len());
+        assert!(found.iter().all(|p| apart(&known[p]) <= 1.5 + 1e-9));
+        assert!(pairs.iter().all(|(p, other)| apart(other) > 0.5 - 1e-9 || found.contains(p)), "{i} {j}");
+        if let Some(frame) = PairFrame::best(a, b)
+            && let Some(pose) = table.pose(&frame, [*i, *j])
         {
-            assert!(pose.displacement(all[i].0) < 1e-9);
+            assert!(pose.displacement(a.0) < 1e-9);
         }
     }
-    assert!(tried > 2000, "{tried}");
 }

@@ -125,7 +125,7 @@ fn a_pose_beside_the_right_one_is_left() {
     assert!(stuck.reference_from_measured.displacement([30.0, 20.0, 5.0]) > 2.0, "{stuck:?}");
     let samples = crate::align::sample::Samples::all(&measured);
     let edges = crate::closest::BoundaryEdges::watched(&tree, &Silent).unwrap();
-    let work = crate::align::best_fit::Work::new(&target, &edges, &options, &samples);
+    let work = crate::align::work::Work::new(&target, &edges, &options, &samples);
     let few = samples.thinned(400, 0).with_normals(&samples.points);
     let search = crate::align::start::Search::new(&target, few, 0, &Silent).unwrap();
     let found = work.around(&search, &stuck, &samples, &Silent).unwrap();

@@ -126,6 +126,18 @@ export const layout = [
     },
   ],
   [
+    'a window of middle width: the scale is as high as the picture and stays so',
+    async (session) => {
+      const page = await session.report('sphere', { width: 1000, height: 700 })
+      const heights = () =>
+        page.evaluate(() => ['.stage', '.scale'].map((s) => document.querySelector(s).getBoundingClientRect().height))
+      const before = await heights()
+      await page.waitForTimeout(500)
+      assert.deepEqual(await heights(), before)
+      assert.ok(Math.abs(before[0] - before[1]) < 1 && before[0] < 700, before.join())
+    },
+  ],
+  [
     'paper: long lists are cut and say so, the picture has the numbers, a running head names the part',
     async (session) => {
       const page = await session.report('torn', { width: 800, height: 1100 })

@@ -1,0 +1,127 @@
+//! What the steps of a best fit share: problems of its samples, and which of many poses is the best.
+
+use super::icp::Problem;
+use super::sample::Samples;
+use super::{AlignError, BestFit, Target};
+use crate::closest::BoundaryEdges;
+use crate::parallel::prelude::*;
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{Aabb, norm};
+
+/// Samples of these on which poses are compared first, and the cost over the least there beyond which a pose is not compared further: the
+/// means of so many squares differ by a tenth from those of all.
+pub(super) const PART: usize = 1000;
+pub(super) const RIVAL: f64 = 2.0;
+/// Iterations after which poses are compared.
+pub(super) const SOON: usize = 20;
+/// Standard deviations from which on a distance counts no more when poses are compared.
+const FAR: f64 = 20.0;
+
+/// What all steps share.
+pub(super) struct Work<'a> {
+    pub target: &'a Target<'a>,
+    pub boundary_edges: Option<&'a BoundaryEdges>,
+    pub options: &'a BestFit,
+    pub radius: f64,
+    pub rounding: f64,
+}
+
+/// A pose where it came to lie on samples.
+struct Compared {
+    pose: Rigid,
+    /// Standard deviation of the distances there.
+    sigma: f64,
+    /// Mean of the squared distances up to a cap.
+    cost: f64,
+}
+
+impl<'a> Work<'a> {
+    /// For a fit of what `samples` are all of.
+    pub fn new(
+        target: &'a Target<'a>,
+        boundary_edges: &'a BoundaryEdges,
+        options: &'a BestFit,
+        samples: &Samples,
+    ) -> Work<'a> {
+        let far = |b: &Aabb| b.min.iter().chain(&b.max).fold(0.0f64, |m, x| m.max(x.abs()));
+        let moments = samples.moments();
+        let size = far(&target.bounds) + norm(moments.mean).min(far(&Aabb::of(&samples.points)));
+        Work {
+            target,
+            boundary_edges: (boundary_edges.count() > 0).then_some(boundary_edges),
+            options,
+            radius: moments.radius(),
+            rounding: 4.0 * f64::EPSILON * size.max(moments.radius()),
+        }
+    }
+
+    /// The iteration over samples.
+    pub fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
+        Problem {
+            target: self.target,
+            boundary_edges: self.boundary_edges,
+            samples,
+            mean: samples.moments().mean,
+            robust: self.options.robust,
+            radius: self.radius,
+            rounding: self.rounding,
+        }
+    }
+
+    /// How far a pose with distances of this deviation is looked around at first.
+    pub fn reach(&self, sigma: f64) -> f64 {
+        if self.options.robust { (2.0 * FAR * sigma).max(64.0 * self.rounding) } else { f64::INFINITY }
+    }
+
+    /// The best of the poses, iterated to the end on some samples, and the standard deviation of the distances there. Most are far from
+    /// the best one: a part of the samples tells which.
+    pub fn choose(
+        &self,
+        poses: &[Rigid],
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<(Rigid, f64), AlignError> {
+        let mut rivals = poses.to_vec();
+        if rivals.len() > 1 && some.points.len() > 2 * PART {
+            let ended = self.ended(&rivals, &some.first(PART), progress)?;
+            let least = ended.iter().map(|e| e.cost).fold(f64::INFINITY, f64::min);
+            rivals = ended.iter().filter(|e| e.cost <= RIVAL * least).map(|e| e.pose).collect();
+        }
+        let mut best: Option<Compared> = None;
+        for one in self.ended(&rivals, some, progress)? {
+            if best.as_ref().is_none_or(|b| one.cost < b.cost) {
+                best = Some(one);
+            }
+        }
+        best.map(|b| (b.pose, b.sigma)).ok_or(AlignError::NoOverlap)
+    }
+
+    /// Poses iterated on samples, in their order, with what they cost there under one cap.
+    fn ended(
+        &self,
+        poses: &[Rigid],
+        samples: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Compared>, AlignError> {
+        let problem = self.problem(samples);
+        let run = |pose: &Rigid| -> Result<(Rigid, f64), AlignError> {
+            let at_start = problem.matches(pose, f64::INFINITY, progress)?;
+            let sigma = problem.deviation(&at_start);
+            let pose = problem.run(*pose, self.reach(sigma), SOON, progress)?.pose;
+            let matches = problem.matches(&pose, f64::INFINITY, progress)?;
+            Ok((pose, problem.deviation(&matches)))
+        };
+        let ended: Vec<(Rigid, f64)> = poses.par_iter().map(run).collect::<Result<_, AlignError>>()?;
+        let least = ended.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
+        let cost = |&(pose, sigma): &(Rigid, f64)| -> Result<Compared, AlignError> {
+            Ok(Compared { pose, sigma, cost: problem.cost(&pose, self.cap(least), progress)? })
+        };
+        ended.par_iter().map(cost).collect()
+    }
+
+    /// The distance from which on none counts for more when poses are compared.
+    pub fn cap(&self, sigma: f64) -> f64 {
+        (FAR * sigma).max(1e-6 * self.radius)
+    }
+}
