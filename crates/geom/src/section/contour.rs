@@ -106,6 +106,9 @@ pub(super) fn contour_within(
 /// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
 const PRODUCTS: f64 = 3e10;
 
+/// Noise of up to so many times that of rounding is rounding.
+const ROUNDED: f64 = 3.0;
+
 /// Points scatter about a contour this many times as much as about local fits where it hides form.
 const DOUBTFUL: f64 = 1.3;
 
@@ -182,7 +185,9 @@ fn in_order(
         }
     }
     let mut found = start.plan(options, left).join(chains)?;
-    if options.noise.is_none() && options.resolution.is_none() {
+    // Points that are rounded lie on lines and circles by chance, and about them with a period.
+    let is_rounded = found.contour.noise <= ROUNDED * start.clean.rounding;
+    if options.noise.is_none() && options.resolution.is_none() && !is_rounded {
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
     }

@@ -13,6 +13,11 @@ const LOCAL: f64 = 5.0;
 /// A corner takes less than this share of the way along a segment's points: the other end may take as much.
 const SHORTEST: f64 = 0.45;
 
+/// The way to a corner and back is so many times as long as that from point to point, and so many times as long as the steps between the points
+/// before it, where points would lie on it.
+const DETOUR: f64 = 2.0;
+const UNSEEN: f64 = 1.5;
+
 /// The corner between two chains: where they cross, each going on as its end does. Where they cross in a wide gap of the points its interval
 /// is the gap. Where they cross nowhere near, it is the middle between where the points end.
 pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
@@ -61,9 +66,13 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let free = [a.end_kind(true), b.end_kind(false)].contains(&SegmentKind::Spline);
     let slack = NEAR * farthest;
     let gap = !free && beyond.min(-within) >= -slack && beyond.max(-within) <= width + slack;
-    if reach > most || eaten || beyond.abs() > near_a || within.abs() > near_b {
+    // Points as close as these are would lie on the way to a corner far beyond both ends.
+    let way = beyond.max(0.0) + (-within).max(0.0);
+    let passed = way > DETOUR * width
+        && way > UNSEEN * a.last_step(true).max(b.last_step(false)).max(3.0 * uncertainty);
+    if reach > most || eaten || passed || beyond.abs() > near_a || within.abs() > near_b {
         let hidden = between(feet, turn, uncertainty.min(most));
-        return if gap && reach <= most { Join { point, ..hidden } } else { hidden };
+        return if gap && !passed && reach <= most { Join { point, ..hidden } } else { hidden };
     }
     let end = |sign: f64| [point[0] + sign * reach * direction[0], point[1] + sign * reach * direction[1]];
     Join {

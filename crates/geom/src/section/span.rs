@@ -344,6 +344,18 @@ impl Found {
         let g = if at_end { breaks.len() - 2 } else { 0 };
         self.extent(at_end) / (breaks[g + 1] - breaks[g]).saturating_sub(1).max(1) as f64
     }
+    /// The longest of the three steps between its last or first feet.
+    pub fn last_step(&self, at_end: bool) -> f64 {
+        let breaks = &self.state.breaks;
+        let range = breaks[0]..breaks[breaks.len() - 1];
+        let few = if at_end {
+            range.end.saturating_sub(4).max(range.start)..range.end
+        } else {
+            range.start..range.end.min(range.start + 4)
+        };
+        let at = |i: usize| self.stations[i % self.stations.len()];
+        few.clone().skip(1).map(|i| (at(i) - at(i - 1)).abs()).fold(0.0, f64::max)
+    }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {
         let n = self.pieces().len();

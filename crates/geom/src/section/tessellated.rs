@@ -105,6 +105,9 @@ fn independent(chain: &Chain) -> Vec<usize> {
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
 const MISSED: f64 = 20.0;
 
+/// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
+const SCATTERED: (usize, f64) = (8, 2.0);
+
 /// A contour found from some of the points, for all of them. Segments that others lie far off are astray.
 fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
@@ -139,7 +142,9 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
     }
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
     let most = MISSED * all.noise;
-    all.astray.extend((0..all.segments.len()).filter(|k| all.segments[*k].max > most));
+    let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * all.noise;
+    let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));
+    all.astray.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
     all.astray.sort_unstable();
     all.astray.dedup();
     all

@@ -48,3 +48,26 @@ fn rounded_lines_and_arcs_are_these() {
         }
     }
 }
+
+/// Lines are lines whatever the step that their coordinates are rounded to: some points of theirs lie on a line exactly, and all about them
+/// with a period.
+#[test]
+fn rounded_lines_run_along_their_points() {
+    for step in [0.01, 0.025] {
+        for k in 0..15 {
+            let angle = 0.4 * f64::from(k);
+            let at = |s: f64, turn: f64| {
+                let (sin, cos) = libm::sincos(angle + turn);
+                [s * cos, s * sin]
+            };
+            let points: Vec<[f64; 2]> = (-40..40)
+                .map(|i| 0.5 * (f64::from(i) + 0.5))
+                .map(|s| if s < 0.0 { at(s, 0.0) } else { at(s, 0.6) })
+                .map(|p| p.map(|x| step * (x / step).round()))
+                .collect();
+            let found = found(&points);
+            assert_eq!(kinds(&found), [SegmentKind::Line; 2], "{step} {k}");
+            assert!(found.astray.is_empty(), "{step} {k}: {}", found.noise);
+        }
+    }
+}

@@ -132,3 +132,24 @@ fn outlines_of_pixels_are_not_astray() {
     }
     assert!(found(&points).astray.is_empty());
 }
+
+/// Two sides that end close to each other do not meet far beyond: points as close as theirs would lie there.
+#[test]
+fn no_corner_lies_beyond_a_blunt_tip() {
+    for (seed, flat) in [0.3, 0.2, 0.4].into_iter().enumerate() {
+        let random = &mut Random::new(seed as u64);
+        let (sin, cos) = libm::sincos(4.0_f64.to_radians());
+        let side = |sign: f64| {
+            (0..80)
+                .map(move |i| 0.5 * f64::from(i) + 0.05)
+                .map(move |s| [-s * cos, sign * (0.5 * flat + s * sin)])
+        };
+        let below: Vec<[f64; 2]> = side(-1.0).collect();
+        let points: Vec<[f64; 2]> = below.into_iter().rev().chain(side(1.0)).collect();
+        let noisy: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x + 0.003 * normal(random))).collect();
+        let found = found(&noisy);
+        assert_eq!(kinds(&found), [SegmentKind::Line; 2], "{flat}");
+        let join = &found.joins[0];
+        assert!(join.point[0] < 0.1 && join.open == [true; 2], "{flat}: {join:?}");
+    }
+}

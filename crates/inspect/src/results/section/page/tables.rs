@@ -41,8 +41,9 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                     p.note { strong.warning { "⚠" } " " (s.word("contour.crossings")) " (" (s.number(*x, 4)) ", " (s.number(*y, 4)) ")" }
                 }
                 div.wide { (segments(s, contour, numbers[n])) }
-                @if let Some(reason) = &contour.joins_reason {
-                    p.note { (s.word("joins.none")) ": " (Text(reason)) }
+                @if contour.joins_reason.is_some() {
+                    @let line = matches!(&contour.segments[..], [one] if matches!(one.geometry, GeometryRecord::Line { .. }));
+                    p.note { (s.word("joins.none")) ": " (s.word(if line { "joins.one_line" } else { "joins.one_curve" })) }
                 }
                 @if !contour.joins.is_empty() {
                     div.wide { (joins(s, contour, numbers[n] + contour.segments.len())) }
