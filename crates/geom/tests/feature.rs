@@ -100,6 +100,66 @@ fn what_is_steep_within_a_plane_belongs_to_it() {
     assert!(!found(&mesh, &floor, NEAR).points.contains(&at(5, 5)));
 }
 
+/// A prism along z over a regular polygon of radius 10, or over a tube of it, with flat ends whose vertices all lie on its rims; the sides come
+/// first, two facets each.
+fn prism(sides: u32, height: f64, inner: Option<f64>) -> Mesh {
+    let mut mesh = Mesh::default();
+    let rings = [Some(10.0), inner].into_iter().flatten();
+    for (radius, z) in rings.flat_map(|r| [(r, 0.0), (r, height)]) {
+        mesh.positions.extend((0..sides).map(|k| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+            [radius * cos, radius * sin, z]
+        }));
+    }
+    let strip = |mesh: &mut Mesh, low: u32, high: u32| {
+        for k in 0..sides {
+            let next = (k + 1) % sides;
+            let [a, b, c, d] = [low + k, low + next, high + next, high + k];
+            mesh.faces.extend([[a, b, c], [a, c, d]]);
+        }
+    };
+    strip(&mut mesh, 0, sides);
+    match inner {
+        Some(_) => {
+            strip(&mut mesh, sides, 3 * sides);
+            strip(&mut mesh, 3 * sides, 2 * sides);
+            strip(&mut mesh, 2 * sides, 0);
+        }
+        None => {
+            (1..sides - 1).for_each(|k| mesh.faces.extend([[0, k + 1, k], [sides, sides + k, sides + k + 1]]))
+        }
+    }
+    mesh
+}
+
+/// What the walls of a feature enclose is none of it: the flat ends of a boss, the bore of a thin tube, the other side of a thin plate.
+#[test]
+fn what_lies_beyond_walls_is_of_something_else() {
+    let near = Nearness { distance: 0.5, angle: 0.2, margin: -0.5, rim: true };
+    let shaft = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 10.0, length: 6.0 };
+    let sides: Vec<u32> = (0..96).collect();
+    assert_eq!(found(&prism(48, 6.0, None), &shaft, near).facets, sides);
+    assert_eq!(found(&prism(48, 6.0, Some(9.6)), &shaft, near).facets, sides);
+    // The frustum of a cone whose end faces as much as 60 degrees off its side.
+    let mut frustum = prism(48, 6.0, None);
+    let narrower = 1.0 - 0.6 * (30.0_f64).to_radians().tan();
+    frustum.positions[48..].iter_mut().for_each(|p| (p[0], p[1]) = (p[0] * narrower, p[1] * narrower));
+    let apex = [0.0, 0.0, 10.0 / (30.0_f64).to_radians().tan()];
+    let half_angle = (30.0_f64).to_radians();
+    let between = [apex[2] - 6.0, apex[2]];
+    let cone = Nominal::Cone { apex, direction: [0.0, 0.0, -1.0], half_angle, between };
+    assert_eq!(found(&frustum, &cone, near).facets, sides);
+    // A plate of a thickness less than the distance.
+    let plate = prism(4, 0.4, None);
+    let boundary: Vec<Point> = plate.positions[4..].to_vec();
+    let top = Nominal::Plane { point: [0.0, 0.0, 0.4], normal: [0.0, 0.0, 1.0], boundary };
+    let own = found(&plate, &top, near).facets;
+    assert!(
+        own.len() == 2 && own.iter().all(|f| plate.faces[*f as usize].iter().all(|v| *v >= 4)),
+        "{own:?}"
+    );
+}
+
 #[test]
 fn a_rounding_is_found_as_cylinder_and_as_edge() {
     let mesh = rounded_step();

@@ -11,6 +11,9 @@ pub(super) struct Rules<'a> {
     kind: CheckedNominal,
 }
 
+/// The sides of a dent or a spike are not steeper than this, 85°; walls that were drawn stand at right angles.
+const STEEPEST: f64 = 85.0 / 180.0 * std::f64::consts::PI;
+
 enum CheckedNominal {
     Plane { point: Point, normal: Vector, boundary: Polygon },
     Cylinder { point: Point, direction: Vector, radius: f64, length: f64 },
@@ -78,14 +81,21 @@ impl<'a> Rules<'a> {
     pub(super) fn facet(&self, corners: [Point; 3], facing: Vector) -> bool {
         corners.iter().all(|p| self.point(*p)) && {
             let center = times(1.0 / 3.0, plus(corners[0], plus(corners[1], corners[2])));
-            self.faces(center, facing)
+            self.faces(center, facing, self.near.angle)
         }
     }
 
-    /// Whether a facet of any angle may belong to the feature, where others enclose it. Never to an edge, which is told by its
-    /// angles alone.
-    pub(super) fn tilted(&self, corners: [Point; 3]) -> bool {
-        !matches!(self.kind, CheckedNominal::Edge { .. }) && corners.iter().all(|p| self.point(*p))
+    /// Whether a facet that faces otherwise may belong to the feature, where others enclose it: where all of it is near, and it is no wall
+    /// that leads away from the feature. The corners of a flat end of a cylinder lie on this, and nothing else of it; beyond the walls of
+    /// a thin plate there is its other side. Never to an edge, which is told by its angles alone.
+    pub(super) fn tilted(&self, corners: [Point; 3], facing: Option<Vector>) -> bool {
+        let [a, b, c] = corners;
+        let middle = |p: Point, q: Point| times(0.5, plus(p, q));
+        let center = times(1.0 / 3.0, plus(a, plus(b, c)));
+        let places = [a, b, c, middle(a, b), middle(b, c), middle(c, a), center];
+        !matches!(self.kind, CheckedNominal::Edge { .. })
+            && places.iter().all(|p| self.point(*p))
+            && facing.is_none_or(|n| self.faces(center, n, STEEPEST))
     }
 
     /// Whether a place is near the feature and within its bounds.
@@ -113,9 +123,8 @@ impl<'a> Rules<'a> {
         }
     }
 
-    /// Whether a facet about `center` faces as the feature does there.
-    fn faces(&self, center: Point, facing: Vector) -> bool {
-        let angle = self.near.angle;
+    /// Whether a facet about `center` faces as the feature does there, within `angle`.
+    fn faces(&self, center: Point, facing: Vector, angle: f64) -> bool {
         match &self.kind {
             CheckedNominal::Plane { normal, .. } => dot(*normal, facing) >= libm::cos(angle),
             CheckedNominal::Cylinder { point, direction, .. } => {

@@ -105,7 +105,7 @@ impl<'a> FeatureSearch<'a> {
             }
         }
         // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
-        let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c));
+        let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c, normal(c)));
         self.enclosed(&mut found, beside, is_near, progress)?;
         Ok(self.with_points(&found, near.rim))
     }

@@ -315,3 +315,22 @@ impl Contour {
         self.segments.iter().map(|s| s.length).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between the shares too: of a curve whose parameter runs fast and slowly.
+    #[test]
+    fn lengths_of_shares_are_those_of_the_curve() {
+        let points = vec![[0.0, 0.0], [0.2, 1.0], [3.0, 2.0], [4.0, -1.0], [9.0, 0.5], [10.0, 0.0]];
+        let curve = Curve::new(Knots::uniform(3, 3, 0.0, 1.0), points).unwrap();
+        let all = lengths(&curve);
+        for k in 0..100 {
+            let t = f64::from(k) / 99.0;
+            let off = interpolated(&all, t) - curve.length(0.0, t);
+            assert!(off.abs() < 2e-3 && (k > 0 || off == 0.0), "{t}: {off}");
+        }
+        assert_eq!(interpolated(&[], 0.3), 0.0);
+    }
+}

@@ -72,6 +72,9 @@ pub struct Index {
     pub high: f64,
 }
 
+/// Values that all differ by less than this share of the greatest do not vary: what their last digits tell is rounding.
+const ALIKE: f64 = 1e-9;
+
 /// Capability of a process; `None` where limits are missing, or nothing varies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Capability {
@@ -100,6 +103,10 @@ impl ControlChart {
             return None;
         }
         let n = values.len() as f64;
+        let greatest = values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let all_alike = vec![values[0]; values.len()];
+        let alike = values.iter().all(|x| (x - values[0]).abs() <= ALIKE * greatest);
+        let values = if alike { &all_alike[..] } else { values };
         // From the first value on: no digit is lost where all are alike.
         let first = values[0];
         let mean = first + values.iter().map(|x| x - first).sum::<f64>() / n;
@@ -184,4 +191,19 @@ fn near(value: f64, count: usize, freedom: f64, confidence: f64) -> Index {
     let z = normal_quantile(0.5 + 0.5 * confidence);
     let half = z * (1.0 / (9.0 * count as f64) + value * value / (2.0 * freedom)).sqrt();
     Index { value, low: value - half, high: value + half }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Digits that rounding alone makes differ are no spread: nothing is out of control, and there are no indices of it.
+    #[test]
+    fn rounding_is_no_spread() {
+        let value: f64 = 17.007302258104104;
+        let chart = ControlChart::of(&[value, value, value.next_up(), value.next_down()]).unwrap();
+        assert_eq!((chart.std_dev, chart.within, chart.mean), (0.0, 0.0, value));
+        assert!(chart.signals.is_empty());
+        assert!(ControlChart::of(&[17.0, 17.0 + 1e-6]).unwrap().std_dev > 0.0);
+    }
 }

@@ -118,35 +118,3 @@ fn bent(length: f64, heading: f64, curvature: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(heading);
     [x * cos - y * sin, x * sin + y * cos]
 }
-
-/// Points behind a free curve that is led to a corner lie as far along as the curve is drawn long.
-#[test]
-fn stations_go_by_the_curves_drawn() {
-    let mut seen = 0;
-    for seed in 0..8 {
-        let random = &mut Random::new(seed);
-        let wave = (0..60).map(|i| 0.4 * f64::from(i)).map(|x| [x, 2.0 * libm::sin(x / 4.0) + 0.02 * x * x]);
-        let end = [24.0, 2.0 * libm::sin(6.0_f64) + 0.02 * 24.0 * 24.0];
-        let line = (0..40).map(|i| 0.4 * f64::from(i)).map(|s| [end[0] + 0.3 * s, end[1] - s]);
-        let points: Vec<[f64; 2]> = wave.chain(line).map(|p| p.map(|x| x + 0.06 * normal(random))).collect();
-        let found = found(&points);
-        // A line that is led to a corner beside it is not the one that the points were found on.
-        let led = found.joins.iter().any(|j| j.open.contains(&true));
-        let mut way = 0.0;
-        for (k, segment) in found.segments.iter().enumerate() {
-            let own = (0..points.len()).filter(|i| found.labels[*i] as usize == k);
-            let inside = |i: &usize| (0.001..0.999).contains(&segment.nearest(points[*i]).share);
-            for i in own.filter(inside).filter(|_| segment.geometry.kind() == SegmentKind::Line && !led) {
-                let foot = way + segment.foot(points[i]).0;
-                assert!(
-                    (found.stations[i] - foot).abs() < 1e-6 + 1e-3 * found.residuals[i].abs(),
-                    "{seed} {i}: {} {foot}",
-                    found.stations[i]
-                );
-            }
-            way += segment.length;
-            seen += usize::from(k > 0 && segment.geometry.kind() == SegmentKind::Line && !led);
-        }
-    }
-    assert!(seen > 0);
-}
