@@ -67,7 +67,7 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let slack = NEAR * farthest;
     let gap = !free && beyond.min(-within) >= -slack && beyond.max(-within) <= width + slack;
     // Points as close as these are would lie on the way to a corner far beyond both ends.
-    let way = beyond.max(0.0) + (-within).max(0.0);
+    let way = if beyond.min(-within) > 0.0 { beyond - within } else { 0.0 };
     let passed = way > DETOUR * width
         && way > UNSEEN * a.last_step(true).max(b.last_step(false)).max(3.0 * uncertainty);
     if reach > most || eaten || passed || beyond.abs() > near_a || within.abs() > near_b {

@@ -54,7 +54,10 @@ impl From<DatumError> for Missing {
         match e {
             DatumError::Fit { error: FitError::Cancelled, .. } => Missing::Cancelled,
             DatumError::Zone { error: ZoneError::Cancelled, .. } => Missing::Cancelled,
-            DatumError::Fit { .. } | DatumError::Zone { .. } => Missing::NotMeasured(e.to_string()),
+            // How a part was made is no fault of the plan.
+            DatumError::Fit { .. } | DatumError::Zone { .. } | DatumError::Oblique { .. } => {
+                Missing::NotMeasured(e.to_string())
+            }
             e => Missing::Impossible(e.to_string()),
         }
     }

@@ -238,6 +238,9 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
 fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> Result<Taken, Stop> {
     if taken.points.is_empty() {
         taken.element = Err(match feature.source {
+            Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {
+                "all of its vertices lie on edges, which rim = false leaves out".into()
+            }
             Source::Nominal | Source::Seed(_) => "nothing was measured where the model has it".into(),
             _ => "its file has no points".into(),
         });

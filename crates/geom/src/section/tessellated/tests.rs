@@ -362,7 +362,7 @@ fn few_points_and_wrong_options() {
 fn segments_that_other_points_leave_are_astray() {
     for (off, astray) in [(0.01, vec![]), (0.04, vec![0])] {
         // Points to both sides of a line by turns: of even numbers 0.01 off, of odd ones `off`.
-        let y = |i: usize| if i % 4 < 2 { 1.0 } else { -1.0 } * if i % 2 == 0 { 0.01 } else { off };
+        let y = |i: usize| if i % 4 < 2 { 1.0 } else { -1.0 } * if i.is_multiple_of(2) { 0.01 } else { off };
         let points: Vec<[f64; 2]> = (0..60).map(|i| [i as f64, y(i)]).collect();
         let kept: Vec<usize> = (0..60).step_by(2).collect();
         let found = Contour {

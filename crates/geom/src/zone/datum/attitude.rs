@@ -3,6 +3,7 @@
 use super::source::Datum;
 use crate::rigid::Rigid;
 use crate::space::{Vector, cross, dot, times};
+use std::f64::consts::FRAC_PI_2;
 
 /// Motions that a datum system leaves free, along and about the axes of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,11 +60,15 @@ pub(super) enum Held {
     All([Vector; 3]),
 }
 
-/// The direction nearest to `direction` among those held, or the angle to the first of them.
+/// The direction nearest to `direction` among those held, or the angle to the one that it is least parallel or perpendicular to.
 pub(super) fn nearest(held: &[Vector], direction: Vector) -> Result<Vector, f64> {
     let angle = |v: &Vector| libm::acos(dot(*v, direction).abs().min(1.0));
     match held.iter().find(|v| angle(v) <= AS_DRAWN) {
         Some(v) => Ok(times(dot(*v, direction).signum(), *v)),
-        None => Err(held.last().map_or(0.0, angle)),
+        None => {
+            let oblique = |a: &f64| a.min(FRAC_PI_2 - a);
+            let worst = held.iter().map(angle).max_by(|a, b| oblique(a).total_cmp(&oblique(b)));
+            Err(worst.unwrap_or(0.0))
+        }
     }
 }
