@@ -1,6 +1,6 @@
 //! Models that a search begins with: the lines and arcs of a first partition, joined with a common tangent.
 
-use super::chain::{Chain, Ends, Piece, SegmentKind};
+use super::chain::{Chain, Ends, Piece, SegmentKind, arc_over};
 use super::criterion::Model;
 use super::facets::angle;
 use super::least::{State, Stop};
@@ -98,9 +98,7 @@ impl Search<'_> {
             let (mut i, mut length) = (from, 0.0);
             while i < to - 1 {
                 let j = (i + stride).min(to - 1);
-                let flat = chord(i, j);
-                let bend = (0.5 * part.curvature.abs() * flat).min(0.999);
-                length += if bend > 1e-6 { 2.0 * libm::asin(bend) / part.curvature.abs() } else { flat };
+                length += arc_over(chord(i, j), part.curvature);
                 i = j;
             }
             length.max(2.0 * self.spacing)

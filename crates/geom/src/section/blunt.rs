@@ -4,16 +4,17 @@
 //! The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three neighboring pieces of each
 //! chain are replaced by two lines or arcs with a corner between them, and where that costs less, the chain ends there.
 
-use super::chain::{Chain, Ends, Piece, Pose, SegmentKind, arc_end};
+use super::chain::{Chain, Ends, Piece, Pose, SegmentKind, arc_end, arc_over};
 use super::criterion::{Model, Unknowns};
 use super::doubt::CORNER;
+use super::facets::length;
 use super::least::State;
 use super::plan::{Chains, Plan};
 use super::result::SectionError;
 use super::span::{Found, single};
 use super::start::{Halves, Part, halves};
 use super::task::Span;
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress};
 
 /// Neighboring pieces that two take the place of, at most.
 const PIECES: usize = 3;
@@ -69,7 +70,10 @@ impl Plan<'_> {
         };
         let mut best: Option<(Vec<(Span, State)>, f64)> = None;
         for (blunt, sum) in corners(found) {
-            if self.left.is_spent(0.0) {
+            if progress.cancelled() {
+                return Err(Cancelled.into());
+            }
+            if self.budget.is_spent(0.0) {
                 break;
             }
             let mut states = blunt.states(self, found);
@@ -201,10 +205,6 @@ impl Blunt {
     }
 }
 
-fn length(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
-}
-
 /// The pose of a part at a point.
 fn pose(part: &Part, at: [f64; 2]) -> Pose {
     let [x, y] = part.heading(at);
@@ -215,10 +215,6 @@ fn pose(part: &Part, at: [f64; 2]) -> Pose {
 fn piece(part: &Part, chord: f64) -> Piece {
     match part.kind {
         SegmentKind::Line => Piece::line(chord),
-        _ => {
-            let bend = (0.5 * part.curvature.abs() * chord).min(0.999);
-            let length = if bend > 1e-6 { 2.0 * libm::asin(bend) / part.curvature.abs() } else { chord };
-            Piece::arc(length, part.curvature)
-        }
+        _ => Piece::arc(arc_over(chord, part.curvature), part.curvature),
     }
 }

@@ -198,3 +198,9 @@ pub(super) fn arc_end(length: f64, turn: f64) -> [f64; 2] {
         if turn.abs() < 1e-4 { length * (1.0 - turn * turn / 24.0) } else { length * sin / (0.5 * turn) };
     [chord * cos, chord * sin]
 }
+
+/// Length of an arc over a chord; of chords longer than its diameter about half a turn.
+pub(super) fn arc_over(chord: f64, curvature: f64) -> f64 {
+    let bend = (0.5 * curvature.abs() * chord).min(0.999);
+    if bend > 1e-6 { 2.0 * libm::asin(bend) / curvature.abs() } else { chord }
+}

@@ -68,22 +68,22 @@ pub(super) fn contour_within(
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
     let (hasty, again) = (Cell::new(false), Cell::new(false));
-    let left = &Budget::new(products);
-    let mut found = in_order(ways[0], options, left, Some(&hasty), progress);
+    let budget = &Budget::new(products);
+    let mut found = in_order(ways[0], options, budget, Some(&hasty), progress);
     let mut is_backward = backward;
     // What takes long from one end may be short from the other.
     if hasty.get() && !matches!(found, Err(SectionError::Cancelled(_))) {
-        found = in_order(ways[1], options, left, Some(&again), progress);
+        found = in_order(ways[1], options, budget, Some(&again), progress);
         match again.get() {
-            true => found = in_order(ways[0], options, left, None, progress),
+            true => found = in_order(ways[0], options, budget, None, progress),
             false => is_backward = !backward,
         }
     }
     // A search that ended badly may end well from the other end.
     let doubtful =
-        |found: &Contour| !hasty.get() && is_doubtful(found, points, options) && !left.is_spent(0.0);
+        |found: &Contour| !hasty.get() && is_doubtful(found, points, options) && !budget.is_spent(0.0);
     if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
-        let other = match in_order(ways[1], options, left, None, progress) {
+        let other = match in_order(ways[1], options, budget, None, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             other => other,
         };
@@ -98,7 +98,7 @@ pub(super) fn contour_within(
     let found = found?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
     found.keep_gaps(points);
-    found.cut_short = left.was_cut_short();
+    found.cut_short = budget.was_cut_short();
     found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }
@@ -135,11 +135,11 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
     (found.astray.len(), cost)
 }
 
-/// The contour of a row, found from its first point; `left` and `hasty` as of the search.
+/// The contour of a row, found from its first point; `budget` and `hasty` as of the search.
 fn in_order(
     points: &[[f64; 2]],
     options: &Options,
-    left: &Budget,
+    budget: &Budget,
     hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
@@ -152,19 +152,19 @@ fn in_order(
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
-    let mut chains = Plan { hasty, ..start.plan(options, left) }.chains(&start.parts, progress)?;
+    let mut chains = Plan { hasty, ..start.plan(options, budget) }.chains(&start.parts, progress)?;
     if hasty.is_some_and(Cell::get) {
         // It is of no use.
         return Err(SectionError::Astray);
     }
     let fine = start.fine(options);
     let mut finer = start.finer(options, fine, &chains.founds);
-    while let Some(other) = finer.pop_front().filter(|_| !left.is_spent(0.0)) {
+    while let Some(other) = finer.pop_front().filter(|_| !budget.is_spent(0.0)) {
         let bar = start.cost(&chains.founds);
-        if !promises(&other, options, left, bar, progress)? {
+        if !promises(&other, options, budget, bar, progress)? {
             continue;
         }
-        let found = match other.plan(options, left).chains(&other.parts, progress) {
+        let found = match other.plan(options, budget).chains(&other.parts, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
             Err(_) => continue,
             Ok(found) => found,
@@ -184,7 +184,7 @@ fn in_order(
             (start, chains) = (other, found);
         }
     }
-    let mut found = start.plan(options, left).join(chains)?;
+    let mut found = start.plan(options, budget).join(chains)?;
     // Points that are rounded lie on lines and circles by chance, and about them with a period.
     let is_rounded = found.contour.noise <= ROUNDED * start.clean.rounding;
     if options.noise.is_none() && options.resolution.is_none() && !is_rounded {
@@ -210,14 +210,14 @@ fn is_cornered(contour: &Contour) -> bool {
 fn promises(
     start: &Start,
     options: &Options,
-    left: &Budget,
+    budget: &Budget,
     bar: f64,
     progress: &dyn Progress,
 ) -> Result<bool, SectionError> {
     if bar.is_infinite() {
         return Ok(true);
     }
-    let plan = Plan { draft: true, ..start.plan(options, left) };
+    let plan = Plan { draft: true, ..start.plan(options, budget) };
     match plan.all(&start.parts, progress) {
         Err(SectionError::Cancelled(e)) => Err(e.into()),
         Err(_) => Ok(false),

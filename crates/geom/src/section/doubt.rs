@@ -30,7 +30,9 @@ impl Plan<'_> {
         }
         let mut tried: Vec<[usize; 2]> = vec![];
         for _ in 0..DOUBTED {
-            let Some(first) = self.bluntest(&all, &tried).filter(|_| !self.left.is_spent(0.0)) else { break };
+            let Some(first) = self.bluntest(&all, &tried).filter(|_| !self.budget.is_spent(0.0)) else {
+                break;
+            };
             let next = (first + 1) % all.founds.len();
             let pair = [first, next].map(|k| &all.founds[k]);
             tried.push(pair.map(|f| f.span.numbers[0]));

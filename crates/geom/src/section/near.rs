@@ -110,7 +110,7 @@ impl Near {
             row: self.row(),
             criterion,
             work: Work::default(),
-            left: whole.left,
+            budget: whole.budget,
             hasty: None,
             until: f64::INFINITY,
             ..*whole

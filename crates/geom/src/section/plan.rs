@@ -42,7 +42,7 @@ pub(super) struct Plan<'a> {
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
     /// As of the search, both.
-    pub left: &'a Budget,
+    pub budget: &'a Budget,
     pub hasty: Option<&'a Cell<bool>>,
 }
 
@@ -55,7 +55,7 @@ pub(super) struct Chains {
 
 impl Start {
     /// How chains of its parts are looked for.
-    pub(super) fn plan<'a>(&'a self, options: &'a Options, left: &'a Budget) -> Plan<'a> {
+    pub(super) fn plan<'a>(&'a self, options: &'a Options, budget: &'a Budget) -> Plan<'a> {
         Plan {
             clean: &self.clean,
             weights: &self.weights,
@@ -69,7 +69,7 @@ impl Start {
             known: self.known,
             tangent: self.tangent,
             draft: false,
-            left,
+            budget,
             hasty: None,
         }
     }
@@ -205,7 +205,7 @@ impl Plan<'_> {
             level: self.options.level,
             known: self.known,
             draft: self.draft,
-            left: self.left,
+            budget: self.budget,
             hasty: self.hasty,
         }
     }

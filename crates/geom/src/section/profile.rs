@@ -360,7 +360,7 @@ mod tests {
             spacing: 0.13,
             kinds: [true; 2],
             even: false,
-            left: &Budget::new(f64::INFINITY),
+            budget: &Budget::new(f64::INFINITY),
             hasty: None,
             shortest: 1.0,
             until: f64::INFINITY,

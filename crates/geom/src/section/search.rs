@@ -33,7 +33,7 @@ pub(super) struct Search<'a> {
     /// At joins of free pieces the curvature must not jump.
     pub even: bool,
     /// Products that all searches of a contour may take from now on, those of this one when it ends.
-    pub left: &'a Budget,
+    pub budget: &'a Budget,
     /// Set where the search is given up because it takes long from this end of the row; `None`: it is not given up.
     pub hasty: Option<&'a Cell<bool>>,
     /// Least length of a piece, in distances between points.
@@ -44,20 +44,20 @@ pub(super) struct Search<'a> {
 
 impl Drop for Search<'_> {
     fn drop(&mut self) {
-        self.left.take(self.work.effort);
+        self.budget.take(self.work.effort);
     }
 }
 
 impl Search<'_> {
     /// Whether the searches of the contour have taken what they may.
     pub fn is_spent(&self) -> bool {
-        self.left.is_spent(self.work.effort)
+        self.budget.is_spent(self.work.effort)
     }
 
     /// What is at hand of the last state that was measured.
     pub fn take_work(&mut self) -> Work {
         let effort = std::mem::take(&mut self.work.effort);
-        self.left.take(effort);
+        self.budget.take(effort);
         std::mem::take(&mut self.work)
     }
 
@@ -162,13 +162,13 @@ impl Search<'_> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
-        self.until = self.work.effort + MOST.min(self.left.left());
+        self.until = self.work.effort + MOST.min(self.budget.left());
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
             if self.work.effort > self.until {
-                self.left.cut_short();
+                self.budget.cut_short();
                 break;
             }
             let base = self.base(best.clone());
@@ -287,7 +287,7 @@ impl Search<'_> {
         let own = Unknowns::of(&base.model.state.chain).number;
         for change in base.changes(self.kinds, self.spacing) {
             if self.work.effort > self.until {
-                self.left.cut_short();
+                self.budget.cut_short();
                 break;
             }
             if !is_asked(&change) {

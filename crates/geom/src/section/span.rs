@@ -71,7 +71,7 @@ impl Span {
         let mut best = self.search_from(parts, task, progress)?;
         let mut astray = self.is_astray(&best.state, task);
         for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {
-            if !astray || task.left.is_spent(0.0) {
+            if !astray || task.budget.is_spent(0.0) {
                 break;
             }
             let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;

@@ -34,7 +34,7 @@ pub(super) struct Task<'a> {
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
     /// As of the search, both.
-    pub left: &'a Budget,
+    pub budget: &'a Budget,
     pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
     pub draft: bool,
@@ -58,7 +58,7 @@ impl Span {
             spacing: task.spacing,
             kinds,
             even: task.even,
-            left: task.left,
+            budget: task.budget,
             hasty: task.hasty,
             shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
             until: f64::INFINITY,

@@ -10,6 +10,7 @@ use crate::report::{Up, ViewObject};
 use crate::results::section::{OutlineRecord, SectionDocument};
 use maud::{Markup, html};
 use std::fmt::Write;
+use trueness_geom::section::Segment;
 
 /// Bytes that a measured point takes in the drawing, and a whisker.
 pub const DOT: usize = 26;
@@ -112,7 +113,8 @@ fn thinned(places: &[[f64; 2]], within: f64) -> Vec<[f64; 2]> {
     let mut open = vec![(0, places.len() - 1)];
     (kept[0], kept[places.len() - 1]) = (true, true);
     while let Some((a, b)) = open.pop() {
-        let far = |i: usize| off_chord(places[i], places[a], places[b]);
+        let chord = Segment::straight(places[a], places[b]);
+        let far = |i: usize| chord.nearest(places[i]).distance.abs();
         let Some(worst) = (a + 1..b).max_by(|i, j| far(*i).total_cmp(&far(*j))) else { continue };
         if far(worst) > within {
             kept[worst] = true;
@@ -120,14 +122,6 @@ fn thinned(places: &[[f64; 2]], within: f64) -> Vec<[f64; 2]> {
         }
     }
     places.iter().zip(kept).filter(|(_, kept)| *kept).map(|(p, _)| *p).collect()
-}
-
-/// Distance of a place from a chord.
-fn off_chord(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let ([dx, dy], [x, y]) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let square = dx * dx + dy * dy;
-    let t = if square > 0.0 { ((x * dx + y * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    libm::hypot(x - t * dx, y - t * dy)
 }
 
 /// The outlines of a sheet.
