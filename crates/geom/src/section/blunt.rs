@@ -70,9 +70,6 @@ impl Plan<'_> {
         };
         let mut best: Option<(Vec<(Span, State)>, f64)> = None;
         for (blunt, sum) in corners(found) {
-            if progress.cancelled() {
-                return Err(Cancelled.into());
-            }
             if self.budget.is_spent(0.0) {
                 break;
             }
@@ -80,6 +77,9 @@ impl Plan<'_> {
             let least = best.as_ref().map_or(bar, |(_, cost)| *cost);
             if cost(&states, sum) >= least {
                 continue;
+            }
+            if progress.cancelled() {
+                return Err(Cancelled.into());
             }
             for (span, state) in &mut states {
                 let task = self.task(false, span.points.len() == total, span.points.len());
