@@ -144,6 +144,8 @@ fn several_parts_are_results_of_one_plan() {
     let scan = path("scan.stl");
     let o = trueness(["inspect", &path("plate.toml"), "--measured", &scan, &scan, "--qif", &qif]);
     assert!(status(&o) <= 1, "{}", stderr(&o));
+    // The table of each names it.
+    assert_eq!(stdout(&o).matches(&format!("   {scan}\n")).count(), 2, "{}", stdout(&o));
     let text = std::fs::read_to_string(&qif).unwrap();
     assert_eq!(between(&text, "<MeasurementResults id", ">").len(), 2);
     assert_eq!(between(&text, "<ActualComponent id", ">").len(), 2);

@@ -201,3 +201,46 @@ fn nominal_features_without_sense_are_refused() {
     let lost = Nominal::Sphere { center: [f64::NAN, 0.0, 0.0], radius: 1.0 };
     assert_eq!(refused(lost), FeatureError::NotFinite);
 }
+
+/// A vertex beside the rim, joined to it by a facet so narrow that its noise tilts it: it is of the floor though facets of other surfaces do
+/// not count, and a chamfer as narrow is none of it.
+#[test]
+fn noise_tilts_narrow_facets_out_of_no_plane() {
+    const N: usize = 20;
+    let noise = |i: usize| 0.004 * (1.7 * (i * i % 101) as f64).sin();
+    for (near_rim, belongs) in [(noise(7), true), (0.004, true), (0.1, false)] {
+        let mut mesh = Mesh::default();
+        for i in 0..=N {
+            for j in 0..=N {
+                mesh.positions.push([i as f64, j as f64, noise(i * (N + 1) + j)]);
+            }
+        }
+        let at = |i: usize, j: usize| (i * (N + 1) + j) as u32;
+        for i in 0..N {
+            for j in 0..N {
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                if (i, j) == (N - 1, 10) {
+                    // The vertex lies this close to the rim.
+                    let v = mesh.positions.len() as u32;
+                    mesh.positions.push([N as f64 - 0.01, 10.5, near_rim]);
+                    mesh.faces.extend([[a, b, v], [b, c, v], [c, d, v], [d, a, v]]);
+                } else {
+                    mesh.faces.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+        // A wall at the rim.
+        let low = mesh.positions.len() as u32;
+        mesh.positions.extend((0..=N).map(|j| [N as f64, j as f64, -9.0]));
+        for j in 0..N as u32 {
+            let [a, b] = [at(N, j as usize), at(N, j as usize + 1)];
+            mesh.faces.extend([[a, low + j, low + j + 1], [a, low + j + 1, b]]);
+        }
+        let side = N as f64;
+        let boundary = vec![[0.0; 3], [side, 0.0, 0.0], [side, side, 0.0], [0.0, side, 0.0]];
+        let plane = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+        let near = Nearness { distance: 0.5, angle: 0.26, margin: -0.5, rim: false };
+        let v = ((N + 1) * (N + 1)) as u32;
+        assert_eq!(found(&mesh, &plane, near).points.contains(&v), belongs, "{near_rim}");
+    }
+}

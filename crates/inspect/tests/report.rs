@@ -149,7 +149,7 @@ fn inspect_page(options: &ReportOptions) -> Vec<u8> {
         "characteristics": [
             characteristic("1", "flatness", "⏥", "pass", 0.01),
             characteristic("2", "cylindricity", "⌭", "fail", 0.06),
-            characteristic("3", "texture", "", "fail", 0.08),
+            characteristic("3", "texture", "", "fail", 0.050004),
         ],
     }))
     .unwrap();
@@ -172,6 +172,8 @@ fn an_inspection_says_first_what_fails_and_what_it_is_called() {
     // Signs are drawn, whatever fonts there are.
     assert_eq!(body.matches("<svg class=\"gdt\"").count(), 2);
     assert!(!body.contains(['⏥', '⌭']));
+    // A value just beyond its limit does not look like it.
+    assert!(body.contains("0.050004") && body.contains("0.0600") && !body.contains("0.060000"));
 }
 
 /// The manifest that a page carries.

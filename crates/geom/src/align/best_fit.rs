@@ -6,13 +6,13 @@ use super::start::{Candidate, Search};
 use super::system::Spectrum;
 use super::work::{PART, RIVAL, SOON, Work};
 use super::{
-    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
+    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near, wall,
 };
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, cross, dot, norm};
+use crate::space::{Aabb, cross, dot, norm, times};
 
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
 const FEW: usize = 400;
@@ -290,7 +290,9 @@ impl Work<'_> {
         }
         let facets = all.system_of_facets(&matches, pose);
         let of_facets = Spectrum::of(&facets);
-        let free = freedom::count(&self.problem(some), &facets, &of_facets, pose, progress)?;
+        let some = self.problem(some);
+        let free = freedom::count(&some, &facets, &of_facets, pose, progress)?;
+        let barely = freedom::barely_held(&some, &system, (&facets, &of_facets), free, pose, progress)?;
         // What is free is told by the facets; edges of a faceted cylinder would hold it.
         let spectrum = if free > 0 { Spectrum::of(&facets) } else { Spectrum::of(&system) };
         let used = matches.iter().filter(|m| m.equation.weight > 0.0).count();
@@ -306,7 +308,7 @@ impl Work<'_> {
             used: used as u64,
             left_out: (matches.len() - used) as u64,
             share: system.weight.min(1.0),
-            covariance: freedom::covariance(&system, &spectrum, &matches, free),
+            covariance: freedom::covariance(&system, &spectrum, &matches, free, &barely),
             center: system.center,
             condition: (free == 0).then(|| spectrum.values[5] / spectrum.values[0]),
             freedoms: freedom::named(&facets, &of_facets, free),
@@ -315,8 +317,8 @@ impl Work<'_> {
         })
     }
 
-    /// Other poses that fit about as well: where it lies, the other starts, and turns of the kind that common symmetries
-    /// have. What the freedom of the shape allows is no other pose.
+    /// Other poses that fit about as well: where it lies, the other starts, turns of the kind that common symmetries
+    /// have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
     fn alternatives(
         &self,
         search: &Search,
@@ -336,6 +338,8 @@ impl Work<'_> {
         let cap = self.cap(1.4826 * result.median);
         let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
         let (own, own_few, own_part) = (own?, own_few?, own_part?);
+        let floor = self.rounding * self.rounding * 256.0;
+        let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
         let mut found: Vec<Alternative> = vec![];
         for (_, other) in search.refine(&candidates, search.worth(&pose), &few, progress)? {
             // With few samples first, then with a part of them: most are far worse.
@@ -351,13 +355,32 @@ impl Work<'_> {
             }
             let other = problem.run(other, reach, 30, progress)?.pose;
             let cost = problem.cost(&other, cap, progress)?;
-            let floor = self.rounding * self.rounding * 256.0;
-            let ratio = ((cost + floor) / (own + floor)).sqrt();
+            let ratio = ratio(cost);
             let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
             let between = other.after(&pose.inverse());
             let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
             if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
                 found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
+            }
+        }
+        if !search.samples.oriented
+            && let Some(through) = wall::through(&few, &pose, progress)?
+        {
+            let bases: Vec<Rigid> =
+                std::iter::once(pose).chain(found.iter().map(|f| f.reference_from_measured)).collect();
+            for base in bases.iter().take(BRIEF) {
+                // From the other side of the wall the way through it is the opposite one.
+                for sign in [1.0, -1.0] {
+                    let other = Rigid::translation_by(times(sign, through)).after(base);
+                    let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
+                    let ratio = ratio(problem.cost(&other, cap, progress)?);
+                    let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
+                    let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
+                    if ratio <= AS_WELL && new {
+                        let angle = other.after(&pose.inverse()).angle();
+                        found.push(Alternative { reference_from_measured: other, angle, ratio });
+                    }
+                }
             }
         }
         found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));

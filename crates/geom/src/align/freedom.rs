@@ -62,6 +62,54 @@ pub(super) fn count(
     Ok(6)
 }
 
+/// Distances from which on none counts for more where it is asked how far a pose may move, in standard deviations.
+const CAP: f64 = 6.0;
+/// How often the interval in which a motion begins to cost is halved.
+const HALVINGS: usize = 8;
+
+/// The motions that facets hardly hold though they are not free, unit directions of the spectrum, each with how far the pose may move along
+/// it, to the side where it may move farther, until the likelihood falls by the factor of one standard deviation. Points of a single face
+/// are held by its rim: those that lie beyond it, and only once they do. The equations at the pose know of the few that do there, or of none.
+pub(super) fn barely_held(
+    problem: &Problem,
+    system: &System,
+    (facets, spectrum): (&System, &Spectrum),
+    free: usize,
+    pose: &Rigid,
+    progress: &dyn Progress,
+) -> Result<Vec<(Six, f64)>, AlignError> {
+    let hardly = |k: &usize| spectrum.values[*k] / facets.weight < HELD;
+    let directions: Vec<usize> = (free..6).take_while(hardly).collect();
+    let (sigma, count) = (system.rms(), system.count());
+    if directions.is_empty() || sigma <= problem.rounding {
+        return Ok(vec![]);
+    }
+    let cap = CAP * sigma;
+    let least = problem.cost(pose, cap, progress)?;
+    let most = TRIED * facets.radius;
+    let mut all = vec![];
+    for k in directions {
+        let mut widest = 0.0_f64;
+        for sign in [-1.0, 1.0] {
+            let costs = |way: f64| -> Result<bool, AlignError> {
+                let motion = moved(facets, &spectrum.vectors[k].map(|x| sign * way * x));
+                Ok(count * (problem.cost(&motion.after(pose), cap, progress)? - least) > sigma * sigma)
+            };
+            let (mut low, mut high) = (0.0, (sigma / count.sqrt()).max(problem.rounding));
+            while high < most && !costs(high)? {
+                (low, high) = (high, 2.0 * high);
+            }
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                if costs(middle)? { high = middle } else { low = middle }
+            }
+            widest = widest.max(high);
+        }
+        all.push((spectrum.vectors[k], widest));
+    }
+    Ok(all)
+}
+
 /// Mean square distance of the samples that have a place within `reach`.
 fn mean_square(
     problem: &Problem,
@@ -122,13 +170,19 @@ fn forward(d: Vector) -> Vector {
 const CELLS: f64 = 4.0;
 
 /// Covariance of the six unknowns (rotation vector about the center of the system, radians; translation, mm), none along
-/// the first `free` directions.
+/// the first `free` directions; along those that are `barely` held at least as uncertain as how far they may move.
 ///
 /// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one
 /// cell of space are therefore taken for one observation (cluster-robust covariance: Liang, Zeger, Longitudinal data
 /// analysis using generalized linear models, Biometrika 73, 1986): right for independent residuals as well as for
 /// correlated ones, as long as their range is below the cells' size, a quarter of the points' radius.
-pub(super) fn covariance(system: &System, spectrum: &Spectrum, matches: &[Match], free: usize) -> SixBySix {
+pub(super) fn covariance(
+    system: &System,
+    spectrum: &Spectrum,
+    matches: &[Match],
+    free: usize,
+    barely: &[(Six, f64)],
+) -> SixBySix {
     let mut cells: BTreeMap<[i64; 3], Six> = BTreeMap::new();
     for m in matches.iter().filter(|m| m.equation.weight > 0.0) {
         let e = &m.equation;
@@ -150,6 +204,25 @@ pub(super) fn covariance(system: &System, spectrum: &Spectrum, matches: &[Match]
     let count = cells.len() as f64;
     let few = count / (count - 6.0).max(1.0);
     let mut out = spectrum.sandwich(&middle, free);
+    let along = |m: &SixBySix, v: &Six| -> f64 {
+        (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| v[i] * m[i][j] * v[j]).sum()
+    };
+    if !barely.is_empty() {
+        // How many times the variance is that of independent residuals, along what is held well.
+        let alone =
+            |k: usize| system.rms() * system.rms() / system.count() * system.weight / spectrum.values[k];
+        let held = (free..6).filter(|&k| spectrum.values[k] >= HELD * system.weight);
+        let ratios: Vec<f64> = held.map(|k| along(&out, &spectrum.vectors[k]) / alone(k)).collect();
+        let together = (ratios.iter().sum::<f64>() / ratios.len().max(1) as f64).max(1.0);
+        for (v, way) in barely {
+            let more = (together * way * way - along(&out, v)).max(0.0);
+            for i in 0..6 {
+                for j in 0..6 {
+                    out[i][j] += more * v[i] * v[j];
+                }
+            }
+        }
+    }
     let unit = |k: usize| if k < 3 { 1.0 / system.radius } else { 1.0 };
     for i in 0..6 {
         for j in 0..6 {

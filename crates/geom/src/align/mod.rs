@@ -13,7 +13,7 @@
 //!    on a grid of distances about the reference; the best are refined on a few hundred samples.
 //! 2. *Iteration* (`icp`, `system`): closest points and small motions, the whole surface, area-weighted, normals compatible,
 //!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
-//! 3. *What the result is worth* (`freedom`): covariance, freedom that the shape leaves, other poses that fit as well.
+//! 3. *What the result is worth* (`freedom`, `wall`): covariance, freedom that the shape leaves, other poses that fit as well.
 //!
 //! All answers are the same for any number of threads; random choices depend on the seed alone.
 
@@ -37,6 +37,7 @@ mod system;
 mod target;
 #[cfg(test)]
 mod tests;
+mod wall;
 mod work;
 mod zones;
 

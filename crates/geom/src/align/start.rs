@@ -373,7 +373,8 @@ impl Search {
     }
 
     /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the
-    /// principal axes of the reference by halves, thirds, … twelfths, and by the turns of a cube.
+    /// principal axes of the reference by halves, thirds, … twelfths, and by the turns of a cube; and about those of the measured by
+    /// quarters and halves: a part of a surface may have symmetries that the whole does not.
     pub fn symmetric(&self, pose: &Rigid) -> Vec<Candidate> {
         let center = self.known.moments.mean;
         let turn = |axis: Vector, angle: f64| Rigid::rotation_about(center, times(angle, axis)).after(pose);
@@ -387,6 +388,11 @@ impl Search {
             let next = self.known.moments.axes.map(|a| cross(axis, a)).into_iter().filter(|a| norm(*a) > 0.5);
             let halves = next.map(|a| times(std::f64::consts::FRAC_1_SQRT_2, plus(axis, a)));
             all.extend(halves.map(|a| turn(a, std::f64::consts::PI)));
+        }
+        let middle = pose.point(self.measured.mean);
+        for axis in self.measured.axes.map(|a| pose.vector(a)) {
+            let quarters = [1.0, 2.0, 3.0].map(|k| times(0.5 * k * std::f64::consts::PI, axis));
+            all.extend(quarters.map(|q| Rigid::rotation_about(middle, q).after(pose)));
         }
         let found = all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) });
         let enough = 0.8 * self.worth(pose);

@@ -1,12 +1,18 @@
 //! The facets of a mesh that belong to nominal features.
 
-use super::rules::Rules;
+use super::rules::{Rules, places};
 use super::{FeatureError, Found, Nearness, Nominal};
 use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Point, cross, minus, norm, normal};
+
+/// Facets of a feature that tell how far the places of one differ in height.
+const ASKED: usize = 4096;
+/// So many times their median is noise: the difference of three normal numbers is 1.6 standard deviations in the middle, and five in one of a
+/// thousand.
+const NOISE: f64 = 3.0;
 
 /// A mesh in which features are sought, with what every search needs: made once for all of them.
 pub struct FeatureSearch<'a> {
@@ -106,8 +112,64 @@ impl<'a> FeatureSearch<'a> {
         }
         // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
         let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c, normal(c)));
-        self.enclosed(&mut found, beside, is_near, progress)?;
+        self.enclosed(&mut found, &beside, is_near, progress)?;
+        self.slivers(&mut found, &beside, nominal, is_near);
         Ok(self.with_points(&found, near.rim))
+    }
+
+    /// The vertices, ascending, of dents and bumps of what was `found` of `nominal` that are deeper than `near` allows: of facets with the
+    /// feature all around them, none a wall that leads away from it, all within `reach` of it. None of them is part of the feature, which is
+    /// the better for it.
+    ///
+    /// # Errors
+    /// As of [`FeatureSearch::find`].
+    ///
+    /// ```
+    /// use trueness_geom::closest::Tree;
+    /// use trueness_geom::feature::{FeatureSearch, Nearness, Nominal};
+    /// use trueness_geom::mesh::Mesh;
+    /// // A floor of 4 by 4 squares whose middle is 2 deep.
+    /// let at = |i: u32, j: u32| 5 * i + j;
+    /// let mut positions: Vec<[f64; 3]> = (0..25).map(|v| [f64::from(v / 5), f64::from(v % 5), 0.0]).collect();
+    /// positions[12][2] = -2.0;
+    /// let square = |i, j| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]];
+    /// let faces = (0..4).flat_map(|i| (0..4).flat_map(move |j| square(i, j))).collect();
+    /// let mesh = Mesh { positions, faces };
+    /// let boundary = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
+    /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
+    /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
+    /// assert!(!found.points.contains(&12));
+    /// assert_eq!(search.deeper(&found, &floor, &near, 3.0, &trueness_geom::progress::Silent)?, [12]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn deeper(
+        &self,
+        found: &Found,
+        nominal: &Nominal,
+        near: &Nearness,
+        reach: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<u32>, FeatureError> {
+        let Some(surface) = nominal.surface() else { return Ok(vec![]) };
+        let wide = Nearness { distance: reach.max(near.distance), ..*near };
+        let rules = Rules::new(nominal, &wide)?;
+        let mut own = Marked::new(self.mesh.faces.len());
+        found.facets.iter().for_each(|f| own.add(*f));
+        let all = found.facets.iter().flat_map(|f| [0, 1, 2].map(|k| (*f, k)));
+        let beside: Vec<u32> = all.flat_map(|(f, k)| self.across(f, k)).filter(|f| !own.has(*f)).collect();
+        let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c, normal(c)));
+        let mut with_deeper = Marked::new(self.mesh.faces.len());
+        found.facets.iter().for_each(|f| with_deeper.add(*f));
+        self.enclosed(&mut with_deeper, &beside, is_near, progress)?;
+        let mut vertices: Vec<u32> =
+            with_deeper.all().filter(|f| !own.has(*f)).flat_map(|f| self.mesh.faces[f as usize]).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let off = |v: &u32| surface.distance(self.mesh.positions[*v as usize]).map_or(0.0, |d| d.0.abs());
+        vertices.retain(|v| off(v) > near.distance);
+        Ok(vertices)
     }
 
     fn corners(&self, f: u32) -> Option<[Point; 3]> {
@@ -127,12 +189,12 @@ impl<'a> FeatureSearch<'a> {
     fn enclosed(
         &self,
         found: &mut Marked,
-        beside: Vec<u32>,
+        beside: &[u32],
         is_near: impl Fn(u32) -> bool,
         progress: &dyn Progress,
     ) -> Result<(), FeatureError> {
         let mut seen = Marked::new(self.mesh.faces.len());
-        for start in beside {
+        for start in beside.iter().copied() {
             if found.has(start) || seen.has(start) || !is_near(start) {
                 continue;
             }
@@ -164,6 +226,28 @@ impl<'a> FeatureSearch<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Adds those of the facets beside that are so narrow that noise alone may have tilted them: their places differ in height above the
+    /// nominal by no more than those of facets of the feature do.
+    fn slivers(&self, found: &mut Marked, beside: &[u32], nominal: &Nominal, is_near: impl Fn(u32) -> bool) {
+        let Some(surface) = nominal.surface() else { return };
+        let rise = |f: u32| -> Option<f64> {
+            let heights =
+                places(self.corners(f)?).into_iter().filter_map(|p| surface.distance(p)).map(|d| d.0);
+            let (low, high) =
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            Some(high - low)
+        };
+        let step = found.count.div_ceil(ASKED);
+        let mut rises: Vec<f64> = found.all().step_by(step.max(1)).filter_map(rise).collect();
+        rises.sort_unstable_by(f64::total_cmp);
+        let Some(usual) = rises.get(rises.len() / 2) else { return };
+        for f in beside.iter().copied() {
+            if !found.has(f) && is_near(f) && rise(f).is_some_and(|r| r <= NOISE * usual) {
+                found.add(f);
+            }
+        }
     }
 
     /// These facets with their vertices; those that others share only with `rim`.

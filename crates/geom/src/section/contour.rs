@@ -197,7 +197,12 @@ fn in_order(
         return Ok(other.whole(points.len()));
     }
     found.finish(&start.clean, start.turned, points.len(), start.outliers);
-    Ok(found.contour)
+    let mut contour = found.contour;
+    // Outliers were brought in for the search: they are as far off as they lie.
+    for k in contour.outliers.clone() {
+        contour.residuals[k] = contour.segments[contour.labels[k] as usize].nearest(points[k]).distance;
+    }
+    Ok(contour)
 }
 
 /// Whether segments do not run along their points, or join in corners.

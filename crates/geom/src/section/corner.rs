@@ -13,6 +13,9 @@ const LOCAL: f64 = 5.0;
 /// A corner takes less than this share of the way along a segment's points: the other end may take as much.
 const SHORTEST: f64 = 0.45;
 
+/// From where the points of a side end so small a share of the gap between both sides is no way at all.
+const AT_END: f64 = 0.05;
+
 /// The way to a corner and back is so many times as long as that from point to point, and so many times as long as the steps between the points
 /// before it, where points would lie on it.
 const DETOUR: f64 = 2.0;
@@ -23,6 +26,7 @@ const UNSEEN: f64 = 1.5;
 pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
     let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
     let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
+    let is_wide = width > NEAR * farthest;
     let farthest = farthest.max(width);
     let (mut u, mut v) = (0.0, 0.0);
     let (mut p, mut q) = (a.beyond(true, 0.0), b.beyond(false, 0.0));
@@ -61,6 +65,12 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     };
     let (near_a, near_b) = (near(a, true), near(b, false));
     let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
+    // A corner where the points of the one side end is told by these, however wide the gap to the points of the other is.
+    let ends_there = |way: f64, f: &Found| {
+        is_wide && way.abs() <= (3.0 * libm::hypot(uncertainty, f.noise)).min(AT_END * width)
+    };
+    let far = |way: f64, near: f64, other: bool| way.abs() > near && !other;
+    let is_far = far(beyond, near_a, ends_there(within, b)) || far(within, near_b, ends_there(beyond, a));
     let eaten = -beyond > SHORTEST * a.extent(true) || within > SHORTEST * b.extent(false);
     // Both go on to meet within a gap of the points: that is where they were drawn to, but nothing tells.
     let free = [a.end_kind(true), b.end_kind(false)].contains(&SegmentKind::Spline);
@@ -70,7 +80,7 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let way = if beyond.min(-within) > 0.0 { beyond - within } else { 0.0 };
     let passed = way > DETOUR * width
         && way > UNSEEN * a.last_step(true).max(b.last_step(false)).max(3.0 * uncertainty);
-    if reach > most || eaten || passed || beyond.abs() > near_a || within.abs() > near_b {
+    if reach > most || eaten || passed || is_far {
         let hidden = between(feet, turn, uncertainty.min(most));
         return if gap && !passed && reach <= most { Join { point, ..hidden } } else { hidden };
     }

@@ -122,6 +122,7 @@ impl Start {
         for i in &start.outliers {
             start.weights[*i] = 0.0;
         }
+        start.clean.bring_in(&start.outliers);
         for _ in 0..PASSES {
             start.divide(FEWEST);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.

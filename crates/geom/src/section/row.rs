@@ -148,6 +148,29 @@ impl Clean {
         (0..n).filter(|i| out[*i]).collect()
     }
 
+    /// Puts outliers, ascending, on the straight way between the points beside them: they count nothing, and nothing that begins or ends
+    /// with one is to be led there.
+    pub fn bring_in(&mut self, outliers: &[usize]) {
+        let n = self.points.len();
+        let is_out = |i: &usize| outliers.binary_search(i).is_ok();
+        for &i in outliers {
+            let (most_back, most_on) = if self.closed { (n - 1, n - 1) } else { (i, n - 1 - i) };
+            let before = (1..=most_back).find(|k| !is_out(&((i + n - k) % n)));
+            let behind = (1..=most_on).find(|k| !is_out(&((i + k) % n)));
+            let back = |k: usize| self.points[(i + n - k) % n];
+            let on = |k: usize| self.points[(i + k) % n];
+            self.points[i] = match (before, behind) {
+                (Some(b), Some(c)) => {
+                    let (from, to, share) = (back(b), on(c), b as f64 / (b + c) as f64);
+                    [0, 1].map(|k| from[k] + share * (to[k] - from[k]))
+                }
+                (Some(b), None) => back(b),
+                (None, Some(c)) => on(c),
+                (None, None) => continue,
+            };
+        }
+    }
+
     /// Whether a point and its neighbors lie on two lines, as they do around a corner: there a parabola through the neighbors
     /// passes the corner by. An outlier lies in one of the two groups with four others at least, and leaves 0.4 of its square
     /// there.

@@ -1,8 +1,9 @@
 //! Measured points that a feature leaves out as too far off, although they lie where the reference has it.
 //!
 //! A dent deeper than the extract distance is no part of its feature, and the feature is the better for it. Where the
-//! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Of a cloud without a
-//! reference those are told that lie over places of the feature where nothing of it was measured, or among its points.
+//! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Without a reference those are told, of a
+//! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh, those of dents and bumps that it has
+//! all around them.
 
 use super::belonging::{Belonging, ELSEWHERE};
 use super::data::{Data, Stop};
@@ -12,7 +13,8 @@ use crate::characteristic::{LeftOut, Taken, Value};
 use crate::plan::{Plan, Spec};
 use crate::results::Verdict;
 use std::collections::BTreeMap;
-use trueness_geom::feature::{Nearness, Nominal, in_cloud};
+use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal, in_cloud};
+use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, Vector, minus, times};
 use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
@@ -25,7 +27,7 @@ const OWN: usize = 6;
 /// than so many others beyond reach.
 const OTHERS: usize = 3;
 
-/// Tells the features which points they leave out. Of a mesh without a reference there is nothing to tell.
+/// Tells the features which points they leave out; [`deeper`] has told those of a mesh without a reference.
 ///
 /// Cost: one look at each measured point for each feature, and a search for those over or below it.
 pub(super) fn tell(
@@ -52,12 +54,32 @@ pub(super) fn tell(
             _ => vec![],
         };
         if !off.is_empty() {
-            let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-            let (points, on_reference) = (off.len() as u64, belonging.is_some());
-            features[n].left_out = Some(LeftOut { points, farthest, limit: near.distance, on_reference });
+            features[n].left_out = Some(left_out(&off, &near, belonging.is_some()));
         }
     }
     if progress.cancelled() { Err(Stop::Cancelled) } else { Ok(()) }
+}
+
+/// Of points so far off.
+fn left_out(off: &[f64], near: &Nearness, on_reference: bool) -> LeftOut {
+    let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
+    LeftOut { points: off.len() as u64, farthest, limit: near.distance, on_reference }
+}
+
+/// What a feature that was found in a mesh leaves out of its dents and bumps, up to a tenth of the size of the mesh.
+pub(super) fn deeper(
+    mesh: &Mesh,
+    facets: &FeatureSearch,
+    found: &Found,
+    (nominal, near): (&Nominal, &Nearness),
+    progress: &dyn Progress,
+) -> Result<Option<LeftOut>, FeatureError> {
+    let Some(surface) = nominal.surface() else { return Ok(None) };
+    let reach = ELSEWHERE * mesh.bounds().diagonal();
+    let deep = facets.deeper(found, nominal, near, reach, progress)?;
+    let off = deep.iter().filter_map(|v| surface.distance(*mesh.positions.get(*v as usize)?));
+    let off: Vec<f64> = off.map(|(off, _)| off.abs()).collect();
+    Ok((!off.is_empty()).then(|| left_out(&off, near, false)))
 }
 
 /// How far off the points of a cloud are that lie beyond the reach of a nominal, up to a tenth of the size of the cloud, over
@@ -170,7 +192,6 @@ mod tests {
     use super::*;
     use crate::inspection::run;
     use crate::results::inspect::{InspectDocument, PlanRecord};
-    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
 
     /// A floor of squares, 20 by 20.
@@ -217,13 +238,14 @@ mod tests {
             (9.0, Verdict::Pass, None),
         ];
         for (height, expected, left_out) in cases {
-            for cloud in [false, true] {
+            for (cloud, with_reference) in [(false, true), (true, true), (false, false)] {
                 let mut measured = floor();
                 measured.positions[10 * 21 + 10][2] = height;
                 if cloud {
                     measured.faces.clear();
                 }
-                let data = Data { measured: Some(measured), reference: Some(floor()), ..Data::default() };
+                let reference = with_reference.then(floor);
+                let data = Data { measured: Some(measured), reference, ..Data::default() };
                 let found = run(&plan, data, &Silent).unwrap();
                 assert_eq!(found.features[0].left_out.map(|l| l.points), left_out, "{height} {cloud}");
                 let record = PlanRecord { path: String::new(), sha256: None };

@@ -2,6 +2,7 @@
 
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
+use super::left_out;
 use super::seed::Seeded;
 use crate::characteristic::{Element, Others, Taken};
 use crate::plan::text::DerivedWord;
@@ -200,10 +201,14 @@ fn found(
         Some(facets) => facets.find(&nominal, &near, progress),
         None => in_cloud(&mesh.positions, &nominal, &near),
     };
-    let mut found = found.map_err(|e| match e {
+    let stop = |e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
-    })?;
+    };
+    let mut found = found.map_err(stop)?;
+    if let (Some(facets), None) = (search.facets, search.belonging) {
+        taken.left_out = left_out::deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
+    }
     if let Some(cloud) = search.cloud {
         let with = (cloud, search.belonging);
         taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;

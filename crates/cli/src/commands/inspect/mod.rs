@@ -108,7 +108,7 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
     let mut documents = Vec::new();
     for part in args.parts() {
         let document = inspect(args, &plan, part, common)?;
-        args.document.table(|| table::table(&document))?;
+        args.document.table(|| table::table(&document, args.measured.len() > 1))?;
         documents.push(document);
     }
     if let Some(path) = &args.csv {

@@ -1,5 +1,6 @@
 //! The document of an inspection for people.
 
+use super::lists::part;
 use crate::commands::compare::{along, coverage, outliers, regions};
 use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, signed, six_digits};
@@ -8,11 +9,13 @@ use std::fmt::Write;
 use trueness_inspect::results::compare::Comparison;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
-/// The document for people.
-pub fn table(document: &InspectDocument) -> String {
+/// The document for people; of one of several parts it names the part.
+pub fn table(document: &InspectDocument, one_of_several: bool) -> String {
     let mut out = read::notes(&document.inputs);
-    if let Some(title) = &document.title {
-        let _ = writeln!(out, "{title}");
+    let part = one_of_several.then(|| part(document).to_owned());
+    let heading: Vec<String> = document.title.iter().cloned().chain(part).collect();
+    if !heading.is_empty() {
+        let _ = writeln!(out, "{}", heading.join("   "));
     }
     let alignment = &document.alignment;
     if let Some(rms) = alignment.rms {

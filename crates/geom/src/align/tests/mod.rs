@@ -6,4 +6,5 @@ mod parts;
 mod poses;
 mod response;
 mod rows;
+mod wall;
 mod zones;

@@ -93,6 +93,12 @@ pub fn moved(mesh: &Mesh, motion: &Rigid) -> Mesh {
     Mesh { positions: mesh.positions.iter().map(|p| motion.point(*p)).collect(), faces: mesh.faces.clone() }
 }
 
+/// A normal deviate (Box and Muller).
+pub fn normal(random: &mut Random) -> f64 {
+    let (u, v) = (1.0 - random.unit(), random.unit());
+    (-2.0 * libm::log(u)).sqrt() * libm::cos(std::f64::consts::TAU * v)
+}
+
 /// A rotation, every one equally likely, with a shift of up to `reach` each way.
 pub fn random_pose(random: &mut Random, reach: f64) -> Rigid {
     let q = loop {

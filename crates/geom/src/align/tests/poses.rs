@@ -1,6 +1,6 @@
 //! Poses found from anywhere.
 
-use super::parts::{block, bracket, moved, random_pose, turned};
+use super::parts::{block, bracket, moved, normal, random_pose, turned};
 use crate::align::{
     AlignError, AlignWarning, Alignment, BestFit, Freedom, Measured, Start, Target, best_fit,
 };
@@ -326,14 +326,10 @@ fn noise_and_uncertainty_agree() {
     let target = Target::new(&reference, &tree);
     let random = &mut Random::new(12);
     let clean = bracket(2.5);
-    let mut normal = || {
-        let (u, v) = (1.0 - random.unit(), random.unit());
-        (-2.0 * libm::log(u)).sqrt() * libm::cos(std::f64::consts::TAU * v)
-    };
     let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
     let (mut sum, trials) = (0.0, 60);
     for _ in 0..trials {
-        let noisy = clean.positions.iter().map(|p| p.map(|x| x + 0.01 * normal())).collect();
+        let noisy = clean.positions.iter().map(|p| p.map(|x| x + 0.01 * normal(random))).collect();
         let scan = Mesh { positions: noisy, faces: clean.faces.clone() };
         let found = best_fit(&Measured::Mesh(&scan), &target, &options, &Silent).unwrap();
         let pose = found.reference_from_measured;

@@ -44,6 +44,7 @@ fn a_thread_is_its_flanks_crests_and_roots() {
         let contour = found(&thread_row(20.0, 3000, 0.002, seed));
         assert!((contour.noise / 0.002 - 1.0).abs() < 0.06, "{}", contour.noise);
         assert_eq!(kinds(&contour), expected);
+        assert!(contour.astray.is_empty(), "{:?}", contour.astray);
         let mut s = 0.0;
         for (k, join) in contour.joins.iter().enumerate() {
             s += if k % 2 == 0 { 1.5 } else { FRAC_PI_3 };
@@ -58,6 +59,27 @@ fn a_thread_is_its_flanks_crests_and_roots() {
     }
     // Of 237 joins 12 are expected outside of 95 % intervals, less than 4 or more than 23 in one draw of a hundred.
     assert!((3..=24).contains(&missed), "{missed}");
+}
+
+/// An outlier that is the first or the last point of a segment turns none round, and has its own distance.
+#[test]
+fn an_outlier_where_two_segments_join_turns_neither_round() {
+    let (pitches, count) = (6.0, 900);
+    let step = pitches * 2.0 * (1.5 + FRAC_PI_3) / f64::from(count);
+    for join in [5, 6, 7, 8] {
+        let length = (0..join).map(|k| if k % 2 == 0 { 1.5 } else { FRAC_PI_3 }).sum::<f64>();
+        for beside in [-1, 0] {
+            let mut row = thread_row(pitches, count as usize, 0.002, 7);
+            let wild = ((length / step).ceil() as i32 + beside) as usize;
+            row[wild] = row[wild + 50];
+            row[wild][0] += 0.1;
+            let contour = found(&row);
+            assert!(contour.astray.is_empty(), "{join} {beside}: {:?}", contour.astray);
+            assert_eq!((contour.segments.len(), &contour.outliers), (24, &vec![wild]), "{join} {beside}");
+            assert!(contour.joins.iter().all(|j| j.uncertainty < 0.01), "{join} {beside}");
+            assert!(contour.residuals[wild].abs() > 0.1, "{join} {beside}: {}", contour.residuals[wild]);
+        }
+    }
 }
 
 /// A spiral of many turns is smooth: its turns do not become lines and arcs by the hundred, and none is astray.

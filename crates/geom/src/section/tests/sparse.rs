@@ -153,3 +153,26 @@ fn no_corner_lies_beyond_a_blunt_tip() {
         assert!(join.point[0] < 0.1 && join.open == [true; 2], "{flat}: {join:?}");
     }
 }
+
+/// Points of the one side that end at the corner tell it, where those of the other begin only after a wide gap; where both end
+/// before it, the gap is the uncertainty.
+#[test]
+fn a_corner_beside_a_gap_is_told_by_the_side_that_reaches_it() {
+    for seed in 0..6 {
+        for (end, told) in [(0, true), (6, false)] {
+            let random = &mut Random::new(seed);
+            let down = (end..40).rev().map(|i| [0.0, f64::from(i)]);
+            let along = (15..60).map(|i| [f64::from(i), 0.0]);
+            let noisy: Vec<[f64; 2]> =
+                down.chain(along).map(|p| p.map(|x| x + 0.005 * normal(random))).collect();
+            let found = found(&noisy);
+            assert_eq!(found.segments.len(), 2, "{end} {seed}");
+            let join = &found.joins[0];
+            let off = libm::hypot(join.point[0], join.point[1]);
+            match told {
+                true => assert!(off < 5.0 * join.uncertainty && join.uncertainty < 0.01, "{seed}: {join:?}"),
+                false => assert!(join.uncertainty > 1.0 && join.open == [true; 2], "{seed}: {join:?}"),
+            }
+        }
+    }
+}

@@ -232,9 +232,20 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
     }
 }
 
+/// Digits after the point of value and limits: so many that a value which is not a limit does not look like it.
 fn digits(c: &CharacteristicRecord) -> usize {
-    if c.unit == "mm" { 4 } else { 3 }
+    let least = if c.unit == "mm" { 4 } else { 3 };
+    let alike = |n: usize| {
+        let unit = 10f64.powi(n as i32);
+        let is_like =
+            |limit: f64| c.value.is_some_and(|v| v != limit && (v * unit).round() == (limit * unit).round());
+        c.lower.is_some_and(is_like) || is_like(c.upper)
+    };
+    (least..MOST_DIGITS).find(|n| !alike(*n)).unwrap_or(MOST_DIGITS)
 }
+
+/// More digits after the point tell nothing.
+const MOST_DIGITS: usize = 9;
 
 fn allowed(s: Style, c: &CharacteristicRecord) -> Markup {
     let limit = |x| s.number(x, digits(c));
