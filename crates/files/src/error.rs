@@ -108,7 +108,7 @@ pub enum Fault {
     #[error("the gzip data are damaged: {0}")]
     Gzip(io::Error),
     /// A feature of the format that is not read.
-    #[error("{what} {remedy}")]
+    #[error("{what}")]
     Unsupported {
         /// What it is.
         what: String,
@@ -226,14 +226,15 @@ impl Fault {
             Fault::TooMany { .. } => "divide the file into parts",
             Fault::Bomb { .. } => "if it is trustworthy, unpack it first",
             Fault::Gzip(_) => "copy the file again or unpack it first",
-            Fault::Unsupported { .. } => "export it in another way",
             Fault::NoTable(_) => "leave --columns out",
             Fault::NoNormals(_) => {
                 "give the points as PLY with nx, ny, nz or as a table with such columns, or a mesh"
             }
             Fault::WeldTooFar { .. } => "give --weld a smaller distance, or the right unit to --units",
             Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
-            Fault::Cell { remedy, .. } | Fault::Unclear { remedy, .. } => remedy,
+            Fault::Unsupported { remedy, .. }
+            | Fault::Cell { remedy, .. }
+            | Fault::Unclear { remedy, .. } => remedy,
             Fault::Surplus { .. } => "correct the number or export the file again",
             Fault::Trailing { .. } => "save the data again, one array or model in a file",
             Fault::Zeros => "export or copy the file again",

@@ -58,7 +58,7 @@ fn parts(raw: Raw, parameters: usize) -> Result<Parts, Fault> {
     let mut knots = vec![];
     for (degree, values) in raw.degree.into_iter().zip(raw.knots) {
         if !(1..=HIGHEST).contains(&degree) {
-            let what = format!("a B-spline of degree {degree} is not read, only of 1 to {HIGHEST}:");
+            let what = format!("a B-spline of degree {degree} is not read, only of 1 to {HIGHEST}");
             return Err(Fault::Unsupported { what, remedy: "export it in another way" });
         }
         knots.push(Knots::new(degree, values).map_err(fault)?);
@@ -67,5 +67,5 @@ fn parts(raw: Raw, parameters: usize) -> Result<Parts, Fault> {
 }
 
 fn fault(e: KnotError) -> Fault {
-    Fault::Unsupported { what: format!("this is no B-spline ({e}):"), remedy: "export the file again" }
+    Fault::Unsupported { what: format!("this is no B-spline ({e})"), remedy: "export the file again" }
 }

@@ -1,5 +1,6 @@
 //! What drawings are made of.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::section::PlaneFrame;
 use trueness_geom::spline::rational::Rational;
 
@@ -43,14 +44,39 @@ pub struct Clamped {
 pub type Drawn = Entity<Rational<3>>;
 
 impl<S> Entity<S> {
-    /// Its ends, two corners of the box around its circle, or the control points of its spline.
+    /// Its ends, with those places of an arc that lie farthest along the axes, or the control points of its spline.
     fn reach(&self, control: impl FnOnce(&S) -> Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         match self {
             Entity::Line { start, end } => vec![*start, *end],
-            Entity::Arc { center, radius, .. } => [-radius, *radius].map(|r| center.map(|x| x + r)).to_vec(),
+            Entity::Arc { center, radius, start, sweep } => {
+                let unit = reach_of_arc(*start, *sweep).into_iter();
+                unit.map(|u| [0, 1].map(|k| center[k] + radius * u[k])).collect()
+            }
             Entity::Spline(spline) => control(spline),
         }
     }
+}
+
+/// Of an arc of the unit circle its ends, and where within it the circle crosses the axes.
+fn reach_of_arc(start: f64, sweep: f64) -> Vec<[f64; 2]> {
+    let end = start + sweep.clamp(-TAU, TAU);
+    let on_circle = |angle: f64| [libm::cos(angle), libm::sin(angle)];
+    let (low, high) = (start.min(end), start.max(end));
+    let first = (low / FRAC_PI_2).ceil();
+    let quarters = (0..=4).map(|k| first + f64::from(k)).filter(|q| q * FRAC_PI_2 <= high);
+    let crossing = |q: f64| match q.rem_euclid(4.0) as u8 {
+        0 => [1.0, 0.0],
+        1 => [0.0, 1.0],
+        2 => [-1.0, 0.0],
+        _ => [0.0, -1.0],
+    };
+    [start, end].map(on_circle).into_iter().chain(quarters.map(crossing)).collect()
+}
+
+/// Diagonal of the box around places; 0 of none.
+fn diagonal(places: impl IntoIterator<Item = [f64; 2]>) -> f64 {
+    let [low, high] = box_of(places).unwrap_or_default();
+    libm::hypot(high[0] - low[0], high[1] - low[1])
 }
 
 /// The box around places; `None` of none.
@@ -76,16 +102,25 @@ pub struct Drawing {
     pub entities: Vec<DrawnEntity>,
 }
 
-impl Drawing {
-    /// Diagonal of the box around all ends, circles and control points; 0 of nothing.
-    pub fn size(&self) -> f64 {
-        let control = |curve: &Rational<3>| {
+impl Drawn {
+    /// What it reaches to, with the control points of a spline.
+    fn corners(&self) -> Vec<[f64; 2]> {
+        self.reach(|curve| {
             let places = curve.masses().points().iter().filter_map(|m| m.place());
             places.map(|p| [p[0], p[1]]).collect()
-        };
-        let [low, high] =
-            box_of(self.entities.iter().flat_map(|e| e.drawn.reach(control))).unwrap_or_default();
-        libm::hypot(high[0] - low[0], high[1] - low[1])
+        })
+    }
+
+    /// Diagonal of the box around it; of a spline around its control points.
+    pub fn size(&self) -> f64 {
+        diagonal(self.corners())
+    }
+}
+
+impl Drawing {
+    /// Diagonal of the box around all lines, arcs and control points; 0 of nothing.
+    pub fn size(&self) -> f64 {
+        diagonal(self.entities.iter().flat_map(|e| e.drawn.corners()))
     }
 }
 
@@ -100,7 +135,7 @@ pub struct Layer {
     pub entities: Vec<Entity>,
 }
 
-/// Box around all ends, centers with their radii, and control points; `None` of nothing.
+/// Box around all lines, arcs and control points; `None` of nothing.
 pub(crate) fn bounds(layers: &[Layer]) -> Option<[[f64; 2]; 2]> {
     box_of(layers.iter().flat_map(|l| &l.entities).flat_map(|e| e.reach(|spline| spline.points.clone())))
 }
@@ -113,6 +148,24 @@ pub(crate) fn whole(sweep: f64) -> bool {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+
+    /// Boxes of arcs of all beginnings and sweeps are those of places close to each other along them.
+    #[test]
+    fn the_box_of_an_arc_is_that_of_its_places() {
+        for (n, k) in (-9..=9).flat_map(|n| (-20..=20).map(move |k| (n, k))) {
+            let (start, sweep) = (0.7 * f64::from(n), 0.31 * f64::from(k));
+            let at = |t: f64| start + t * sweep.clamp(-TAU, TAU);
+            let places = (0..=4000).map(|i| at(f64::from(i) / 4000.0));
+            let dense = box_of(places.map(|a| [3.0 + 5.0 * libm::cos(a), 5.0 * libm::sin(a)])).unwrap();
+            let arc: Entity = Entity::Arc { center: [3.0, 0.0], radius: 5.0, start, sweep };
+            let found = box_of(arc.reach(|_| vec![])).unwrap();
+            for (f, d) in found.iter().flatten().zip(dense.iter().flatten()) {
+                assert!((f - d).abs() < 1e-5, "{start} {sweep}: {found:?} {dense:?}");
+            }
+        }
+        let circle: Entity = Entity::Arc { center: [3.0, 0.0], radius: 5.0, start: 0.4, sweep: TAU };
+        assert_eq!(box_of(circle.reach(|_| vec![])), Some([[-2.0, -5.0], [8.0, 5.0]]));
+    }
 
     /// A line between two places, an arc, a circle and a spline.
     pub(crate) fn one_of_each(start: [f64; 2], end: [f64; 2]) -> [Entity; 4] {

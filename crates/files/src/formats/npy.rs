@@ -115,7 +115,7 @@ impl Array {
                 Ok(Array { scalar, order, fortran, rows, width: width as usize })
             }
             _ => {
-                let what = format!("an array of shape ({shape}) is not a list of points:");
+                let what = format!("an array of shape ({shape}) is not a list of points");
                 Err(Fault::Unsupported { what, remedy: "save one of shape (n, 3)" }.into())
             }
         }
@@ -126,7 +126,7 @@ impl Array {
         let Some(Columns(wanted)) = wanted else {
             if matches!(self.rows, 2 | 3) && self.width > 3 {
                 let what =
-                    format!("an array of shape ({}, {}) seems to lie on its side:", self.rows, self.width);
+                    format!("an array of shape ({}, {}) seems to lie on its side", self.rows, self.width);
                 return Err(
                     Fault::Unsupported { what, remedy: "save its transpose, or name the columns" }.into()
                 );
@@ -148,7 +148,7 @@ impl Array {
 fn dtype(descr: &str) -> Result<(Order, Scalar)> {
     let name = descr.strip_prefix(['\'', '"']).and_then(|d| d.split(['\'', '"']).next());
     let unsupported = || -> Located {
-        let what = format!("an array of type {} cannot be read:", name.unwrap_or("record"));
+        let what = format!("an array of type {} cannot be read", name.unwrap_or("record"));
         Fault::Unsupported { what, remedy: "save it as float64, with array.astype(\"f8\")" }.into()
     };
     let (order, kind) = name.and_then(|n| n.split_at_checked(1)).ok_or_else(unsupported)?;

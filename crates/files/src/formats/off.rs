@@ -101,7 +101,7 @@ fn counts(lines: &mut Said) -> Result<(u64, u64)> {
     if let Some((prefix, length)) = keyword(first) {
         line = first[length..].trim_ascii();
         if line.starts_with(b"BINARY") || prefix.iter().any(|b| matches!(b, b'4' | b'n')) {
-            let what = "OFF in binary or of other than three dimensions cannot be read:".into();
+            let what = "OFF in binary or of other than three dimensions cannot be read".into();
             return Err(Fault::Unsupported { what, remedy: "export it as OFF in text" }.at_line(lines.line()));
         }
         if line.is_empty() {

@@ -67,6 +67,24 @@ fn entity(out: &mut dyn Write, entity: &Entity) -> io::Result<()> {
 mod tests {
     use super::*;
 
+    /// The page of a flat arc is as large as the arc, not as its circle: 20 wide, and 50 − √(50² − 10²) high.
+    #[test]
+    fn a_page_is_as_large_as_what_is_drawn() {
+        let half = libm::asin(0.2);
+        let start = std::f64::consts::FRAC_PI_2 + half;
+        let arc = Entity::Arc { center: [7.0, -3.0], radius: 50.0, start, sweep: -2.0 * half };
+        let mut out = vec![];
+        write(&mut out, &[Layer { name: "a".into(), entities: vec![arc], ..Layer::default() }]).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        let seen = text.split("viewBox=\"").nth(1).unwrap().split('"').next().unwrap();
+        let seen: Vec<f64> = seen.split(' ').map(|x| x.parse().unwrap()).collect();
+        let height = 50.0 - (50.0_f64 * 50.0 - 100.0).sqrt();
+        // A fiftieth of the width on all sides; y points down.
+        for (x, wanted) in seen.iter().zip([-3.4, -47.4, 20.8, height + 0.8]) {
+            assert!((x - wanted).abs() < 1e-9, "{seen:?}");
+        }
+    }
+
     #[test]
     fn a_cubic_is_the_bezier_curves_it_consists_of() {
         let knots = vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0];

@@ -52,7 +52,7 @@ impl Said<'_> {
     fn mirrored(&self) -> Result<bool> {
         match [self.or(210, 0.0)?, self.or(220, 0.0)?, self.or(230, 1.0)?] {
             [x, y, z] if x.abs() < FLAT && y.abs() < FLAT && z != 0.0 => Ok(z < 0.0),
-            _ => Err(self.wrong("an entity is turned out of the plane of the drawing:", "draw it flat")),
+            _ => Err(self.wrong("an entity is turned out of the plane of the drawing", "draw it flat")),
         }
     }
 
@@ -61,7 +61,7 @@ impl Said<'_> {
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         match high - low > FLAT * size {
-            true => Err(self.wrong("an entity leaves the plane of the drawing:", "draw it flat")),
+            true => Err(self.wrong("an entity leaves the plane of the drawing", "draw it flat")),
             false => Ok(()),
         }
     }
@@ -170,7 +170,7 @@ pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut
 pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
     let (x, y, z) = (said.lengths(10)?, said.lengths(20)?, said.lengths(30)?);
     if x.is_empty() {
-        let what = "a spline is given by points that it passes through alone:";
+        let what = "a spline is given by the points alone that it passes through";
         return Err(said.wrong(what, "export it with its control points"));
     }
     if x.len() != y.len() {

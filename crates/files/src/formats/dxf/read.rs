@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     if source.feed.ahead(HEAD)?.starts_with(BINARY) {
-        let what = "this drawing is binary DXF, which is not read:".into();
+        let what = "this drawing is binary DXF, which is not read".into();
         return Err(Fault::Unsupported { what, remedy: "save it as ASCII DXF" }.into());
     }
     no_zeros(source.feed.ahead(HEAD)?)?;
@@ -77,7 +77,7 @@ fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
         6 => Unit::Meter,
         13 => Unit::Micrometer,
         _ => {
-            let what = "the unit of the drawing ($INSUNITS) is none of um, mm, cm, m and inch:".into();
+            let what = "the unit of the drawing ($INSUNITS) is none of um, mm, cm, m and inch".into();
             return Err(Fault::Unsupported { what, remedy: "save it in millimeters" }.at_line(group.line));
         }
     }))

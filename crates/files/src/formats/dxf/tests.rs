@@ -137,7 +137,7 @@ fn hostile_drawings_are_refused_with_their_line() {
         ("0 LINE 10 0 20 0 30 0 11 1 21 0 31 5", "leaves the plane"),
         ("0 CIRCLE 10 0 20 0 40 -1", "radius above 0"),
         ("0 CIRCLE 10 0 20 0 40 1 210 1 220 0 230 0", "turned out of the plane"),
-        ("0 SPLINE 71 3 11 0 21 0 31 0 11 1 21 1 31 0", "passes through"),
+        ("0 SPLINE 71 3 11 0 21 0 31 0 11 1 21 1 31 0", "passes through; export it with its control points"),
         ("0 SPLINE 71 3 40 0 40 0 40 1 40 1 10 0 20 0 10 1 20 1", "knots"),
         ("0 SPLINE 71 99999999999 40 0 40 1 10 0 20 0 10 1 20 1", "degree"),
         (

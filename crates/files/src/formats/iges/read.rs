@@ -53,7 +53,7 @@ fn unit(global: &[Vec<u8>]) -> Result<Option<Unit>> {
     let word = |k: usize| global.get(k - 1).map_or(&b""[..], |w| w);
     let scale = if word(13).is_empty() { Some(1.0) } else { whole_number(word(13), b'.') };
     if scale != Some(1.0) {
-        let what = "the model is drawn to a scale, which is not read:".into();
+        let what = "the model is drawn to a scale, which is not read".into();
         return Err(Fault::Unsupported { what, remedy: "export it in its own size" }.into());
     }
     let found = match (integer(word(14)), &word(15).to_ascii_uppercase()[..]) {
@@ -64,7 +64,7 @@ fn unit(global: &[Vec<u8>]) -> Result<Option<Unit>> {
         (Some(9), _) | (Some(3), b"UM") => Unit::Micrometer,
         (Some(10), _) | (Some(3), b"CM") => Unit::Centimeter,
         _ => {
-            let what = "the unit of the model is none of um, mm, cm, m and inch:".into();
+            let what = "the unit of the model is none of um, mm, cm, m and inch".into();
             return Err(Fault::Unsupported { what, remedy: "export it in millimeters" }.into());
         }
     };

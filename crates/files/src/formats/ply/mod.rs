@@ -108,7 +108,7 @@ fn split(header: &Header) -> Result<(&[Element], &Element, &[Element])> {
     })?;
     let (before, vertex, after) = (&elements[..at], &elements[at], &elements[at + 1..]);
     if before.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
-        let what = "faces before their vertices cannot be read:".into();
+        let what = "faces before their vertices cannot be read".into();
         let remedy = "let the program that wrote this put the element \"vertex\" first";
         return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
     }
@@ -156,7 +156,7 @@ fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[u
     }
     let last = found.iter().max().copied().unwrap_or(0);
     if vertex.properties[..last].iter().any(|p| matches!(p.kind, PropertyType::List { .. })) {
-        let what = "a list before the coordinates of a vertex cannot be read:".into();
+        let what = "a list before the coordinates of a vertex cannot be read".into();
         let remedy = "let the program that wrote this put x, y, z first";
         return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
     }

@@ -66,7 +66,7 @@ fn placed(file: &Instances) -> Result<()> {
             [&b"MAPPED_ITEM"[..], b"ITEM_DEFINED_TRANSFORMATION", b"CARTESIAN_TRANSFORMATION_OPERATOR"]
         {
             if file.mentions(number, keyword) {
-                let what = "the file is an assembly that moves its parts, which is not read:".into();
+                let what = "the file is an assembly that moves its parts, which is not read".into();
                 let remedy = "export the part alone";
                 return Err(file.fault(number, Fault::Unsupported { what, remedy }));
             }
@@ -125,7 +125,7 @@ fn length(file: &Instances, number: u64) -> Result<Option<Unit>> {
         },
         _ => None,
     };
-    let what = || "the unit of lengths is none of um, mm, cm, m and inch:".to_string();
+    let what = || "the unit of lengths is none of um, mm, cm, m and inch".to_string();
     let remedy = "export it in millimeters";
     unit.map(Some).ok_or_else(|| file.fault(number, Fault::Unsupported { what: what(), remedy }))
 }
