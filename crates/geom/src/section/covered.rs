@@ -16,12 +16,19 @@ pub struct Passed<'a> {
 }
 
 /// What was measured of an outline.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covered {
     /// Points that are nearest to it.
     pub points: usize,
+    /// Where points run along it: lengths from its start, in ascending order, that have no place in common.
+    pub stretches: Vec<[f64; 2]>,
+}
+
+impl Covered {
     /// Length of it that points run along.
-    pub length: f64,
+    pub fn length(&self) -> f64 {
+        self.stretches.iter().map(|[from, to]| to - from).sum()
+    }
 }
 
 /// A way along the outline that is so many times as long as that from point to point, to the outline and back is not the one that the
@@ -35,7 +42,6 @@ const AROUND: f64 = 1.75;
 pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
     let lengths: Vec<f64> = outlines.iter().map(Outline::length).collect();
     let mut all = vec![Covered::default(); outlines.len()];
-    let mut stretches: Vec<Vec<[f64; 2]>> = vec![vec![]; outlines.len()];
     for row in rows {
         row.found.iter().flatten().for_each(|off| all[off.outline].points += 1);
         let n = row.points.len().min(row.found.len());
@@ -49,7 +55,7 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
             let [p, q] = [row.points[i], row.points[j]];
             let apart = libm::hypot(q[0] - p[0], q[1] - p[1]) + a.deviation.abs() + b.deviation.abs();
             let closed = outlines[a.outline].closed;
-            stretches[a.outline].extend(between(
+            all[a.outline].stretches.extend(between(
                 a.along,
                 b.along,
                 closed.then_some(lengths[a.outline]),
@@ -57,8 +63,8 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
             ));
         }
     }
-    for ((covered, own), length) in all.iter_mut().zip(stretches).zip(lengths) {
-        covered.length = union(own).min(length);
+    for covered in &mut all {
+        covered.stretches = union(std::mem::take(&mut covered.stretches));
     }
     all
 }
@@ -77,15 +83,17 @@ fn between(a: f64, b: f64, around: Option<f64>, most: f64) -> Vec<[f64; 2]> {
     }
 }
 
-/// Length of what lies in any of these stretches.
-fn union(mut stretches: Vec<[f64; 2]>) -> f64 {
+/// What lies in any of these stretches.
+fn union(mut stretches: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let (mut sum, mut end) = (0.0, f64::NEG_INFINITY);
+    let mut all: Vec<[f64; 2]> = vec![];
     for [from, to] in stretches {
-        sum += (to - from.max(end)).max(0.0);
-        end = end.max(to);
+        match all.last_mut() {
+            Some(last) if from <= last[1] => last[1] = last[1].max(to),
+            _ => all.push([from, to]),
+        }
     }
-    sum
+    all
 }
 
 #[cfg(test)]
@@ -109,7 +117,7 @@ mod tests {
         covered(&rows, &outlines)
             .iter()
             .zip(&outlines)
-            .map(|(c, o)| (c.points, c.length / o.length()))
+            .map(|(c, o)| (c.points, c.length() / o.length()))
             .collect()
     }
 
@@ -134,6 +142,18 @@ mod tests {
         near(&shares(&around, true, &[]), &[(40, 1.0), (0, 0.0)]);
         // Without the way from the last to the first, and without two gaps: three of forty.
         near(&shares(&around, false, &[3, 20]), &[(40, 37.0 / 40.0), (0, 0.0)]);
+        let outlines = nominal();
+        let found = off_nominal(&around, &outlines, &Silent).unwrap();
+        let rows = [Passed { points: &around, found: &found, closed: false, gaps: &[3] }];
+        // Along the square from its lower left corner, begun at 5.5.
+        let [ref square, ref triangle] = covered(&rows, &outlines)[..] else { panic!() };
+        let is = |k: usize, [from, to]: [f64; 2]| {
+            let [a, b] = square.stretches[k];
+            (a - from).abs() < 1e-12 && (b - to).abs() < 1e-12
+        };
+        assert!(is(0, [0.0, 4.5]) && is(1, [5.5, 8.5]) && is(2, [9.5, 40.0]), "{square:?}");
+        assert_eq!(square.stretches.len(), 3);
+        assert!(triangle.stretches.is_empty());
         // There and back counts once.
         let back: Vec<[f64; 2]> = around.iter().chain(around.iter().rev()).copied().collect();
         near(&shares(&back, false, &[]), &[(80, 39.0 / 40.0), (0, 0.0)]);
@@ -151,6 +171,6 @@ mod tests {
         let points = [-0.2_f64, 0.1].map(|a| [3.1 * a.cos(), 3.1 * a.sin()]);
         let found = off_nominal(&points, &circle, &Silent).unwrap();
         let rows = [Passed { points: &points, found: &found, closed: false, gaps: &[] }];
-        assert!((covered(&rows, &circle)[0].length - 0.9).abs() < 1e-12);
+        assert!((covered(&rows, &circle)[0].length() - 0.9).abs() < 1e-12);
     }
 }

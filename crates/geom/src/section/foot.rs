@@ -149,6 +149,32 @@ impl Segment {
         }
     }
 
+    /// What lies between two lengths along it, `from` below `to`.
+    pub(super) fn part(&self, from: f64, to: f64) -> Segment {
+        let [from, to] = [from, to].map(|x| x.clamp(0.0, self.length));
+        match &self.geometry {
+            _ if from <= 0.0 && to >= self.length => self.clone(),
+            Geometry::Line => {
+                let [a, b] = [from, to].map(|x| self.place(x / self.length));
+                Segment::line(a, b)
+            }
+            Geometry::Arc { center, radius, start, sweep } => {
+                let [a, b] = [from, to].map(|x| sweep * x / self.length);
+                Segment::arc(*center, *radius, start + a, b - a)
+            }
+            Geometry::Spline { curve, deviation } => {
+                let (low, high) = curve.domain();
+                let a = if from <= 0.0 { low } else { curve.parameter_at_length(from) };
+                let b = if to >= self.length { high } else { curve.parameter_at_length(to) };
+                match curve.part(a, b) {
+                    Ok(part) => Segment::of_curve(part, *deviation),
+                    // No longer than rounding: its ends.
+                    Err(_) => Segment::line(curve.at(a), curve.at(b)),
+                }
+            }
+        }
+    }
+
     /// The same segment run through from its end.
     pub fn reversed(self) -> Segment {
         let geometry = match self.geometry {

@@ -44,6 +44,11 @@ impl Segment {
             }
             false => followed(rational, tolerance)?,
         };
+        Some(Segment::of_curve(curve, deviation))
+    }
+
+    /// A curve, which no points belong to.
+    pub(super) fn of_curve(curve: Curve<[f64; 2]>, deviation: f64) -> Segment {
         let (from, to) = curve.domain();
         let ends = [curve.at(from), curve.at(to)];
         let bend = |t: f64| {
@@ -52,7 +57,7 @@ impl Segment {
             (d[1][0] * d[2][1] - d[1][1] * d[2][0]) / (size * size * size)
         };
         let (length, curvature) = (curve.length(from, to), [bend(from), bend(to)]);
-        Some(Segment::bare(Geometry::Spline { curve, deviation }, ends, length, curvature))
+        Segment::bare(Geometry::Spline { curve, deviation }, ends, length, curvature)
     }
 
     /// Whether it is a whole circle.

@@ -68,24 +68,46 @@ impl Outline {
         self.segments.iter().flat_map(of).collect()
     }
 
+    /// How far the end of an open one is from its start, if that is a small share of its length: it was meant to be closed.
+    pub fn nearly_closed(&self) -> Option<f64> {
+        let (first, last) = (self.segments.first()?, self.segments.last()?);
+        let gap = libm::hypot(first.start[0] - last.end[0], first.start[1] - last.end[1]);
+        (!self.closed && gap < NEARLY * self.length()).then_some(gap)
+    }
+
+    /// What lies between two lengths along it, `from` below `to`: an open one.
+    pub fn part(&self, from: f64, to: f64) -> Outline {
+        let mut segments = vec![];
+        let mut before = 0.0;
+        for s in &self.segments {
+            let [a, b] = [from, to].map(|along| (along - before).clamp(0.0, s.length));
+            segments.extend((a < b).then(|| s.part(a, b)));
+            before += s.length;
+        }
+        Outline { segments, closed: false }
+    }
+
     fn reversed(self) -> Outline {
         let segments = self.segments.into_iter().rev().map(Segment::reversed).collect();
         Outline { segments, ..self }
     }
 }
 
+/// An open outline whose ends are apart by less than this share of its length is nearly closed.
+const NEARLY: f64 = 0.01;
 /// Places of an arc or a spline that tell which side of it is inside.
 const PLACES: usize = 32;
 /// Points after which it is asked whether to stop.
 const ASKED: usize = 1024;
 
 /// Closed outlines turned so that the material is on their left, where what is inside of an odd number of outlines is material:
-/// the outer one runs counter-clockwise, holes in it clockwise.
+/// the outer one runs counter-clockwise, holes in it clockwise. Within a nearly closed outline is inside of it too.
 pub fn with_material_inside(outlines: Vec<Outline>) -> Vec<Outline> {
+    let encloses = |o: &Outline| o.closed || o.nearly_closed().is_some();
     let polygons: Vec<Option<Vec<[f64; 2]>>> =
-        outlines.iter().map(|o| o.closed.then(|| o.places())).collect();
+        outlines.iter().map(|o| encloses(o).then(|| o.places())).collect();
     let turned = |n: usize| {
-        let Some(own) = &polygons[n] else { return false };
+        let Some(own) = polygons[n].as_ref().filter(|_| outlines[n].closed) else { return false };
         let Some(first) = own.first() else { return false };
         let around = |m: &usize| *m != n && polygons[*m].as_ref().is_some_and(|p| inside(p, *first));
         let hole = (0..polygons.len()).filter(around).count() % 2 == 1;

@@ -100,3 +100,57 @@ fn points_beyond_a_free_end_have_no_deviation() {
     }
     assert_eq!(off_nominal(&points, &open, &Stopped), Err(Cancelled));
 }
+
+/// A plate with a hole in it: the hole keeps its side when the plate is open by a hair, and by a wide gap no more.
+#[test]
+fn holes_stay_holes_within_what_is_nearly_closed() {
+    let plate =
+        |gap: f64| Outline::polyline(&[[0.0, gap], [0.0, 9.0], [9.0, 9.0], [9.0, 0.0], [0.0; 2]], false);
+    let hole = Outline::polyline(&[[3.0, 3.0], [5.0, 3.0], [5.0, 5.0], [3.0, 5.0]], true);
+    for (gap, nearly) in [(0.001, true), (0.3, true), (0.5, false), (9.0, false)] {
+        let open = plate(gap);
+        assert_eq!(open.nearly_closed().is_some(), nearly, "{gap}");
+        assert!(open.nearly_closed().is_none_or(|found| (found - gap).abs() < 1e-12));
+        let outlines = with_material_inside(vec![open.clone(), hole.clone()]);
+        // The open one stays as it is drawn, whose left is inside or outside as chance has it.
+        assert_eq!(outlines[0], open);
+        let side = if nearly { 1.0 } else { -1.0 };
+        assert_eq!(deviations(&[[4.0, 3.25], [4.0, 2.5]], &outlines), [Some(0.25 * side), Some(-0.5 * side)]);
+    }
+    assert_eq!(hole.nearly_closed(), None);
+    assert_eq!(Outline::default().nearly_closed(), None);
+}
+
+/// Parts of a way of a line, an arc and a curve: their places are those of the whole, their lengths those asked for.
+#[test]
+fn a_part_lies_on_the_whole() {
+    use crate::spline::{basis::Knots, curve::Curve};
+    let line = Segment::line([0.0, 0.0], [20.0, 0.0]);
+    let arc = Segment::arc([20.0, 8.0], 8.0, -std::f64::consts::FRAC_PI_2, std::f64::consts::PI);
+    let control = vec![[20.0, 16.0], [15.0, 16.0], [10.0, 20.0], [5.0, 12.0], [0.0, 16.0], [-3.0, 10.0]];
+    let curve = Curve::new(Knots::uniform(3, 3, 0.0, 2.0), control).unwrap();
+    let whole = Outline { segments: vec![line, arc, Segment::of_curve(curve, 0.0)], closed: false };
+    let random = &mut Random::new(4);
+    let length = whole.length();
+    for round in 0..200 {
+        let [a, b] = [random.unit(), random.unit()].map(|x| length * x);
+        let (mut from, mut to) = (a.min(b), a.max(b));
+        if round % 10 == 0 {
+            (from, to) = (0.0, length);
+        }
+        let part = whole.part(from, to);
+        assert!((part.length() - (to - from)).abs() < 1e-9, "{from} {to} {}", part.length());
+        for w in part.segments.windows(2) {
+            assert!(libm::hypot(w[0].end[0] - w[1].start[0], w[0].end[1] - w[1].start[1]) < 1e-9);
+        }
+        for s in &part.segments {
+            for share in [0.0, 0.1, 0.5, 0.7, 1.0] {
+                let off = off_nominal(&[s.place(share)], std::slice::from_ref(&whole), &Silent).unwrap()[0];
+                let off = off.unwrap();
+                assert!(off.deviation.abs() < 1e-9, "{off:?}");
+                assert!(off.along > from - 1e-6 && off.along < to + 1e-6, "{off:?} {from} {to}");
+            }
+        }
+    }
+    assert!(whole.part(3.0, 3.0).segments.is_empty());
+}

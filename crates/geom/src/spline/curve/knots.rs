@@ -43,6 +43,38 @@ impl<V: Value> Curve<V> {
         curve.points
     }
 
+    /// The curve between two parameters, `from` below `to`.
+    ///
+    /// # Errors
+    /// [`KnotError`] where they are not within the domain, or in that order.
+    ///
+    /// ```
+    /// use trueness_geom::spline::{basis::Knots, curve::Curve};
+    /// let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 1.0], [4.0, 0.0]];
+    /// let curve = Curve::new(Knots::uniform(3, 2, 0.0, 1.0), points).unwrap();
+    /// let part = curve.part(0.2, 0.9).unwrap();
+    /// assert_eq!(part.domain(), (0.2, 0.9));
+    /// assert!([0.2, 0.4, 0.5, 0.9].iter().all(|t| (part.at(*t)[1] - curve.at(*t)[1]).abs() < 1e-14));
+    /// ```
+    pub fn part(&self, from: f64, to: f64) -> Result<Curve<V>, KnotError> {
+        let degree = self.knots.degree();
+        let mut curve = self.clone();
+        for end in [from, to] {
+            while curve.knots.multiplicity(end) < degree {
+                curve = curve.insert(end)?;
+            }
+        }
+        // Of `degree` equal knots within the domain the point before them is the curve's place there.
+        let (low, high) = self.domain();
+        let values = curve.knots.values();
+        let first = if from > low { values.partition_point(|k| *k < from) - 1 } else { 0 };
+        let past = if to < high { values.partition_point(|k| *k < to) } else { curve.points.len() };
+        let within = values.iter().filter(|k| **k > from && **k < to);
+        let ends = |end: f64| std::iter::repeat_n(end, degree + 1);
+        let knots = Knots::new(degree, ends(from).chain(within.copied()).chain(ends(to)).collect())?;
+        Curve::new(knots, curve.points.get(first..past).unwrap_or_default().to_vec())
+    }
+
     /// The same curve over knots that hold all of its own.
     fn over(&self, knots: &Knots) -> Curve<V> {
         let p = knots.degree();
