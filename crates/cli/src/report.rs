@@ -17,8 +17,8 @@ pub struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
     /// Largest size of the report in MB
-    #[arg(long, value_name = "MB", default_value = "10", value_parser = clap::value_parser!(u32).range(2..))]
-    html_budget: u32,
+    #[arg(long, value_name = "MB", default_value = "10", value_parser = megabytes)]
+    html_budget: f64,
     /// Language of the report: en, de, ru, zh
     #[arg(long, value_name = "LANG", default_value = "en", value_parser = language)]
     lang: Language,
@@ -58,6 +58,12 @@ impl From<UpArg> for Up {
             UpArg::Z => Up::Z,
         }
     }
+}
+
+/// The page itself, with its script, takes most of the first two.
+fn megabytes(text: &str) -> Result<f64, String> {
+    let known = text.parse().ok().filter(|mb: &f64| mb.is_finite() && *mb >= 2.0);
+    known.ok_or_else(|| "give a number of MB, 2 or more".into())
 }
 
 fn language(code: &str) -> Result<Language, String> {
@@ -109,7 +115,7 @@ impl ReportArgs {
             part: self.part.clone(),
             serial: self.serial.clone(),
             operator: self.operator.clone(),
-            budget: self.html_budget as usize * 1_000_000,
+            budget: (self.html_budget * 1e6) as usize,
             language: self.lang,
             decimal: self.decimal,
             up: self.up.into(),
