@@ -2,6 +2,7 @@
 
 mod airfoil;
 mod dimension;
+mod doubts;
 mod found;
 mod hints;
 mod near_arc;
@@ -13,7 +14,9 @@ pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use found::{FrameRecord, Section};
 pub use near_arc::NearArc;
-pub use nominal::{BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
+pub use nominal::{
+    BEYOND_END, NO_OUTLINE, NominalRecord, NominalWarning, NominalWarningKind, Positive, WorstRecord,
+};
 pub use outline::{Against, AgainstPlane, OutlineRecord};
 
 use super::{InputRecord, UNITS, VERSION, Word};

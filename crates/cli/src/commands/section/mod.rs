@@ -1,6 +1,7 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
 mod found;
+mod layers;
 mod method;
 mod nominal;
 mod planes;

@@ -1,7 +1,8 @@
 //! The nominal that a section is compared with.
 
 use super::found::Sections;
-use super::planes::Cut;
+use super::layers::Layers;
+use super::planes::{self, Cut};
 use crate::exit::Usage;
 use crate::options::{PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
@@ -17,7 +18,7 @@ use trueness_geom::space::{Aabb, Point, dot};
 use trueness_inspect::compare::plausibility;
 use trueness_inspect::results::InputRecord;
 use trueness_inspect::results::compare::{Bounds, Warning};
-use trueness_inspect::results::section::{Against, AgainstPlane, NominalRecord, Section};
+use trueness_inspect::results::section::{Against, AgainstPlane, NominalRecord, NominalWarning, Section};
 
 /// What the section should be.
 #[derive(Args, Debug)]
@@ -39,7 +40,7 @@ enum Nominal {
     Drawing(Drawing),
 }
 
-/// Ends of drawn entities that are this share of the drawing apart are one, and rational curves are followed as near.
+/// Ends of drawn entities that are this share of the drawing apart are one; rational curves are followed within this share of their own size.
 const SHARE: f64 = 1e-6;
 
 impl NominalArgs {
@@ -57,13 +58,18 @@ impl NominalArgs {
         let shown = path.display();
         let (nominal, mut record) = open(path, &self.reading.reading(measured))?;
         read::hash(&mut record, path)?;
+        let layers = match &nominal {
+            Nominal::Drawing(drawing) => Layers::of(drawing, sections.len(), &shown.to_string())?,
+            _ => Layers::default(),
+        };
         let mut all = vec![];
         let mut rows = rows.iter();
         for (n, section) in sections.iter().enumerate() {
             let outlines = match &nominal {
                 Nominal::Mesh(mesh) => cut(mesh, section, planes.get(n), stage)?,
                 Nominal::Drawing(drawing) => {
-                    drawn(drawing, (sections.len() > 1).then_some(n), &shown.to_string())?
+                    let what = drawn(drawing, layers.own(n).as_deref(), &shown.to_string());
+                    what.map_err(|e| with_passed_over(e, &record))?
                 }
                 Nominal::Row(..) if sections.len() > 1 => {
                     return Err(Usage(format!(
@@ -90,8 +96,11 @@ impl NominalArgs {
             all.push(AgainstPlane { plane, outlines, contours });
         }
         if all.iter().all(|plane| plane.outlines.is_empty()) {
+            let first = sections.first().map(|section| plane_of(section, planes.first()));
+            let reach = first.map_or(String::new(), |plane| planes::reach(&plane, &record));
             anyhow::bail!(
-                "{shown}: no plane of the section meets it; bring part and nominal together with trueness align"
+                "{shown}: no plane of the section meets it{reach}; bring part and nominal together with trueness align, or say its unit \
+                 with --reference-units"
             );
         }
         let outline = match nominal {
@@ -99,8 +108,10 @@ impl NominalArgs {
             Nominal::Row(..) => "contour",
             Nominal::Drawing(_) => "drawing",
         };
-        let warnings = unlikely(sections, &all);
-        Ok(Some((NominalRecord { warnings, ..NominalRecord::new(&record.path, outline, all) }, record)))
+        let unlikely = unlikely(sections, &all).into_iter().map(NominalWarning::from);
+        let mut found = NominalRecord::new(&record.path, outline, all);
+        found.warnings.splice(0..0, unlikely.chain(layers.passed_over));
+        Ok(Some((found, record)))
     }
 }
 
@@ -140,38 +151,33 @@ fn open(path: &Path, reading: &ReadOptions) -> anyhow::Result<(Nominal, InputRec
     Ok((nominal, record))
 }
 
-/// The outlines of a drawing, which is of one plane; of several, those of layer `section-1`, `section-2`, ….
-fn drawn(drawing: &Drawing, plane: Option<usize>, shown: &str) -> anyhow::Result<Vec<Outline>> {
-    let own = plane.map(|n| format!("section-{}", n + 1));
-    if own.is_some() && !drawing.entities.iter().any(|e| is_of_a_section(&e.layer)) {
-        return Err(Usage(format!(
-            "--nominal {shown}: a drawing is of one plane, unless its layers are named section-1, section-2, …; give one --plane"
-        ))
-        .into());
-    }
-    let kept = drawing.entities.iter().filter(|e| own.as_ref().is_none_or(|own| *own == e.layer));
-    let size = drawing.size();
+/// The outlines of a drawing, of all of it or of the plane's own layer.
+fn drawn(drawing: &Drawing, own: Option<&str>, shown: &str) -> anyhow::Result<Vec<Outline>> {
+    let kept = drawing.entities.iter().filter(|e| own.is_none_or(|own| *own == e.layer));
     let mut segments = vec![];
     for entity in kept {
         segments.push(match &entity.drawn {
             Drawn::Line { start, end } => Segment::straight(*start, *end),
             Drawn::Arc { center, radius, start, sweep } => Segment::arc(*center, *radius, *start, *sweep),
-            Drawn::Spline(curve) => match Segment::curve(curve, SHARE * size) {
+            Drawn::Spline(curve) => match Segment::curve(curve, SHARE * entity.drawn.size()) {
                 Some(segment) => segment,
                 None => anyhow::bail!("{shown}: a rational spline of it has no finite place; draw it anew"),
             },
         });
     }
-    if segments.is_empty() && plane.is_none() {
+    if segments.is_empty() && own.is_none() {
         anyhow::bail!(
             "{shown}: it holds neither lines nor arcs nor splines that are read: there is no nominal"
         );
     }
-    Ok(section::with_material_inside(section::joined(segments, SHARE * size)))
+    Ok(section::with_material_inside(section::joined(segments, SHARE * drawing.size())))
 }
 
-fn is_of_a_section(layer: &str) -> bool {
-    layer.strip_prefix("section-").is_some_and(|n| n.parse::<u32>().is_ok())
+/// The same error, with what of the drawing was passed over.
+fn with_passed_over(e: anyhow::Error, record: &InputRecord) -> anyhow::Error {
+    let Some(told) = record.warnings.iter().find(|w| w.contains("passed over")) else { return e };
+    let explode = if told.contains(" INSERT") { "; explode its blocks (INSERT)" } else { "" };
+    anyhow::anyhow!("{e}; {told}{explode}")
 }
 
 /// Refuses closed outlines that cross themselves: no side of them is outside.
@@ -189,9 +195,7 @@ fn refuse_crossings(outlines: &[Outline], shown: &str, stage: &Stage) -> anyhow:
 /// Where the plane of a section cuts a mesh.
 fn cut(mesh: &Mesh, section: &Section, own: Option<&Cut>, stage: &Stage) -> anyhow::Result<Vec<Outline>> {
     let frame = frame(section);
-    let normal = frame.normal();
-    let plane = own.map_or(Plane { normal, offset: dot(normal, frame.origin) }, |cut| cut.plane());
-    let chains = section::cut(mesh, &plane, stage)?;
+    let chains = section::cut(mesh, &plane_of(section, own), stage)?;
     let flat = |chain: &section::Chain| chain.points.iter().map(|p| frame.flat(*p)).collect::<Vec<_>>();
     Ok(chains.iter().map(|chain| Outline::polyline(&flat(chain), chain.closed)).collect())
 }
@@ -210,6 +214,13 @@ fn contour(
     let own = Options { level: options.level, ..Options::default() };
     let found = section::contour(&flat, &own, stage)?;
     Ok(section::with_material_inside(vec![Outline::of(&found)]))
+}
+
+/// The plane of a section: the one that it was cut by, or that of points in order.
+fn plane_of(section: &Section, own: Option<&Cut>) -> Plane {
+    let frame = frame(section);
+    let normal = frame.normal();
+    own.map_or(Plane { normal, offset: dot(normal, frame.origin) }, |cut| cut.plane())
 }
 
 fn frame(section: &Section) -> PlaneFrame {

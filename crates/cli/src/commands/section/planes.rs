@@ -224,26 +224,28 @@ pub fn nothing_met(planes: &[Cut], sections: &[Section], record: &InputRecord) -
             "{slab} {loose} points, too few in a row for a contour; a larger --thickness may help"
         );
     }
-    let range = |normal: Point| {
-        let bounds = record.bounds.as_ref()?;
-        let mut range = [0.0; 2];
-        for (k, along) in normal.into_iter().enumerate() {
-            let ends = [along * bounds.min[k], along * bounds.max[k]];
-            range[0] += ends[0].min(ends[1]);
-            range[1] += ends[0].max(ends[1]);
-        }
-        Some(range)
-    };
-    let (normal, offset) = (planes[0].plane.normal, planes[0].plane.offset);
-    let Some([low, high]) = range(normal) else { return "no plane meets it".into() };
     let which = if planes.len() == 1 { "the plane meets nothing" } else { "no plane meets it" };
-    let touches = match (low..=high).contains(&offset) {
+    format!("{which}{}", reach(&planes[0].plane, record))
+}
+
+/// From where to where a mesh or cloud reaches along the normal of the first plane, and what that means; empty where nobody knows.
+pub fn reach(plane: &Plane, record: &InputRecord) -> String {
+    let (Some(bounds), normal) = (record.bounds.as_ref(), plane.normal) else { return String::new() };
+    let mut range = [0.0; 2];
+    for (k, along) in normal.into_iter().enumerate() {
+        let ends = [along * bounds.min[k], along * bounds.max[k]];
+        range[0] += ends[0].min(ends[1]);
+        range[1] += ends[0].max(ends[1]);
+    }
+    let [low, high] = range;
+    let touches = match (low..=high).contains(&plane.offset) {
         true => {
             "; where a plane only touches the part, or lies in a face of it, there is no section: move it inwards"
         }
         false => "",
     };
     format!(
-        "{which}; along the first normal it reaches from {low} to {high} mm, the first plane lies at {offset}{touches}"
+        "; along the first normal it reaches from {low} to {high} mm, the first plane lies at {}{touches}",
+        plane.offset
     )
 }

@@ -324,6 +324,7 @@ fn nominal(found: &NominalRecord, several: bool) -> String {
     let side = match *found.positive {
         Positive::Outside => "+ outside",
         Positive::Left => "+ left of the nominal",
+        Positive::Both => "+ outside of its closed contours, + left of its open ones",
     };
     let mut out = format!("deviation from {} ({}), {side}\n", found.path, found.outline);
     let mut rows =

@@ -118,8 +118,12 @@ fn file(s: Style, input: &InputRecord) -> Markup {
         div.file {
             p { span class={ "chip " (role) } { i {} (s.word(role)) } " " (Name(&input.path)) }
             p.note {
-                (Text(&input.format)) " · " (s.count(input.bytes)) "\u{a0}B · " (s.count(input.points)) " "
-                (s.word(if input.facets.is_some() { "vertices" } else { "points" }))
+                (Text(&input.format)) " · " (s.count(input.bytes)) "\u{a0}B"
+                // A drawing holds none.
+                @if input.points > 0 {
+                    " · " (s.count(input.points)) " "
+                    (s.word(if input.facets.is_some() { "vertices" } else { "points" }))
+                }
                 @if let Some(facets) = input.facets { " · " (s.count(facets)) " " (s.word("facets")) }
                 @if let Some(b) = &input.bounds {
                     " · " (series(s, std::array::from_fn(|k| b.max[k] - b.min[k]), "\u{2009}×\u{2009}", 3)) "\u{a0}mm"

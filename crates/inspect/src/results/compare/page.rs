@@ -3,7 +3,7 @@
 mod list;
 mod words;
 
-pub use list::{by_side, excluded, passing, regions, rules, statistics, worst};
+pub use list::{OUTSIDE, by_side, excluded, passing, regions, rules, statistics, worst};
 
 use crate::compare::Method;
 use crate::report::number::Style;

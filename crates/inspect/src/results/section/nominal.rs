@@ -1,8 +1,9 @@
 //! How a section differs from that of a nominal.
 
 use super::super::Word;
-use super::super::compare::{BySide, Histogram, Warning};
+use super::super::compare::{BySide, Histogram, Warning, WarningKind};
 use super::super::word::named;
+use super::doubts;
 use super::outline::{self, AgainstPlane, OutlineRecord};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,21 @@ pub enum Positive {
     Outside,
     /// To the left of open outlines.
     Left,
+    /// Outside of the material within closed outlines, to the left of open ones: there are both.
+    Both,
+}
+
+impl Positive {
+    /// Of the outlines that points are nearest to; of all, if there are none.
+    fn of(outlines: &[OutlineRecord]) -> Positive {
+        let all = outlines.iter().all(|o| o.points == 0);
+        let counts = || outlines.iter().filter(|o| all || o.points > 0);
+        match (counts().any(|o| o.closed), counts().any(|o| !o.closed)) {
+            (true, true) => Positive::Both,
+            (false, true) => Positive::Left,
+            (_, false) => Positive::Outside,
+        }
+    }
 }
 
 /// Reason why a point is left out: it lies beyond the end of an open outline.
@@ -23,9 +39,10 @@ pub const BEYOND_END: &str = "beyond_end";
 /// Reason why a point is left out: there is no outline in its plane.
 pub const NO_OUTLINE: &str = "no_outline";
 
-named!(Positive, "side", [Positive::Outside, Positive::Left], |side| match side {
+named!(Positive, "side", [Positive::Outside, Positive::Left, Positive::Both], |side| match side {
     Positive::Outside => "outside",
     Positive::Left => "left",
+    Positive::Both => "outside_or_left",
 });
 
 /// Deviations of the points of a section from the section of a nominal.
@@ -36,7 +53,8 @@ pub struct NominalRecord {
     /// What was measured against: `facets` (the cut of a mesh), `contour` (the segments found in a row of points) or `drawing` (the
     /// entities of a drawing).
     pub outline: String,
-    /// Positive deviations: `outside` of the material within closed outlines, or to the `left` of open ones.
+    /// Positive deviations: `outside` of the material within closed outlines, to the `left` of open ones, or `outside_or_left` where points
+    /// are nearest to both: each is as its outline is (`closed` of `outlines`).
     pub positive: Word<Positive>,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
@@ -51,12 +69,50 @@ pub struct NominalRecord {
     /// The outlines of the nominal, plane after plane, and how much of each was measured.
     #[serde(default)]
     pub outlines: Vec<OutlineRecord>,
-    /// What makes it unlikely that part and nominal belong together as they lie.
+    /// What makes the deviations doubtful, although each is computed right.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<NominalWarning>,
     /// The place nearest to each point of each contour, for the page.
     #[serde(skip)]
     pub nearest: Vec<Vec<Option<[f64; 2]>>>,
+}
+
+/// Something that makes the deviations doubtful, although each is computed right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NominalWarning {
+    /// What was noticed.
+    pub kind: NominalWarningKind,
+    /// The number that it was noticed by.
+    pub value: f64,
+    /// The same in words.
+    pub text: String,
+}
+
+/// What can be noticed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NominalWarningKind {
+    /// The sizes of part and nominal stand in a ratio as two units do. `value`: diagonal of the part's box over that of the nominal.
+    SizeRatio,
+    /// Their boxes hardly overlap. `value`: the common share of the smaller box, both widened by a margin.
+    HardlyOverlapping,
+    /// Ends of an outline of the nominal nearly meet: it is open, and has a left and a right in place of an inside. `value`: how far they are
+    /// apart.
+    NearlyClosed,
+    /// All of a contour of the part lies far off the nominal, as one that is not of it. `value`: the least distance.
+    NowhereNear,
+    /// Entities of the drawing lie on layers of no plane of the section. `value`: their number.
+    LayersPassedOver,
+}
+
+impl From<Warning> for NominalWarning {
+    fn from(Warning { kind, value, text }: Warning) -> NominalWarning {
+        let kind = match kind {
+            WarningKind::SizeRatio => NominalWarningKind::SizeRatio,
+            WarningKind::HardlyOverlapping => NominalWarningKind::HardlyOverlapping,
+        };
+        NominalWarning { kind, value, text }
+    }
 }
 
 /// A point far off the nominal.
@@ -101,21 +157,24 @@ impl NominalRecord {
                 }
             }
         }
-        let closed = planes.iter().flat_map(|p| &p.outlines).all(|o| o.closed);
         let found = || planes.iter().flat_map(|p| p.contours.iter().map(|c| &c.found));
         let summary = Summary::of(&values);
+        let deviations = found().map(|f| f.iter().map(|o| o.map(|o| o.deviation)).collect()).collect();
+        let nearest = found().map(|f| f.iter().map(|o| o.map(|o| o.place)).collect()).collect();
+        let warnings = doubts::doubts(&planes);
+        let outlines: Vec<OutlineRecord> = planes.into_iter().flat_map(outline::records).collect();
         NominalRecord {
             path: path.into(),
             outline: outline.into(),
-            positive: Word(if closed { Positive::Outside } else { Positive::Left }),
+            positive: Word(Positive::of(&outlines)),
             deviation: BySide::of(&summary),
             excluded,
             histogram: Histogram::counted(&summary.all, &values),
             worst: worst.into_iter().flatten().collect(),
-            warnings: vec![],
-            deviations: found().map(|f| f.iter().map(|o| o.map(|o| o.deviation)).collect()).collect(),
-            nearest: found().map(|f| f.iter().map(|o| o.map(|o| o.place)).collect()).collect(),
-            outlines: planes.into_iter().flat_map(outline::records).collect(),
+            warnings,
+            deviations,
+            nearest,
+            outlines,
         }
     }
 }

@@ -49,6 +49,9 @@ pub struct OutlineRecord {
     /// What it is.
     #[serde(skip)]
     pub drawn: Outline,
+    /// Where points run along it: lengths from its start, in ascending order.
+    #[serde(skip)]
+    pub measured: Vec<[f64; 2]>,
 }
 
 /// So much of an outline counts as all of it: points of open rows end beside its ends.
@@ -58,6 +61,25 @@ impl OutlineRecord {
     /// Whether it was not measured as a whole.
     pub fn lacks(&self) -> bool {
         self.covered < WHOLE
+    }
+
+    /// What of it was measured, and what was not; one that lacks so little that it counts as whole is measured as it is.
+    pub(super) fn divided(&self) -> [Vec<Outline>; 2] {
+        let whole = || vec![self.drawn.clone()];
+        if !self.lacks() {
+            return [whole(), vec![]];
+        }
+        if self.covered == 0.0 {
+            return [vec![], whole()];
+        }
+        let ends = self.measured.iter().flatten().copied();
+        let ends: Vec<f64> = std::iter::once(0.0).chain(ends).chain([self.length]).collect();
+        let parts = |between: Vec<[f64; 2]>| {
+            let parts = between.into_iter().map(|[from, to]| self.drawn.part(from, to));
+            parts.filter(|part| !part.segments.is_empty()).collect()
+        };
+        let missed = ends.chunks(2).filter_map(|w| w.try_into().ok()).collect();
+        [parts(self.measured.clone()), parts(missed)]
     }
 }
 
@@ -85,7 +107,8 @@ pub(super) fn records(against: AgainstPlane) -> Vec<OutlineRecord> {
                 center: [0, 1].map(|k| 0.5 * (low[k] + high[k])),
                 size: [0, 1].map(|k| high[k] - low[k]),
                 points: covered.points as u64,
-                covered: if length > 0.0 { (covered.length / length).min(1.0) } else { 0.0 },
+                covered: if length > 0.0 { (covered.length() / length).min(1.0) } else { 0.0 },
+                measured: covered.stretches,
                 drawn,
             }
         })

@@ -33,7 +33,7 @@ impl Subject for SectionDocument {
     }
 
     fn convention(&self) -> Option<&'static str> {
-        Some("sign.section")
+        Some(self.nominal.as_ref().map_or("sign.section", |nominal| nominal_tables::sign(*nominal.positive)))
     }
 
     fn picture(&self) -> &'static str {
@@ -148,7 +148,7 @@ impl Drawn for SectionDocument {
             "\n"
             div id="courses" class="courses" {
                 "\n"
-                @for (n, contour) in self.contours.iter().enumerate() { (course::course(s, n, contour)) }
+                @for (n, contour) in self.contours.iter().enumerate() { (course::course(s, n, contour, self.nominal.is_some())) }
             }
             "\n"
         }

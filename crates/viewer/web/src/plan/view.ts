@@ -14,16 +14,22 @@ const LIMITS = [1e-6, 20] as const
 
 /** A drawing that can be moved and zoomed. Its signs keep their size on the screen. */
 export class PlanView {
+  /** What is seen at first. */
   readonly all: Seen
+  /** The same with a nominal that is larger by far. */
+  private readonly whole: Seen
   private seen: Seen
-  /** All is seen, and the reader has not moved it since. */
-  private fitted = true
+  /** What is seen as a whole, and the reader has not moved it since. */
+  private fitted: Seen | null
   private readonly signs: SVGGElement[]
 
   constructor(readonly drawing: SVGSVGElement, private readonly changed: () => void) {
     const { x, y, width, height } = drawing.viewBox.baseVal
     this.all = { x, y, width, height }
+    const [u, v, w, h] = (drawing.dataset.all ?? '').split(' ').map(Number)
+    this.whole = h > 0 ? { x: u, y: v, width: w, height: h } : this.all
     this.seen = { ...this.all }
+    this.fitted = this.all
     // The first have their numbers where there is no room for all.
     this.signs = ['.worst', '.join'].flatMap((css) => [...drawing.querySelectorAll<SVGGElement>(css)])
   }
@@ -44,8 +50,8 @@ export class PlanView {
     ]
   }
 
-  fit(): void {
-    const { all } = this
+  /** Shows all. */
+  fit(all: Seen = this.whole): void {
     const box = this.drawing.getBoundingClientRect()
     const free = { width: Math.max(box.width - 2 * ROOM.side, box.width / 2), height: Math.max(box.height - ROOM.head - ROOM.foot, box.height / 2) }
     // Nothing has a size while it is not shown.
@@ -53,25 +59,26 @@ export class PlanView {
     const down = (pixel * (ROOM.head - ROOM.foot)) / 2
     const [width, height] = [pixel * box.width, pixel * box.height]
     this.look(pixel > 0 ? { x: all.x + (all.width - width) / 2, y: all.y + (all.height - height) / 2 - down, width, height } : all)
-    this.fitted = true
+    this.fitted = all
   }
 
   look(seen: Seen): void {
     this.seen = { ...seen }
-    this.fitted = false
+    this.fitted = null
     this.apply()
   }
 
   /** The same for paper, whose shape nobody knows before it is printed: no room around the drawing. */
   paper(): void {
-    if (!this.fitted) return
-    this.look(this.all)
-    this.fitted = true
+    const all = this.fitted
+    if (!all) return
+    this.look(all)
+    this.fitted = all
   }
 
   /** The drawing has got another size, or has come into sight. */
   resized(): void {
-    if (this.fitted) this.fit()
+    if (this.fitted) this.fit(this.fitted)
     else this.apply()
   }
 

@@ -206,19 +206,22 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
 
 /// The deviations in words and numbers.
 pub fn statistics(s: Style, c: &Comparison, decimals: usize) -> Markup {
-    section(s, "statistics", html! { (in_words(s, c)) (by_side(s, &c.deviation, decimals)) })
+    section(s, "statistics", html! { (in_words(s, c)) (by_side(s, &c.deviation, decimals, OUTSIDE)) })
 }
 
 /// With more decimals than this three numbers fill the column: names stand above them.
 const MOST_DECIMALS: usize = 4;
 
+/// Words for the sides of a surface.
+pub const OUTSIDE: [&str; 2] = ["plus", "minus"];
+
 /// The statistics of all deviations and of each side, as a table.
-pub fn by_side(s: Style, deviation: &BySide, decimals: usize) -> Markup {
+pub fn by_side(s: Style, deviation: &BySide, decimals: usize, [plus, minus]: [&str; 2]) -> Markup {
     let sides = [&deviation.all, &deviation.positive, &deviation.negative];
     let cell = |of: &dyn Fn(&Statistics) -> Markup| html! { @for side in sides { td.r { (of(side)) } } };
     html! {
         table.statistics.quantities[decimals > MOST_DECIMALS] {
-            thead { tr { th {} @for key in ["all", "plus", "minus"] { th.r { (s.word(key)) } } } }
+            thead { tr { th {} @for key in ["all", plus, minus] { th.r { (s.word(key)) } } } }
             tbody {
                 tr { th scope="row" { (s.word("points")) } (cell(&|side| s.count(side.count).render())) }
                 @for (key, more, signed, of) in PAGE_ROWS {

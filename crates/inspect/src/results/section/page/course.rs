@@ -58,8 +58,8 @@ fn astray(contour: &ContourRecord, point: usize) -> bool {
     label.is_some_and(|label| contour.astray.contains(&label))
 }
 
-/// The figure of contour `number`; of several all but the first wait to be asked for.
-pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
+/// The figure of contour `number`; of several all but the first wait to be asked for. Its sign is told where the head of the page tells another.
+pub fn course(s: Style, number: usize, contour: &ContourRecord, signed: bool) -> Markup {
     let axes = Axes::of(contour);
     let stations = contour.segments.iter().scan(0.0, |start, segment| {
         *start += segment.length;
@@ -69,6 +69,7 @@ pub fn course(s: Style, number: usize, contour: &ContourRecord) -> Markup {
         figure.course data-contour=(number) hidden[number > 0] {
             figcaption {
                 (s.word("residuals")) ", mm · " (s.word("contour")) " " (number + 1)
+                @if signed { " · " (s.word("sign.section")) }
                 @if !contour.astray.is_empty() { " · " i.stroke.astray {} " " (s.word("legend.astray")) }
             }
             div.course-y {

@@ -1,5 +1,6 @@
 //! The nominal on the sheets: its outlines, the deviations of points from it as whiskers, and the points farthest off.
 
+use super::nominal_tables::sign;
 use super::path::Path;
 use super::pieces::{drawn_pieces, lacking};
 use super::plan::{Plan, Sheet, sheets};
@@ -7,10 +8,10 @@ use crate::report::number::{Style, decimals};
 use crate::report::subject::Pick;
 use crate::report::values::leaf;
 use crate::report::{Up, ViewObject};
-use crate::results::section::{OutlineRecord, SectionDocument};
+use crate::results::section::SectionDocument;
 use maud::{Markup, html};
 use std::fmt::Write;
-use trueness_geom::section::Segment;
+use trueness_geom::section::{Outline, Segment};
 
 /// Bytes that a measured point takes in the drawing, and a whisker.
 pub const DOT: usize = 26;
@@ -45,12 +46,14 @@ impl Rooms {
             left = left.saturating_sub(SHEET * sheets.len());
             let plan = |sheet: &Sheet| Plan::of(sheet, document, document.frame_in(sheet.plane), up);
             let plans: Vec<Plan> = sheets.iter().map(plan).collect();
+            let strokes: Vec<(&Plan, [Vec<Outline>; 2])> = (sheets.iter().zip(&plans))
+                .flat_map(|(sheet, plan)| sheet.outlines.iter().map(move |(_, o)| (plan, o.divided())))
+                .collect();
             let bytes = |within: f64| {
-                let of = |(sheet, plan): (&Sheet, &Plan)| {
-                    let each = sheet.outlines.iter().map(|(_, o)| ELEMENT + outline(plan, o, within).len());
-                    each.sum::<usize>()
+                let of = |(plan, parts): &(&Plan, [Vec<Outline>; 2])| {
+                    parts.iter().map(|parts| ELEMENT + path(plan, parts, within).len()).sum::<usize>()
                 };
-                sheets.iter().zip(&plans).map(of).sum::<usize>()
+                strokes.iter().map(of).sum::<usize>()
             };
             let coarser = |k: i32| if k == 0 { 0.0 } else { WITHIN * 4.0_f64.powi(k - 1) };
             let fit = |w: f64| Some((w, bytes(w))).filter(|(_, bytes)| *bytes <= left / 2);
@@ -69,15 +72,20 @@ impl Rooms {
     }
 }
 
-/// An outline as a path: exactly, or straight parts within a share of the drawing.
-fn outline(plan: &Plan, outline: &OutlineRecord, within: f64) -> String {
+/// Outlines as one path.
+fn path(plan: &Plan, parts: &[Outline], within: f64) -> String {
+    parts.iter().map(|part| course(plan, part, within)).collect()
+}
+
+/// The course of an outline: exactly, or straight parts within a share of the drawing.
+fn course(plan: &Plan, outline: &Outline, within: f64) -> String {
     let decimals = plan.decimals();
     let mut d = String::new();
     let write = |d: &mut String, letter: &str, p: [f64; 2]| {
         let [x, y] = plan.at(p);
         let _ = write!(d, "{letter}{x:.decimals$} {y:.decimals$}");
     };
-    let segments = &outline.drawn.segments;
+    let segments = &outline.segments;
     let Some(first) = segments.first() else { return d };
     write(&mut d, "M", first.start);
     let mut run = vec![first.start];
@@ -131,13 +139,15 @@ pub fn outlines(plan: &Plan, sheet: &Sheet, document: &SectionDocument, rooms: &
     let listed = lacking(document);
     html! {
         @for (number, record) in &sheet.outlines {
-            @let class = if record.covered > 0.0 { "nominal" } else { "nominal missed" };
-            @let d = outline(plan, record, within);
-            @match listed.binary_search(number) {
-                Ok(n) => { (leaf("path", &[("class", &class), ("data-mark", &(first + n)), ("d", &d)])) }
-                Err(_) => { (leaf("path", &[("class", &class), ("d", &d)])) }
+            @let [measured, missed] = record.divided().map(|parts| path(plan, &parts, within));
+            @if !measured.is_empty() { (leaf("path", &[("class", &"nominal"), ("d", &measured)])) "\n" }
+            @if !missed.is_empty() {
+                @match listed.binary_search(number) {
+                    Ok(n) => { (leaf("path", &[("class", &"nominal missed"), ("data-mark", &(first + n)), ("d", &missed)])) }
+                    Err(_) => { (leaf("path", &[("class", &"nominal missed"), ("d", &missed)])) }
+                }
+                "\n"
             }
-            "\n"
         }
     }
 }
@@ -201,7 +211,7 @@ pub fn worst(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument) -
 
 /// What strokes of the nominal and whiskers mean.
 pub fn legend(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument, rooms: &Rooms) -> Markup {
-    let missed = sheet.outlines.iter().any(|(_, o)| o.covered == 0.0);
+    let missed = sheet.outlines.iter().any(|(_, o)| o.lacks());
     let solid = sheet.outlines.iter().any(|(_, o)| o.covered > 0.0);
     let drawn = rooms.within.filter(|_| !sheet.outlines.is_empty());
     let whiskers = document.nominal.is_some() && rooms.whiskers.is_some() && !sheet.contours.is_empty();
@@ -221,6 +231,7 @@ pub fn legend(s: Style, plan: &Plan, sheet: &Sheet, document: &SectionDocument, 
         @if whiskers {
             span.off-legend {
                 i.stroke.plus {} i.stroke.minus {} " " (s.word("deviation")) " ×\u{a0}" (s.number(plan.times, 0)) " (▲\u{a0}+ ▼\u{a0}−)"
+                @if let Some(found) = &document.nominal { " · " (s.word(sign(*found.positive))) }
             }
             " "
         }

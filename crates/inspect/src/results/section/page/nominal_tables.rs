@@ -5,20 +5,30 @@ use super::tables::head;
 use crate::report::number::{Style, decimals};
 use crate::report::page::parts::{fact, file_name, listed, row_class};
 use crate::report::values::Text;
-use crate::results::compare::page::by_side;
-use crate::results::section::{NominalRecord, SectionDocument};
+use crate::results::compare::page::{OUTSIDE, by_side};
+use crate::results::section::{NominalRecord, Positive, SectionDocument};
 use maud::{Markup, html};
+
+/// The word for where deviations are positive.
+pub fn sign(positive: Positive) -> &'static str {
+    match positive {
+        Positive::Outside => "nominal.outside",
+        Positive::Left => "nominal.left",
+        Positive::Both => "nominal.outside_or_left",
+    }
+}
 
 /// The section of the list.
 pub fn nominal(s: Style, document: &SectionDocument, found: &NominalRecord) -> Markup {
     let digits = decimals(found.deviation.all.std_dev, 4);
+    let sides = if *found.positive == Positive::Outside { OUTSIDE } else { ["side.plus", "side.minus"] };
     html! {
         p.note {
             (Text(file_name(&found.path))) ": " (s.word(format!("nominal.{}", found.outline))) " · "
-            (s.word(format!("nominal.{}", found.positive)))
+            (s.word(sign(*found.positive)))
         }
         @for warning in &found.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
-        (by_side(s, &found.deviation, digits))
+        (by_side(s, &found.deviation, digits, sides))
         dl.facts.pairs {
             @for (reason, count) in &found.excluded { (fact(s, &format!("nominal.{reason}"), s.count(*count))) }
         }
@@ -30,6 +40,8 @@ pub fn nominal(s: Style, document: &SectionDocument, found: &NominalRecord) -> M
 /// The points farthest off on both sides.
 fn worst(s: Style, document: &SectionDocument, found: &NominalRecord, digits: usize) -> Markup {
     let first = drawn_pieces(document);
+    let several = document.planes.len() > 1;
+    let plane = |contour: u64| document.contours.get(contour as usize)?.plane.filter(|_| several);
     html! {
         div.wide {
             table.pick.farthest {
@@ -41,7 +53,10 @@ fn worst(s: Style, document: &SectionDocument, found: &NominalRecord, digits: us
                             td { @if w.deviation > 0.0 { "▲" } @else { "▼" } }
                             td.r { (s.number(w.deviation, digits).signed()) }
                             @for x in w.point { td.r { (s.number(x, 4)) } }
-                            td.r { (w.contour + 1) }
+                            td.r {
+                                (w.contour + 1)
+                                @if let Some(plane) = plane(w.contour) { " · " (s.word("plane")) "\u{a0}" (plane + 1) }
+                            }
                         }
                     }
                 }

@@ -4,10 +4,12 @@ use super::nominal::DOT;
 use super::tests::{attributes, document, drawn, far, numbers, places, row};
 use super::*;
 use crate::report::{Language, flat};
-use crate::results::section::{Against, AgainstPlane, NominalRecord};
+use crate::results::section::{
+    Against, AgainstPlane, NominalRecord, NominalWarningKind, PlaneRecord, Positive,
+};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Geometry, Options, Outline, Segment, contour, off_nominal};
+use trueness_geom::section::{Contour, Geometry, Options, Outline, Segment, contour, off_nominal};
 use trueness_geom::spline::{basis::Knots, curve::Curve};
 
 /// A line, an arc of radius 8 and a curve, near to [`row`]; and a round hole that no point is near to.
@@ -252,4 +254,141 @@ fn segments_astray_stand_apart() {
     let page = drawn(&document, &[], 0);
     let range = page.split("data-range=\"").nth(1).unwrap().split('"').next().unwrap();
     assert!(range.parse::<f64>().unwrap() >= most);
+}
+
+/// What of an outline was measured is drawn by itself, and the rest dashed.
+#[test]
+fn an_outline_is_dashed_where_it_was_not_measured() {
+    // Along the line, from the sixth of its sixty points to the last.
+    let points: Vec<[f64; 2]> = row(0.0).into_iter().take(60).skip(5).collect();
+    let document = compared(&points, outlines());
+    let page = drawn(&document, &flat(&points), 1 << 20);
+    let [measured, missed, hole] = attributes(&page, "nominal", "d")[..] else { panic!("{page}") };
+    assert_eq!(attributes(&page, "nominal missed", "d"), [missed, hole]);
+    let ends = [points[0][0], points[54][0]];
+    let line = places(&page, measured);
+    assert!(line.len() == 2 && !measured.contains('C'), "{measured}");
+    assert!((0..2).all(|k| far(line[k], [ends[k], -500.0]) < 1e-5), "{line:?}");
+    let rest = places(&page, missed);
+    assert_eq!(missed.matches('M').count(), 2);
+    for (n, at) in
+        [(0, [1000.0, -500.0]), (1, [ends[0], -500.0]), (2, [ends[1], -500.0]), (3, [1020.0, -500.0])]
+    {
+        assert!(far(rest[n], at) < 1e-5, "{rest:?}");
+    }
+    assert!(far(rest[rest.len() - 1], [1000.0, -480.0]) < 1e-5);
+    let legend = page.split("sheet-legend").nth(1).unwrap();
+    assert!(legend.contains("\"stroke nominal\"") && legend.contains("\"stroke nominal missed\""));
+}
+
+/// The record of rows in one plane that holds these outlines.
+fn against(rows: &[Vec<[f64; 2]>], outlines: &[Outline]) -> NominalRecord {
+    let bare = Contour::default();
+    let of = |points: &'_ [[f64; 2]]| off_nominal(points, outlines, &Silent).unwrap();
+    let contours = rows.iter().map(|points| Against { points, found: of(points), contour: &bare }).collect();
+    let plane = AgainstPlane { plane: None, outlines: outlines.to_vec(), contours };
+    NominalRecord::new("n.dxf", "drawing", vec![plane])
+}
+
+fn circle([x, y]: [f64; 2], r: f64) -> Vec<[f64; 2]> {
+    (0..60).map(|i| libm::sincos(TAU * f64::from(i) / 60.0)).map(|(s, c)| [x + r * c, y + r * s]).collect()
+}
+
+/// Head, table and legend tell the sign of what the points were measured against: of closed outlines, of open ones, or of both.
+#[test]
+fn the_sign_is_that_of_what_was_measured() {
+    let around = Outline::polyline(&circle([0.0; 2], 20.0), true);
+    let open = Outline::polyline(&[[100.0, 0.0], [140.0, 0.0]], false);
+    let along: Vec<[f64; 2]> = (0..40).map(|i| [100.5 + f64::from(i), 0.1]).collect();
+    let ring = vec![circle([0.0; 2], 20.1)];
+    let both = [ring.clone(), vec![along.clone()]].concat();
+    let outlines = [around, open];
+    for (rows, positive, key) in [
+        (ring, Positive::Outside, "nominal.outside"),
+        (vec![along], Positive::Left, "nominal.left"),
+        (both, Positive::Both, "nominal.outside_or_left"),
+    ] {
+        let found = against(&rows, &outlines);
+        assert_eq!(*found.positive, positive);
+        assert!(found.deviations.iter().flatten().flatten().all(|d| *d > 0.0));
+        let document = SectionDocument { nominal: Some(found), ..document(&row(0.0)) };
+        assert_eq!(document.convention(), Some(key));
+        // So do the heads of the columns.
+        assert_eq!(
+            document.list(ENGLISH).into_string().contains("data-t=\"plus\""),
+            positive == Positive::Outside
+        );
+    }
+    assert_eq!(document(&row(0.0)).convention(), Some("sign.section"));
+}
+
+/// A hole too many is named with its distance, of the size of the part or of its own; a hole of another size is not; nor are outlines that
+/// close. One that nearly does is, with its gap.
+#[test]
+fn what_makes_deviations_doubtful_is_named() {
+    let frame = [[0.0, 0.0], [100.0, 0.0], [100.0, 60.0], [0.0, 60.0]];
+    let hole = Outline { segments: vec![Segment::arc([30.0, 30.0], 8.0, 0.0, -TAU)], closed: true };
+    let outlines = [Outline::polyline(&frame, true), hole];
+    let side: Vec<[f64; 2]> = (0..200).map(|i| [0.5 * f64::from(i), -0.01]).collect();
+    let part = |holes: &[([f64; 2], f64)]| -> Vec<Vec<[f64; 2]>> {
+        [side.clone()].into_iter().chain(holes.iter().map(|(center, r)| circle(*center, *r))).collect()
+    };
+    for (holes, least) in [
+        (vec![([30.0, 30.0], 8.01)], None),
+        (vec![([30.0, 30.0], 5.0)], None),
+        (vec![([30.0, 30.0], 8.01), ([70.0, 30.0], 3.0)], Some((27.0, "contour 3 of the part lies"))),
+        (vec![([70.0, 4.0], 0.5), ([30.0, 30.0], 8.01)], Some((3.5, "contour 2 of the part lies"))),
+    ] {
+        let found = against(&part(&holes), &outlines).warnings;
+        let Some((least, text)) = least else {
+            assert_eq!(found, []);
+            continue;
+        };
+        assert!(found.len() == 1 && found[0].kind == NominalWarningKind::NowhereNear, "{found:?}");
+        assert!((found[0].value - least).abs() < 1e-9 && found[0].text.contains(text), "{found:?}");
+    }
+    let gap = Outline::polyline(&[[0.001, 0.0], [100.0, 0.0], [100.0, 60.0], [0.0, 60.0], [0.0; 2]], false);
+    let found = against(&part(&[]), &[gap]).warnings;
+    assert!(found.len() == 1 && found[0].kind == NominalWarningKind::NearlyClosed, "{found:?}");
+    assert!((found[0].value - 0.001).abs() < 1e-12);
+    assert!(found[0].text.contains("contour 1 of the nominal is open by 0.0010 mm at (0.0010, 0.0000)"));
+}
+
+/// Of several planes the points farthest off name theirs; a drawing among the files has no points; all of a nominal that is larger by far can
+/// be shown.
+#[test]
+fn planes_and_sizes_are_told() {
+    let points = row(0.01);
+    let mut document = compared(&points, outlines());
+    let frame = FrameRecord::FLAT;
+    let plane = PlaneRecord {
+        normal: [0.0, 0.0, 1.0],
+        offset: 0.0,
+        frame,
+        contours: 1,
+        area: None,
+        area_reason: None,
+        loose: 0,
+        gap: None,
+        hint: None,
+    };
+    let farthest = |document: &SectionDocument| {
+        let list = document.list(ENGLISH).into_string();
+        let table = list.split("<table class=\"pick farthest\"").nth(1).unwrap();
+        table.split("</table>").next().unwrap().to_string()
+    };
+    assert!(!farthest(&document).contains("Plane"));
+    document.planes = vec![plane.clone(), plane];
+    document.contours[0].plane = Some(1);
+    assert!(farthest(&document).contains("Plane</span>\u{a0}2"), "{}", farthest(&document));
+    let page = drawn(&document, &flat(&points), 1 << 20);
+    assert!(!page.contains("data-all"));
+    let large = [[900.0, -600.0], [1300.0, -600.0], [1300.0, -300.0], [900.0, -300.0]];
+    let page = drawn(&compared(&points, vec![Outline::polyline(&large, true)]), &flat(&points), 1 << 20);
+    let all = numbers(attributes(&page, "plan", "data-all")[0]);
+    let origin = numbers(attributes(&page, "plan", "data-origin")[0]);
+    let [low, high] = [[all[0], all[1] + all[3]], [all[0] + all[2], all[1]]];
+    let place = |[x, y]: [f64; 2]| [origin[0] + x, origin[1] - y];
+    // The middle and 1.12 times the size of the square.
+    assert!(far(place(low), [876.0, -618.0]) < 1e-9 && far(place(high), [1324.0, -282.0]) < 1e-9, "{all:?}");
 }

@@ -34,9 +34,11 @@ pub struct Plan {
     pub paths: Vec<Vec<Path>>,
     /// Of each segment of each contour.
     pub teeth: Vec<Vec<Vec<Tooth>>>,
-    /// Middle of all as it is turned, and half its width and height.
+    /// Middle of what is seen at first as it is turned, and half its width and height.
     pub middle: [f64; 2],
     pub half: [f64; 2],
+    /// Middle and half sizes of all, where a nominal is larger by far than what is seen at first.
+    pub all: Option<([f64; 2], [f64; 2])>,
     /// Greatest curvature, and millimeters of a tooth for each unit of it.
     pub curvature: f64,
     pub comb: f64,
@@ -104,7 +106,10 @@ impl Plan {
             sheet.outlines.iter().flat_map(|(_, o)| corners(o)).map(|p| turned(up, p)).collect();
         let size_of = |half: [f64; 2]| 2.0 * libm::hypot(half[0], half[1]);
         let [own, both] = [frame(drawn()).1, frame(drawn().chain(nominal.iter().copied())).1].map(size_of);
-        let nominal = if sheet.contours.is_empty() || both <= LARGER * own { nominal } else { vec![] };
+        let larger = !sheet.contours.is_empty() && both > LARGER * own;
+        let all = larger.then(|| frame(drawn().chain(nominal.iter().copied())));
+        let all = all.map(|(middle, half)| (middle, half.map(|x| MARGIN * x)));
+        let nominal = if larger { vec![] } else { nominal };
         let size = if sheet.contours.is_empty() { both } else { own };
         let of = |c: &ContourRecord| c.segments.iter().map(|s| teeth(s, STEP * size)).collect::<Vec<_>>();
         let teeth: Vec<Vec<Vec<Tooth>>> = sheet.contours.iter().map(|(_, c)| of(c)).collect();
@@ -115,7 +120,7 @@ impl Plan {
         let least = 0.02 * half[0].max(half[1]).max(1e-9);
         let half = half.map(|x| MARGIN * x.max(least));
         let times = times(sheet, document, COMB * size);
-        Plan { paths, teeth, middle, half, curvature, comb, up, times }
+        Plan { paths, teeth, middle, half, all, curvature, comb, up, times }
     }
 
     /// A place as SVG has it.
@@ -123,6 +128,12 @@ impl Plan {
         let [x, y] = turned(self.up, p);
         // 0 and no minus 0.
         [x - self.middle[0] + 0.0, self.middle[1] - y + 0.0]
+    }
+
+    /// The box of all as SVG has it, where that is another than what is seen at first: its least coordinates, width and height.
+    pub fn all(&self) -> Option<[f64; 4]> {
+        let ([x, y], [w, h]) = self.all?;
+        Some([x - w - self.middle[0], self.middle[1] - y - h, 2.0 * w, 2.0 * h])
     }
 
     /// Millimeters of a pixel at first sight.

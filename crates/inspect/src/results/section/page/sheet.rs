@@ -35,6 +35,7 @@ impl Sheet<'_> {
         let total: usize = self.contours.iter().map(|(_, c)| c.joins.len()).sum();
         html! {
             svg.plan viewBox={ (-w) " " (-v) " " (2.0 * w) " " (2.0 * v) } data-origin={ (x) " " (y) }
+                data-all=[plan.all().map(|[x, y, w, h]| format!("{x} {y} {w} {h}"))]
                 data-up=[(plan.up != [0.0, 1.0]).then(|| format!("{a} {b}"))] role="img" {
                 title { (s.bare_word("picture.section")) }
                 "\n"

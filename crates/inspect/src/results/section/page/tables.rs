@@ -274,7 +274,7 @@ pub fn planes(s: Style, planes: &[PlaneRecord]) -> Markup {
     html! {
         div.wide {
             table.planes {
-                (head(s, &["distance.title", "contours", "area.mm2"]))
+                (head(s, &["distance.title", "contours", "area.section"]))
                 tbody {
                     @for (n, plane) in planes.iter().enumerate() {
                         @let [x, y, z] = plane.normal;
