@@ -75,16 +75,27 @@ impl Outline {
         (!self.closed && gap < NEARLY * self.length()).then_some(gap)
     }
 
-    /// What lies between two lengths along it, `from` below `to`: an open one.
-    pub fn part(&self, from: f64, to: f64) -> Outline {
-        let mut segments = vec![];
-        let mut before = 0.0;
-        for s in &self.segments {
-            let [a, b] = [from, to].map(|along| (along - before).clamp(0.0, s.length));
-            segments.extend((a < b).then(|| s.part(a, b)));
-            before += s.length;
-        }
-        Outline { segments, closed: false }
+    /// What lies in each of these stretches, between two lengths along it: open ones. Those without length are left out.
+    pub fn parts(&self, stretches: &[[f64; 2]]) -> Vec<Outline> {
+        let lengths = self.segments.iter().scan(0.0, |sum, s| {
+            *sum += s.length;
+            Some(*sum)
+        });
+        let ends: Vec<f64> = lengths.collect();
+        let part = |[from, to]: &[f64; 2]| {
+            let mut segments = vec![];
+            let first = ends.partition_point(|end| end <= from);
+            for (s, end) in self.segments.iter().zip(&ends).skip(first) {
+                let start = end - s.length;
+                if start >= *to {
+                    break;
+                }
+                let [a, b] = [from, to].map(|along| (along - start).clamp(0.0, s.length));
+                segments.extend((a < b).then(|| s.part(a, b)));
+            }
+            Outline { segments, closed: false }
+        };
+        stretches.iter().map(part).filter(|part| !part.segments.is_empty()).collect()
     }
 
     fn reversed(self) -> Outline {

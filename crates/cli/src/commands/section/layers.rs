@@ -69,7 +69,7 @@ fn passed_over(counts: &BTreeMap<&str, u64>) -> Option<NominalWarning> {
         "the drawing has a layer for each plane, section-1, section-2, …; those of no plane were passed over, with their entities: {}",
         named.join(", ")
     );
-    (total > 0).then(|| NominalWarning {
+    (total > 0).then_some(NominalWarning {
         kind: NominalWarningKind::LayersPassedOver,
         value: total as f64,
         text,

@@ -138,7 +138,7 @@ fn a_part_lies_on_the_whole() {
         if round % 10 == 0 {
             (from, to) = (0.0, length);
         }
-        let part = whole.part(from, to);
+        let part = &whole.parts(&[[from, to]])[0];
         assert!((part.length() - (to - from)).abs() < 1e-9, "{from} {to} {}", part.length());
         for w in part.segments.windows(2) {
             assert!(libm::hypot(w[0].end[0] - w[1].start[0], w[0].end[1] - w[1].start[1]) < 1e-9);
@@ -152,5 +152,9 @@ fn a_part_lies_on_the_whole() {
             }
         }
     }
-    assert!(whole.part(3.0, 3.0).segments.is_empty());
+    assert!(whole.parts(&[[3.0, 3.0], [length, length + 1.0]]).is_empty());
+    assert_eq!(
+        whole.parts(&[[1.0, 2.0], [5.0, 25.0]]),
+        [whole.parts(&[[1.0, 2.0]]), whole.parts(&[[5.0, 25.0]])].concat()
+    );
 }

@@ -74,12 +74,8 @@ impl OutlineRecord {
         }
         let ends = self.measured.iter().flatten().copied();
         let ends: Vec<f64> = std::iter::once(0.0).chain(ends).chain([self.length]).collect();
-        let parts = |between: Vec<[f64; 2]>| {
-            let parts = between.into_iter().map(|[from, to]| self.drawn.part(from, to));
-            parts.filter(|part| !part.segments.is_empty()).collect()
-        };
-        let missed = ends.chunks(2).filter_map(|w| w.try_into().ok()).collect();
-        [parts(self.measured.clone()), parts(missed)]
+        let missed: Vec<[f64; 2]> = ends.chunks(2).filter_map(|w| w.try_into().ok()).collect();
+        [&self.measured, &missed].map(|stretches| self.drawn.parts(stretches))
     }
 }
 
