@@ -12,11 +12,10 @@ mod page;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
+pub use doubts::{NominalWarning, NominalWarningKind};
 pub use found::{FrameRecord, Section};
 pub use near_arc::NearArc;
-pub use nominal::{
-    BEYOND_END, NO_OUTLINE, NominalRecord, NominalWarning, NominalWarningKind, Positive, WorstRecord,
-};
+pub use nominal::{BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
 pub use outline::{Against, AgainstPlane, OutlineRecord};
 
 use super::{InputRecord, UNITS, VERSION, Word};

@@ -1,9 +1,9 @@
 //! How a section differs from that of a nominal.
 
 use super::super::Word;
-use super::super::compare::{BySide, Histogram, Warning, WarningKind};
+use super::super::compare::{BySide, Histogram};
 use super::super::word::named;
-use super::doubts;
+use super::doubts::{NominalWarning, doubts};
 use super::outline::{self, AgainstPlane, OutlineRecord};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -77,44 +77,6 @@ pub struct NominalRecord {
     pub nearest: Vec<Vec<Option<[f64; 2]>>>,
 }
 
-/// Something that makes the deviations doubtful, although each is computed right.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct NominalWarning {
-    /// What was noticed.
-    pub kind: NominalWarningKind,
-    /// The number that it was noticed by.
-    pub value: f64,
-    /// The same in words.
-    pub text: String,
-}
-
-/// What can be noticed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NominalWarningKind {
-    /// The sizes of part and nominal stand in a ratio as two units do. `value`: diagonal of the part's box over that of the nominal.
-    SizeRatio,
-    /// Their boxes hardly overlap. `value`: the common share of the smaller box, both widened by a margin.
-    HardlyOverlapping,
-    /// Ends of an outline of the nominal nearly meet: it is open, and has a left and a right in place of an inside. `value`: how far they are
-    /// apart.
-    NearlyClosed,
-    /// All of a contour of the part lies far off the nominal, as one that is not of it. `value`: the least distance.
-    NowhereNear,
-    /// Entities of the drawing lie on layers of no plane of the section. `value`: their number.
-    LayersPassedOver,
-}
-
-impl From<Warning> for NominalWarning {
-    fn from(Warning { kind, value, text }: Warning) -> NominalWarning {
-        let kind = match kind {
-            WarningKind::SizeRatio => NominalWarningKind::SizeRatio,
-            WarningKind::HardlyOverlapping => NominalWarningKind::HardlyOverlapping,
-        };
-        NominalWarning { kind, value, text }
-    }
-}
-
 /// A point far off the nominal.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct WorstRecord {
@@ -161,7 +123,7 @@ impl NominalRecord {
         let summary = Summary::of(&values);
         let deviations = found().map(|f| f.iter().map(|o| o.map(|o| o.deviation)).collect()).collect();
         let nearest = found().map(|f| f.iter().map(|o| o.map(|o| o.place)).collect()).collect();
-        let warnings = doubts::doubts(&planes);
+        let warnings = doubts(&planes);
         let outlines: Vec<OutlineRecord> = planes.into_iter().flat_map(outline::records).collect();
         NominalRecord {
             path: path.into(),
