@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Folder, status, stderr, trueness};
+use common::{Folder, status, stderr, stdout, trueness};
 use serde_json::Value;
 use std::fmt::Write;
 

@@ -8,7 +8,7 @@ use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Point, cross, minus, norm, normal};
 
-/// Facets of a feature that tell how far the places of one differ in height.
+/// Facets of a feature that tell how far the corners of one differ in height.
 const ASKED: usize = 4096;
 /// So many times their median is noise: the difference of three normal numbers is 1.6 standard deviations in the middle, and five in one of a
 /// thousand.
@@ -229,22 +229,22 @@ impl<'a> FeatureSearch<'a> {
     }
 
     /// Adds those of the facets beside that are so narrow that noise alone may have tilted them: their places differ in height above the
-    /// nominal by no more than those of facets of the feature do.
+    /// nominal by no more than corners of facets of the feature do.
     fn slivers(&self, found: &mut Marked, beside: &[u32], nominal: &Nominal, is_near: impl Fn(u32) -> bool) {
         let Some(surface) = nominal.surface() else { return };
-        let rise = |f: u32| -> Option<f64> {
-            let heights =
-                places(self.corners(f)?).into_iter().filter_map(|p| surface.distance(p)).map(|d| d.0);
+        let rise = |places: &[Point]| {
+            let heights = places.iter().filter_map(|p| surface.distance(*p)).map(|d| d.0);
             let (low, high) =
                 heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-            Some(high - low)
+            high - low
         };
         let step = found.count.div_ceil(ASKED);
-        let mut rises: Vec<f64> = found.all().step_by(step.max(1)).filter_map(rise).collect();
+        let asked = found.all().step_by(step.max(1)).filter_map(|f| self.corners(f));
+        let mut rises: Vec<f64> = asked.map(|corners| rise(&corners)).collect();
         rises.sort_unstable_by(f64::total_cmp);
         let Some(usual) = rises.get(rises.len() / 2) else { return };
-        for f in beside.iter().copied() {
-            if !found.has(f) && is_near(f) && rise(f).is_some_and(|r| r <= NOISE * usual) {
+        for f in beside.iter().copied().filter(|f| is_near(*f)) {
+            if self.corners(f).is_some_and(|c| rise(&places(c)) <= NOISE * usual) {
                 found.add(f);
             }
         }

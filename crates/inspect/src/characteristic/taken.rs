@@ -65,6 +65,14 @@ pub struct LeftOut {
     pub on_reference: bool,
 }
 
+impl LeftOut {
+    /// Of points so far off.
+    pub(crate) fn of(off: &[f64], limit: f64, on_reference: bool) -> LeftOut {
+        let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
+        LeftOut { points: off.len() as u64, farthest, limit, on_reference }
+    }
+}
+
 /// What a feature is made to.
 #[derive(Clone, Debug)]
 pub enum Element {

@@ -2,8 +2,7 @@
 //!
 //! A dent deeper than the extract distance is no part of its feature, and the feature is the better for it. Where the
 //! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Without a reference those are told, of a
-//! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh, those of dents and bumps that it has
-//! all around them.
+//! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh see `deeper`.
 
 use super::belonging::{Belonging, ELSEWHERE};
 use super::data::{Data, Stop};
@@ -13,8 +12,7 @@ use crate::characteristic::{LeftOut, Taken, Value};
 use crate::plan::{Plan, Spec};
 use crate::results::Verdict;
 use std::collections::BTreeMap;
-use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal, in_cloud};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::feature::{Nearness, Nominal, in_cloud};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, Vector, minus, times};
 use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
@@ -27,7 +25,7 @@ const OWN: usize = 6;
 /// than so many others beyond reach.
 const OTHERS: usize = 3;
 
-/// Tells the features which points they leave out; [`deeper`] has told those of a mesh without a reference.
+/// Tells the features which points they leave out; those of a mesh without a reference are known with its facets.
 ///
 /// Cost: one look at each measured point for each feature, and a search for those over or below it.
 pub(super) fn tell(
@@ -54,32 +52,10 @@ pub(super) fn tell(
             _ => vec![],
         };
         if !off.is_empty() {
-            features[n].left_out = Some(left_out(&off, &near, belonging.is_some()));
+            features[n].left_out = Some(LeftOut::of(&off, near.distance, belonging.is_some()));
         }
     }
     if progress.cancelled() { Err(Stop::Cancelled) } else { Ok(()) }
-}
-
-/// Of points so far off.
-fn left_out(off: &[f64], near: &Nearness, on_reference: bool) -> LeftOut {
-    let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-    LeftOut { points: off.len() as u64, farthest, limit: near.distance, on_reference }
-}
-
-/// What a feature that was found in a mesh leaves out of its dents and bumps, up to a tenth of the size of the mesh.
-pub(super) fn deeper(
-    mesh: &Mesh,
-    facets: &FeatureSearch,
-    found: &Found,
-    (nominal, near): (&Nominal, &Nearness),
-    progress: &dyn Progress,
-) -> Result<Option<LeftOut>, FeatureError> {
-    let Some(surface) = nominal.surface() else { return Ok(None) };
-    let reach = ELSEWHERE * mesh.bounds().diagonal();
-    let deep = facets.deeper(found, nominal, near, reach, progress)?;
-    let off = deep.iter().filter_map(|v| surface.distance(*mesh.positions.get(*v as usize)?));
-    let off: Vec<f64> = off.map(|(off, _)| off.abs()).collect();
-    Ok((!off.is_empty()).then(|| left_out(&off, near, false)))
 }
 
 /// How far off the points of a cloud are that lie beyond the reach of a nominal, up to a tenth of the size of the cloud, over
@@ -192,6 +168,7 @@ mod tests {
     use super::*;
     use crate::inspection::run;
     use crate::results::inspect::{InspectDocument, PlanRecord};
+    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
 
     /// A floor of squares, 20 by 20.

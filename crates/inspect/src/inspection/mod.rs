@@ -4,6 +4,7 @@ mod align;
 mod belonging;
 mod data;
 pub mod decision;
+mod deeper;
 mod denoised;
 mod deviation;
 mod document;

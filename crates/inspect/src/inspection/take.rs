@@ -2,7 +2,7 @@
 
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
-use super::left_out;
+use super::deeper::deeper;
 use super::seed::Seeded;
 use crate::characteristic::{Element, Others, Taken};
 use crate::plan::text::DerivedWord;
@@ -207,7 +207,7 @@ fn found(
     };
     let mut found = found.map_err(stop)?;
     if let (Some(facets), None) = (search.facets, search.belonging) {
-        taken.left_out = left_out::deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
+        taken.left_out = deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
     }
     if let Some(cloud) = search.cloud {
         let with = (cloud, search.belonging);
