@@ -22,12 +22,6 @@ enum CheckedNominal {
     Edge { point: Point, direction: Vector, length: f64, normals: [Vector; 2] },
 }
 
-/// The corners of a facet, the middles of its sides and its center.
-pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
-    let middle = |p: Point, q: Point| times(0.5, plus(p, q));
-    [a, b, c, middle(a, b), middle(b, c), middle(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
-}
-
 fn way(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
     if v.iter().any(|x| !x.is_finite()) {
         return Err(FeatureError::NotFinite);
@@ -95,10 +89,13 @@ impl<'a> Rules<'a> {
     /// that leads away from the feature. The corners of a flat end of a cylinder lie on this, and nothing else of it; beyond the walls of
     /// a thin plate there is its other side. Never to an edge, which is told by its angles alone.
     pub(super) fn tilted(&self, corners: [Point; 3], facing: Option<Vector>) -> bool {
-        let places = places(corners);
+        let [a, b, c] = corners;
+        let middle = |p: Point, q: Point| times(0.5, plus(p, q));
+        let center = times(1.0 / 3.0, plus(a, plus(b, c)));
+        let places = [a, b, c, middle(a, b), middle(b, c), middle(c, a), center];
         !matches!(self.kind, CheckedNominal::Edge { .. })
             && places.iter().all(|p| self.point(*p))
-            && facing.is_none_or(|n| self.faces(places[6], n, STEEPEST))
+            && facing.is_none_or(|n| self.faces(center, n, STEEPEST))
     }
 
     /// Whether a place is near the feature and within its bounds.

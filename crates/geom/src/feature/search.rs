@@ -1,18 +1,12 @@
 //! The facets of a mesh that belong to nominal features.
 
-use super::rules::{Rules, places};
+use super::rules::Rules;
 use super::{FeatureError, Found, Nearness, Nominal};
 use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::space::{Point, cross, minus, norm, normal};
-
-/// Facets of a feature that tell how far the corners of one differ in height.
-const ASKED: usize = 4096;
-/// So many times their median is noise: the difference of three normal numbers is 1.6 standard deviations in the middle, and five in one of a
-/// thousand.
-const NOISE: f64 = 3.0;
 
 /// A mesh in which features are sought, with what every search needs: made once for all of them.
 pub struct FeatureSearch<'a> {
@@ -113,7 +107,6 @@ impl<'a> FeatureSearch<'a> {
         // A spike or a dent is steep and belongs to the feature all the same: what lies near and has the feature all around it.
         let is_near = |f: u32| self.corners(f).is_some_and(|c| rules.tilted(c, normal(c)));
         self.enclosed(&mut found, &beside, is_near, progress)?;
-        self.slivers(&mut found, &beside, nominal, is_near);
         Ok(self.with_points(&found, near.rim))
     }
 
@@ -226,28 +219,6 @@ impl<'a> FeatureSearch<'a> {
             }
         }
         Ok(())
-    }
-
-    /// Adds those of the facets beside that are so narrow that noise alone may have tilted them: their places differ in height above the
-    /// nominal by no more than corners of facets of the feature do.
-    fn slivers(&self, found: &mut Marked, beside: &[u32], nominal: &Nominal, is_near: impl Fn(u32) -> bool) {
-        let Some(surface) = nominal.surface() else { return };
-        let rise = |places: &[Point]| {
-            let heights = places.iter().filter_map(|p| surface.distance(*p)).map(|d| d.0);
-            let (low, high) =
-                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-            high - low
-        };
-        let step = found.count.div_ceil(ASKED);
-        let asked = found.all().step_by(step.max(1)).filter_map(|f| self.corners(f));
-        let mut rises: Vec<f64> = asked.map(|corners| rise(&corners)).collect();
-        rises.sort_unstable_by(f64::total_cmp);
-        let Some(usual) = rises.get(rises.len() / 2) else { return };
-        for f in beside.iter().copied().filter(|f| is_near(*f)) {
-            if self.corners(f).is_some_and(|c| rise(&places(c)) <= NOISE * usual) {
-                found.add(f);
-            }
-        }
     }
 
     /// These facets with their vertices; those that others share only with `rim`.
