@@ -6,7 +6,8 @@ use super::start::{Candidate, Search};
 use super::system::Spectrum;
 use super::work::{PART, RIVAL, SOON, Work};
 use super::{
-    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near, wall,
+    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
+    revolved, wall,
 };
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
@@ -122,10 +123,19 @@ pub fn best_fit(
             let found = [own].iter().chain(&again).filter(here).count();
             unconfirmed = (found < 2).then_some(1 + AGAIN);
         }
-        result.alternatives = work.alternatives(&search, &start.poses, &result, &some, progress)?;
+        let turned = work.turned(&search, &result, &some, progress)?;
+        let near = |p: &&Rigid| search.apart(p, &result.reference_from_measured) <= search.spacing;
+        if let Some(pose) = turned.iter().find(near) {
+            let other = settled(*pose, sigma)?;
+            if work.costs_less(&other, &result, &some, progress)? {
+                result = other;
+            }
+        }
+        let poses = (&start.poses[..], &turned[..]);
+        result.alternatives = work.alternatives(&search, poses, &result, &some, progress)?;
         if let Some(pose) = better(&search, &result) {
             result = settled(pose, sigma)?;
-            result.alternatives = work.alternatives(&search, &start.poses, &result, &some, progress)?;
+            result.alternatives = work.alternatives(&search, poses, &result, &some, progress)?;
         }
         start.search = Some(search);
     }
@@ -175,20 +185,24 @@ impl Work<'_> {
         let mut search = Search::new(self.target, few, self.options.seed, progress)?;
         let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
         let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
+        let as_is = best(&candidates);
+        let mut scale = self.scale(&search, as_is, progress)?;
         let mut turned = false;
-        if best(&candidates) < DOUBTFUL && search.samples.oriented {
+        if as_is < DOUBTFUL && scale.is_none() && search.samples.oriented {
             search.turn();
             let others = search.candidates(&[Rigid::IDENTITY], progress)?;
-            turned = best(&others) > best(&candidates);
+            scale = self.scale(&search, best(&others).max(as_is), progress)?;
+            turned = scale.is_some() || best(&others) > as_is;
             if turned {
                 candidates = others;
             } else {
                 search.turn();
             }
         }
-        let scale = self.scale(&search, best(&candidates), progress)?;
         let poses = self.promising(&search, &candidates, progress)?;
-        Ok(Found { poses, turned, scale, search: Some(search) })
+        // What has a wrong unit lies nowhere: no use to look on.
+        let search = scale.is_none().then_some(search);
+        Ok(Found { poses, turned, scale, search })
     }
 
     /// The best of the candidates, refined on the samples of the search.
@@ -251,6 +265,36 @@ impl Work<'_> {
             return Ok(pose);
         }
         Ok(self.choose(&[&[pose][..], &best].concat(), some, progress)?.0)
+    }
+
+    /// Poses turned about the axis of a reference that is a body of revolution but for a detail; none where the shape leaves a turn free.
+    fn turned(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        if result.freedoms.iter().any(|f| matches!(f, Freedom::Turns { .. })) {
+            return Ok(vec![]);
+        }
+        let part = some.first(PART);
+        let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
+        let cap = self.cap(1.4826 * result.median);
+        revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)
+    }
+
+    /// Whether `other` fits better.
+    fn costs_less(
+        &self,
+        other: &Alignment,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<bool, AlignError> {
+        let (problem, cap) = (self.problem(some), self.cap(1.4826 * result.median));
+        let cost = |a: &Alignment| problem.cost(&a.reference_from_measured, cap, progress);
+        Ok(cost(other)? < cost(result)?)
     }
 
     /// The factor between units by which the measured fits better than as it is.
@@ -322,7 +366,7 @@ impl Work<'_> {
     fn alternatives(
         &self,
         search: &Search,
-        poses: &[Rigid],
+        (poses, turned): (&[Rigid], &[Rigid]),
         result: &Alignment,
         some: &Samples,
         progress: &dyn Progress,
@@ -340,14 +384,17 @@ impl Work<'_> {
         let (own, own_few, own_part) = (own?, own_few?, own_part?);
         let floor = self.rounding * self.rounding * 256.0;
         let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
-        let mut found: Vec<Alternative> = vec![];
+        let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
+        let mut others: Vec<Rigid> = vec![];
         for (_, other) in search.refine(&candidates, search.worth(&pose), &few, progress)? {
             // With few samples first, then with a part of them: most are far worse.
-            let worse =
-                |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
-            if worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
-                continue;
+            if !worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
+                others.push(other);
             }
+        }
+        others.extend(turned);
+        let mut found: Vec<Alternative> = vec![];
+        for other in others {
             let reach = self.reach(result.median);
             let other = part.run(other, reach, SOON, progress)?.pose;
             if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {

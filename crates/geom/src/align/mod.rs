@@ -30,6 +30,7 @@ mod icp;
 mod minimax;
 mod near;
 mod response;
+mod revolved;
 mod rows;
 mod sample;
 mod start;

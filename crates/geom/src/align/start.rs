@@ -9,7 +9,7 @@ use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times};
 use std::sync::Arc;
 
 /// Places on the reference whose pairs are known.
@@ -103,6 +103,11 @@ impl Search {
     pub fn turn(&mut self) {
         self.samples = self.samples.turned();
         self.blocks = SampleBlock::of(&self.samples, self.measured.mean);
+    }
+
+    /// The mean of the surface of the reference.
+    pub fn reference_mean(&self) -> Point {
+        self.known.moments.mean
     }
 
     /// Root mean square radius of the measured over that of the reference.
@@ -343,8 +348,7 @@ impl Search {
             poses.par_iter().map(|p| (self.worth_within(p, reach), *p)).collect();
         tried.sort_by(|x, y| y.0.total_cmp(&x.0));
         tried.truncate(REFINED);
-        // What is some way off must count at first: as outliers it would draw nothing.
-        let wide = Problem { rounding: problem.rounding.max(WIDE * self.spacing), ..*problem };
+        let wide = self.wide(problem);
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (tried.par_iter())
             .map(|(_, pose)| {
                 let pose = wide.run(*pose, self.spacing, 8, progress)?.pose;
@@ -363,6 +367,11 @@ impl Search {
             }
         }
         Ok(kept)
+    }
+
+    /// The same where what is some way off counts as well: as outliers it would draw nothing.
+    pub fn wide<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
+        Problem { rounding: problem.rounding.max(WIDE * self.spacing), ..*problem }
     }
 
     /// Mean worth of all samples at a pose, within a reach of its own.

@@ -12,6 +12,7 @@ use super::verdict::rank;
 use super::{UNITS, VERSION, Verdict, overall};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use trueness_geom::stats::process::ControlChart;
 
 /// Name of this document's schema.
@@ -70,7 +71,7 @@ pub struct ResultInput {
 /// A part.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct PartRecord {
-    /// Its first measured file; where the result names none, the result.
+    /// Its first measured file; where results name none, or several the same one, the result.
     pub name: String,
     /// Its verdict.
     pub verdict: Verdict,
@@ -103,10 +104,13 @@ impl TrendDocument {
         if results.iter().any(|d| texts(d).is_some() && texts(first).is_some() && texts(d) != texts(first)) {
             warnings.push("the plans are not the same text, but their characteristics are the same".into());
         }
+        let own = |d: &InspectDocument| d.inputs.first().map(|i| i.path.clone());
+        let distinct: BTreeSet<Option<String>> = results.iter().map(own).collect();
         let name = |(n, d): (usize, &InspectDocument)| {
-            let of_result = inputs.get(n).map_or_else(String::new, |i| i.path.clone());
-            let name = d.inputs.first().map_or(of_result, |i| i.path.clone());
-            PartRecord { name, verdict: d.verdict, deviation: d.deviation.as_ref().and_then(|c| c.verdict) }
+            let of_result = inputs.get(n).map(|i| i.path.clone());
+            let name = if distinct.len() == results.len() { own(d).or(of_result) } else { of_result };
+            let deviation = d.deviation.as_ref().and_then(|c| c.verdict);
+            PartRecord { name: name.unwrap_or_default(), verdict: d.verdict, deviation }
         };
         let parts: Vec<PartRecord> = results.iter().enumerate().map(name).collect();
         let records = (0..first.characteristics.len()).map(|n| {

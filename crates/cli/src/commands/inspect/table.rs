@@ -23,7 +23,10 @@ pub fn table(document: &InspectDocument, one_of_several: bool) -> String {
             alignment.greatest.map_or_else(String::new, |g| format!(", greatest distance {}", six_digits(g)));
         let excess =
             alignment.excess.map_or_else(String::new, |x| format!(", greatest excess {}", signed(x)));
-        let _ = writeln!(out, "aligned by {}, rms {}{greatest}{excess}", alignment.method, six_digits(rms));
+        // What lies on datums has no rms of its own.
+        let of = if alignment.method == "datum" { " from a best fit of" } else { "," };
+        let _ =
+            writeln!(out, "aligned by {}{of} rms {}{greatest}{excess}", alignment.method, six_digits(rms));
     }
     for warning in &alignment.warnings {
         let _ = writeln!(out, "! alignment: {}", warning.text);

@@ -5,6 +5,7 @@ mod minimax;
 mod parts;
 mod poses;
 mod response;
+mod revolved;
 mod rows;
 mod wall;
 mod zones;

@@ -257,11 +257,18 @@ fn turned_normals_are_noticed() {
 #[test]
 fn a_wrong_unit_is_noticed() {
     let reference = bracket(4.0);
-    for factor in [25.4, 1e-3] {
-        let scaled = reference.positions.iter().map(|p| times(1.0 / factor, *p)).collect();
-        let scan = Mesh { positions: scaled, faces: reference.faces.clone() };
-        let found = fit(&Measured::Mesh(&scan), &reference);
-        assert!(found.warnings.contains(&AlignWarning::Scale { factor }), "{factor}: {:?}", found.warnings);
+    let mut random = Random::new(3);
+    for (factor, inward) in [(25.4, false), (1e-3, false), (1000.0, true), (0.1, true)] {
+        for _ in 0..2 {
+            let mut scan = moved(&reference, &random_pose(&mut random, 50.0));
+            scan.positions.iter_mut().for_each(|p| *p = times(1.0 / factor, *p));
+            if inward {
+                scan.faces.iter_mut().for_each(|f| f.swap(1, 2));
+            }
+            let warnings = fit(&Measured::Mesh(&scan), &reference).warnings;
+            assert!(warnings.contains(&AlignWarning::Scale { factor }), "{factor}: {warnings:?}");
+            assert_eq!(warnings.contains(&AlignWarning::NormalsTurned), inward, "{factor}: {warnings:?}");
+        }
     }
 }
 

@@ -32,7 +32,7 @@ pub fn alignment(s: Style, of: &Facts) -> Markup {
         html! {
             dl.facts.pairs {
                 (fact(s, "method", s.word(format!("align.{}", of.method))))
-                @if let Some(rms) = of.rms { (fact(s, "rms", html! { (length(rms)) "\u{a0}mm" })) }
+                @if let Some(rms) = of.rms { (fact(s, if of.method == "datum" { "align.rms_of_start" } else { "rms" }, html! { (length(rms)) "\u{a0}mm" })) }
                 @if let Some(greatest) = of.greatest {
                     (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
                 }
