@@ -120,10 +120,8 @@ fn threads_do_not_change_the_answer() {
     assert!(one == run("3"));
 }
 
-/// Aligned by best fit from the scanner's pose, the same features are found, and values that do not lean on the model's
-/// place are the same.
-#[test]
-fn the_best_fit_finds_the_same_features() {
+/// The example's plan with a best fit of the scan.
+fn best_fitted(folder: &Folder) -> std::path::PathBuf {
     let example = corpus("examples/plate");
     let text = std::fs::read_to_string(example.join("plate.toml")).unwrap();
     let (before, after) = text.split_once("method = \"given\"").unwrap();
@@ -132,20 +130,50 @@ fn the_best_fit_finds_the_same_features() {
     let plan = format!("{before}method = \"best-fit\"\n[[feature]]{after}")
         .replace("\"scan.stl\"", &at("scan.stl"))
         .replace("\"nominal.stl\"", &at("nominal.stl"));
+    folder.write("plan.toml", plan)
+}
+
+/// Values within `tolerance` of each other, and the same verdicts.
+fn same_values(found: &Value, wanted: &Value, tolerance: f64) {
+    let all = |of: &Value| of["characteristics"].as_array().unwrap().clone();
+    assert_eq!(all(found).len(), all(wanted).len());
+    for (a, b) in all(found).iter().zip(&all(wanted)) {
+        let (Some(x), Some(y)) = (a["value"].as_f64(), b["value"].as_f64()) else { panic!("{a} and {b}") };
+        assert!((x - y).abs() < tolerance, "{}: {x} and {y}", a["id"]);
+        assert_eq!(a["verdict"], b["verdict"]);
+    }
+}
+
+/// Aligned by best fit from the scanner's pose, the same features are found, and values that do not lean on the model's
+/// place are the same.
+#[test]
+fn the_best_fit_finds_the_same_features() {
     let folder = Folder::new();
-    let plan = folder.write("plan.toml", plan);
-    let found = document(["inspect", plan.to_str().unwrap()]);
-    let given = document(["inspect", example.join("plate.toml").to_str().unwrap()]);
+    let found = document(["inspect", best_fitted(&folder).to_str().unwrap()]);
+    let given = document(["inspect", corpus("examples/plate").join("plate.toml").to_str().unwrap()]);
     assert_eq!(found["alignment"]["method"], "best-fit");
     assert_eq!(found["alignment"]["converged"], true);
     assert!(found["alignment"]["rms"].as_f64().unwrap() < 0.02, "{}", found["alignment"]);
-    let pairs =
-        found["characteristics"].as_array().unwrap().iter().zip(given["characteristics"].as_array().unwrap());
-    for (a, b) in pairs {
-        let (x, y) = (a["value"].as_f64().unwrap(), b["value"].as_f64().unwrap());
-        assert!((x - y).abs() < 2e-3, "{}: {x} and {y}", a["id"]);
-        assert_eq!(a["verdict"], b["verdict"]);
+    same_values(&found, &given, 2e-3);
+}
+
+/// Facets that point inward are turned round, for the features too: its bores were measured and its planes were not.
+#[test]
+fn a_scan_turned_inside_out_has_the_same_features() {
+    let folder = Folder::new();
+    let plan = best_fitted(&folder);
+    let mut scan = std::fs::read(corpus("examples/plate").join("scan.stl")).unwrap();
+    // Binary STL: after 84 bytes 50 of each facet, its normal, three corners of 12 bytes, two more.
+    for facet in scan[84..].chunks_exact_mut(50) {
+        let [b, c]: [[u8; 12]; 2] = [24, 36].map(|at| facet[at..at + 12].try_into().unwrap());
+        facet[24..36].copy_from_slice(&c);
+        facet[36..48].copy_from_slice(&b);
     }
+    let scan = folder.write("inward.stl", scan);
+    let own = document(["inspect", plan.to_str().unwrap()]);
+    let found = document(["inspect".as_ref(), plan.as_os_str(), "--measured".as_ref(), scan.as_os_str()]);
+    assert_eq!(found["alignment"]["warnings"][0]["kind"], "normals_turned");
+    same_values(&found, &own, 1e-6);
 }
 
 /// The example's plan with the model itself as the measured part and another alignment.

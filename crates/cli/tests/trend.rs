@@ -181,6 +181,19 @@ fn what_makes_no_trend_is_told() {
         &changed("\"kind\": \"distance\"", "\"kind\": \"size\""),
         "its kind is size, in the first result distance",
     );
+    refused(&changed("\"units\": \"mm\"", "\"units\": \"in\""), "its units are \"in\", not \"mm\"");
+    let second: Value = serde_json::from_str(&std::fs::read_to_string(&files[1]).unwrap()).unwrap();
+    let passed =
+        second["characteristics"].as_array().unwrap().iter().find(|c| c["verdict"] == "pass").unwrap();
+    let edited = |to: Value| {
+        let mut all = second.clone();
+        let id = passed["id"].as_str().unwrap();
+        let of = all["characteristics"].as_array_mut().unwrap().iter_mut().find(|c| c["id"] == id).unwrap();
+        of["value"] = to;
+        folder.write("edited.json", all.to_string()).to_str().unwrap().to_string()
+    };
+    refused(&edited(Value::Null), "has the verdict \"pass\" without a value");
+    refused(&edited(1e3.into()), "has the verdict \"pass\" with a value beyond its limits");
     refused(&changed("trueness/inspect/1", "trueness/fit/1"), "its schema is \"trueness/fit/1\"");
     refused(&changed("\"verdict\": \"pass\"", "\"verdict\": \"good\""), "it is no whole result");
     let text = folder.write("words.json", "these are words").to_str().unwrap().to_string();

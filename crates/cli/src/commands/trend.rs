@@ -60,7 +60,9 @@ impl Run for TrendArgs {
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
         let document = TrendDocument::new(inputs, &results).map_err(|e| match &e {
-            TrendError::Different { index, .. } | TrendError::Twice { index, .. } => {
+            TrendError::Different { index, .. }
+            | TrendError::Twice { index, .. }
+            | TrendError::Changed { index, .. } => {
                 anyhow!("{}: {e}", self.results[*index].display())
             }
             TrendError::None => anyhow!("{e}"),

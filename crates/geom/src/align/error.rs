@@ -57,8 +57,8 @@ pub enum AlignError {
     /// The search did not settle.
     #[error("the search for the least greatest distance did not settle")]
     NotSettled,
-    /// No point of the measured has a place on the reference from the given start.
-    #[error("no point lies near the reference from this start")]
+    /// No point of the measured has a place on the reference at the given start, or at any that was found.
+    #[error("at no start do points lie near the reference: is it the same part, in the same unit?")]
     NoOverlap,
     /// A mesh cannot be used.
     #[error(transparent)]

@@ -11,7 +11,8 @@ use crate::plan::{Align, Plan};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use trueness_geom::align::{
-    self, AlignError, BestFit, InZones, Measured, Minimax, RowFit, Target, best_fit, into_zones, minimax,
+    self, AlignError, AlignWarning, BestFit, InZones, Measured, Minimax, RowFit, Target, best_fit,
+    into_zones, minimax,
 };
 use trueness_geom::closest::Tree;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
@@ -45,6 +46,18 @@ pub enum Found {
     Rows(RowFit),
 }
 
+impl Found {
+    /// Whether the facets of the measured mesh were found to point inward.
+    fn turned(&self) -> bool {
+        match self {
+            Found::BestFit(fit) | Found::Chebyshev(_, fit) | Found::Zones(_, fit) => {
+                fit.warnings.contains(&AlignWarning::NormalsTurned)
+            }
+            Found::Nothing | Found::Rows(_) => false,
+        }
+    }
+}
+
 /// The data where the plan's alignment takes them, and how.
 pub(super) fn aligned(
     plan: &Plan,
@@ -70,6 +83,12 @@ pub(super) fn aligned(
         Align::Pairs { measured, nominal, weights } => rows(align::pairs(measured, nominal, Some(weights)))?,
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
     };
+    if alignment.found.turned()
+        && let Some(mesh) = &mut data.measured
+    {
+        // The features must find the sides that the alignment has found.
+        mesh.faces.iter_mut().for_each(|f| f.swap(1, 2));
+    }
     if alignment.motion != Rigid::IDENTITY {
         moved(&mut data, &alignment.motion);
     }

@@ -84,13 +84,18 @@ impl TrendDocument {
     /// The trend of results, in the order of their making; `inputs` are their files.
     ///
     /// # Errors
-    /// [`TrendError`]: no results, one given twice (by the SHA-256 of its file), characteristics that are missing, or not the same as in the first result.
+    /// [`TrendError`]: no results, one given twice (by the SHA-256 of its file), one that contradicts itself, characteristics that are missing, or not the same as in the first result.
     pub fn new(inputs: Vec<ResultInput>, results: &[InspectDocument]) -> Result<TrendDocument, TrendError> {
         let first = results.first().ok_or(TrendError::None)?;
         for (index, input) in inputs.iter().enumerate() {
             let same = |i: &ResultInput| i.sha256.is_some() && i.sha256 == input.sha256;
             if let Some(first) = inputs[..index].iter().position(same) {
                 return Err(TrendError::Twice { index, first });
+            }
+        }
+        for (index, result) in results.iter().enumerate() {
+            if let Some(what) = contradiction(result) {
+                return Err(TrendError::Changed { index, what });
             }
         }
         for (index, other) in results.iter().enumerate().skip(1) {
@@ -186,6 +191,27 @@ fn map(results: &[InspectDocument]) -> Result<(Option<TrendMap>, Option<String>)
         what: "its places are not those of the first result: the reference is another".into(),
     });
     Ok((found?, None))
+}
+
+/// What no inspection writes: the document was changed since.
+fn contradiction(result: &InspectDocument) -> Option<String> {
+    if result.units != UNITS {
+        return Some(format!("its units are \"{}\", not \"{UNITS}\"", result.units));
+    }
+    result.characteristics.iter().find_map(|c| {
+        let judged = matches!(c.verdict, Verdict::Pass | Verdict::Fail);
+        let what = match c.value {
+            None if judged => "without a value",
+            // Limits in degrees are rounded on their own.
+            Some(x) if c.verdict == Verdict::Pass => {
+                let hair = 1e-9 * x.abs().max(1e-3);
+                let within = c.lower.is_none_or(|l| x >= l - hair) && x <= c.upper + hair;
+                if within { return None } else { "with a value beyond its limits" }
+            }
+            _ => return None,
+        };
+        Some(format!("characteristic \"{}\" has the verdict \"{}\" {what}", c.id, c.verdict.word()))
+    })
 }
 
 /// What distinguishes the characteristics of a result from those of the first one.

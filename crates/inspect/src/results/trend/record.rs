@@ -167,6 +167,14 @@ pub enum TrendError {
         /// Which one it repeats.
         first: usize,
     },
+    /// A result contradicts itself.
+    #[error("{what}; give the result as `trueness inspect --json` wrote it")]
+    Changed {
+        /// Which result.
+        index: usize,
+        /// What cannot be.
+        what: String,
+    },
     /// A result does not fit the first one.
     #[error("{what}; a trend is of results of one plan")]
     Different {
