@@ -123,15 +123,15 @@ pub fn best_fit(
             let found = [own].iter().chain(&again).filter(here).count();
             unconfirmed = (found < 2).then_some(1 + AGAIN);
         }
-        let turned = work.turned(&search, &result, &some, progress)?;
-        let near = |p: &&Rigid| search.apart(p, &result.reference_from_measured) <= search.spacing;
-        if let Some(pose) = turned.iter().find(near) {
-            let other = settled(*pose, sigma)?;
-            if work.costs_less(&other, &result, &some, progress)? {
-                result = other;
+        let revolved = work.revolved(&search, &result, &some, progress)?;
+        let own = result.reference_from_measured;
+        if let Some(near) = revolved.iter().find(|p| search.apart(p, &own) <= search.spacing) {
+            let (pose, sigma) = work.choose(&[own, *near], &some, progress)?;
+            if search.apart(&own, &pose) > SAME * search.spacing {
+                result = settled(pose, sigma)?;
             }
         }
-        let poses = (&start.poses[..], &turned[..]);
+        let poses = (&start.poses[..], &revolved[..]);
         result.alternatives = work.alternatives(&search, poses, &result, &some, progress)?;
         if let Some(pose) = better(&search, &result) {
             result = settled(pose, sigma)?;
@@ -268,7 +268,7 @@ impl Work<'_> {
     }
 
     /// Poses turned about the axis of a reference that is a body of revolution but for a detail; none where the shape leaves a turn free.
-    fn turned(
+    fn revolved(
         &self,
         search: &Search,
         result: &Alignment,
@@ -282,19 +282,6 @@ impl Work<'_> {
         let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
         let cap = self.cap(1.4826 * result.median);
         revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)
-    }
-
-    /// Whether `other` fits better.
-    fn costs_less(
-        &self,
-        other: &Alignment,
-        result: &Alignment,
-        some: &Samples,
-        progress: &dyn Progress,
-    ) -> Result<bool, AlignError> {
-        let (problem, cap) = (self.problem(some), self.cap(1.4826 * result.median));
-        let cost = |a: &Alignment| problem.cost(&a.reference_from_measured, cap, progress);
-        Ok(cost(other)? < cost(result)?)
     }
 
     /// The factor between units by which the measured fits better than as it is.
@@ -361,12 +348,12 @@ impl Work<'_> {
         })
     }
 
-    /// Other poses that fit about as well: where it lies, the other starts, turns of the kind that common symmetries
-    /// have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
+    /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
+    /// symmetries have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
     fn alternatives(
         &self,
         search: &Search,
-        (poses, turned): (&[Rigid], &[Rigid]),
+        (poses, revolved): (&[Rigid], &[Rigid]),
         result: &Alignment,
         some: &Samples,
         progress: &dyn Progress,
@@ -392,7 +379,7 @@ impl Work<'_> {
                 others.push(other);
             }
         }
-        others.extend(turned);
+        others.extend(revolved);
         let mut found: Vec<Alternative> = vec![];
         for other in others {
             let reach = self.reach(result.median);

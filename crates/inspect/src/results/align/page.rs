@@ -24,6 +24,8 @@ pub struct Facts<'a> {
 
 /// The section.
 pub fn alignment(s: Style, of: &Facts) -> Markup {
+    // What lies on datums has no rms of its own.
+    let rms_word = if of.method == "datum" { "align.rms_of_start" } else { "rms" };
     // Four decimals tell nothing of less.
     let length = |x: f64| if x < 1e-3 { s.small(x) } else { s.number(x, 4).render() };
     section(
@@ -32,7 +34,7 @@ pub fn alignment(s: Style, of: &Facts) -> Markup {
         html! {
             dl.facts.pairs {
                 (fact(s, "method", s.word(format!("align.{}", of.method))))
-                @if let Some(rms) = of.rms { (fact(s, if of.method == "datum" { "align.rms_of_start" } else { "rms" }, html! { (length(rms)) "\u{a0}mm" })) }
+                @if let Some(rms) = of.rms { (fact(s, rms_word, html! { (length(rms)) "\u{a0}mm" })) }
                 @if let Some(greatest) = of.greatest {
                     (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
                 }
