@@ -5,6 +5,7 @@ mod common;
 
 use common::{far, grid, round};
 use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_6, TAU};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::rigid::Rigid;
@@ -291,5 +292,32 @@ fn a_bent_shaft_keeps_its_virtual_condition_or_not() {
         let (_, c) = Case::new(false, points, "kind = \"straightness\"").inspected(&Rigid::IDENTITY);
         near((c.value.unwrap(), c.upper), (h, 0.2), 1e-9);
         assert_eq!(c.parts["sections"], 3.0);
+    }
+}
+
+/// Beside a bore there is room for any cylinder: a bore off its place has none there, whatever the datums leave free.
+#[test]
+fn a_bore_off_its_place_keeps_no_boundary_beside_it() {
+    // A shaft B at the origin; the bore stands 22 from it and any way about it, 20 is asked.
+    let shaft = pin(0.0, 8.0);
+    // A gauge that lies between two of the points gains what their chord sags, and there may be two such places.
+    let sag = 2.0 * 10.0 * (1.0 - libm::cos(0.5 * TAU / 360.0));
+    for step in 0..12 {
+        let place =
+            Rigid::rotation_about([0.0; 3], [0.0, 0.0, f64::from(step) * FRAC_PI_6]).point([20.0, 0.0, 0.0]);
+        let basic = format!("kind = \"position\"\nbasic = {{ x = {}, y = {} }}\n", place[0], place[1]);
+        for (internal, letter) in [(true, "M"), (false, "L"), (true, "L"), (false, "M")] {
+            let lines = format!("{basic}datums = [\"A\", \"B\"]\nmaterial = \"{letter}\"");
+            let case = Case::new(internal, pin(22.0, 10.0), &lines).with_shaft(shaft.clone(), 0.1);
+            near(case.values(sag), (4.0, 0.3), sag);
+        }
+        // The shaft has a play of 0.1, which moves the part by half of it.
+        let lines = format!("{basic}datums = [\"A\", \"B(M)\"]\nmaterial = \"M\"");
+        let case = Case::new(true, pin(22.0, 10.0), &lines).with_shaft(shaft.clone(), 0.1);
+        near(case.values(sag), (3.9, 0.3), sag);
+        // A place outside the bore has no cylinder within it: twice its distance from the axis is still the value.
+        let lines = format!("{basic}datums = [\"A\", \"B\"]\nmaterial = \"M\"");
+        let case = Case::new(true, pin(27.0, 10.0), &lines).with_shaft(shaft.clone(), 0.1);
+        near(case.values(sag), (14.0, 0.3), sag);
     }
 }

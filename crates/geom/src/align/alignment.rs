@@ -76,6 +76,16 @@ pub enum AlignWarning {
         /// Searches made.
         searches: usize,
     },
+    /// Much of the measured does not count: it is so much farther from the reference than the rest that it was taken for something else,
+    /// as an outlier is. A face that was made wrong looks the same.
+    LeftOut {
+        /// Share of it, 0 to 1.
+        share: f64,
+        /// Distance of the farthest of it that has a place on the reference, millimeters.
+        farthest: f64,
+        /// Distance from which on nothing counts, millimeters.
+        limit: f64,
+    },
     /// The iteration did not settle.
     NotConverged,
 }

@@ -35,6 +35,8 @@ const EXPLAINED: f64 = 0.95;
 const AGAIN: usize = 2;
 /// Starts that such a search iterates to the end.
 const BRIEF: usize = 5;
+/// Share of the measured that does not count from which on that is told.
+const MUCH: f64 = 0.1;
 /// How often, from where the last round ended, and the share of the spacing that is no other pose.
 const ROUNDS: usize = 3;
 const SAME: f64 = 0.02;
@@ -327,6 +329,9 @@ impl Work<'_> {
         // What is free is told by the facets; edges of a faceted cylinder would hold it.
         let spectrum = if free > 0 { Spectrum::of(&facets) } else { Spectrum::of(&system) };
         let used = matches.iter().filter(|m| m.equation.weight > 0.0).count();
+        let (share, limit) = (1.0 - system.weight.min(1.0), all.limit(sigma));
+        let off = matches.iter().map(|m| m.distance).filter(|d| d.is_finite() && *d > limit);
+        let left_out = AlignWarning::LeftOut { share, farthest: off.fold(0.0, f64::max), limit };
         let term = |m: &Match| if m.distance.is_finite() { m.equation.weight * m.distance } else { 0.0 };
         let sum = matches.iter().map(term).fold(Sum::default(), Sum::plus).value();
         Ok(Alignment {
@@ -344,7 +349,7 @@ impl Work<'_> {
             condition: (free == 0).then(|| spectrum.values[5] / spectrum.values[0]),
             freedoms: freedom::named(&facets, &of_facets, free),
             alternatives: vec![],
-            warnings: vec![],
+            warnings: if share > MUCH { vec![left_out] } else { vec![] },
         })
     }
 
@@ -422,7 +427,7 @@ impl Work<'_> {
     }
 
     fn warnings(&self, result: &Alignment, start: &Found, measured: &Measured) -> Vec<AlignWarning> {
-        let mut warnings = vec![];
+        let mut warnings = result.warnings.clone();
         let size = self.target.bounds.diagonal().min(Aabb::of(measured.points()).diagonal());
         let share = result.median / size;
         warnings.extend((share > POOR).then_some(AlignWarning::Poor { share }));

@@ -119,11 +119,16 @@ impl Problem<'_> {
         if !self.robust {
             return;
         }
-        let sigma = sigma.max(16.0 * self.rounding);
+        let limit = self.limit(sigma);
         for m in matches {
-            let share = (NONE - m.distance / sigma) / (NONE - FULL);
+            let share = NONE * (1.0 - m.distance / limit) / (NONE - FULL);
             m.equation.weight *= share.clamp(0.0, 1.0);
         }
+    }
+
+    /// Distance from which on a point does not count, where any do not.
+    pub fn limit(&self, sigma: f64) -> f64 {
+        NONE * sigma.max(16.0 * self.rounding)
     }
 
     /// Iterates from `start` until a step is less than a thousandth of its own uncertainty, `most` times at most.

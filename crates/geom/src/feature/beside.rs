@@ -37,6 +37,8 @@ const MOST_OFF_PLANE: f64 = 2.0;
 const ROW: f64 = 0.01;
 /// A piece goes on if so many of its neighbors are beyond the reach of the feature.
 const GOES_ON: usize = 3;
+/// Standard deviation over the median of the magnitudes, of normal noise.
+const OF_MEDIAN: f64 = 1.4826;
 /// Distances below this share of the coordinates are rounding.
 const ROUNDING: f64 = 1e-9;
 /// So many times the points of sharp edges are given to the pieces around them: edges are some neighbors wide.
@@ -95,11 +97,12 @@ pub fn pieces_beside(
     let mut label: BTreeMap<u32, u32> = BTreeMap::new();
     let mut pieces = 0;
     let mut seen: BTreeSet<u32> = BTreeSet::new();
-    for start in own {
+    let fringe = cloud.fringe(own)?;
+    for start in own.iter().chain(&fringe) {
         if seen.contains(start) || !cloud.is_aside(*start) {
             continue;
         }
-        let (piece, goes_on) = cloud.piece(*start, own, &mut seen)?;
+        let (piece, goes_on) = cloud.piece(*start, (own, &fringe), &mut seen)?;
         if goes_on {
             label.extend(piece.into_iter().map(|p| (p, pieces)));
             pieces += 1;
@@ -109,7 +112,7 @@ pub fn pieces_beside(
         cloud.edges(own, &mut label)?;
     }
     let mut found = vec![Piece::default(); pieces as usize];
-    for (point, piece) in label {
+    for (point, piece) in label.into_iter().filter(|(p, _)| own.binary_search(p).is_ok()) {
         let normal = cloud.patch(point).normal;
         found[piece as usize].points.push((point, normal));
     }
@@ -231,11 +234,33 @@ impl Cloud<'_> {
         patch.flat && own.is_some_and(|(_, way)| dot(way, patch.normal).abs() < libm::cos(self.near.angle))
     }
 
-    /// What faces like `start` around it, within reach, and whether it goes on beyond.
+    /// The points beyond the reach of the feature, beside its edges, that lie on surfaces which run at an angle to it. Of a cloud so sparse
+    /// that within reach all planes of neighbors mix two surfaces, they alone show the other one.
+    fn fringe(&mut self, own: &[u32]) -> Result<BTreeSet<u32>, FeatureError> {
+        let mut fringe = BTreeSet::new();
+        for (n, p) in own.iter().enumerate() {
+            if n.is_multiple_of(1024) {
+                self.asked()?;
+            }
+            if self.patch(*p).flat {
+                continue;
+            }
+            for q in self.around(*p, NEIGHBORS[0]) {
+                let is_beyond = own.binary_search(&q).is_err()
+                    && self.surface.distance(self.at(q)).is_some_and(|d| d.0.abs() > self.near.distance);
+                if is_beyond && !fringe.contains(&q) && self.is_aside(q) {
+                    fringe.insert(q);
+                }
+            }
+        }
+        Ok(fringe)
+    }
+
+    /// What faces like `start` around it, within reach or on its fringe, and whether it goes on beyond.
     fn piece(
         &mut self,
         start: u32,
-        own: &[u32],
+        (own, fringe): (&[u32], &BTreeSet<u32>),
         seen: &mut BTreeSet<u32>,
     ) -> Result<(Vec<u32>, bool), FeatureError> {
         seen.insert(start);
@@ -255,7 +280,7 @@ impl Cloud<'_> {
                     continue;
                 }
                 let off = self.surface.distance(self.at(q)).map_or(0.0, |d| d.0.abs());
-                if own.binary_search(&q).is_ok() {
+                if own.binary_search(&q).is_ok() || fringe.contains(&q) {
                     seen.insert(q);
                     piece.push(q);
                 } else if off > self.near.distance {
@@ -312,7 +337,11 @@ impl Cloud<'_> {
             }
         }
         let (mut heights, mut scatter): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
-        Some(Level { height: middle(&mut heights)?, scatter: middle(&mut scatter)? })
+        let height = middle(&mut heights)?;
+        // Planes of neighbors on a round feature scatter by its sag too; heights do so where it is off its place or its form.
+        let mut off: Vec<f64> = heights.iter().map(|h| (h - height).abs()).collect();
+        let scatter = middle(&mut scatter)?.min(OF_MEDIAN * middle(&mut off)?);
+        Some(Level { height, scatter })
     }
 
     /// The piece that a point lies on, and its plane there, unless it lies as near to what the feature has around it.

@@ -31,5 +31,5 @@ use rules::Rules;
 pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<Found, FeatureError> {
     let rules = Rules::new(nominal, near)?;
     let points = (0..points.len() as u32).filter(|i| rules.point(points[*i as usize])).collect();
-    Ok(Found { facets: vec![], points, area: 0.0 })
+    Ok(Found { points, ..Found::default() })
 }

@@ -228,11 +228,14 @@ impl<'a> FeatureSearch<'a> {
             |f: &u32| self.corners(*f).map_or(0.0, |[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))));
         let mut points = Marked::new(self.mesh.positions.len());
         facets.iter().flat_map(|f| self.mesh.faces[*f as usize]).for_each(|v| points.add(v));
+        let mut out = Marked::new(self.mesh.positions.len());
         if !rim {
             let others = (0..).zip(&self.mesh.faces).filter(|(f, _)| !found.has(*f));
-            others.flat_map(|(_, face)| face).for_each(|v| points.remove(*v));
+            others.flat_map(|(_, face)| face).filter(|v| points.has(**v)).for_each(|v| out.add(*v));
+            out.all().for_each(|v| points.remove(v));
         }
-        Found { area: facets.iter().map(area).sum(), facets, points: points.all().collect() }
+        let area = facets.iter().map(area).sum();
+        Found { area, facets, points: points.all().collect(), rim: out.all().collect() }
     }
 }
 

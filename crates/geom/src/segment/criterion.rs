@@ -2,8 +2,9 @@
 //!
 //! An element with more unknowns fits the same points at least as well and mostly reaches farther: a cylinder contains nearly
 //! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
-//! earn them, by one of two kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
-//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]).
+//! earn them, by one of three kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
+//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]),
+//! or it covers the same and is the one that the facets go along ([`GrownRegion::goes_along`]).
 //! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
@@ -47,10 +48,14 @@ fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
     if others > own {
         let asked = ENTRY + PER_UNKNOWN * (others - own) as f64;
         // A plane that is bowed within the tolerance is still a plane.
-        let is_wrong = held.shape.kind() != Kind::Plane && held.is_doubtful(noise);
-        return gain > asked || (gain > SAME_COVER && is_wrong && other.rms < CLEARLY * held.rms);
+        let is_wrong = || {
+            let fits_better = held.is_doubtful(noise) && other.rms < CLEARLY * held.rms;
+            held.shape.kind() != Kind::Plane && (fits_better || other.goes_along(held, noise))
+        };
+        return gain > asked || (gain > SAME_COVER && is_wrong());
     }
-    gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || other.rms < BETTER * held.rms)
+    let is_better = || other.rms < BETTER * held.rms && !held.goes_along(other, noise);
+    gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || is_better())
 }
 
 /// So many points that an element of the kind is more than a coincidence: twice its unknowns and two more. Any three points have
@@ -69,7 +74,7 @@ mod tests {
     #[test]
     fn the_simpler_element_is_preferred_unless_it_covers_less_or_fits_worse() {
         let [plane, sphere, cylinder, _, torus] = one_of_each([0.0; 3], [0.0, 0.0, 1.0], 0.3);
-        let region = |shape, weight, rms| GrownRegion { shape, pieces: vec![], weight, rms };
+        let region = |shape, weight, rms| GrownRegion { shape, pieces: vec![], weight, rms, middles: rms };
         let second = |one: (Shape, f64, f64), other: (Shape, f64, f64)| {
             replaces(&region(one.0, one.1, one.2), &region(other.0, other.1, other.2), 0.01)
         };

@@ -192,8 +192,8 @@ impl Context<'_> {
             let (better, rms) = improved(&points, &shape).filter(|f| is_sound(&f.0, self.size))?;
             let full = pieces.len() >= limit.min(most);
             if pieces.len() >= most || (!full && pieces.len() <= last + last / stop_gain) {
-                let weight = self.surface.weight(&pieces);
-                return Some(GrownRegion { shape: better, pieces, weight, rms });
+                let (weight, middles) = (self.surface.weight(&pieces), self.middles(&better, &pieces));
+                return Some(GrownRegion { shape: better, pieces, weight, rms, middles });
             }
             shape = better;
             last = if full { 0 } else { pieces.len() };
@@ -202,6 +202,18 @@ impl Context<'_> {
             }
         }
         None
+    }
+
+    /// Root mean square distance of the middles of the pieces, each with its weight; of many, some are asked.
+    fn middles(&self, shape: &Shape, pieces: &[u32]) -> f64 {
+        let element = Probe::new(shape);
+        let (mut squares, mut weights) = (0.0, 0.0);
+        for piece in pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1)).map(|p| *p as usize) {
+            let weight = self.surface.weights[piece];
+            squares += weight * element.distance(self.surface.places[piece]).powi(2);
+            weights += weight;
+        }
+        (squares / weights).sqrt()
     }
 
     /// Some points of the pieces, those that lie within the band.

@@ -112,7 +112,7 @@ mod tests {
     /// A region of these pieces.
     fn region(context: &Context, start: Shape, pieces: Vec<u32>) -> GrownRegion {
         let (shape, rms) = improved(&context.surface.some_places(&pieces, ENOUGH), &start).unwrap();
-        GrownRegion { shape, weight: context.surface.weight(&pieces), pieces, rms }
+        GrownRegion { shape, weight: context.surface.weight(&pieces), pieces, rms, middles: rms }
     }
 
     fn labels(regions: &[GrownRegion], count: usize) -> Vec<u32> {

@@ -54,21 +54,57 @@ impl Axis {
         let r = norm(out);
         (r, if r > 0.0 { times(1.0 / r, out) } else { [0.0; 3] })
     }
+}
 
-    /// How far a place of the surface is beyond the boundary's cylinder of this diameter about the axis.
-    fn beyond(&self, p: Point, around: bool, diameter: f64) -> (f64, Vector) {
-        let (r, away) = self.radial(p);
-        match around {
-            true => (r - 0.5 * diameter, away),
-            false => (0.5 * diameter - r, times(-1.0, away)),
+/// The surface of a cylinder that must not pass its boundary.
+struct Surface<'a> {
+    points: &'a [Point],
+    /// Of each point the direction away from the feature's own axis, in the frame's coordinates.
+    outward: Vec<Vector>,
+    boundary: Boundary,
+}
+
+impl<'a> Surface<'a> {
+    /// Of a feature whose points `start` takes to the frame's coordinates. The search may turn the part by little from there.
+    fn new(
+        feature: &'a Taken,
+        boundary: Boundary,
+        start: &Rigid,
+        m: &Measuring,
+    ) -> Result<Surface<'a>, Missing> {
+        let shape = feature.refitted(Kind::Cylinder, Method::Gaussian, m.progress)?.shape;
+        let (Some(point), Some(direction)) = (shape.foot(), shape.direction()) else {
+            return Err(Missing::NotMeasured("the element has no axis".into()));
+        };
+        let own = Axis { point, direction };
+        let points = feature.taken()?;
+        let outward = points.iter().map(|p| start.vector(own.radial(*p).1)).collect();
+        Ok(Surface { points, outward, boundary })
+    }
+
+    /// How far its point `i`, which came to lie at `p`, is beyond the boundary about `axis`, and the gradient.
+    ///
+    /// A boundary within the surface has all points on their own side of its axis. Beside a bore an empty cylinder may be as
+    /// large as one likes: a point on the other side of the axis is beyond it by as much as it lies there.
+    fn beyond(&self, i: usize, p: Point, axis: &Axis) -> (f64, Vector) {
+        let (r, away) = axis.radial(p);
+        let limit = 0.5 * self.boundary.size;
+        if self.boundary.around {
+            return (r - limit, away);
         }
+        let own = self.outward[i];
+        let side = r * dot(away, own);
+        if side > 0.0 {
+            return (limit - r, times(-1.0, away));
+        }
+        (limit - side, minus(times(dot(own, axis.direction), axis.direction), own))
     }
 }
 
 /// What the points of the toleranced feature must keep.
 enum Asked<'a> {
     /// The surface must not pass a cylinder.
-    Surface { points: &'a [Point], boundary: Boundary },
+    Surface(Surface<'a>),
     /// The axis lies within a cylinder.
     Ends(Vec<Point>),
 }
@@ -76,14 +112,14 @@ enum Asked<'a> {
 impl Asked<'_> {
     fn points(&self) -> &[Point] {
         match self {
-            Asked::Surface { points, .. } => points,
+            Asked::Surface(surface) => surface.points,
             Asked::Ends(points) => points,
         }
     }
 
-    fn distance(&self, axis: &Axis, p: Point) -> (f64, Vector) {
+    fn distance(&self, axis: &Axis, i: usize, p: Point) -> (f64, Vector) {
         match self {
-            Asked::Surface { boundary, .. } => axis.beyond(p, boundary.around, boundary.size),
+            Asked::Surface(surface) => surface.beyond(i, p, axis),
             Asked::Ends(_) => axis.radial(p),
         }
     }
@@ -94,8 +130,8 @@ pub(super) fn oriented(m: &Measuring, start: Rigid, free: Freedom, axis: Axis) -
     let Some(boundary) = m.spec.boundary else {
         return Err(Missing::Impossible("it has no material requirement".into()));
     };
-    let asked = Asked::Surface { points: m.feature().taken()?, boundary };
-    let distance = |_: usize, p: Point| Some(asked.distance(&axis, p));
+    let asked = Asked::Surface(Surface::new(m.feature(), boundary, &start, m)?);
+    let distance = |i: usize, p: Point| Some(asked.distance(&axis, i, p));
     let search = Search { start, free, middle: 0.0, floating: false, outer: true };
     let found = placed(asked.points(), &distance, &search, m.progress)?;
     result_at(m, &asked, &found)
@@ -111,17 +147,21 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
         free.turn[2] &= place != [0.0; 2];
         free
     };
+    // The surface is sought from where its own axis is nearest to the place.
+    let nearest = |_: usize, p: Point| Some(axis.radial(p));
+    let search = Search { start, free: telling(free), middle: 0.0, floating: false, outer: false };
+    let start = placed(&m.feature().zoned()?, &nearest, &search, m.progress)?.motion;
     let Some(datum) = m.spec.datums.last().and_then(|d| d.boundary) else {
         return oriented(m, start, telling(free), axis);
     };
     let asked = match m.spec.boundary {
-        Some(boundary) => Asked::Surface { points: m.feature().taken()?, boundary },
+        Some(boundary) => Asked::Surface(Surface::new(m.feature(), boundary, &start, m)?),
         None => Asked::Ends(m.feature().zoned()?),
     };
     let Some(feature) = m.datums.last().and_then(|d| d.first()) else {
         return Err(Missing::Impossible("it has no datum".into()));
     };
-    let shift = Shift { asked: &asked, axis, datum, points: feature.taken()?, m };
+    let shift = Shift { asked: &asked, axis, datum: Surface::new(feature, datum, &start, m)?, m };
     let free = match m.datums.len() {
         1 => Freedom::ALL,
         // After a plane: what that leaves free.
@@ -158,7 +198,7 @@ pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
 fn result_at(m: &Measuring, asked: &Asked, found: &Placed) -> Result<Value, Missing> {
     let far = asked.points().get(found.max.1).copied();
     let mut value = Value { witness: far.into_iter().collect(), ..Value::default() };
-    let Asked::Surface { boundary, .. } = asked else {
+    let Asked::Surface(Surface { boundary, .. }) = asked else {
         value.value = 2.0 * found.half;
         return Ok(value);
     };
@@ -205,8 +245,7 @@ fn diameter(feature: &Taken, method: Method, m: &Measuring) -> Result<f64, Missi
 struct Shift<'a> {
     asked: &'a Asked<'a>,
     axis: Axis,
-    datum: Boundary,
-    points: &'a [Point],
+    datum: Surface<'a>,
     m: &'a Measuring<'a>,
 }
 
@@ -219,11 +258,11 @@ impl Shift<'_> {
         let own = self.asked.points();
         let (none, z) = ([0.0; 3], [0.0, 0.0, 1.0]);
         let about = Axis { point: none, direction: z };
-        let datum = |p: Point| about.beyond(p, self.datum.around, self.datum.size);
+        let datum = |i: usize, p: Point| self.datum.beyond(i, p, &about);
         let search = |start| Search { start, free, middle: 0.0, floating: false, outer: true };
         // Where the datum has the most room.
-        let alone = |_: usize, p: Point| Some(datum(p));
-        let gauged = placed(self.points, &alone, &search(start), self.m.progress)?;
+        let alone = |i: usize, p: Point| Some(datum(i, p));
+        let gauged = placed(self.datum.points, &alone, &search(start), self.m.progress)?;
         if gauged.half > ROUNDING {
             let what = format!(
                 "datum feature \"{}\" is {:.6} mm beyond its virtual condition: it fits no gauge",
@@ -232,26 +271,26 @@ impl Shift<'_> {
             );
             return Err(Missing::NotMeasured(what));
         }
-        let all: Vec<Point> = own.iter().chain(self.points).copied().collect();
+        let all: Vec<Point> = own.iter().chain(self.datum.points).copied().collect();
         let within = |w: f64, from: Rigid| {
             let both = |i: usize, p: Point| {
                 Some(match i < own.len() {
                     true => {
-                        let (d, away) = self.asked.distance(&self.axis, p);
+                        let (d, away) = self.asked.distance(&self.axis, i, p);
                         (d - w, away)
                     }
-                    false => datum(p),
+                    false => datum(i - own.len(), p),
                 })
             };
             placed(&all, &both, &search(from), self.m.progress)
         };
         let at = |motion: Rigid| {
             let held = Search { start: motion, free: Freedom::NONE, ..search(motion) };
-            let distance = |_: usize, p: Point| Some(self.asked.distance(&self.axis, p));
+            let distance = |i: usize, p: Point| Some(self.asked.distance(&self.axis, i, p));
             placed(own, &distance, &held, self.m.progress)
         };
         let mut best = at(gauged.motion)?;
-        let distance = |_: usize, p: Point| Some(self.asked.distance(&self.axis, p));
+        let distance = |i: usize, p: Point| Some(self.asked.distance(&self.axis, i, p));
         let (mut low, mut high) =
             (placed(own, &distance, &search(gauged.motion), self.m.progress)?.half, best.half);
         for _ in 0..HALVINGS {

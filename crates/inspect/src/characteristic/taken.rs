@@ -19,6 +19,8 @@ pub struct Taken {
     pub class: Class,
     /// Its points; of a derived median plane, those of its two planes, projected onto it.
     pub points: Vec<Point>,
+    /// Points on its rim that do not count for its element, but tell how far it goes.
+    pub rim: Vec<Point>,
     /// The area that each point stands for; 1 for points without facets.
     pub areas: Vec<f64>,
     /// Facets of the measured mesh that it has.
@@ -194,14 +196,14 @@ impl Taken {
         }
     }
 
-    /// Both ends of an axis over the extent of the points.
+    /// Both ends of an axis over the extent of the points, with those of the rim.
     fn ends(&self, shape: &Shape) -> Result<Vec<Point>, Missing> {
         let (Some(foot), Some(direction)) = (shape.foot(), shape.direction()) else {
             return Err(self.missing("it has no axis"));
         };
         let along = |p: &Point| dot(minus(*p, foot), direction);
-        let first = self.points.iter().map(along).fold(f64::INFINITY, f64::min);
-        let last = self.points.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+        let all = || self.points.iter().chain(&self.rim).map(along);
+        let (first, last) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
         Ok([first, last].map(|t| plus(foot, times(t, direction))).to_vec())
     }
 

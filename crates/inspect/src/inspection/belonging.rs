@@ -75,10 +75,10 @@ impl<'a> Belonging<'a> {
         self.nearest.iter().filter(far).map(|(_, off)| *off).collect()
     }
 
-    /// Takes those out of these measured points that lie upon facets beside the nominal, and answers them, ascending.
-    pub fn keep(
+    /// Those of these measured points that lie upon facets beside the nominal.
+    pub fn upon_others(
         &self,
-        points: &mut Vec<u32>,
+        points: &[u32],
         nominal: &Nominal,
         near: &Nearness,
         progress: &dyn Progress,
@@ -109,9 +109,7 @@ impl<'a> Belonging<'a> {
             let aside = angle.is_some_and(|cosine| cosine < libm::cos(near.angle));
             (aside && off + SAME * self.size < away).then_some(*p)
         };
-        let others: Vec<u32> = doubtful.iter().zip(on_own).filter_map(is_other).collect();
-        points.retain(|p| others.binary_search(p).is_err());
-        Ok(others)
+        Ok(doubtful.iter().zip(on_own).filter_map(is_other).collect())
     }
 
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not
@@ -188,6 +186,7 @@ fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {
 mod tests {
     use super::*;
     use crate::inspection::run;
+    use trueness_geom::num::random::Random;
     use trueness_geom::progress::Silent;
 
     /// A bar along y: its top at z = 0 from x = −10 to 10, then a quarter of a circle of radius 2 in steps of 10°, or a wall.
@@ -273,6 +272,28 @@ mod tests {
         // Its second facet of 10 degrees lies at 15.
         assert!(value < 2.0 * (1.0 - libm::cos(20f64.to_radians())) + 1e-3, "{value}");
         assert!(points >= 51 * 51, "{points}");
+    }
+
+    /// Sparse points with noise, whose tail lies farther off the wall than most of the cloud, on a wall beside a top that is too high:
+    /// near the edge all planes of neighbors mix both.
+    #[test]
+    fn what_noise_carries_off_a_wall_is_no_part_of_the_plane_beside_it() {
+        let (reference, sigma) = (bar(false), 0.003);
+        for high in [0.0, 0.05, 0.1] {
+            let random = &mut Random::new(7);
+            let mut normal = || sigma * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
+            let noise: Vec<f64> = (0..3000).map(|_| normal()).collect();
+            let mut place = |low: f64, top: f64| low + (top - low) * random.unit();
+            let of_top = noise[..1500].iter().map(|n| [place(-10.0, 10.0), place(0.0, 20.0), high + n]);
+            let of_top: Vec<Point> = of_top.collect();
+            let of_wall = noise[1500..].iter().map(|n| [10.0 + n, place(0.0, 20.0), place(-8.0, high)]);
+            let positions = [of_top, of_wall.collect()].concat();
+            let cloud = Mesh { positions, faces: vec![] };
+            let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 0.5");
+            let range = noise[..1500].iter().fold([0.0f64; 2], |[a, b], n| [a.min(*n), b.max(*n)]);
+            assert!(value < 1.5 * (range[1] - range[0]), "{high}: {value} {range:?}");
+            assert!((1450..1550).contains(&points), "{high}: {points}");
+        }
     }
 
     /// Points with these deviations from the plane z = 0.

@@ -133,20 +133,20 @@ fn others(
     (nominal, near): (&Nominal, &Nearness),
     progress: &dyn Progress,
 ) -> Result<Others, Stop> {
-    let mut out = match belonging {
-        Some(belonging) => belonging.keep(points, nominal, near, progress)?,
-        None => vec![],
-    };
+    // Of all points: those of a wall that lie upon the reference tell where the others are that noise has carried off it.
     let beside = pieces_beside(measured, cloud, points, nominal, near, progress);
     let mut pieces = beside.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Mesh(e.to_string()),
     })?;
+    let mut out = vec![];
     if let Some(belonging) = belonging {
         pieces = belonging.known(pieces, nominal, near, progress)?;
+        out = belonging.upon_others(points, nominal, near, progress)?;
     }
     out.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
     out.sort_unstable();
+    out.dedup();
     points.retain(|p| out.binary_search(p).is_err());
     let points = out.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
     Ok(Others { points, on_reference: belonging.is_some() })
@@ -168,6 +168,7 @@ fn bare(feature: &Feature) -> Taken {
         id: feature.id.clone(),
         class: feature.class,
         points: vec![],
+        rim: vec![],
         areas: vec![],
         facets: vec![],
         planar: false,
@@ -213,7 +214,10 @@ fn found(
         let with = (cloud, search.belonging);
         taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;
     }
-    taken.points = found.points.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect();
+    let places = |vertices: &[u32]| -> Vec<Point> {
+        vertices.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect()
+    };
+    (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
     taken.areas = areas(mesh, &found);
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
     taken.coverage = whole.filter(|_| search.facets.is_some()).map(|whole| found.area / whole);

@@ -198,7 +198,7 @@ pub struct PairRecord {
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed` or `not_converged`; of an inspection also `size_ratio` and
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
@@ -222,6 +222,8 @@ pub enum AlignNoteKind {
     Few,
     /// One of several searches alone found the pose.
     Unconfirmed,
+    /// Much of the measured does not count.
+    LeftOut,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -232,7 +234,7 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 10] = [
+    pub const ALL: [AlignNoteKind; 11] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
@@ -240,6 +242,7 @@ impl AlignNoteKind {
         AlignNoteKind::Scale,
         AlignNoteKind::Few,
         AlignNoteKind::Unconfirmed,
+        AlignNoteKind::LeftOut,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -255,17 +258,18 @@ impl AlignNoteKind {
             AlignNoteKind::Scale => "scale",
             AlignNoteKind::Few => "few",
             AlignNoteKind::Unconfirmed => "unconfirmed",
+            AlignNoteKind::LeftOut => "left_out",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
         }
     }
 
-    /// Whether the alignment may be relied on no longer. What the shape leaves free, and normals that were turned round,
-    /// are only told.
+    /// Whether the alignment may be relied on no longer. What the shape leaves free, normals that were turned round, and
+    /// what was left out, are only told.
     pub fn is_doubt(self) -> bool {
         match self {
-            AlignNoteKind::Free | AlignNoteKind::NormalsTurned => false,
+            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
             AlignNoteKind::Poor
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
@@ -345,6 +349,14 @@ impl AlignNote {
                 format!(
                     "many points do not lie on the reference, and one of {searches} searches alone found this pose: look at the \
                      result, or align roughly and start --from-here"
+                ),
+            ),
+            AlignWarning::LeftOut { share, farthest, limit } => (
+                AlignNoteKind::LeftOut,
+                format!(
+                    "{:.0} % of the measured does not count: it lies up to {farthest:.4} mm from the reference, the rest within {limit:.4} \
+                     mm; where it is the part that is off there, align by --method chebyshev or by datums",
+                    100.0 * share
                 ),
             ),
             AlignWarning::NotConverged => {

@@ -254,6 +254,25 @@ fn turned_normals_are_noticed() {
     assert!(off(&found, &pose, MIDDLE)[1] < 1e-8);
 }
 
+/// The rest fits to the last digit, so that what is off counts as an outlier: nobody shall have to guess from a share.
+#[test]
+fn a_face_that_does_not_count_is_told() {
+    let reference = block([0.0; 3], [80.0, 50.0, 20.0], 4.0);
+    let higher = block([0.0; 3], [80.0, 50.0, 20.1], 4.0);
+    let found = fit(&Measured::Mesh(&higher), &reference);
+    let told: Vec<&AlignWarning> =
+        found.warnings.iter().filter(|w| matches!(w, AlignWarning::LeftOut { .. })).collect();
+    let [AlignWarning::LeftOut { share, farthest, limit }] = told[..] else { panic!("{:?}", found.warnings) };
+    assert!((share + found.share - 1.0).abs() < 1e-12 && (0.25..0.35).contains(share), "{share}");
+    assert!((farthest - 0.1).abs() < 1e-6 && *limit < 0.01, "{farthest} {limit}");
+    // With noise all of it counts.
+    let random = &mut Random::new(3);
+    let mut noisy = higher;
+    noisy.positions.iter_mut().flatten().for_each(|x| *x += 0.1 * (random.unit() - 0.5));
+    let told = fit(&Measured::Mesh(&noisy), &reference).warnings;
+    assert!(!told.iter().any(|w| matches!(w, AlignWarning::LeftOut { .. })), "{told:?}");
+}
+
 #[test]
 fn a_wrong_unit_is_noticed() {
     let reference = bracket(4.0);

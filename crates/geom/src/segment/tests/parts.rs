@@ -105,6 +105,39 @@ pub(in crate::segment) fn bored(steps: usize) -> Part {
     swept(&stretches, [0.0, 0.0], steps, true, faces, face, around)
 }
 
+/// A sleeve as a CAD system writes it: no corners but those of its four edges, and of the steps of a fillet at the bore's mouth.
+pub(in crate::segment) fn sleeve(
+    [bore, outside, length]: [f64; 3],
+    fillet: Option<(f64, usize)>,
+    steps: usize,
+) -> Part {
+    let point = [0.0; 3];
+    let mut faces = vec![
+        Shape::Cylinder { point, direction: AXIS, radius: bore },
+        Shape::Plane { point, normal: AXIS },
+        Shape::Cylinder { point, direction: AXIS, radius: outside },
+        Shape::Plane { point: [0.0, 0.0, length], normal: AXIS },
+    ];
+    let mut stretches =
+        vec![straight([bore, 0.0], [outside, 0.0], 1, 1), straight([outside, 0.0], [outside, length], 1, 2)];
+    let top = length - fillet.map_or(0.0, |f| f.0);
+    if let Some((radius, corners)) = fillet {
+        stretches.push(straight([outside, length], [bore + radius, length], 1, 3));
+        stretches.push(arc([bore + radius, top], radius, [90.0, 180.0], corners, 4));
+        let center = [0.0, 0.0, top];
+        let (major_radius, minor_radius) = (bore + radius, radius);
+        faces.push(Shape::Torus { center, direction: AXIS, major_radius, minor_radius });
+    } else {
+        stretches.push(straight([outside, length], [bore, length], 1, 3));
+    }
+    stretches.push(straight([bore, top], [bore, 0.0], 1, 0));
+    let around = |[rho, z]: [f64; 2], k: usize| {
+        let (sin, cos) = (TAU * k as f64 / steps as f64).sin_cos();
+        [rho * cos, rho * sin, z]
+    };
+    swept(&stretches, [bore, 0.0], steps, true, faces, |_, face| face, around)
+}
+
 /// Sections joined to a surface. `end` is the last corner; a section that comes back to where it began is closed.
 fn swept(
     stretches: &[Stretch],
@@ -150,6 +183,11 @@ impl Part {
                 *x += sigma * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
             }
         }
+        self
+    }
+    /// The same part with its coordinates in single precision.
+    pub(in crate::segment) fn single(mut self) -> Part {
+        self.mesh.positions.iter_mut().flatten().for_each(|x| *x = f64::from(*x as f32));
         self
     }
     /// The same part elsewhere, and leaning.
