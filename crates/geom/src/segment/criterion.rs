@@ -4,7 +4,7 @@
 //! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
 //! earn them, by one of three kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
 //! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]),
-//! or it covers the same and is the one that the facets go along ([`GrownRegion::goes_along`]).
+//! or it covers the same and is the one that the facets go along (`goes_along`).
 //! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
@@ -29,6 +29,12 @@ const SAME_COVER: f64 = 0.95;
 const SIMPLER_COVER: f64 = 0.98;
 /// … covers at least this much more.
 const SIMPLER_GAIN: f64 = 1.05;
+/// Quotient of the distances of the middles of facets below which one of two elements is clearly the one that the facets go
+/// along: as far as the sag of the chords goes, an edge along a straight line of the element halves it.
+const ALONG: f64 = 0.5;
+/// The least share that an element must cover of what another covers to be the one that the facets go along: one ring of facets
+/// of a torus, of three at least, goes along a cone.
+const ALONG_COVER: f64 = 0.45;
 
 /// The one of two regions that explains more; `noise` is the standard deviation of the points.
 pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) -> GrownRegion {
@@ -50,12 +56,26 @@ fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
         // A plane that is bowed within the tolerance is still a plane.
         let is_wrong = || {
             let fits_better = held.is_doubtful(noise) && other.rms < CLEARLY * held.rms;
-            held.shape.kind() != Kind::Plane && (fits_better || other.goes_along(held, noise))
+            held.shape.kind() != Kind::Plane && (fits_better || goes_along(other, held, noise))
         };
-        return gain > asked || (gain > SAME_COVER && is_wrong());
+        return (gain > asked && !is_of_corners(other, held, noise)) || (gain > SAME_COVER && is_wrong());
     }
-    let is_better = || other.rms < BETTER * held.rms && !held.goes_along(other, noise);
+    if is_of_corners(held, other, noise) {
+        return true;
+    }
+    let is_better = || other.rms < BETTER * held.rms && !goes_along(held, other, noise);
     gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || is_better())
+}
+
+/// Whether the facets go along `one` where those of `other` only have their corners on theirs. Two circles of corners lie on a
+/// cylinder and on a sphere; the facets between them are of the cylinder.
+fn goes_along(one: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
+    one.middles.max(noise) < ALONG * other.middles
+}
+
+/// Whether `region` is only one of corners, of one face or several, and a large part of its facets goes along `other`.
+pub(super) fn is_of_corners(region: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
+    goes_along(other, region, noise) && other.weight > ALONG_COVER * region.weight
 }
 
 /// So many points that an element of the kind is more than a coincidence: twice its unknowns and two more. Any three points have

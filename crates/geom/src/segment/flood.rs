@@ -2,6 +2,8 @@
 
 use super::pieces::PieceGraph;
 use crate::space::dot;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// Which pieces were looked at; kept between floods so that a small one costs little on a large surface.
 #[derive(Debug)]
@@ -98,9 +100,58 @@ pub(super) fn patch(
     })
 }
 
+/// Which neighbor a strip takes next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Order {
+    /// The one that turns least.
+    Turn,
+    /// The one across the longest edge.
+    Edge,
+}
+
+/// Neighbors of a piece beyond which a strip does not go on from it: around one vertex with so many facets there is no strip.
+const CROWD: usize = 1000;
+
+/// About `most` free facets from `seed` on, each across an edge without a crease from one before, in the given order. Where facets
+/// are as long as their face, as programs write them that draw parts, this stays on the face when [`patch`] does not: along a
+/// cylinder of two circles of corners, along a narrow plane.
+pub(super) fn strip(
+    surface: &PieceGraph,
+    seed: u32,
+    (most, order): (usize, Order),
+    crease: f64,
+    marks: &mut Marks,
+    free: impl Fn(u32) -> bool,
+) -> Vec<u32> {
+    let mut reached = vec![];
+    // Bits of positive numbers are in the order of the numbers; of equals the first piece comes first.
+    let mut open = BinaryHeap::from([(0u64, Reverse(seed))]);
+    while let Some((_, Reverse(from))) = open.pop().filter(|_| reached.len() < most) {
+        if !marks.first(from) {
+            continue;
+        }
+        reached.push(from);
+        let around = surface.neighbors(from);
+        for &piece in around.iter().filter(|_| around.len() <= CROWD) {
+            let across = dot(surface.normals[piece as usize], surface.normals[from as usize]).abs();
+            let joins =
+                surface.counts(piece) && free(piece) && across >= crease && !marks.seen[piece as usize];
+            if let Some(edge) = surface.edge(piece, from).filter(|_| joins) {
+                let first = if order == Order::Turn { across } else { edge };
+                open.push((first.to_bits(), Reverse(piece)));
+            }
+        }
+    }
+    marks.clear();
+    reached
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{facets, tests::parts::bored};
+    use super::super::{
+        facets,
+        tests::parts::{bored, sleeve},
+    };
     use super::*;
 
     /// Number of steps over neighbors from any of `pieces` to each piece.
@@ -145,5 +196,22 @@ mod tests {
         let patch = patch(&surface, 0, usize::MAX, 30f64.to_radians().cos(), &mut marks, |_| true);
         assert!(patch.iter().all(|&p| part.labels[p as usize] == part.labels[0]));
         assert_eq!(patch.len(), part.labels.iter().filter(|&&l| l == part.labels[0]).count());
+    }
+
+    /// On a sleeve of two circles of corners a face, a patch goes onto the fillet beside, a strip does not.
+    #[test]
+    fn a_strip_stays_on_a_face_that_is_one_facet_wide() {
+        let part = sleeve([8.0, 12.0, 20.0], Some((1.0, 6)), 60);
+        let surface = facets::surface(&part.mesh);
+        let mut marks = Marks::new(&surface);
+        let crease = 30f64.to_radians().cos();
+        let seed = part.labels.iter().position(|l| *l == 0).unwrap() as u32;
+        let own = |pieces: &[u32]| pieces.iter().filter(|p| part.labels[**p as usize] == 0).count();
+        let around = patch(&surface, seed, 40, crease, &mut marks, |_| true);
+        assert!(own(&around) < 30, "{}", own(&around));
+        for order in [Order::Turn, Order::Edge] {
+            let strip = strip(&surface, seed, (40, order), crease, &mut marks, |_| true);
+            assert_eq!((strip.len(), own(&strip)), (40, 40), "{order:?}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::criterion::{BETTER, CLEARLY, better, fewest_points};
 use super::estimate::{estimate, is_sound};
-use super::flood::{Marks, flood, patch, rings};
+use super::flood::{Marks, Order, flood, patch, rings, strip};
 use super::pieces::{Band, PieceGraph};
 use super::probe::Probe;
 use super::region::GrownRegion;
@@ -13,6 +13,9 @@ use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
 const PATCHES: [usize; 3] = [20, 64, 250];
+/// Pieces of the first strips, and how they grow.
+const STRIPS: [(usize, Order); 4] =
+    [(20, Order::Turn), (20, Order::Edge), (64, Order::Turn), (64, Order::Edge)];
 /// Points that an element is fitted to while it grows.
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
@@ -68,21 +71,43 @@ impl Context<'_> {
                 break;
             }
             last = patch.len();
-            for &kind in self.kinds {
-                let Some((shape, _)) = self.shown(kind, &patch, AGREEING) else { continue };
-                let Some(grown) = self.grown(shape, &patch, most, marks, free) else { continue };
-                best = Some(better(best, grown, self.noise));
-                // No other kind can cover more than all that a trial may reach.
-                if best.as_ref().is_some_and(|b| b.pieces.len() >= most && !b.is_doubtful(self.noise)) {
-                    return best;
-                }
+            if self.tried(&mut best, &patch, most, marks, free) {
+                return best;
             }
-            // Nor can a larger patch; which kind it is, the whole region tells.
+            // No larger patch can show more; which kind it is, the whole region tells.
             if best.as_ref().is_some_and(|b| b.pieces.len() >= most) {
                 break;
             }
         }
+        // Where facets are as long as the face, the patch goes beyond it on all sides.
+        if best.is_none() && self.surface.is_mesh() {
+            for first in STRIPS {
+                let strip = strip(self.surface, seed, first, self.crease, marks, free);
+                self.tried(&mut best, &strip, most, marks, free);
+            }
+        }
         best
+    }
+
+    /// Grows what each kind of element shows of a patch and keeps the best; whether no other can cover more than it, all
+    /// that a trial may reach.
+    fn tried(
+        &self,
+        best: &mut Option<GrownRegion>,
+        patch: &[u32],
+        most: usize,
+        marks: &mut Marks,
+        free: &impl Fn(u32) -> bool,
+    ) -> bool {
+        for &kind in self.kinds {
+            let Some((shape, _)) = self.shown(kind, patch, AGREEING) else { continue };
+            let Some(grown) = self.grown(shape, patch, most, marks, free) else { continue };
+            *best = Some(better(best.take(), grown, self.noise));
+            if best.as_ref().is_some_and(|b| b.pieces.len() >= most && !b.is_doubtful(self.noise)) {
+                return true;
+            }
+        }
+        false
     }
 
     /// The region that a trial began, grown to its end. How it goes on beyond tells the kinds apart better than the

@@ -319,13 +319,12 @@ fn region(
             continue;
         }
         let weight = surface.weight(&pieces);
-        let is_mesh = matches!(surface.pieces, Pieces::Facets(_));
         let region = Region {
             farthest: pieces.iter().map(|&piece| farthest(piece)).fold(0.0, f64::max),
             fit,
             points,
             pieces: pieces.len(),
-            area: if is_mesh { weight } else { 0.0 },
+            area: if surface.is_mesh() { weight } else { 0.0 },
             share: weight / total,
             bounds: surface.bounds(&pieces),
         };
@@ -345,13 +344,17 @@ fn fitted(
     let kind = start.kind();
     let all = surface.points_of(pieces.iter().copied());
     let fewest = fewest_points(kind).max(all.len() / 5);
-    let deeper = |least: u8| -> Vec<u32> { all.iter().copied().filter(|p| depth(p) >= least).collect() };
-    let points =
-        [2, 1].into_iter().map(deeper).find(|points| points.len() >= fewest).unwrap_or_else(|| all.clone());
-    let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
     let options = fit::Options { start: Some(*start), ..fit::Options::default() };
-    let fit = fit::fit(&places, kind, &options, &Silent).ok()?;
-    Some((fit, points))
+    // One circle of points inside does not determine a torus; with those at the border it does.
+    [2, 1, 0].into_iter().find_map(|least| {
+        let points: Vec<u32> = all.iter().copied().filter(|p| least == 0 || depth(p) >= least).collect();
+        if least > 0 && points.len() < fewest {
+            return None;
+        }
+        let places: Vec<Point> = points.iter().map(|&i| surface.points[i as usize]).collect();
+        let fit = fit::fit(&places, kind, &options, &Silent).ok()?;
+        Some((fit, points))
+    })
 }
 
 /// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for

@@ -3,7 +3,7 @@
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
 use super::probe::Probe;
-use crate::space::{Aabb, Point, Vector};
+use crate::space::{Aabb, Point, Vector, minus, norm};
 
 /// No region, no piece.
 pub(super) const NONE: u32 = u32::MAX;
@@ -79,6 +79,16 @@ impl PieceGraph<'_> {
         all.sort_unstable();
         all.dedup();
         all
+    }
+    /// Whether the pieces are facets.
+    pub(super) fn is_mesh(&self) -> bool {
+        matches!(self.pieces, Pieces::Facets(_))
+    }
+    /// Length of the edge that two facets share.
+    pub(super) fn edge(&self, one: u32, other: u32) -> Option<f64> {
+        let [(a, count), (b, _)] = [one, other].map(|p| self.corners(p));
+        let mut shared = a[..count].iter().filter(|c| b.contains(c)).map(|c| self.points[*c as usize]);
+        Some(norm(minus(shared.next()?, shared.next()?)))
     }
     /// At most about `most` places of the measured points of `pieces`, taken evenly over the list.
     pub(super) fn some_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {

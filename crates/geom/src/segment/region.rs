@@ -18,19 +18,10 @@ pub(super) struct GrownRegion {
     pub middles: f64,
 }
 
-/// Quotient of the distances of the middles of facets below which one of two elements is clearly the one that the facets go
-/// along: as far as the sag of the chords goes, an edge along a straight line of the element halves it.
-const ALONG: f64 = 0.5;
-
 impl GrownRegion {
     /// Its weight, less where it fits worse than noise of this standard deviation: who comes first.
     pub(super) fn merit(&self, noise: f64) -> f64 {
         self.weight / (1.0 + (self.rms / noise).powi(2))
-    }
-    /// Whether its facets go along its element where those of `other` only have their corners on theirs. Two circles of corners
-    /// lie on a cylinder and on a sphere; the facets between them are of the cylinder.
-    pub(super) fn goes_along(&self, other: &GrownRegion, noise: f64) -> bool {
-        self.middles.max(noise) < ALONG * other.middles
     }
     /// Whether it fits so much worse than the noise that its kind may be the wrong one.
     pub(super) fn is_doubtful(&self, noise: f64) -> bool {

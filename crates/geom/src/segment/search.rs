@@ -4,7 +4,7 @@
 //! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
 //! makes nearly every trial on a face a success; and a region is connected from the first.
 
-use super::criterion::fewest_points;
+use super::criterion::{fewest_points, is_of_corners};
 use super::flood::{Marks, patch};
 use super::grow::{Context, PROMISING};
 use super::pieces::NONE;
@@ -82,12 +82,22 @@ pub(super) fn search(
         }
         let merit = |grown: &GrownRegion| grown.merit(context.noise);
         promising.sort_by(|a, b| merit(&b.1).total_cmp(&merit(&a.1)).then(a.0.cmp(&b.0)));
-        for (seed, trial) in promising {
+        for (place, (seed, trial)) in promising.iter().enumerate() {
+            let seed = *seed;
             if labels[seed as usize] != NONE || tried[seed as usize] {
                 continue;
             }
+            // What is left of it is tried again when the others have their regions.
+            let along = |(own, other): &(u32, GrownRegion)| {
+                labels[*own as usize] == NONE
+                    && is_of_corners(trial, other, context.noise)
+                    && trial.pieces.contains(own)
+            };
+            if promising[place + 1..].iter().any(along) {
+                continue;
+            }
             let free = |piece: u32| labels[piece as usize] == NONE;
-            let Some(grown) = context.whole(&trial, limits.weight, &mut marks, &free) else {
+            let Some(grown) = context.whole(trial, limits.weight, &mut marks, &free) else {
                 mark_tried(context, seed, &mut tried, &mut marks);
                 continue;
             };

@@ -198,34 +198,39 @@ fn elements_rest_on_points_inside_their_faces() {
 
 /// Two circles of corners lie on a sphere too: the facets between them tell that it is a cylinder.
 #[test]
-fn cylinders_of_two_circles_are_no_spheres() {
+fn faces_of_two_circles_are_found_beside_fillets_too() {
     for seed in 0..40 {
         let mut random = Random::new(seed);
         let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
         let bore = between(3.0, 20.0);
         let sizes = [bore, bore * between(1.2, 3.0), bore * between(0.4, 4.0)];
         let steps = between(24.0, 200.0) as usize;
-        for fillet in [None, Some((0.1 * sizes[2].min(bore), 8))] {
+        let radius = 0.1 * sizes[2].min(bore);
+        let corners = [4, 8, 16][seed as usize % 3];
+        for fillet in [None, Some((radius, corners))] {
             for part in [sleeve(sizes, fillet, steps), sleeve(sizes, fillet, steps).moved().single()] {
                 let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
-                let regions = &found.regions;
-                for (face, truth) in part.faces.iter().enumerate().filter(|(_, f)| f.kind() == Kind::Cylinder)
-                {
-                    let facet = part.labels.iter().position(|l| *l == face).unwrap();
-                    let fit = regions.get(found.labels[facet] as usize).map(|r| r.fit.shape);
-                    let radius = |shape: &Shape| match shape {
-                        Shape::Cylinder { radius, .. } => *radius,
-                        _ => 0.0,
-                    };
-                    let off = fit.map(|fit| radius(&fit) - radius(truth));
-                    // Beside a fillet some are not found at all; none is found as something else.
-                    assert!(
-                        off.map_or(fillet.is_some(), |off| off.abs() < 1e-4),
-                        "{seed} {sizes:?} {steps} {fillet:?}: {fit:?} for {truth:?}"
-                    );
+                let at = format!("{seed} {sizes:?} {steps} {fillet:?}");
+                for (face, truth) in part.faces.iter().enumerate() {
+                    let own = (part.labels.iter().zip(&found.labels)).filter(|l| *l.0 == face).map(|l| *l.1);
+                    let label = own.clone().next().unwrap();
+                    let fit = found.regions.get(label as usize).map(|r| r.fit.shape);
+                    let fit = fit.unwrap_or_else(|| panic!("{at}: {truth:?} is not found"));
+                    assert!(own.clone().all(|l| l == label), "{at}: {truth:?} is in pieces");
+                    assert_eq!(fit.kind(), truth.kind(), "{at}");
+                    let off = radius_of(&fit) - radius_of(truth);
+                    assert!(off.abs() < 1e-4, "{at}: {fit:?} for {truth:?}");
                 }
             }
         }
+    }
+}
+
+fn radius_of(shape: &Shape) -> f64 {
+    match shape {
+        Shape::Cylinder { radius, .. } => *radius,
+        Shape::Torus { minor_radius, .. } => *minor_radius,
+        _ => 0.0,
     }
 }
 
