@@ -6,7 +6,7 @@ use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
-use crate::space::{Point, cross, minus, norm, normal};
+use crate::space::{Point, cross, dot, minus, norm, normal, plus, times};
 
 /// A mesh in which features are sought, with what every search needs: made once for all of them.
 pub struct FeatureSearch<'a> {
@@ -165,6 +165,100 @@ impl<'a> FeatureSearch<'a> {
         Ok(vertices)
     }
 
+    /// The facets, ascending, that lie within the reach and the bounds of `nominal` and face as what was `found` of it does, and
+    /// are joined to it by none that keep its rules: the ground of a pocket, the top of a pad, a piece of something else. None
+    /// of an edge.
+    ///
+    /// Cost: one look at each facet of the mesh.
+    ///
+    /// # Errors
+    /// As of [`FeatureSearch::find`].
+    ///
+    /// ```
+    /// use trueness_geom::closest::Tree;
+    /// use trueness_geom::feature::{FeatureSearch, Nearness, Nominal};
+    /// use trueness_geom::mesh::Mesh;
+    /// // A floor of two facets, and a third facet 0.2 above it.
+    /// let square = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let above = [[3.0, 3.0, 0.2], [6.0, 3.0, 0.2], [6.0, 6.0, 0.2]];
+    /// let positions = [&square[..], &above].concat();
+    /// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6]] };
+    /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary: square.to_vec() };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
+    /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
+    /// let apart = search.apart(&found, &floor, &near, &trueness_geom::progress::Silent)?;
+    /// assert_eq!((&found.facets[..], &apart[..]), (&[0, 1][..], &[2][..]));
+    /// assert_eq!(search.joined(&found, &apart, &near).points.len(), 7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn apart(
+        &self,
+        found: &Found,
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Vec<u32>, FeatureError> {
+        let Some(surface) = nominal.surface() else { return Ok(vec![]) };
+        let inside = Nearness { margin: near.margin.max(0.0), ..*near };
+        let (rules, strict) = (Rules::new(nominal, near)?, Rules::new(nominal, &inside)?);
+        // A tube faces both ways; what was found tells which of them is sought.
+        let outward = |f: u32| -> Option<f64> {
+            let corners = self.corners(f)?;
+            Some(dot(normal(corners)?, surface.distance(center(corners))?.1))
+        };
+        let side: f64 = found.facets.iter().filter_map(|f| outward(*f)).map(f64::signum).sum();
+        let belongs = |f: &u32| {
+            let keeps = |corners| {
+                normal(corners).is_some_and(|n| rules.facet(corners, n)) && strict.point(center(corners))
+            };
+            self.corners(*f).is_some_and(keeps) && outward(*f).is_some_and(|o| o * side > 0.0)
+        };
+        let all = (0..self.mesh.faces.len() as u32).into_par_iter();
+        let all = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
+        let apart = all.filter(belongs).collect();
+        if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(apart) }
+    }
+
+    /// What was found of a feature, and these facets with it. Of a piece of them that has no vertices of its own, those of its rim
+    /// count even where the rim does not: a pad of two facets is as high as they are.
+    pub fn joined(&self, found: &Found, facets: &[u32], near: &Nearness) -> Found {
+        let mut all = Marked::new(self.mesh.faces.len());
+        found.facets.iter().chain(facets).for_each(|f| all.add(*f));
+        let mut joined = self.with_points(&all, near.rim);
+        if joined.rim.is_empty() {
+            return joined;
+        }
+        let mut left = Marked::new(self.mesh.faces.len());
+        facets.iter().for_each(|f| left.add(*f));
+        let mut rims = vec![];
+        for start in facets {
+            let (mut piece, mut next) = (vec![], 0);
+            if left.has(*start) {
+                left.remove(*start);
+                piece.push(*start);
+            }
+            while let Some(facet) = piece.get(next).copied() {
+                next += 1;
+                for other in [0, 1, 2].into_iter().flat_map(|k| self.across(facet, k)) {
+                    if left.has(other) {
+                        left.remove(other);
+                        piece.push(other);
+                    }
+                }
+            }
+            let vertices = || piece.iter().flat_map(|f| self.mesh.faces[*f as usize]);
+            if vertices().all(|v| joined.points.binary_search(&v).is_err()) {
+                rims.extend(vertices());
+            }
+        }
+        joined.points.extend(rims);
+        joined.points.sort_unstable();
+        joined.points.dedup();
+        joined.rim.retain(|v| joined.points.binary_search(v).is_err());
+        joined
+    }
+
     fn corners(&self, f: u32) -> Option<[Point; 3]> {
         let [a, b, c] = *self.mesh.faces.get(f as usize)?;
         let at = |v: u32| self.mesh.positions.get(v as usize).copied();
@@ -237,6 +331,10 @@ impl<'a> FeatureSearch<'a> {
         let area = facets.iter().map(area).sum();
         Found { area, facets, points: points.all().collect(), rim: out.all().collect() }
     }
+}
+
+fn center([a, b, c]: [Point; 3]) -> Point {
+    times(1.0 / 3.0, plus(a, plus(b, c)))
 }
 
 /// A set of numbers below a limit.

@@ -16,7 +16,7 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{self, Point, Vector, dot};
+use trueness_geom::space::{self, Point, Vector, dot, plus, times};
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -28,6 +28,8 @@ const FARTHEST: f64 = 0.25;
 const WALL_REACH: f64 = 3.0;
 /// A piece is of the reference if this share of its points is.
 const MOST: f64 = 0.75;
+/// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
+const ALIKE: f64 = 2.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
 const SAME: f64 = 1e-9;
 
@@ -110,6 +112,40 @@ impl<'a> Belonging<'a> {
             (aside && off + SAME * self.size < away).then_some(*p)
         };
         Ok(doubtful.iter().zip(on_own).filter_map(is_other).collect())
+    }
+
+    /// Whether each of these places, of facets that face as the nominal does, is nearer to the facets of the nominal than to others
+    /// that face so too, as the ground of a pocket that the reference has.
+    pub fn nearer(
+        &self,
+        places: &[Point],
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let whole = Nearness { margin: -near.distance, ..*near };
+        let own = self.facets(nominal, &whole, progress);
+        let Some(surface) = nominal.surface().filter(|_| !own.is_empty()) else {
+            return Ok(vec![true; places.len()]);
+        };
+        let outward = |f: u32| {
+            let corners = self.reference.faces[f as usize].map(|v| self.reference.positions[v as usize]);
+            let way = surface.distance(times(1.0 / 3.0, plus(corners[0], plus(corners[1], corners[2]))));
+            way.zip(space::normal(corners)).map_or(0.0, |((_, way), facing)| dot(way, facing))
+        };
+        let side: f64 = own.iter().map(|f| outward(*f).signum()).sum::<f64>().signum();
+        let alike = libm::cos(ALIKE * near.angle);
+        let others = (0..self.reference.faces.len() as u32)
+            .filter(|f| own.binary_search(f).is_err() && side * outward(*f) >= alike);
+        let [own, others] = [self.part(own.iter().copied()), self.part(others)];
+        if others.faces.is_empty() {
+            return Ok(vec![true; places.len()]);
+        }
+        let away = |mesh: &Mesh| -> Result<Vec<(u32, f64)>, Stop> {
+            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+            nearest(&tree, places, f64::INFINITY, progress)
+        };
+        Ok(away(&own)?.into_iter().zip(away(&others)?).map(|(own, other)| own.1 <= other.1).collect())
     }
 
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not

@@ -133,12 +133,16 @@ pub(super) fn judge_left_out(
     let mut known = true;
     for taken in features.iter().filter(|t| !t.others.points.is_empty()) {
         let count = taken.others.points.len();
-        let why = if taken.others.on_reference {
-            "are of other surfaces of the reference"
-        } else {
-            "face another way and go on beyond it, as walls and bores do"
-        };
         known &= taken.others.on_reference;
+        let why = match (taken.others.on_reference, taken.facets.is_empty()) {
+            (true, _) => "are of other surfaces of the reference",
+            (false, true) => "face another way and go on beyond it, as walls and bores do,",
+            // Noise leaves some at every edge: they are told where they matter.
+            (false, false) if verdict == judged => continue,
+            (false, false) => {
+                "face as it does but are joined to it by no facet that does, as the ground of a pocket,"
+            }
+        };
         result.notes.push(format!(
             "feature \"{}\": {count} points within its reach {why} and are left out",
             taken.id

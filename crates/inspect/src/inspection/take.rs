@@ -152,6 +152,24 @@ fn others(
     Ok(Others { points, on_reference: belonging.is_some() })
 }
 
+/// Which of the facets that lie apart from a feature are of it: those that the reference has nothing else for. Without a
+/// reference nothing tells, and they are others.
+fn apart_of(
+    mesh: &Mesh,
+    apart: &[u32],
+    belonging: Option<&Belonging>,
+    (nominal, near): (&Nominal, &Nearness),
+    progress: &dyn Progress,
+) -> Result<(Vec<u32>, Vec<u32>), Stop> {
+    let Some(belonging) = belonging.filter(|_| !apart.is_empty()) else {
+        return Ok((vec![], apart.to_vec()));
+    };
+    let center = |f: &u32| mean(&mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]));
+    let places: Vec<Point> = apart.iter().map(center).collect();
+    let own = belonging.nearer(&places, nominal, near, progress)?;
+    Ok((apart.iter().zip(own).filter(|(_, own)| *own).map(|(f, _)| *f).collect(), vec![]))
+}
+
 /// The direction out of the material that a nominal has.
 fn normal(nominal: &Nominal) -> Option<Vector> {
     match nominal {
@@ -207,6 +225,16 @@ fn found(
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     };
     let mut found = found.map_err(stop)?;
+    if let Some(facets) = search.facets {
+        let apart = facets.apart(&found, &nominal, &near, progress).map_err(stop)?;
+        let (own, others) = apart_of(mesh, &apart, search.belonging, (&nominal, &near), progress)?;
+        if !own.is_empty() {
+            found = facets.joined(&found, &own, &near);
+        }
+        let points = facets.joined(&Found::default(), &others, &near).points;
+        let points = points.iter().map(|v| mesh.positions[*v as usize]).collect();
+        taken.others = Others { points, on_reference: false };
+    }
     if let (Some(facets), None) = (search.facets, search.belonging) {
         taken.left_out = deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
     }
