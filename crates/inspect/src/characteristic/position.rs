@@ -4,8 +4,13 @@ use super::kind::{Characteristic, Measuring, Question, Refusal, is_axis, refuse}
 use super::located::frame;
 use super::value::{Missing, Value};
 use crate::plan::{Class, Spec};
+use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Point, Vector};
+use trueness_geom::zone::datum::Freedom;
 use trueness_geom::zone::motion::{Search, placed};
+
+/// A plane is across an axis if the cosine of the angle of its normal to that is at least this, 45°.
+const LEAST_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Twice the greatest distance of the feature from its theoretically exact place in the datum system, the least over the
 /// motions that the datums leave free.
@@ -87,6 +92,9 @@ impl Characteristic for Position {
         let (start, free) = frame(m)?;
         let points = m.feature().zoned()?;
         let place = m.spec.basic.place;
+        if m.feature().class == Class::Plane {
+            across(m, &start, free, place)?;
+        }
         let distance = |_: usize, p: Point| Some(from_place(p, place));
         let search = Search { start, free, middle: 0.0, floating: false, outer: false };
         let found = placed(&points, &distance, &search, m.progress)?;
@@ -99,6 +107,34 @@ impl Characteristic for Position {
         }
         Ok(value)
     }
+}
+
+/// Whether the coordinate that places a plane is the one along its normal, and held by the datums: others place nothing.
+fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -> Result<(), Missing> {
+    let normal = start.vector(m.feature().direction()?);
+    let Some(given) = place.iter().position(Option::is_some) else { return Ok(()) };
+    let name = |k: usize| ["x", "y", "z"][k];
+    // Within the plane x, y a turn about z may bring it anywhere.
+    let along = match (given, free.turn[2]) {
+        (2, _) => normal[2].abs(),
+        (_, true) => libm::hypot(normal[0], normal[1]),
+        (k, false) => normal[k].abs(),
+    };
+    if along < LEAST_ALONG {
+        let most = (0..3).fold(0, |best, k| if normal[k].abs() > normal[best].abs() { k } else { best });
+        let what = format!(
+            "its plane lies across {0} in the datum system, not across {1}: basic = {{ {0} = … }} places it",
+            name(most),
+            name(given)
+        );
+        return Err(Missing::Impossible(what));
+    }
+    if free.shift[given] {
+        let what =
+            format!("its datums leave shifts along {} free: name a datum that holds them", name(given));
+        return Err(Missing::Impossible(what));
+    }
+    Ok(())
 }
 
 /// Whether the tolerance or a datum has a material requirement.

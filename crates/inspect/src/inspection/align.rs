@@ -47,14 +47,16 @@ pub enum Found {
 }
 
 impl Found {
+    /// The best fit that was found, or that it began with.
+    fn best_fit(&self) -> Option<&align::Alignment> {
+        match self {
+            Found::BestFit(fit) | Found::Chebyshev(_, fit) | Found::Zones(_, fit) => Some(fit),
+            Found::Nothing | Found::Rows(_) => None,
+        }
+    }
     /// Whether the facets of the measured mesh were found to point inward.
     fn turned(&self) -> bool {
-        match self {
-            Found::BestFit(fit) | Found::Chebyshev(_, fit) | Found::Zones(_, fit) => {
-                fit.warnings.contains(&AlignWarning::NormalsTurned)
-            }
-            Found::Nothing | Found::Rows(_) => false,
-        }
+        self.best_fit().is_some_and(|fit| fit.warnings.contains(&AlignWarning::NormalsTurned))
     }
 }
 
@@ -92,16 +94,54 @@ pub(super) fn aligned(
     if alignment.motion != Rigid::IDENTITY {
         moved(&mut data, &alignment.motion);
     }
-    if let Align::Datum { datums, rule, span, .. } = &plan.align {
-        // A mesh has facets that tell.
-        let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
-        let belonging = if is_cloud { Belonging::new(plan, &data, seeds, progress)? } else { None };
-        let taken = take::features(plan, &data, seeds, belonging.as_ref(), progress)?;
-        let motion = by_datums(&taken, datums, *rule, span, progress)?;
-        moved(&mut data, &motion);
+    if let Some(motion) = onto_datums(plan, &mut data, seeds, progress)? {
         alignment.motion = motion.after(&alignment.motion);
     }
     Ok((data, alignment))
+}
+
+/// Moves data that lie near their place onto the datums of the plan's alignment, where it has such: how.
+fn onto_datums(
+    plan: &Plan,
+    data: &mut Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Option<Rigid>, Stop> {
+    let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
+    // A mesh has facets that tell.
+    let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
+    let belonging = if is_cloud { Belonging::new(plan, data, seeds, progress)? } else { None };
+    let taken = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
+    let motion = by_datums(&taken, datums, *rule, span, progress)?;
+    moved(data, &motion);
+    Ok(Some(motion))
+}
+
+/// Poses that are looked at beside the one taken, at most: a brick looks the same in four.
+const OTHER_POSES: usize = 8;
+
+/// The aligned data in the other poses in which they fit about as well, some of them.
+pub(super) fn in_other_poses(
+    plan: &Plan,
+    data: &Data,
+    alignment: &Alignment,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Vec<Data>, Stop> {
+    let alternatives = alignment.found.best_fit().map_or(&[][..], |fit| &fit.alternatives);
+    let back = alignment.motion.inverse();
+    let mut all = vec![];
+    for alternative in alternatives.iter().take(OTHER_POSES) {
+        let mut other = data.clone();
+        moved(&mut other, &alternative.reference_from_measured.after(&back));
+        match onto_datums(plan, &mut other, seeds, progress) {
+            Ok(_) => all.push(other),
+            // There the datums cannot be: it is not the pose.
+            Err(Stop::Plan { .. } | Stop::Align(_)) => {}
+            Err(stop) => return Err(stop),
+        }
+    }
+    Ok(all)
 }
 
 fn moved(data: &mut Data, motion: &Rigid) {

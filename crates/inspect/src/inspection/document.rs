@@ -27,6 +27,8 @@ impl InspectDocument {
         let characteristics: Vec<CharacteristicRecord> =
             (0..plan.specs.len()).map(|n| characteristic(plan, found, n)).collect();
         let (deviation, scale) = deviation(found, &inputs).unzip();
+        let alignment = AlignmentRecord::new(plan, found);
+        let unreliable = alignment.doubts().next().is_some();
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         InspectDocument {
             schema: SCHEMA.into(),
@@ -35,7 +37,7 @@ impl InspectDocument {
             title: plan.title.clone(),
             plan: record,
             inputs,
-            alignment: AlignmentRecord::new(plan, found),
+            alignment,
             features: plan.features.iter().zip(&found.features).map(|(p, t)| feature(p, t)).collect(),
             deviation_reason: deviation.is_none().then(|| "the plan has no [deviation]".into()),
             decision_rule: plan.decision.rule.word().into(),
@@ -46,7 +48,9 @@ impl InspectDocument {
                 not_measured: count(Verdict::NotMeasured),
             },
             verdict: overall(
-                characteristics.iter().map(|c| c.verdict).chain(deviation.as_ref().and_then(|d| d.verdict)),
+                (characteristics.iter().map(|c| c.verdict))
+                    .chain(deviation.as_ref().and_then(|d| d.verdict))
+                    .chain(unreliable.then_some(Verdict::Undecided)),
             ),
             characteristics,
             deviation,
@@ -235,6 +239,13 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let with_others = found.with_others[n].as_ref();
     let judged_with =
         left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
+    let in_other_pose = (found.in_other_poses.iter().map(|values| &values[n]))
+        .find(|other| judged(other) != judged(value))
+        .filter(|_| value.is_ok());
+    let (own, other_pose) = match in_other_pose {
+        Some(other) => (Verdict::Undecided, Some(other_pose(other, judged(other)))),
+        None => (judged_with.verdict, None),
+    };
     CharacteristicRecord {
         id: spec.id.clone(),
         kind: spec.kind.word().into(),
@@ -254,7 +265,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         noise_bias: uncertainty.map(|u| u.bias).filter(|bias| *bias != 0.0),
         interval: measured.zip(uncertainty).map(|(v, u)| interval(v.value, u, zone)),
         decision_rule: rule.word().into(),
-        verdict: judged_with.verdict,
+        verdict: own,
         reason: value.as_ref().err().cloned(),
         utilization: measured.and_then(|v| utilization(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
@@ -266,10 +277,23 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
             .map_or(vec![], |v| v.notes.clone())
             .into_iter()
             .chain(judged_with.notes)
+            .chain(other_pose)
             .chain(unknown)
             .collect(),
         standard: spec.kind.standard().into(),
     }
+}
+
+/// What is to be said of a characteristic with another verdict in another pose that fits about as well.
+fn other_pose(value: &Result<Value, String>, verdict: Verdict) -> String {
+    let there = match value {
+        Ok(v) => format!("the value is {}: {}", left_out::round(v.value), verdict.word()),
+        Err(why) => format!("there is no value: {why}"),
+    };
+    format!(
+        "the part looks the same in several ways, and in another pose that fits as well {there}; align by points or datums, \
+         which tell the ways apart"
+    )
 }
 
 /// Where the true value lies; no zone is narrower than none.

@@ -16,6 +16,8 @@ pub struct Inspection {
     /// What each value would be with the points of its features and datums that were left out as of other surfaces; `None`
     /// where there are none.
     pub with_others: Vec<Option<Result<Value, String>>>,
+    /// The values in other poses in which the data fit about as well, where the alignment has found such.
+    pub in_other_poses: Vec<Vec<Result<Value, String>>>,
     /// The uncertainty of each value, where the plan states one or the noise of the points.
     pub uncertainties: Vec<Option<Uncertainty>>,
     /// The measured data where they were evaluated: aligned.

@@ -163,7 +163,7 @@ pub(super) fn judge_left_out(
 }
 
 /// To the micrometer.
-fn round(x: f64) -> f64 {
+pub(super) fn round(x: f64) -> f64 {
     (1e6 * x).round() / 1e6
 }
 

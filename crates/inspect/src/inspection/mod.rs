@@ -32,6 +32,8 @@ pub use view::View;
 use crate::compare::plausibility;
 use crate::plan::{Plan, Spec};
 use crate::results::compare::{Bounds, Warning, WarningKind};
+use seed::Seeded;
+use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
@@ -63,13 +65,16 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let seeds = seed::seeded(plan, &data, progress)?;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
     let doubts = doubts(plan, &data);
-    let belonging = belonging::Belonging::new(plan, &data, &seeds, progress)?;
-    let mut features = take::features(plan, &data, &seeds, belonging.as_ref(), progress)?;
-    left_out::tell(plan, &data, &seeds, belonging.as_ref(), &mut features, progress)?;
-    drop(belonging);
+    let features = taken(plan, &data, &seeds, progress)?;
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
-    let values =
-        plan.specs.par_iter().map(|spec| measured(spec, &features)).collect::<Result<Vec<_>, Stop>>()?;
+    let all = |features: &[Taken]| {
+        plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
+    };
+    let values = all(&features)?;
+    let other_poses = align::in_other_poses(plan, &data, &alignment, &seeds, progress)?;
+    let in_other_poses = (other_poses.iter())
+        .map(|data| all(&taken(plan, data, &seeds, progress)?))
+        .collect::<Result<Vec<_>, Stop>>()?;
     // What the values would be with all that was left out as of other surfaces.
     let whole = take::whole(plan, &features, progress)?;
     let concerned =
@@ -91,7 +96,30 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         None => None,
     };
     let measured = data.measured;
-    Ok(Inspection { features, values, with_others, uncertainties, measured, alignment, doubts, deviations })
+    Ok(Inspection {
+        features,
+        values,
+        with_others,
+        in_other_poses,
+        uncertainties,
+        measured,
+        alignment,
+        doubts,
+        deviations,
+    })
+}
+
+/// The features of data that lie where they are evaluated.
+fn taken(
+    plan: &Plan,
+    data: &Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Vec<Taken>, Stop> {
+    let belonging = belonging::Belonging::new(plan, data, seeds, progress)?;
+    let mut features = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
+    left_out::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
+    Ok(features)
 }
 
 /// Whether the aligned data lie where the reference does, or where the features should be if there is no reference. Of places

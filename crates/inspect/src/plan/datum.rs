@@ -45,7 +45,8 @@ pub(super) fn datums(
         let datum = datum(checker, name, features)?;
         for number in &datum.features {
             let feature = &features[*number];
-            if own.contains(number) {
+            // A bearing seat may be part of the common datum of both: it is toleranced to the axis that they have together.
+            if own.contains(number) && datum.features.len() == 1 {
                 let what =
                     format!("\"{}\" is the toleranced feature; it cannot be its own datum", feature.id);
                 return checker.wrong(&name.span, what);

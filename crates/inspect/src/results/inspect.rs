@@ -2,7 +2,7 @@
 
 mod page;
 
-use super::align::AlignNote;
+use super::align::{AlignNote, AlignNoteKind};
 use super::compare::Comparison;
 use super::fit::Number;
 use super::place_map::PlaceMap;
@@ -56,7 +56,7 @@ pub struct InspectDocument {
     pub decision_rule: String,
     /// Number of characteristics by verdict.
     pub counts: Counts,
-    /// The worst verdict of all characteristics and of the deviations.
+    /// The worst verdict of all characteristics and of the deviations; undecided at best where the alignment cannot be relied on.
     pub verdict: Verdict,
 }
 
@@ -97,6 +97,14 @@ pub struct AlignmentRecord {
     pub converged: Option<bool>,
     /// What is to be said about it.
     pub warnings: Vec<AlignNote>,
+}
+
+impl AlignmentRecord {
+    /// What makes it, and with it every value, unreliable. Other poses that fit as well are no such doubt: there each
+    /// characteristic is judged by all of them.
+    pub fn doubts(&self) -> impl Iterator<Item = &AlignNote> {
+        self.warnings.iter().filter(|w| w.kind.0.is_doubt() && w.kind.0 != AlignNoteKind::Ambiguous)
+    }
 }
 
 /// A feature as it was found.

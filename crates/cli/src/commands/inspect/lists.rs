@@ -33,7 +33,17 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
     all
 }
 
-/// One line a characteristic, and one for the deviations from the reference where they are judged; numbers with all digits (RFC 4180).
+/// What the alignment is called beside the characteristics.
+const ALIGNMENT: &str = "alignment";
+
+/// What makes the alignment unreliable, in one text.
+fn unreliable(document: &InspectDocument) -> Option<String> {
+    let doubts: Vec<&str> = document.alignment.doubts().map(|d| d.text.as_str()).collect();
+    (!doubts.is_empty()).then(|| doubts.join("; "))
+}
+
+/// One line a characteristic, one for the deviations from the reference where they are judged, and one for an alignment that cannot
+/// be relied on; numbers with all digits (RFC 4180).
 pub fn csv(documents: &[InspectDocument]) -> String {
     let head = [
         "part",
@@ -91,17 +101,27 @@ pub fn csv(documents: &[InspectDocument]) -> String {
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
+        if let Some(why) = unreliable(document) {
+            let mut cells: [String; 16] = Default::default();
+            cells[0] = part(document).into();
+            [cells[1], cells[2]] = [ALIGNMENT.into(), ALIGNMENT.into()];
+            [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
+            out.push_str(&cells.map(cell).join(","));
+            out.push_str("\r\n");
+        }
     }
     out
 }
 
-/// A test suite a part and a test case a characteristic, and one for the deviations where they are judged. What fails is a failure, what nobody can tell an error, what was
+/// A test suite a part and a test case a characteristic, one for the deviations where they are judged and one for an alignment that
+/// cannot be relied on. What fails is a failure, what nobody can tell an error, what was
 /// not measured a failure too: a merge must not pass on it.
 pub fn junit(documents: &[InspectDocument]) -> String {
     let count = |documents: &[InspectDocument], which: &dyn Fn(Verdict) -> bool| -> usize {
         let of = |d: &InspectDocument| {
             let own = d.characteristics.iter().map(|c| c.verdict);
-            own.chain(judged(d).into_iter().map(|j| j.2)).filter(|v| which(*v)).count()
+            let unreliable = unreliable(d).map(|_| Verdict::Undecided);
+            own.chain(judged(d).into_iter().map(|j| j.2)).chain(unreliable).filter(|v| which(*v)).count()
         };
         documents.iter().map(of).sum()
     };
@@ -133,6 +153,9 @@ pub fn junit(documents: &[InspectDocument]) -> String {
                 100.0 * t.required
             );
             out.push_str(&case(&name, &name_of, verdict, &said));
+        }
+        if let Some(why) = unreliable(document) {
+            out.push_str(&case(&name, ALIGNMENT, Verdict::Undecided, &why));
         }
         out.push_str("  </testsuite>\n");
     }

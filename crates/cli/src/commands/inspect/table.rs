@@ -52,9 +52,11 @@ pub fn table(document: &InspectDocument, one_of_several: bool) -> String {
     let n = &document.counts;
     let deviations = document.deviation.as_ref().and_then(|c| c.verdict);
     let deviations = deviations.map_or_else(String::new, |v| format!("; deviations {}", v.word()));
+    let unreliable = document.alignment.doubts().next().is_some();
+    let unreliable = if unreliable { "; alignment cannot be relied on" } else { "" };
     let _ = writeln!(
         out,
-        "{}: {} pass, {} fail, {} undecided, {} not measured{deviations}; decision rule {}; mm, degrees",
+        "{}: {} pass, {} fail, {} undecided, {} not measured{deviations}{unreliable}; decision rule {}; mm, degrees",
         document.verdict.word(),
         n.pass,
         n.fail,

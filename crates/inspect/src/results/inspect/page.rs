@@ -64,13 +64,25 @@ impl Subject for InspectDocument {
 
     fn list(&self, s: Style) -> Markup {
         let (of, left_out) = (&self.alignment, None);
+        let facts = Facts {
+            method: &of.method,
+            rms: of.rms,
+            greatest: of.greatest,
+            excess: of.excess,
+            left_out,
+            warnings: &of.warnings,
+        };
+        // Where nothing else can be believed, this comes first.
+        let (first, last) =
+            if of.doubts().next().is_some() { (Some(&facts), None) } else { (None, Some(&facts)) };
         html! {
+            @if let Some(facts) = first { (alignment(s, facts)) }
             (section(s, "characteristics", characteristics(s, self)))
             @if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
                 (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
             }
             (section(s, "features", features(s, self)))
-            (alignment(s, &Facts { method: &of.method, rms: of.rms, greatest: of.greatest, excess: of.excess, left_out, warnings: &of.warnings }))
+            @if let Some(facts) = last { (alignment(s, facts)) }
         }
     }
 

@@ -164,8 +164,13 @@ export class Eye {
   fit(places: Vector3[], margin: number, head: number): void {
     if (places.length === 0) return
     const span = (axis: Vector3) => {
-      const along = places.map((p) => p.dot(axis))
-      return [Math.min(...along), Math.max(...along)]
+      let [least, most] = [Infinity, -Infinity]
+      for (const place of places) {
+        const along = place.dot(axis)
+        least = Math.min(least, along)
+        most = Math.max(most, along)
+      }
+      return [least, most]
     }
     const [l, r] = span(this.right)
     const [b, t] = span(this.upward)
