@@ -327,21 +327,35 @@ impl Cloud<'_> {
         Ok(())
     }
 
-    /// The middle of the distances of what faces as the feature, and of its scatter.
+    /// The middle of the distances of what faces as the feature, and its scatter: that of the planes of neighbors, or of the heights
+    /// over the nominal surface against those around, whichever is less. Those planes scatter by the sag of a round feature too.
     fn level(&mut self, own: &[u32]) -> Option<Level> {
-        let mut all = vec![];
+        let (mut heights, mut scatter, mut off) = (vec![], vec![], vec![]);
         for p in own.iter().step_by(own.len().div_ceil(ASKED)) {
-            let patch = self.patch(*p);
-            if patch.flat && !self.is_aside(*p) {
-                all.extend(self.surface.distance(self.at(*p)).map(|d| (d.0, patch.rms)));
+            let Some(height) = self.height_facing(*p) else { continue };
+            heights.push(height);
+            scatter.push(self.patch(*p).rms);
+            let around = self.around(*p, NEIGHBORS[0]);
+            let mut around: Vec<f64> = around
+                .into_iter()
+                .filter(|q| own.binary_search(q).is_ok())
+                .filter_map(|q| self.height_facing(q))
+                .collect();
+            if around.len() >= NEIGHBORS[0] / 2 {
+                off.extend(middle(&mut around).map(|middle| (height - middle).abs()));
             }
         }
-        let (mut heights, mut scatter): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
         let height = middle(&mut heights)?;
-        // Planes of neighbors on a round feature scatter by its sag too; heights do so where it is off its place or its form.
-        let mut off: Vec<f64> = heights.iter().map(|h| (h - height).abs()).collect();
-        let scatter = middle(&mut scatter)?.min(OF_MEDIAN * middle(&mut off)?);
-        Some(Level { height, scatter })
+        let of_heights = middle(&mut off).map_or(f64::INFINITY, |off| OF_MEDIAN * off);
+        Some(Level { height, scatter: middle(&mut scatter)?.min(of_heights) })
+    }
+
+    /// The height of a point over the nominal surface, if it and its neighbors face as the feature.
+    fn height_facing(&mut self, p: u32) -> Option<f64> {
+        if !self.patch(p).flat || self.is_aside(p) {
+            return None;
+        }
+        self.surface.distance(self.at(p)).map(|d| d.0)
     }
 
     /// The piece that a point lies on, and its plane there, unless it lies as near to what the feature has around it.
