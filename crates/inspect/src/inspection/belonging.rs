@@ -44,6 +44,8 @@ pub(super) struct Belonging<'a> {
     nearest: Vec<(u32, f64)>,
     /// Median of the distances, mm.
     median: f64,
+    /// A step of single precision, which meshes pass through in their files, mm.
+    rounding: f64,
 }
 
 impl<'a> Belonging<'a> {
@@ -61,13 +63,24 @@ impl<'a> Belonging<'a> {
             return Ok(None);
         }
         let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let size = reference.bounds().diagonal();
+        let bounds = reference.bounds();
+        let size = bounds.diagonal();
+        let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let rounding = f64::from(f32::EPSILON) * greatest;
         let nearest = nearest(&tree, &measured.positions, ELSEWHERE * size, progress)?;
         let mut all: Vec<f64> = nearest.iter().filter(|n| n.0 != u32::MAX).map(|n| n.1).collect();
         all.sort_unstable_by(f64::total_cmp);
         let median = all.get(all.len() / 2).copied().unwrap_or(0.0);
         let search = FeatureSearch::new(reference, tree);
-        Ok(Some(Belonging { reference, measured: &measured.positions, search, size, nearest, median }))
+        Ok(Some(Belonging {
+            reference,
+            measured: &measured.positions,
+            search,
+            size,
+            nearest,
+            median,
+            rounding,
+        }))
     }
 
     /// How far off the measured points are whose nearest facet is one of the nominal's, where that is beyond its distance, mm.
@@ -91,7 +104,7 @@ impl<'a> Belonging<'a> {
         // All of the face counts, however its facets lie to its bounds.
         let whole = Nearness { margin: -near.distance, ..*near };
         let own = self.facets(nominal, &whole, progress);
-        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(SAME * self.size);
+        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding);
         let is_upon_other = |p: &u32| {
             let (face, off) = self.nearest[*p as usize];
             face != u32::MAX && off <= upon && own.binary_search(&face).is_err()

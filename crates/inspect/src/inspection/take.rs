@@ -39,7 +39,7 @@ pub(super) fn features(
         _ => None,
     };
     let cloud = data.measured.as_ref().filter(|mesh| sought && mesh.faces.is_empty());
-    let cloud = cloud.map(|mesh| PointTree::new(&mesh.positions));
+    let cloud = cloud.map(|mesh| Cloud::new(&mesh.positions));
     let search = Search { facets: facets.as_ref(), cloud: cloud.as_ref(), belonging };
     let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
@@ -121,24 +121,52 @@ struct Search<'a> {
     /// Of a mesh.
     facets: Option<&'a FeatureSearch<'a>>,
     /// Of a cloud.
-    cloud: Option<&'a PointTree>,
+    cloud: Option<&'a Cloud>,
     belonging: Option<&'a Belonging<'a>>,
 }
 
-/// Takes the points of other surfaces out of those of a cloud near a nominal.
+/// The points of a cloud, each place once: copies tell nothing new, and neighbors that are copies tell nothing at all.
+struct Cloud {
+    places: Vec<Point>,
+    /// Their numbers in the cloud; of copies the first.
+    numbers: Vec<u32>,
+    tree: PointTree,
+}
+
+impl Cloud {
+    fn new(points: &[Point]) -> Cloud {
+        // Minus zero is zero.
+        let key = |n: &u32| points[*n as usize].map(|x| (x + 0.0).to_bits());
+        let mut numbers: Vec<u32> = (0..points.len() as u32).collect();
+        numbers.par_sort_unstable_by_key(|n| (key(n), *n));
+        numbers.dedup_by_key(|n| key(n));
+        numbers.sort_unstable();
+        let places: Vec<Point> = numbers.iter().map(|n| points[*n as usize]).collect();
+        Cloud { tree: PointTree::new(&places), places, numbers }
+    }
+
+    fn number(&self, place: u32) -> u32 {
+        self.numbers[place as usize]
+    }
+}
+
+/// Takes the points of other surfaces out of those of a cloud near a nominal, which come with the numbers of their places and leave
+/// with their own.
 fn others(
     points: &mut Vec<u32>,
     measured: &[Point],
-    (cloud, belonging): (&PointTree, Option<&Belonging>),
+    (cloud, belonging): (&Cloud, Option<&Belonging>),
     (nominal, near): (&Nominal, &Nearness),
     progress: &dyn Progress,
 ) -> Result<Others, Stop> {
     // Of all points: those of a wall that lie upon the reference tell where the others are that noise has carried off it.
-    let beside = pieces_beside(measured, cloud, points, nominal, near, progress);
+    let beside = pieces_beside(&cloud.places, &cloud.tree, points, nominal, near, progress);
     let mut pieces = beside.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Mesh(e.to_string()),
     })?;
+    points.iter_mut().for_each(|p| *p = cloud.number(*p));
+    pieces.iter_mut().flat_map(|piece| &mut piece.points).for_each(|p| p.0 = cloud.number(p.0));
     let mut out = vec![];
     if let Some(belonging) = belonging {
         pieces = belonging.known(pieces, nominal, near, progress)?;
@@ -216,9 +244,10 @@ fn found(
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
     let near = feature.extract.near(&nominal);
-    let found = match search.facets {
-        Some(facets) => facets.find(&nominal, &near, progress),
-        None => in_cloud(&mesh.positions, &nominal, &near),
+    let found = match (search.facets, search.cloud) {
+        (Some(facets), _) => facets.find(&nominal, &near, progress),
+        (None, Some(cloud)) => in_cloud(&cloud.places, &nominal, &near),
+        (None, None) => Ok(Found::default()),
     };
     let stop = |e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
