@@ -306,7 +306,19 @@ fn faults_that_data_show_are_told_too() {
             "line 5, column 6: feature \"A\": maximum-inscribed is not defined for a plane",
         ),
     ];
-    for (plan, says) in cases {
+    let of_plane = |feature: &str, basic: &str| {
+        let to = format!("kind = \"position\"\nbasic = {{ {basic} }}\nfeature = \"{feature}\"");
+        PLAN.replacen("kind = \"perpendicularity\"\nfeature = \"pin\"", &to, 1)
+    };
+    let planes = [
+        (
+            of_plane("R", "x = 3"),
+            "its plane lies across z in the datum system, not across x: basic = { z = … }",
+        ),
+        (of_plane("B", "z = 3"), "in the datum system, not across z"),
+        (of_plane("B", "x = 3"), "its datums leave shifts along x free"),
+    ];
+    for (plan, says) in cases.into_iter().chain(planes) {
         let plan = folder.write("plan.toml", plan);
         let o = trueness(["inspect", plan.to_str().unwrap()]);
         let text = stderr(&o);
@@ -328,6 +340,33 @@ fn faults_that_data_show_are_told_too() {
     let over = trueness(["inspect", plan.to_str().unwrap(), "--csv", floor.to_str().unwrap()]);
     assert_eq!(status(&over), 2, "{}", stderr(&over));
     assert!(stderr(&over).contains("would overwrite the input"), "{}", stderr(&over));
+}
+
+/// A seat may be part of the common datum that it is toleranced to, never be its own.
+#[test]
+fn a_seat_is_toleranced_to_the_common_datum_it_is_part_of() {
+    let folder = Folder::new();
+    parts(&folder);
+    let pin = "[[feature]]\nid = \"P2\"\nshape = \"cylinder\"\npoints = \"pin2.xyz\"\n\n[[characteristic]]\nid = \"1\"";
+    let turn = |k: u32| {
+        let (angle, z) = (f64::from(k % 8) * 0.785, 40.0 + f64::from(k / 8) * 3.0);
+        format!("{} {} {z}\n", 20.02 + 4.0 * angle.cos(), 20.0 + 4.0 * angle.sin())
+    };
+    folder.write("pin2.xyz", (0..40).map(turn).collect::<String>());
+    let run = |datums: &str| {
+        let text = PLAN.replacen("[[characteristic]]\nid = \"1\"", pin, 1).replacen(
+            "perpendicularity",
+            "coaxiality",
+            1,
+        );
+        let plan = folder.write("plan.toml", text.replacen("datums = [\"A\"]", datums, 1));
+        trueness(["inspect", plan.to_str().unwrap()])
+    };
+    let o = run("datums = [\"pin-P2\"]");
+    // Five circles each at x = 20 and 20.02: the least-squares line leans by 0.2 / 418 and is 0.0033 off at the inner end.
+    assert!(stdout(&o).contains("0.0066") && status(&o) == 0, "{} {}", stdout(&o), stderr(&o));
+    let o = run("datums = [\"pin\"]");
+    assert!(stderr(&o).contains("cannot be its own datum") && status(&o) == 3, "{}", stderr(&o));
 }
 
 /// Pass, fail, undecided and not measured, each with its exit status and in every output.

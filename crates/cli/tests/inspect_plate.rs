@@ -341,6 +341,14 @@ fn a_scan_of_another_unit_is_doubted() {
         .map(|w| w["kind"].as_str().unwrap())
         .collect();
     assert!(kinds.contains(&"hardly_overlapping"), "{kinds:?}");
+    // In the lists too, with the reason.
+    let (junit, csv) = (folder.file("parts.xml"), folder.file("parts.csv"));
+    let words = ["inspect".as_ref(), plan.as_os_str(), "--measured".as_ref(), scan.as_os_str()];
+    let more = ["--junit".as_ref(), junit.as_os_str(), "--csv".as_ref(), csv.as_os_str()];
+    assert_eq!(status(&trueness(words.iter().chain(&more))), 1);
+    let [junit, csv] = [junit, csv].map(|path| std::fs::read_to_string(path).unwrap());
+    assert!(junit.contains("name=\"alignment\"><error message=\"undecided: "), "{junit}");
+    assert!(csv.lines().any(|l| l.contains(",alignment,alignment,") && l.contains(",undecided,")), "{csv}");
     let own = document(["inspect", plan.to_str().unwrap()]);
     assert_eq!(own["alignment"]["warnings"], serde_json::json!([]));
 }

@@ -8,6 +8,7 @@
 
 mod beside;
 mod bounds;
+mod covered;
 mod found;
 mod nominal;
 mod rules;
@@ -15,6 +16,7 @@ mod search;
 mod surface;
 
 pub use beside::{Piece, pieces_beside};
+pub use covered::covered;
 pub use found::Found;
 pub use nominal::{FeatureError, Nearness, Nominal};
 pub use search::FeatureSearch;

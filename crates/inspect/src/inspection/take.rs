@@ -10,7 +10,7 @@ use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{
-    FeatureError, FeatureSearch, Found, Nearness, Nominal, in_cloud, pieces_beside,
+    FeatureError, FeatureSearch, Found, Nearness, Nominal, covered, in_cloud, pieces_beside,
 };
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
@@ -276,8 +276,12 @@ fn found(
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
     taken.areas = areas(mesh, &found);
+    let area = match search.facets {
+        Some(_) => Some(found.area),
+        None => covered(&nominal, &taken.points).zip(nominal.area()).map(|(share, area)| share * area),
+    };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
-    taken.coverage = whole.filter(|_| search.facets.is_some()).map(|whole| found.area / whole);
+    taken.coverage = area.zip(whole).map(|(area, whole)| area / whole);
     taken.facets = found.facets;
     Ok(taken)
 }

@@ -217,3 +217,196 @@ fn the_zone_of_what_was_not_measured_is_that_of_the_plan() {
     let zones: Vec<bool> = all.iter().map(CharacteristicRecord::diametral).collect();
     assert_eq!(zones, [true, true, false, true, true, false]);
 }
+
+/// A floor of squares of 1, from 0 to 20, with a square from 3 to 5 raised between upright walls: as eight facets, or as two. No place where
+/// features are begun lies on it.
+fn padded(height: f64, fine: bool) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut quad = |corners: [Point; 4]| {
+        let first = corners.map(|p| {
+            mesh.positions.iter().position(|q| *q == p).unwrap_or_else(|| {
+                mesh.positions.push(p);
+                mesh.positions.len() - 1
+            }) as u32
+        });
+        mesh.faces.extend([[first[0], first[1], first[2]], [first[0], first[2], first[3]]]);
+    };
+    let mut level = |x: f64, y: f64, size: f64, z: f64| {
+        quad([[x, y, z], [x + size, y, z], [x + size, y + size, z], [x, y + size, z]]);
+    };
+    for (x, y) in (0..20).flat_map(|x| (0..20).map(move |y| (f64::from(x), f64::from(y)))) {
+        let raised = (3.0..5.0).contains(&x) && (3.0..5.0).contains(&y);
+        if !raised {
+            level(x, y, 1.0, 0.0);
+        } else if fine {
+            level(x, y, 1.0, height);
+        }
+    }
+    if !fine {
+        level(3.0, 3.0, 2.0, height);
+    }
+    let corners = [[3.0, 3.0], [5.0, 3.0], [5.0, 5.0], [3.0, 5.0]];
+    for k in 0..4 {
+        let [[a, b], [c, d]] = [corners[k], corners[(k + 1) % 4]];
+        quad([[a, b, 0.0], [c, d, 0.0], [c, d, height], [a, b, height]]);
+    }
+    mesh
+}
+
+/// Document of the flatness of the floor from a mesh.
+fn floor(measured: Mesh, reference: Option<Mesh>, rim: bool) -> InspectDocument {
+    let plan = Plan::parse(&format!(
+        r#"
+        schema = "trueness/plan/1"
+        measured = "part.stl"
+        [[feature]]
+        id = "A"
+        shape = "plane"
+        extract = {{ distance = 1, rim = {rim} }}
+        [feature.nominal]
+        point = [0, 0, 0]
+        normal = [0, 0, 1]
+        boundary = [[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 20, 0]]
+        [[characteristic]]
+        id = "1"
+        kind = "flatness"
+        feature = "A"
+        tolerance = 0.1
+        "#
+    ))
+    .unwrap();
+    let data = Data { measured: Some(measured), reference, ..Data::default() };
+    let found = run(&plan, data, &Silent).unwrap();
+    InspectDocument::new(&plan, PlanRecord { path: String::new(), sha256: None }, &found, vec![])
+}
+
+/// Pockets, pads and loose pieces between upright walls are joined to their feature by no facet of it, and are of it all the same, unless the
+/// reference has them; without a reference nothing is proven.
+#[test]
+fn what_lies_apart_within_reach_is_judged() {
+    let flat = || padded(0.0, true);
+    for (height, fine, rim) in
+        [(-0.3, true, true), (0.3, true, false), (0.3, false, true), (-0.3, false, false)]
+    {
+        let of = |reference| floor(padded(height, fine), reference, rim).characteristics.remove(0);
+        let told = format!("{height} {fine} {rim}");
+        let c = of(Some(flat()));
+        assert!((c.value.unwrap() - 0.3).abs() < 1e-9 && c.verdict == Verdict::Fail, "{told} {:?}", c.value);
+        let c = of(Some(padded(height, fine)));
+        assert!(c.value.unwrap().abs() < 1e-9 && c.verdict == Verdict::Pass, "{told} {:?}", c.value);
+        let c = of(None);
+        assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{told}");
+        assert!((c.value_with_others.unwrap() - 0.3).abs() < 1e-9, "{told}");
+        assert!(c.notes[0].contains("joined to it by no facet"), "{:?}", c.notes);
+    }
+    // A piece that touches nothing.
+    let mut loose = flat();
+    let first = loose.positions.len() as u32;
+    loose.positions.extend([[3.2, 3.2, 0.5], [4.8, 3.2, 0.5], [4.8, 4.8, 0.5]]);
+    loose.faces.push([first, first + 1, first + 2]);
+    let c = floor(loose, Some(flat()), true).characteristics.remove(0);
+    assert!((c.value.unwrap() - 0.5).abs() < 1e-9 && c.verdict == Verdict::Fail, "{:?}", c.value);
+}
+
+/// Points in a corner of a feature are not the feature, in clouds as in meshes; all of it without its rim is.
+#[test]
+fn a_corner_of_a_cloud_is_not_its_feature() {
+    let part = |share: f64| {
+        let mut cloud = plate(4.0, TURNS, 0.25, waves);
+        cloud.positions.retain(|p| p[2].abs() < 0.02 && p[0] < -20.0 + 40.0 * share);
+        flatness(cloud, None, "distance = 1").0
+    };
+    let c = part(0.1);
+    assert_eq!((c.verdict, c.value), (Verdict::NotMeasured, None));
+    let reason = c.reason.unwrap();
+    assert!(reason.contains("of its nominal area was measured, less than 25.0 %"), "{reason}");
+    assert_eq!(part(0.5).verdict, Verdict::Pass);
+    assert_eq!(part(1.0).verdict, Verdict::Pass);
+}
+
+/// Copies of points change nothing.
+#[test]
+fn points_that_come_several_times_count_once() {
+    let cloud = plate(4.1, TURNS, 0.25, waves);
+    let model = plate(4.0, TURNS, 0.25, |_, _| 0.0);
+    let copies = Mesh { positions: cloud.positions.repeat(20), faces: vec![] };
+    let (once, often) =
+        (flatness(cloud, Some(&model), "distance = 1"), flatness(copies, Some(&model), "distance = 1"));
+    assert_eq!((once.0.value, once.1), (often.0.value, often.1));
+}
+
+/// A box from 0 to `size` of squares of 2, and what is added to the height of its top.
+fn brick(size: [f64; 3], raise: impl Fn(f64, f64) -> f64) -> Mesh {
+    let mut mesh = Mesh::default();
+    for axis in 0..3 {
+        let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        for end in [0.0, size[axis]] {
+            let first = mesh.positions.len() as u32;
+            let [rows, columns] = [u, v].map(|k| (size[k] / 2.0) as u32);
+            for (i, j) in (0..=rows).flat_map(|i| (0..=columns).map(move |j| (i, j))) {
+                let mut p = [0.0; 3];
+                (p[axis], p[u], p[v]) = (end, 2.0 * f64::from(i), 2.0 * f64::from(j));
+                if axis == 2 && end > 0.0 {
+                    p[2] += raise(p[0], p[1]);
+                }
+                mesh.positions.push(p);
+                if i < rows && j < columns {
+                    let a = first + i * (columns + 1) + j;
+                    let [b, c, d] = [a + columns + 1, a + columns + 2, a + 1];
+                    let out = end > 0.0;
+                    mesh.faces.extend(if out { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
+                }
+            }
+        }
+    }
+    mesh
+}
+
+/// Of a brick nobody knows which face is the top: one that is not flat fails in one pose and passes in another, whichever was taken.
+#[test]
+fn a_part_that_looks_the_same_in_several_ways_is_judged_in_all() {
+    let plan = Plan::parse(
+        r#"
+        schema = "trueness/plan/1"
+        measured = "part.stl"
+        reference = "brick.stl"
+        align = { method = "best-fit" }
+        [[feature]]
+        id = "top"
+        shape = "plane"
+        seed = [14, 10, 8]
+        [[feature]]
+        id = "side"
+        shape = "plane"
+        seed = [0, 10, 4]
+        [[characteristic]]
+        id = "1"
+        kind = "flatness"
+        feature = "top"
+        tolerance = 0.02
+        [[characteristic]]
+        id = "2"
+        kind = "flatness"
+        feature = "side"
+        tolerance = 0.02
+        "#,
+    )
+    .unwrap();
+    let size = [28.0, 20.0, 8.0];
+    let bumpy =
+        brick(size, |x, y| 0.04 * f64::from(u8::from((8.0..20.0).contains(&x) && (6.0..14.0).contains(&y))));
+    let mut turned = bumpy.clone();
+    turned.positions.iter_mut().for_each(|p| *p = [p[0], size[1] - p[1], size[2] - p[2]]);
+    for measured in [bumpy, turned] {
+        let reference = Some(brick(size, |_, _| 0.0));
+        let data = Data { measured: Some(measured), reference, ..Data::default() };
+        let found = run(&plan, data, &Silent).unwrap();
+        let record = PlanRecord { path: String::new(), sha256: None };
+        let document = InspectDocument::new(&plan, record, &found, vec![]);
+        let verdicts: Vec<Verdict> = document.characteristics.iter().map(|c| c.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Undecided, Verdict::Pass], "{:?}", document.alignment.warnings);
+        let notes = &document.characteristics[0].notes;
+        assert!(notes.iter().any(|n| n.contains("in another pose that fits as well")), "{notes:?}");
+        assert_eq!(document.verdict, Verdict::Undecided);
+    }
+}

@@ -8,7 +8,7 @@ use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{Region, Segmentation};
 use trueness_geom::shape::{Kind, Shape};
-use trueness_geom::space::{Point, cross, dot, minus, norm};
+use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
 const TOLERANCE: &str = "0.1";
@@ -53,8 +53,33 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
         );
         features.push((id, region));
     }
+    if let Some(left) = without_region(mesh, found) {
+        let _ = write!(out, "\n# {left}\n");
+    }
     characteristics(&mut out, &features);
     out
+}
+
+/// Facets that belong to no element, and where the largest of them is: what they are is not in the plan.
+fn without_region(mesh: &Mesh, found: &Segmentation) -> Option<String> {
+    let corners = |f: usize| mesh.faces[f].map(|v| mesh.positions[v as usize]);
+    let left = (0..mesh.faces.len()).filter(|f| found.labels.get(*f) == Some(&u32::MAX));
+    let areas: Vec<(f64, usize)> =
+        left.map(|f| (area(&corners(f)), f)).filter(|(area, _)| *area > 0.0).collect();
+    let (_, largest) = areas.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let all: f64 = (0..mesh.faces.len()).map(|f| area(&corners(f))).sum();
+    let [a, b, c] = corners(largest);
+    let middle = times(1.0 / 3.0, plus(a, plus(b, c)));
+    Some(format!(
+        "{} facets, {:.1} % of the area, are of no element that was found: free forms and small faces. The largest is at {}.",
+        areas.len(),
+        100.0 * areas.iter().map(|a| a.0).sum::<f64>() / all,
+        vector(middle.map(|x| (x * 1e3).round() / 1e3))
+    ))
+}
+
+fn area([a, b, c]: &[Point; 3]) -> f64 {
+    0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))
 }
 
 /// The usual characteristics of each feature: form, size, attitude to the largest plane.
@@ -107,7 +132,7 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
 /// The key `coverage` of a feature that is only a part of its nominal form, as a pocket is of a sphere: the usual share of
 /// what there is. Empty where all of it is there.
 fn coverage(nominal: &Nominal, facets: &[[Point; 3]]) -> String {
-    let there: f64 = facets.iter().map(|[a, b, c]| 0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))).sum();
+    let there: f64 = facets.iter().map(area).sum();
     match nominal.area().map(|area| there / area) {
         Some(share) if share < PARTIAL => format!(", coverage = {:.3}", COVERAGE * share),
         _ => String::new(),

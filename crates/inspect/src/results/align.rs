@@ -334,7 +334,7 @@ impl AlignNote {
             AlignWarning::Scale { factor } => (
                 AlignNoteKind::Scale,
                 format!(
-                    "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units)"
+                    "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units; `units` of a plan)"
                 ),
             ),
             AlignWarning::Few { count } => (
@@ -354,9 +354,15 @@ impl AlignNote {
             AlignWarning::LeftOut { share, farthest, limit } => (
                 AlignNoteKind::LeftOut,
                 format!(
-                    "{:.0} % of the measured does not count: it lies up to {farthest:.4} mm from the reference, the rest within {limit:.4} \
-                     mm; where it is the part that is off there, align by --method chebyshev or by datums",
-                    100.0 * share
+                    "{:.0} % of the measured does not count{}: the rest lies within {limit:.4} mm; where it is the part that is off \
+                     there, align by --method chebyshev or by datums",
+                    100.0 * share,
+                    // Beyond reach of the search nothing has a place.
+                    if *farthest > *limit {
+                        format!(", it lies up to {farthest:.4} mm from the reference")
+                    } else {
+                        String::new()
+                    }
                 ),
             ),
             AlignWarning::NotConverged => {

@@ -172,6 +172,11 @@ fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
         (None, Some(reason)) => reason.clone(),
         (None, None) => String::new(),
     };
+    let said = match c.verdict {
+        // What leaves it open.
+        Verdict::Undecided => [std::slice::from_ref(&said), &c.notes].concat().join("; "),
+        _ => said,
+    };
     case(class, &format!("{} {} {}", c.id, c.kind, c.feature), c.verdict, &said)
 }
 

@@ -38,13 +38,21 @@ pub fn table(document: &InspectDocument, one_of_several: bool) -> String {
     if rows.len() > 1 {
         out.push_str(&console::columns(&rows));
     }
+    // What is said of a feature concerns all of its characteristics.
+    let mut notes: Vec<(&str, Vec<&str>)> = vec![];
     for c in &document.characteristics {
         if let Some(reason) = &c.reason {
             let _ = writeln!(out, "! {}: {reason}", c.id);
         }
         for note in &c.notes {
-            let _ = writeln!(out, "  {}: {note}", c.id);
+            match notes.iter_mut().find(|n| n.0 == note) {
+                Some((_, ids)) => ids.push(&c.id),
+                None => notes.push((note, vec![&c.id])),
+            }
         }
+    }
+    for (note, ids) in notes {
+        let _ = writeln!(out, "  {}: {note}", ids.join(", "));
     }
     if let Some(c) = &document.deviation {
         deviation(&mut out, c);

@@ -1,0 +1,148 @@
+//! How much of a nominal feature the points of a cloud cover.
+
+use super::rules::Rules;
+use super::{Nearness, Nominal};
+use crate::rigid::Rigid;
+use crate::space::{Aabb, Point, Vector, least_axis, minus, plus, times, unit};
+use crate::spatial::neighbors::PointTree;
+use std::f64::consts::TAU;
+
+/// Places that are asked. The share is known to about a hundredth.
+const PLACES: usize = 4096;
+/// The neighbor whose distance tells how far points lie apart: rows of a scanner are farther apart than points in a row.
+const NEIGHBOR: usize = 12;
+/// So many of those distances a place may be away from the nearest point.
+const REACH: f64 = 2.0;
+/// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
+/// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
+
+/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: within twice the usual
+/// distance of a point to its twelfth neighbor, seen along the surface. Holes of the feature that its nominal form does not
+/// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
+///
+/// Cost: a search tree of the points, and some thousand nearest neighbors.
+///
+/// ```
+/// use trueness_geom::feature::{Nominal, covered};
+/// let boundary = vec![[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 20.0, 0.0], [0.0, 20.0, 0.0]];
+/// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+/// // The left half of it, in steps of 0.2.
+/// let points: Vec<[f64; 3]> = (0..5000).map(|i| [0.2 * f64::from(i % 50), 0.2 * f64::from(i / 50), 0.01]).collect();
+/// let share = covered(&floor, &points).unwrap();
+/// assert!((share - 0.5).abs() < 0.06, "{share}");
+/// ```
+pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
+    let surface = nominal.surface()?;
+    let feet =
+        points.iter().filter_map(|p| surface.distance(*p).map(|(off, way)| minus(*p, times(off, way))));
+    let feet: Vec<Point> = feet.collect();
+    let tree = PointTree::new(&feet);
+    let neighbor = NEIGHBOR.min(feet.len().checked_sub(1)?);
+    let step = feet.len().div_ceil(PLACES);
+    let away =
+        |n: usize| tree.k_nearest(&feet[n], neighbor, Some(n as u32)).last().map_or(0.0, |last| last.0);
+    let mut away: Vec<f64> = (0..feet.len()).step_by(step).map(away).collect();
+    away.sort_unstable_by(f64::total_cmp);
+    let reach = REACH * REACH * away.get(away.len() / 2)?;
+    let places = spread(nominal)?;
+    let near = places.iter().filter(|p| tree.nearest(p).is_some_and(|(square, _)| square <= reach)).count();
+    Some(near as f64 / places.len() as f64)
+}
+
+/// Places spread evenly over a nominal feature; `None` of an edge and of what makes no sense.
+fn spread(nominal: &Nominal) -> Option<Vec<Point>> {
+    let size = Aabb::of(&nominal.places()).diagonal();
+    let near = Nearness { distance: 1e-6 * size, angle: 1.0, margin: 0.0, rim: true };
+    let rules = Rules::new(nominal, &near).ok()?;
+    let fractions = (1..=PLACES).map(|n| STEPS.map(|step| (step * n as f64).fract()));
+    let about =
+        |axis: Vector| Rigid::into_frame([0.0; 3], axis, least_axis(axis)).map(|frame| frame.inverse());
+    let polar =
+        |turn: f64, radius: f64, z: f64| [radius * libm::cos(TAU * turn), radius * libm::sin(TAU * turn), z];
+    let places: Vec<Point> = match nominal {
+        Nominal::Plane { point, normal, boundary } => {
+            let frame = about(unit(*normal)?.0)?;
+            let seen: Vec<Point> =
+                boundary.iter().map(|p| frame.inverse().vector(minus(*p, *point))).collect();
+            let bounds = Aabb::of(&seen);
+            let within = |k: usize, t: f64| bounds.min[k] + t * (bounds.max[k] - bounds.min[k]);
+            fractions
+                .map(|[s, t]| plus(*point, frame.vector([within(0, s), within(1, t), 0.0])))
+                .filter(|p| rules.point(*p))
+                .collect()
+        }
+        Nominal::Cylinder { point, direction, radius, length } => {
+            let frame = about(unit(*direction)?.0)?;
+            fractions.map(|[s, t]| plus(*point, frame.vector(polar(s, *radius, t * length)))).collect()
+        }
+        Nominal::Cone { apex, direction, half_angle, between: [from, to] } => {
+            let frame = about(unit(*direction)?.0)?;
+            // As much area as the radius grows.
+            let along = |t: f64| (from * from + t * (to * to - from * from)).sqrt();
+            fractions
+                .map(|[s, t]| {
+                    plus(*apex, frame.vector(polar(s, along(t) * libm::tan(*half_angle), along(t))))
+                })
+                .collect()
+        }
+        Nominal::Sphere { center, radius } => fractions
+            .map(|[s, t]| {
+                let z = 2.0 * t - 1.0;
+                plus(*center, times(*radius, polar(s, (1.0 - z * z).max(0.0).sqrt(), z)))
+            })
+            .collect(),
+        Nominal::Edge { .. } => return None,
+    };
+    (!places.is_empty()).then_some(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::{dot, norm};
+
+    /// Places are on the feature and as many in each tenth of its area.
+    #[test]
+    fn places_are_spread_evenly() {
+        let direction = [0.48, -0.6, 0.64];
+        let cone = Nominal::Cone { apex: [1.0, 2.0, 3.0], direction, half_angle: 0.4, between: [2.0, 5.0] };
+        let surface = cone.surface().unwrap();
+        let places = spread(&cone).unwrap();
+        assert_eq!(places.len(), PLACES);
+        let mut tenths = [0usize; 10];
+        for p in places {
+            assert!(surface.distance(p).unwrap().0.abs() < 1e-12);
+            let along = dot(minus(p, [1.0, 2.0, 3.0]), direction);
+            tenths[(10.0 * (along * along - 4.0) / 21.0) as usize] += 1;
+        }
+        assert!(tenths.iter().all(|n| n.abs_diff(PLACES / 10) < 12), "{tenths:?}");
+        let sphere = Nominal::Sphere { center: [0.0; 3], radius: 2.0 };
+        let heights = |from: f64| spread(&sphere).unwrap().iter().filter(|p| p[2] > from).count();
+        assert!(heights(0.0).abs_diff(PLACES / 2) < 12 && heights(1.0).abs_diff(PLACES / 4) < 12);
+        assert!(spread(&sphere).unwrap().iter().all(|p| (norm(*p) - 2.0).abs() < 1e-12));
+    }
+
+    /// A share of a cylinder, sparse and dense, on its place and beside it; a few points in a corner.
+    #[test]
+    fn the_share_is_that_of_the_area_near_points() {
+        let bore =
+            Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 2.0], radius: 5.0, length: 20.0 };
+        for (count, off) in [(40, 0.0), (200, 0.0), (200, 0.05)] {
+            for share in [0.1, 0.5, 0.9] {
+                let at = |i: usize, j: usize| {
+                    let turn = TAU * share * i as f64 / count as f64;
+                    [5.0 * libm::cos(turn) + off, 5.0 * libm::sin(turn), 20.0 * j as f64 / count as f64]
+                };
+                let points: Vec<Point> = (0..count * count).map(|n| at(n % count, n / count)).collect();
+                let found = covered(&bore, &points).unwrap();
+                // Both ends are widened by the reach, some steps.
+                let wider = 2.0 * 6.0 / count as f64;
+                assert!(found >= share - 0.01 && found <= share + wider, "{count} {off} {share}: {found}");
+            }
+        }
+        let few: Vec<Point> = (0..5).map(|k| [5.0, 0.1 * f64::from(k), 0.1 * f64::from(k * k % 3)]).collect();
+        assert!(covered(&bore, &few).unwrap() < 0.03);
+        assert_eq!(covered(&bore, &[]), None);
+    }
+}
