@@ -220,12 +220,18 @@ impl<'a> FeatureSearch<'a> {
         if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(apart) }
     }
 
+    /// These facets as what was found of a feature.
+    pub fn of(&self, facets: &[u32], near: &Nearness) -> Found {
+        let mut all = Marked::new(self.mesh.faces.len());
+        facets.iter().for_each(|f| all.add(*f));
+        self.with_points(&all, near.rim)
+    }
+
     /// What was found of a feature, and these facets with it. Of a piece of them that has no vertices of its own, those of its rim
     /// count even where the rim does not: a pad of two facets is as high as they are.
     pub fn joined(&self, found: &Found, facets: &[u32], near: &Nearness) -> Found {
-        let mut all = Marked::new(self.mesh.faces.len());
-        found.facets.iter().chain(facets).for_each(|f| all.add(*f));
-        let mut joined = self.with_points(&all, near.rim);
+        let all: Vec<u32> = found.facets.iter().chain(facets).copied().collect();
+        let mut joined = self.of(&all, near);
         if joined.rim.is_empty() {
             return joined;
         }

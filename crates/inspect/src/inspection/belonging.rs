@@ -16,7 +16,7 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{self, Point, Vector, dot, plus, times};
+use trueness_geom::space::{self, Point, Vector, dot, minus, plus, times};
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -28,6 +28,10 @@ const FARTHEST: f64 = 0.25;
 const WALL_REACH: f64 = 3.0;
 /// A piece is of the reference if this share of its points is.
 const MOST: f64 = 0.75;
+/// So many times nearer a face is clearly the nearer one.
+const NEARER: f64 = 2.0;
+/// So many steps of single precision a facet may be off the surface that it was made for.
+const ROUNDINGS: f64 = 10.0;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
@@ -127,6 +131,47 @@ impl<'a> Belonging<'a> {
         Ok(doubtful.iter().zip(on_own).filter_map(is_other).collect())
     }
 
+    /// Whether each of these places, of facets found for a nominal, is of a face of the reference beside it: beyond where its own ends, and
+    /// clearly nearer to that face, as on a fillet that leaves it as a tangent.
+    pub fn beside(
+        &self,
+        places: &[Point],
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let whole = Nearness { margin: -near.distance, ..*near };
+        let own = self.facets(nominal, &whole, progress);
+        let Some(surface) = nominal.surface().filter(|_| !own.is_empty()) else {
+            return Ok(vec![false; places.len()]);
+        };
+        // What lies on the surface of the nominal is no other face, however it was cut into facets.
+        let off =
+            |v: &u32| surface.distance(self.reference.positions[*v as usize]).map_or(0.0, |d| d.0.abs());
+        let is_other = |f: u32| {
+            own.binary_search(&f).is_err()
+                && self.reference.faces[f as usize].iter().any(|v| off(v) > ROUNDINGS * self.rounding)
+        };
+        let on_all = nearest(self.search.tree(), places, f64::INFINITY, progress)?;
+        let asked: Vec<usize> =
+            (0..places.len()).filter(|n| on_all[*n].0 != u32::MAX && is_other(on_all[*n].0)).collect();
+        let mut beside = vec![false; places.len()];
+        if asked.is_empty() {
+            return Ok(beside);
+        }
+        let part = self.part(own.iter().copied());
+        let tree = Tree::build_watched(&part, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let of: Vec<Point> = asked.iter().map(|n| places[*n]).collect();
+        for (n, (face, away)) in asked.into_iter().zip(nearest(&tree, &of, f64::INFINITY, progress)?) {
+            let corner = part.positions[part.faces[face as usize][0] as usize];
+            let over = normal(&part, face).map_or(0.0, |way| dot(minus(places[n], corner), way).abs());
+            let aside = (away * away - over * over).max(0.0).sqrt();
+            // At a sharp edge that is off its place both are as near.
+            beside[n] = aside > over && NEARER * on_all[n].1 <= away;
+        }
+        Ok(beside)
+    }
+
     /// Whether each of these places, of facets that face as the nominal does, is nearer to the facets of the nominal than to others
     /// that face so too, as the ground of a pocket that the reference has.
     pub fn nearer(
@@ -190,7 +235,7 @@ impl<'a> Belonging<'a> {
                 let facing = piece.points[n].1;
                 let other = normal(&others, hits[n].0).map(|n| angle(n, facing));
                 let nominal = surface.distance(places[n]).map(|(_, way)| angle(way, facing));
-                other.zip(nominal).is_some_and(|(other, nominal)| 2.0 * other <= nominal)
+                other.zip(nominal).is_some_and(|(other, nominal)| NEARER * other <= nominal)
             };
             let there = (0..places.len()).filter(|n| is_there(*n)).count();
             known.push(there as f64 >= MOST * places.len() as f64);

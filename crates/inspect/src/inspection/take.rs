@@ -180,6 +180,10 @@ fn others(
     Ok(Others { points, on_reference: belonging.is_some() })
 }
 
+fn center_of(mesh: &Mesh, facet: u32) -> Point {
+    mean(&mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]))
+}
+
 /// Which of the facets that lie apart from a feature are of it: those that the reference has nothing else for. Without a
 /// reference nothing tells, and they are others.
 fn apart_of(
@@ -192,8 +196,7 @@ fn apart_of(
     let Some(belonging) = belonging.filter(|_| !apart.is_empty()) else {
         return Ok((vec![], apart.to_vec()));
     };
-    let center = |f: &u32| mean(&mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]));
-    let places: Vec<Point> = apart.iter().map(center).collect();
+    let places: Vec<Point> = apart.iter().map(|f| center_of(mesh, *f)).collect();
     let own = belonging.nearer(&places, nominal, near, progress)?;
     Ok((apart.iter().zip(own).filter(|(_, own)| *own).map(|(f, _)| *f).collect(), vec![]))
 }
@@ -254,6 +257,14 @@ fn found(
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     };
     let mut found = found.map_err(stop)?;
+    if let (Some(facets), Some(belonging)) = (search.facets, search.belonging) {
+        let places: Vec<Point> = found.facets.iter().map(|f| center_of(mesh, *f)).collect();
+        let beside = belonging.beside(&places, &nominal, &near, progress)?;
+        if beside.contains(&true) {
+            let own = found.facets.iter().zip(beside).filter(|(_, beside)| !beside).map(|(f, _)| *f);
+            found = facets.of(&own.collect::<Vec<u32>>(), &near);
+        }
+    }
     if let Some(facets) = search.facets {
         let apart = facets.apart(&found, &nominal, &near, progress).map_err(stop)?;
         let (own, others) = apart_of(mesh, &apart, search.belonging, (&nominal, &near), progress)?;

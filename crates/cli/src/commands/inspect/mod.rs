@@ -16,7 +16,7 @@ use anyhow::anyhow;
 use clap::Args;
 use files::PlanFile;
 use std::path::{Path, PathBuf};
-use trueness_geom::progress::Cancelled;
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Deviations, Stop, View};
 use trueness_inspect::plan::PlanError;
@@ -138,8 +138,11 @@ fn inspect(
     data.places = args.places;
     let stage = Stage::new(common.progress, "inspecting", "features", None);
     let found = inspection::run(&plan.plan, data, &stage);
+    let cancelled = stage.cancelled();
     drop(stage);
     let found = found.map_err(|stop| match stop {
+        // Whatever it stopped at: nothing of it is told.
+        _ if cancelled => anyhow::Error::from(Cancelled),
         Stop::Cancelled => anyhow::Error::from(Cancelled),
         Stop::Plan { span, what } => {
             anyhow!("{}: {}", plan.path.display(), PlanError::at(&plan.text, &span, what))

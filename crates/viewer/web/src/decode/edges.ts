@@ -173,6 +173,10 @@ function sharp(packed: Uint16Array, triangles: Uint32Array, place: Uint32Array, 
   const along = place[triangles[g]] === place[triangles[h]] ? -1 : 1
   const [[ax, ay, az], [bx, by, bz]] = [one.normal, two.normal]
   const cosine = (along * (ax * bx + ay * by + az * bz)) / (4 * a * b)
-  const tilt = (area: number, longest: number) => Math.atan((ROUNDING * longest) / (2 * area))
+  // A facet lower than that may have been turned over.
+  const tilt = (area: number, longest: number) => {
+    const height = (2 * area) / longest
+    return height > ROUNDING ? Math.atan(ROUNDING / height) : Math.PI
+  }
   return Math.acos(Math.min(1, Math.max(-1, cosine))) > CREASE + tilt(a, one.longest) + tilt(b, two.longest)
 }
