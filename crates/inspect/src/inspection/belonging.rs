@@ -30,8 +30,8 @@ const WALL_REACH: f64 = 3.0;
 const MOST: f64 = 0.75;
 /// So many times nearer a face is clearly the nearer one.
 const NEARER: f64 = 2.0;
-/// So many steps of single precision a facet may be off the surface that it was made for.
-const ROUNDINGS: f64 = 10.0;
+/// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
+const ON: f64 = 1e-3;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
@@ -140,18 +140,18 @@ impl<'a> Belonging<'a> {
         near: &Nearness,
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
-        let whole = Nearness { margin: -near.distance, ..*near };
-        let own = self.facets(nominal, &whole, progress);
-        let Some(surface) = nominal.surface().filter(|_| !own.is_empty()) else {
-            return Ok(vec![false; places.len()]);
-        };
-        // What lies on the surface of the nominal is no other face, however it was cut into facets.
+        let Some(surface) = nominal.surface() else { return Ok(vec![false; places.len()]) };
+        // What lies on the surface of the nominal is no other face, however it was cut into facets; what leaves it is none of its own.
+        let on = (ON * near.distance).max(self.rounding);
         let off =
             |v: &u32| surface.distance(self.reference.positions[*v as usize]).map_or(0.0, |d| d.0.abs());
-        let is_other = |f: u32| {
-            own.binary_search(&f).is_err()
-                && self.reference.faces[f as usize].iter().any(|v| off(v) > ROUNDINGS * self.rounding)
-        };
+        let is_other = |f: u32| self.reference.faces[f as usize].iter().any(|v| off(v) > on);
+        let whole = Nearness { margin: -near.distance, ..*near };
+        let mut own = self.facets(nominal, &whole, progress);
+        own.retain(|f| !is_other(*f));
+        if own.is_empty() {
+            return Ok(vec![false; places.len()]);
+        }
         let on_all = nearest(self.search.tree(), places, f64::INFINITY, progress)?;
         let asked: Vec<usize> =
             (0..places.len()).filter(|n| on_all[*n].0 != u32::MAX && is_other(on_all[*n].0)).collect();
@@ -282,6 +282,7 @@ mod tests {
     use crate::inspection::run;
     use trueness_geom::num::random::Random;
     use trueness_geom::progress::Silent;
+    use trueness_geom::space::norm;
 
     /// A bar along y: its top at z = 0 from x = −10 to 10, then a quarter of a circle of radius 2 in steps of 10°, or a wall.
     fn bar(fillet: bool) -> Mesh {
@@ -315,10 +316,21 @@ mod tests {
     fn flatness(
         cloud: &Mesh,
         reference: Option<&Mesh>,
-        [x, y]: [[f64; 2]; 2],
+        bounds: [[f64; 2]; 2],
         extract: &str,
     ) -> (f64, usize) {
-        let ([a, b], [c, d]) = (x, y);
+        let cloud = Mesh { positions: cloud.positions.clone(), faces: vec![] };
+        // Nobody writes a nominal to the last digit.
+        of_plane(cloud, reference, bounds, (1e-4, extract))
+    }
+
+    /// The same of a mesh or a cloud, for a nominal that leans.
+    fn of_plane(
+        measured: Mesh,
+        reference: Option<&Mesh>,
+        [[a, b], [c, d]]: [[f64; 2]; 2],
+        (leaning, extract): (f64, &str),
+    ) -> (f64, usize) {
         let plan = Plan::parse(&format!(
             r#"
             schema = "trueness/plan/1"
@@ -329,7 +341,7 @@ mod tests {
             extract = {{ {extract} }}
             [feature.nominal]
             point = [0, 0, 0]
-            normal = [0.0001, 0, 1]
+            normal = [{leaning}, 0, 1]
             boundary = [[{a}, {c}, 0], [{b}, {c}, 0], [{b}, {d}, 0], [{a}, {d}, 0]]
             [[characteristic]]
             id = "1"
@@ -339,13 +351,49 @@ mod tests {
             "#
         ))
         .unwrap();
-        let measured = Some(Mesh { positions: cloud.positions.clone(), faces: vec![] });
-        let data = Data { measured, reference: reference.cloned(), ..Data::default() };
+        let data = Data { measured: Some(measured), reference: reference.cloned(), ..Data::default() };
         let found = run(&plan, data, &Silent).unwrap();
         (found.values[0].as_ref().unwrap().value, found.features[0].points.len())
     }
 
     const TOP: [[f64; 2]; 2] = [[-10.0, 10.0], [0.0, 20.0]];
+
+    /// Facets of a fillet face nearly as the plane that it leaves, and are none of it; nothing over the plane itself is lost with them.
+    #[test]
+    fn facets_of_a_fillet_are_no_part_of_the_plane() {
+        // One surface: without it facets of the fillet are beside those of the plane and joined to none of them.
+        let whole = || {
+            let bar = bar(true);
+            let place =
+                |p: &Point| bar.positions.iter().position(|q| norm(minus(*p, *q)) < 1e-9).unwrap() as u32;
+            let places: Vec<u32> = bar.positions.iter().map(place).collect();
+            let faces = bar.faces.iter().map(|f| f.map(|v| places[v as usize])).collect();
+            Mesh { positions: bar.positions, faces }
+        };
+        let model = whole();
+        let of = |measured, reference| of_plane(measured, reference, TOP, (0.0, "distance = 0.5")).0;
+        // The first ten degrees of the fillet.
+        let leak = 2.0 - 2.0 * libm::cos(10f64.to_radians());
+        let without = of(whole(), None);
+        assert!((without - leak).abs() < 0.01, "{without} {leak}");
+        assert!(of(whole(), Some(&model)) < 1e-9);
+        // Dents of the plane next to the fillet, and the same part somewhat off its place, across and along.
+        for height in [0.04, -0.04] {
+            let mut dented = whole();
+            let near =
+                |p: &&mut Point| p[2] == 0.0 && (p[0] - 9.6).abs() < 0.01 && (p[1] - 10.0).abs() < 0.01;
+            let moved = dented.positions.iter_mut().filter(near).map(|p| p[2] += height).count();
+            assert_eq!(moved, 1);
+            let value = of(dented, Some(&model));
+            assert!((value - 0.04).abs() < 1e-6, "{height} {value}");
+        }
+        for shift in [[0.1, 0.0, 0.02], [-0.1, 0.0, -0.02]] {
+            let mut off = whole();
+            off.positions.iter_mut().for_each(|p| *p = plus(*p, shift));
+            let value = of(off, Some(&model));
+            assert!(value < 0.02, "{shift:?} {value}");
+        }
+    }
 
     /// Neither the upper ends of the walls nor the fillet, but for what faces as it does, are part of the plane between them.
     #[test]
